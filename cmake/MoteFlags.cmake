@@ -1,0 +1,46 @@
+# Flags shared by everything that we compile: the same for our methods and for the baselines.
+add_library(mote_flags INTERFACE)
+set(CMAKE_C_STANDARD 17)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_C_EXTENSIONS OFF)
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_C_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+
+set(mote_c_warnings -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes
+    -Wmissing-prototypes -Wundef -Wvla -Wcast-qual -Wformat=2 -pedantic-errors)
+target_compile_options(mote_flags INTERFACE
+  -ffp-contract=off -fvisibility=hidden -fno-math-errno -fno-trapping-math
+  $<$<COMPILE_LANGUAGE:C>:${mote_c_warnings}>
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra>)
+target_compile_definitions(mote_flags INTERFACE _POSIX_C_SOURCE=200809L)
+if(MOTE_WERROR)
+  target_compile_options(mote_flags INTERFACE $<$<COMPILE_LANGUAGE:C>:-Werror>)
+endif()
+if(MOTE_SANITIZE)
+  target_compile_options(mote_flags INTERFACE -fsanitize=address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
+  target_link_options(mote_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(MOTE_FORCE_ISA)
+  target_compile_options(mote_flags INTERFACE -march=${MOTE_FORCE_ISA})
+elseif(MOTE_CLONES AND NOT MOTE_SANITIZE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64")
+  include(CheckCSourceCompiles)
+  check_c_source_compiles("
+    __attribute__((target_clones(\"default\",\"arch=x86-64-v3\",\"arch=x86-64-v4\")))
+    int f(int x) { return x + 1; }
+    int main(void) { return f(-1); }" MOTE_HAVE_CLONES_V4)
+  check_c_source_compiles("
+    __attribute__((target_clones(\"default\",\"avx2\",\"avx512f\")))
+    int f(int x) { return x + 1; }
+    int main(void) { return f(-1); }" MOTE_HAVE_CLONES)
+  if(MOTE_HAVE_CLONES_V4)
+    target_compile_definitions(mote_flags INTERFACE MOTE_HAVE_CLONES_V4=1)
+  elseif(MOTE_HAVE_CLONES)
+    target_compile_definitions(mote_flags INTERFACE MOTE_HAVE_CLONES=1)
+  endif()
+endif()

@@ -1,0 +1,42 @@
+#include "core/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static _Thread_local char error_text[1024];
+
+const char *mote_status_text(mote_status status)
+{
+    switch (status) {
+    case MOTE_OK:
+        return "done";
+    case MOTE_EINVAL:
+        return "invalid input";
+    case MOTE_ENOMEM:
+        return "out of memory";
+    case MOTE_EIO:
+        return "input or output failed";
+    case MOTE_EUNSUPPORTED:
+        return "not supported";
+    case MOTE_ENUMERIC:
+        return "numerical failure";
+    }
+    return "unknown status";
+}
+
+mote_status mote_fail(mote_status status, const char *format, ...)
+{
+    /* Formatted aside first, so that the old text may be an argument of the new one. */
+    char text[sizeof error_text];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    (void)snprintf(error_text, sizeof error_text, "%s", text);
+    return status;
+}
+
+const char *mote_error_text(void)
+{
+    return error_text;
+}
