@@ -19,32 +19,33 @@ extern "C" {
 #define MOTE_RING_VERTEX(entry) ((entry) & ~MOTE_RING_END)
 
 /* Vertices are fewer than 2^31. The ring of vertex v are the entries
-   ring[ring_start[v]] .. ring[ring_start[v + 1] - 1], each neighbour of v once per fan, in order
-   around v. Two consecutive entries k, k + 1 and v form a triangle unless entry k has
+   ring[ring_start[v]] .. ring[ring_start[v + 1] - 1], each neighbour of v once per fan, in
+   order around v. Two consecutive entries k, k + 1 and v form a triangle unless entry k has
    MOTE_RING_END; the last entry is followed by the first when the vertex has one closed fan (no
-   entry has MOTE_RING_END then). At a boundary each fan ends with MOTE_RING_END; a closed fan at
-   a vertex with several fans repeats its first neighbour at its end. */
+   entry has MOTE_RING_END then). At a boundary each fan ends with MOTE_RING_END; a closed fan
+   at a vertex with several fans repeats its first neighbour at its end. */
 typedef struct mote_mesh {
     uint32_t vertex_count;
     uint32_t triangle_count;
-    mote_vec3 *positions;       /* [vertex_count], rest pose, the input's unit of length */
-    uint32_t (*triangles)[3];   /* [triangle_count], three different vertices each */
-    uint32_t *ring_start;       /* [vertex_count + 1] */
-    uint32_t *ring;             /* [ring_start[vertex_count]] */
-    uint32_t *component;        /* [vertex_count], connected component, 0 .. component_count - 1 */
+    mote_vec3 *positions;     /* [vertex_count], rest pose, the input's unit of length */
+    uint32_t (*triangles)[3]; /* [triangle_count], three different vertices each */
+    uint32_t *ring_start;     /* [vertex_count + 1] */
+    uint32_t *ring;           /* [ring_start[vertex_count]] */
+    uint32_t *component; /* [vertex_count], connected component, 0 .. component_count - 1 */
     uint32_t component_count;
     uint32_t edge_count;
-    uint32_t open_edge_count;   /* edges with one triangle; 0 when the surface is closed */
-    mote_vec3 low, high;        /* bounding box at rest */
-    double diagonal;            /* L: length of the box's diagonal; > 0 */
-    double mean_edge;           /* mean length of an edge at rest */
+    uint32_t open_edge_count; /* edges with one triangle; 0 when the surface is closed */
+    mote_vec3 low, high;      /* bounding box at rest */
+    double diagonal;          /* L: length of the box's diagonal; > 0 */
+    double mean_edge;         /* mean length of an edge at rest */
 } mote_mesh;
 
-/* Makes a mesh from xyz (3 * vertex_count doubles) and indices (3 * triangle_count), both copied.
-   MOTE_EINVAL, with a text that names the vertex, face or edge: no triangle, 2^31 vertices or more,
-   a coordinate that is not finite, an index out of range, a face with two equal indices, an edge
-   with more than two faces, a vertex in no face, no extent (L = 0). Faces of zero area are
-   allowed, and so are faces wound differently. Cost O(v + t). The caller destroys *mesh. */
+/* Makes a mesh from xyz (3 * vertex_count doubles) and indices (3 * triangle_count), both
+   copied. MOTE_EINVAL, with a text that names the vertex, face or edge: no triangle, 2^31
+   vertices or more, a coordinate that is not finite, an index out of range, a face with two
+   equal indices, an edge with more than two faces, a vertex in no face, no extent (L = 0).
+   Faces of zero area are allowed, and so are faces wound differently. Cost O(v + t). The caller
+   destroys *mesh. */
 mote_status mote_mesh_create(const double *xyz, size_t vertex_count, const uint32_t *indices,
                              size_t triangle_count, mote_mesh **mesh);
 

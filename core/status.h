@@ -8,9 +8,9 @@ extern "C" {
 
 typedef enum mote_status {
     MOTE_OK = 0,
-    MOTE_EINVAL,       /* an input is wrong; the text says which, where, and what would be right */
-    MOTE_ENOMEM,       /* memory ran out */
-    MOTE_EIO,          /* a file could not be read or written */
+    MOTE_EINVAL, /* an input is wrong; the text says which, where, and what would be right */
+    MOTE_ENOMEM, /* memory ran out */
+    MOTE_EIO,    /* a file could not be read or written */
     MOTE_EUNSUPPORTED, /* the method cannot answer this; never a number instead */
     MOTE_ENUMERIC      /* a computation failed (singular system, no convergence) */
 } mote_status;
@@ -28,7 +28,8 @@ const char *mote_status_text(mote_status status);
    The text holds 1,023 bytes; a longer one is cut. Any thread; no allocation. */
 mote_status mote_fail(mote_status status, const char *format, ...) MOTE_PRINTF(2, 3);
 
-/* The text of this thread's last mote_fail, or "" if there was none. Valid until the next one. */
+/* The text of this thread's last mote_fail, or "" if there was none. Valid until the next one.
+ */
 const char *mote_error_text(void);
 
 #ifdef __cplusplus

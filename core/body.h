@@ -1,0 +1,39 @@
+/* A body (mesh + field), its state at a frame, and the frame: the only input a method ever
+ * gets. */
+#ifndef MOTE_CORE_BODY_H
+#define MOTE_CORE_BODY_H
+
+#include "core/field.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mote_body {
+    const mote_mesh *mesh;   /* borrowed */
+    const mote_field *field; /* borrowed; never NULL: static when nothing deforms */
+} mote_body;
+
+/* World vertex i = rotation * x_i + translation + sum_j phi_j(x_i) w_j. */
+typedef struct mote_body_state {
+    mote_pose pose;
+    mote_weights weights;      /* in world axes, field->padded long; see mote_weights */
+    const mote_vec3 *vertices; /* [vertex_count] world positions, or NULL when not provided */
+    bool shape_changed;        /* weights differ from those of the previous frame given */
+    bool pose_changed;         /* likewise the pose; both true at the first frame */
+} mote_body_state;
+
+typedef struct mote_frame {
+    uint64_t number; /* 1, 2, ... */
+    mote_body_state body[2];
+} mote_frame;
+
+/* World position of one vertex, evaluated from the field (never from state->vertices). Full
+   deformation and lazy positions give these same bits. */
+mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
+                             uint32_t vertex);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,95 @@
+/* How a body deforms: a displacement that is linear in per-frame weights,
+       d(x_i) = sum over j of phi_j(x_i) * w_j,
+   with J scalar basis functions phi_j known at rest and one weight vector w_j each. Three
+   kinds: static         J = 0: nothing is evaluated; CSRBF          phi_j = Wendland C2
+   function of |x - c_j| / support (paper section 4); linear modes   per-vertex displacement
+   vectors with one scalar weight s each; a mode is three basis functions (its x, y and z
+   column) with weights (s,0,0), (0,s,0), (0,0,s). Immutable once made. A new kind is a new
+   source file that fills the struct below. */
+#ifndef MOTE_CORE_FIELD_H
+#define MOTE_CORE_FIELD_H
+
+#include "core/clones.h"
+#include "core/mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Weight vectors by coordinate, in world axes (already rotated with the body), padded with
+   zeros to a multiple of MOTE_LANES. Unit: the mesh's unit of length. NULL arrays when padded
+   is 0. */
+typedef struct mote_weights {
+    const double *x, *y, *z; /* [padded] */
+    uint32_t count, padded;
+} mote_weights;
+
+typedef struct mote_field mote_field;
+
+typedef struct mote_field_kind {
+    const char *name; /* "static", "csrbf", "modes" */
+
+    /* phi[0 .. padded - 1] at a rest vertex; zeros in the padding. Deterministic: the same bits
+       on every instruction set. */
+    void (*basis)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex, double *phi);
+
+    /* sum_j phi_j w_j at a rest vertex, added up in MOTE_LANES lanes in the fixed order of
+       mote_lane_sum; equals the same sum over basis() bit for bit. NULL: the sum over basis().
+     */
+    mote_vec3 (*displacement)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                              const mote_weights *weights);
+
+    /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
+       the padding. For modes: the least-squares gradient over the one-ring. */
+    void (*gradient)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                     mote_vec3 *gradient);
+
+    void (*destroy)(mote_field *field);
+} mote_field_kind;
+
+struct mote_field {
+    const mote_field_kind *kind;
+    uint32_t count;  /* J; 0 when nothing deforms */
+    uint32_t padded; /* J rounded up to a multiple of MOTE_LANES */
+    double support;  /* CSRBF: support radius, > 0 */
+    /* CSRBF: centres by coordinate [padded]; padding lies far outside every support */
+    double *centre_x, *centre_y, *centre_z;
+    const void *data; /* of other kinds */
+    size_t bytes;     /* heap held, this struct included */
+};
+
+/* At most this many basis functions (after padding). */
+#define MOTE_FIELD_MAX 256
+
+/* A field that never deforms. Free with mote_field_destroy. */
+mote_status mote_field_create_static(mote_field **field);
+
+/* Compactly supported radial basis functions, Wendland C2: (1-r)^4 (4r+1) for r < 1, else 0.
+   centres: count (1 .. MOTE_FIELD_MAX) positions in rest space, copied; support > 0.
+   MOTE_EINVAL for anything else or not finite. */
+mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, double support,
+                                    mote_field **field);
+
+/* Linear modes: modes[m * vertex_count + i] is the displacement of vertex i per unit of weight
+   m, copied. count * 3 is at most MOTE_FIELD_MAX. */
+mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
+                                    uint32_t vertex_count, mote_field **field);
+
+/* NULL is allowed. */
+void mote_field_destroy(mote_field *field);
+
+/* sum_j phi_j w_j at a rest vertex; zero for a static field. */
+mote_vec3 mote_field_displacement(const mote_field *field, const mote_mesh *mesh,
+                                  uint32_t vertex, const mote_weights *weights);
+
+/* The fixed order in which MOTE_LANES partial sums are added. */
+static inline double mote_lane_sum(const double lane[MOTE_LANES])
+{
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,60 @@
+/* World positions that are computed when first looked at in a frame and remembered for the
+   frame, in a hash sized by what is visited, not by the mesh (DESIGN: lazy deformation). */
+#ifndef MOTE_CORE_LAZY_H
+#define MOTE_CORE_LAZY_H
+
+#include "core/body.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mote_lazy_slot {
+    uint32_t vertex;
+    uint32_t stamp; /* the frame it was filled in; another value: empty */
+    mote_vec3 position;
+} mote_lazy_slot;
+
+typedef struct mote_lazy {
+    const mote_body *body;
+    const mote_body_state *state;
+    const mote_vec3 *given; /* vertices already deformed by somebody else, or NULL */
+    mote_lazy_slot *slots;  /* [mask + 1], a power of two */
+    uint32_t mask, shift;
+    uint32_t stamp;
+    uint32_t filled;    /* slots filled in this frame */
+    uint32_t limit;     /* the table grows when filled reaches it */
+    uint64_t evaluated; /* positions evaluated since creation */
+} mote_lazy;
+
+/* expected: how many vertices a query is likely to visit (a hint; the table grows). */
+mote_status mote_lazy_init(mote_lazy *lazy, const mote_body *body, uint32_t expected);
+void mote_lazy_free(mote_lazy *lazy);
+
+/* Starts a frame: forgets all positions. state is borrowed until the next call. With use_given,
+   positions are read from state->vertices, which must not be NULL. Constant time. */
+void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given);
+
+/* The slow path of mote_lazy_position: evaluates and remembers (or, out of memory, only
+   evaluates). */
+mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index);
+
+static inline mote_vec3 mote_lazy_position(mote_lazy *lazy, uint32_t vertex)
+{
+    if (lazy->given)
+        return lazy->given[vertex];
+    uint32_t index = (vertex * 2654435769u) >> lazy->shift;
+    for (;;) {
+        const mote_lazy_slot *slot = &lazy->slots[index];
+        if (slot->stamp != lazy->stamp)
+            return mote_lazy_fill(lazy, vertex, index);
+        if (slot->vertex == vertex)
+            return slot->position;
+        index = (index + 1) & lazy->mask;
+    }
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,118 @@
+/* The contract behind which every method answers, ours and the baselines alike.
+
+   A method is one constant descriptor in one file, defined as
+       MOTE_METHOD(particle_paper) = {.name = "particle-paper", ...};
+   at the start of a line; the build finds it by that line (cmake/MoteRegistry.cmake). */
+#ifndef MOTE_CORE_METHOD_H
+#define MOTE_CORE_METHOD_H
+
+#include "core/body.h"
+#include "core/parameter.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mote_ask {
+    MOTE_ASK_DISTANCE, /* the distance of the surfaces, and the contact that follows from it */
+    MOTE_ASK_CONTACT   /* only whether distance <= tolerance: a method may stop when it knows */
+} mote_ask;
+
+/* What a method is built for. Everything is borrowed until destroy. */
+typedef struct mote_setup {
+    const mote_body *body[2];
+    double length; /* L of the pair: the larger of the two rest L */
+    mote_ask ask;
+    double tolerance;     /* the scenario's, absolute, >= 0 */
+    uint64_t seed;        /* for methods that draw random numbers */
+    const double *values; /* one a parameter of the method, in its table's order */
+} mote_setup;
+
+/* Deterministic counts of one query, X(name): in this order in CSV and JSON. */
+#define MOTE_COUNTERS(X)                                                                       \
+    X(steps)          /* sweeps over all particles */                                          \
+    X(moves)          /* particles that moved, over all steps */                               \
+    X(positions)      /* vertex positions evaluated */                                         \
+    X(box_tests)      /* pairs of bounding volumes tested */                                   \
+    X(triangle_tests) /* pairs of triangles measured */
+
+/* Counts that only some methods have; after the contract's columns. */
+#define MOTE_COUNTERS_MORE(X)                                                                  \
+    X(ended_nmin) /* 1: the query ended because fewer than N_min particles moved */            \
+    X(ended_nmax) /* 1: it ended after N_max steps */                                          \
+    X(launches)   /* descents started from seeds */                                            \
+    X(refined)    /* exact checks made */                                                      \
+    X(blocks)     /* certificate: blocks deformed */                                           \
+    X(rows)       /* certificate: node against block tests */                                  \
+    X(leaf_pairs) /* certificate: leaf pairs reached */
+
+#define MOTE_COUNTER_FIELD(name) uint64_t name;
+typedef struct mote_counters {
+    MOTE_COUNTERS(MOTE_COUNTER_FIELD)
+    MOTE_COUNTERS_MORE(MOTE_COUNTER_FIELD)
+} mote_counters;
+#undef MOTE_COUNTER_FIELD
+
+/* An answer; zeroed by the caller before each query. What a method cannot say stays absent. */
+typedef struct mote_answer {
+    bool has_distance, has_lower, has_witness, has_contact;
+    bool contact;         /* distance <= tolerance (+ the method's declared resolution) */
+    double distance;      /* >= 0; 0 where the surfaces touch or intersect */
+    double lower;         /* a proven lower bound, <= distance */
+    mote_vec3 witness[2]; /* world points on body 0 and body 1, distance apart */
+    mote_counters counters;
+} mote_answer;
+
+/* What a parameterised method needs and keeps. */
+typedef struct mote_traits {
+    bool needs_vertices; /* wants every vertex of the frame in mote_body_state.vertices */
+    bool given_vertices; /* wants them too, but nobody is charged for them (positions=given) */
+    bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */
+    bool exact;          /* claims the exact distance (checked to 1e-12 L) */
+} mote_traits;
+
+typedef struct mote_method {
+    const char *name;    /* as on the command line: "fcl-aabb" */
+    const char *summary; /* one line */
+    const mote_parameter *parameters;
+    size_t parameter_count;
+
+    /* Borrowed values; never fails. */
+    mote_traits (*traits)(const double *values);
+
+    /* Builds the state for a pair of bodies. MOTE_EUNSUPPORTED with a reason when the method
+       cannot answer setup->ask with these values or on these bodies. */
+    mote_status (*create)(const mote_setup *setup, void **state);
+
+    /* NULL state is allowed. */
+    void (*destroy)(void *state);
+
+    /* Brings structures up to date with the frame (refit); timed as update_ns. NULL: nothing to
+     * do. */
+    mote_status (*update)(void *state, const mote_frame *frame);
+
+    /* Answers; timed as query_ns. frame is the one last given to update. No allocation in
+       steady state for our own methods. */
+    mote_status (*query)(void *state, const mote_frame *frame, mote_answer *answer);
+} mote_method;
+
+#if defined(__cplusplus)
+#define MOTE_METHOD(id)                                                                        \
+    extern "C" const mote_method mote_method_##id;                                             \
+    const mote_method mote_method_##id
+#else
+#define MOTE_METHOD(id)                                                                        \
+    extern const mote_method mote_method_##id;                                                 \
+    const mote_method mote_method_##id
+#endif
+
+/* All methods, ended by NULL; written by the build. */
+extern const mote_method *const mote_methods[];
+
+/* The method of that name, or NULL. */
+const mote_method *mote_method_find(const char *name);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

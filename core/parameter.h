@@ -1,0 +1,55 @@
+/* The parameters of a method: a table of keys with types, ranges and defaults, and its parser.
+ */
+#ifndef MOTE_CORE_PARAMETER_H
+#define MOTE_CORE_PARAMETER_H
+
+#include "core/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mote_parameter_kind {
+    MOTE_PARAMETER_INTEGER,
+    MOTE_PARAMETER_REAL,  /* "inf" is accepted where the maximum is infinite */
+    MOTE_PARAMETER_CHOICE /* one of choices; its value is the index */
+} mote_parameter_kind;
+
+/* The value of a number given as "auto", where allowed. */
+#define MOTE_AUTO (-1.0)
+
+typedef struct mote_parameter {
+    const char *key;
+    mote_parameter_kind kind;
+    double minimum, maximum; /* numbers: inclusive range; minimum >= 0 */
+    const char
+        *choices; /* "log|inverse|inverse-square"; for numbers "auto" if allowed, or NULL */
+    const char *fallback; /* default, as text; an empty default is never used */
+    const char *help;     /* one line: meaning, unit, source */
+} mote_parameter;
+
+/* At most this many parameters a method. */
+#define MOTE_PARAMETERS_MAX 32
+
+/* Fills values[count] with the defaults. */
+void mote_parameters_default(const mote_parameter *table, size_t count, double *values);
+
+/* Reads "key=value,key=value" over values (already filled). "" is allowed. MOTE_EINVAL with a
+   text that names the key or value and lists what would be right: unknown key, a key twice, not
+   a number, out of range, not a choice. values are unchanged on failure. */
+mote_status mote_parameters_parse(const mote_parameter *table, size_t count, const char *text,
+                                  double *values);
+
+/* Writes one value as the text that would be parsed to it: shortest form that reads back the
+   same. buffer holds size bytes. Returns buffer. */
+const char *mote_parameter_text(const mote_parameter *parameter, double value, char *buffer,
+                                size_t size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,46 @@
+/* A scenario: two bodies, their motion and deformation, and what is asked of each frame. */
+#ifndef MOTE_HARNESS_SCENARIO_H
+#define MOTE_HARNESS_SCENARIO_H
+
+#include "core/method.h"
+
+typedef struct mote_interval {
+    uint32_t first, last; /* frames, inclusive, from 1; 0, 0 when the scenario names none */
+} mote_interval;
+
+typedef struct mote_scenario {
+    char *name;    /* "ww" */
+    char *purpose; /* one sentence */
+    char *path;    /* the file it came from */
+    mote_body body[2];
+    uint32_t frames;
+    mote_interval warmup, active;
+    mote_ask ask;
+    double tolerance;           /* absolute: the file's times L of the pair */
+    double length;              /* L of the pair */
+    struct mote_motion *motion; /* poses and weights over frames; opaque */
+} mote_scenario;
+
+/* Loads a built-in scenario by name (datasets/scenarios/NAME.json) or a file by path (when it
+   contains '/' or ends in ".json"). Generates or reads its meshes. Errors (MOTE_EINVAL,
+   MOTE_EIO) carry "FILE:LINE:COLUMN: what is wrong; what would be right". The caller destroys
+   *scenario. */
+mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario);
+void mote_scenario_destroy(mote_scenario *scenario); /* NULL is allowed */
+
+/* A frame's state with the memory behind its weights. */
+typedef struct mote_frame_buffer mote_frame_buffer;
+mote_status mote_frame_buffer_create(const mote_scenario *scenario, mote_frame_buffer **buffer);
+void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
+
+/* Poses and weights of frame number (1 .. frames); vertices are NULL; shape_changed and
+   pose_changed compare with frame number - previous (0: everything changed), where previous is
+   the number of the frame last given to the method. The frame lives in the buffer. */
+const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                                      uint32_t number, uint32_t previous);
+
+/* 64-bit FNV-1a hash over the bits of every frame's deformed vertices of both bodies, frame by
+   frame, body by body, x y z, in little-endian order. */
+mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint);
+
+#endif
