@@ -16,10 +16,21 @@ function(mote_registry out)
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
 #include \"core/method.h\"
 
+#include <string.h>
+
 ${declarations}
 const mote_method *const mote_methods[] = {
-${entries}    0,
+${entries}    NULL,
 };
+
+const mote_method *mote_method_find(const char *name)
+{
+    for (size_t i = 0\; mote_methods[i]\; ++i) {
+        if (strcmp(mote_methods[i]->name, name) == 0)
+            return mote_methods[i]\;
+    }
+    return NULL\;
+}
 ")
   set(${out} ${file} PARENT_SCOPE)
 endfunction()

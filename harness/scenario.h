@@ -33,9 +33,9 @@ typedef struct mote_frame_buffer mote_frame_buffer;
 mote_status mote_frame_buffer_create(const mote_scenario *scenario, mote_frame_buffer **buffer);
 void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
 
-/* Poses and weights of frame number (1 .. frames); vertices are NULL; shape_changed and
-   pose_changed compare with frame number - previous (0: everything changed), where previous is
-   the number of the frame last given to the method. The frame lives in the buffer. */
+/* Poses and weights of frame number (1 .. frames); vertices are NULL. shape_changed and
+   pose_changed compare with frame previous, the one that the method was given last (0: none, so
+   everything changed). The frame lives in the buffer until the next call. */
 const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                       uint32_t number, uint32_t previous);
 
