@@ -1,0 +1,50 @@
+# The front door. Each target does all of its own set-up: `make bench` or `make test` in a fresh
+# clone is enough.
+#
+#   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
+#   make test                                         release tests, then ASan and UBSan
+#   make figures [OUT=DIR]                            draw again from what is stored
+#   make lint, make deps, make build, make clean
+
+PROFILE ?= paper
+OUT ?= results/$(PROFILE)
+JOBS ?= $(shell nproc)
+BUILD = build
+MOTE = $(BUILD)/mote
+
+# Sanitizers stop at the first error, and FCL's own never-freed statics are not ours to report.
+SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
+
+.DEFAULT_GOAL := build
+.PHONY: deps build bench test figures format lint clean
+
+deps:
+	@cmake/deps.sh packages.txt
+
+build: deps
+	@cmake --preset release > $(BUILD).log || { cat $(BUILD).log; exit 1; }
+	@rm -f $(BUILD).log
+	@cmake --build $(BUILD) -j $(JOBS)
+
+test: build
+	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+	cmake --preset asan
+	cmake --build build-asan -j $(JOBS)
+	cd build-asan && $(SANITIZER) ctest --output-on-failure -j $(JOBS)
+
+bench: build
+	@plots/bench.sh $(MOTE) $(PROFILE) $(OUT)
+
+figures: build
+	@$(MOTE) figures $(OUT)
+
+SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp')
+
+format: deps
+	@clang-format --dry-run -Werror $(SOURCES)
+
+lint: format build
+	run-clang-tidy -quiet -j $(JOBS) -p $(BUILD) '/(core|baselines|harness|datasets)/'
+
+clean:
+	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz

@@ -1,0 +1,26 @@
+#!/bin/sh
+# deps.sh FILE: installs the Debian packages that FILE lists and that are missing, when it may
+# (root, or sudo without a password); else prints the one command to run and exits 1.
+set -eu
+missing=
+for package in $(cat "$1"); do
+    state=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
+    case $state in
+    ii*) ;;
+    *) missing="$missing $package" ;;
+    esac
+done
+[ -n "$missing" ] || exit 0
+if [ "$(id -u)" = 0 ]; then
+    run=
+elif sudo -n true 2>/dev/null; then
+    run='sudo -n'
+else
+    echo "Packages are missing. Run, then try again:" >&2
+    echo "    sudo apt-get update && sudo apt-get install -y --no-install-recommends$missing" >&2
+    exit 1
+fi
+export DEBIAN_FRONTEND=noninteractive
+$run apt-get update -q
+# shellcheck disable=SC2086
+$run env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
