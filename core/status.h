@@ -19,9 +19,9 @@ typedef enum mote_status {
 const char *mote_status_text(mote_status status);
 
 #if defined(__GNUC__)
-#define MOTE_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define MOTE_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#define MOTE_PRINTF(format, first)
+#define MOTE_PRINTF(text, first)
 #endif
 
 /* Remembers the text for this thread and returns status: `return mote_fail(MOTE_EINVAL, ...)`.

@@ -1,0 +1,11 @@
+#include "core/body.h"
+
+mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
+                             uint32_t vertex)
+{
+    const mote_vec3 rigid = mote_pose_apply(&state->pose, body->mesh->positions[vertex]);
+    if (body->field->count == 0)
+        return rigid;
+    return mote_add(rigid,
+                    mote_field_displacement(body->field, body->mesh, vertex, &state->weights));
+}

@@ -1,0 +1,127 @@
+/* Compactly supported radial basis functions (paper section 4): Wendland's C2 function. */
+#include "core/field_kinds.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* phi of one group of MOTE_LANES centres. */
+static inline void evaluate_lanes(const mote_field *field, uint32_t first, mote_vec3 p,
+                                  double inverse, double phi[MOTE_LANES])
+{
+    const double *cx = field->centre_x + first;
+    const double *cy = field->centre_y + first;
+    const double *cz = field->centre_z + first;
+    for (int l = 0; l < MOTE_LANES; ++l) {
+        const double dx = (p.x - cx[l]) * inverse;
+        const double dy = (p.y - cy[l]) * inverse;
+        const double dz = (p.z - cz[l]) * inverse;
+        phi[l] = mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
+    }
+}
+
+MOTE_CLONES
+static void csrbf_basis(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                        double *phi)
+{
+    const mote_vec3 p = mesh->positions[vertex];
+    const double inverse = 1 / field->support;
+    for (uint32_t j = 0; j < field->padded; j += MOTE_LANES)
+        evaluate_lanes(field, j, p, inverse, phi + j);
+    for (uint32_t j = field->count; j < field->padded; ++j)
+        phi[j] = 0;
+}
+
+/* Padding has weight zero, so that its value does not matter. */
+MOTE_CLONES
+static mote_vec3 csrbf_displacement(const mote_field *field, const mote_mesh *mesh,
+                                    uint32_t vertex, const mote_weights *weights)
+{
+    const mote_vec3 p = mesh->positions[vertex];
+    const double inverse = 1 / field->support;
+    double x[MOTE_LANES] = {0};
+    double y[MOTE_LANES] = {0};
+    double z[MOTE_LANES] = {0};
+    for (uint32_t j = 0; j < field->padded; j += MOTE_LANES) {
+        double phi[MOTE_LANES];
+        evaluate_lanes(field, j, p, inverse, phi);
+        for (int l = 0; l < MOTE_LANES; ++l) {
+            x[l] += phi[l] * weights->x[j + (uint32_t)l];
+            y[l] += phi[l] * weights->y[j + (uint32_t)l];
+            z[l] += phi[l] * weights->z[j + (uint32_t)l];
+        }
+    }
+    return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
+}
+
+/* With s = |x - c| / support: d phi / dx = -20 (1 - s)^3 (x - c) / support^2, smooth at s = 0.
+ */
+static void csrbf_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                           mote_vec3 *gradient)
+{
+    const mote_vec3 p = mesh->positions[vertex];
+    const double inverse = 1 / field->support;
+    for (uint32_t j = 0; j < field->padded; ++j) {
+        const mote_vec3 c =
+            mote_vec3_make(field->centre_x[j], field->centre_y[j], field->centre_z[j]);
+        const mote_vec3 d = mote_scale(mote_sub(p, c), inverse);
+        const double q = fmax(1 - mote_length(d), 0);
+        gradient[j] = mote_scale(d, j < field->count ? -20 * q * q * q * inverse : 0);
+    }
+}
+
+static void csrbf_destroy(mote_field *field)
+{
+    free(field->centre_x);
+    free(field->centre_y);
+    free(field->centre_z);
+    free(field);
+}
+
+static const mote_field_kind csrbf_kind = {.name = "csrbf",
+                                           .basis = csrbf_basis,
+                                           .displacement = csrbf_displacement,
+                                           .gradient = csrbf_gradient,
+                                           .destroy = csrbf_destroy};
+
+static mote_status check_input(const mote_vec3 *centres, uint32_t count, double support)
+{
+    if (count < 1 || count > MOTE_FIELD_MAX)
+        return mote_fail(MOTE_EINVAL, "a CSRBF field has 1 to %d centres, not %u",
+                         MOTE_FIELD_MAX, count);
+    if (!(support > 0) || !isfinite(support) || !isfinite(1 / support))
+        return mote_fail(MOTE_EINVAL,
+                         "the support radius is %g; it must be positive and finite", support);
+    for (uint32_t j = 0; j < count; ++j) {
+        if (!isfinite(centres[j].x) || !isfinite(centres[j].y) || !isfinite(centres[j].z))
+            return mote_fail(MOTE_EINVAL, "centre %u is not finite", j);
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, double support,
+                                    mote_field **field)
+{
+    mote_status status = check_input(centres, count, support);
+    mote_field *made = NULL;
+    if (status == MOTE_OK)
+        status = mote_field_allocate(&csrbf_kind, count, &made);
+    if (status != MOTE_OK)
+        return status;
+    made->support = support;
+    made->centre_x = malloc(made->padded * sizeof(double));
+    made->centre_y = malloc(made->padded * sizeof(double));
+    made->centre_z = malloc(made->padded * sizeof(double));
+    if (!made->centre_x || !made->centre_y || !made->centre_z) {
+        csrbf_destroy(made);
+        return mote_fail(MOTE_ENOMEM, "no memory for a field of %u centres", count);
+    }
+    made->bytes += 3 * made->padded * sizeof(double);
+    for (uint32_t j = 0; j < made->padded; ++j) {
+        const mote_vec3 c = centres[j < count ? j : 0];
+        made->centre_x[j] = c.x;
+        made->centre_y[j] = c.y;
+        made->centre_z[j] = c.z;
+    }
+    *field = made;
+    return MOTE_OK;
+}

@@ -1,0 +1,19 @@
+/* What the sources of the kinds of fields share. */
+#ifndef MOTE_CORE_FIELD_KINDS_H
+#define MOTE_CORE_FIELD_KINDS_H
+
+#include "core/field.h"
+
+/* A zeroed field with kind, count, padded and bytes set. */
+mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
+                                mote_field **field);
+
+/* Wendland's C2 function (1-r)^4 (4r+1) for 0 <= r < 1, else 0. */
+static inline double mote_wendland_c2(double r)
+{
+    const double q = 1 - r > 0 ? 1 - r : 0;
+    const double q2 = q * q;
+    return q2 * q2 * (4 * r + 1);
+}
+
+#endif
