@@ -11,6 +11,7 @@ static inline void evaluate_lanes(const mote_field *field, uint32_t first, mote_
     const double *cx = field->centre_x + first;
     const double *cy = field->centre_y + first;
     const double *cz = field->centre_z + first;
+    MOTE_LANE_LOOP
     for (int l = 0; l < MOTE_LANES; ++l) {
         const double dx = (p.x - cx[l]) * inverse;
         const double dy = (p.y - cy[l]) * inverse;
@@ -44,6 +45,7 @@ static mote_vec3 csrbf_displacement(const mote_field *field, const mote_mesh *me
     for (uint32_t j = 0; j < field->padded; j += MOTE_LANES) {
         double phi[MOTE_LANES];
         evaluate_lanes(field, j, p, inverse, phi);
+        MOTE_LANE_LOOP
         for (int l = 0; l < MOTE_LANES; ++l) {
             x[l] += phi[l] * weights->x[j + (uint32_t)l];
             y[l] += phi[l] * weights->y[j + (uint32_t)l];

@@ -72,10 +72,12 @@ static inline void deform_coordinate(const double *block, const double row[3],
     for (uint32_t j = 0; j < padded; j += MOTE_LANES) {
         for (uint32_t l = 0; l < MOTE_LANES; ++l) {
             const double w = weights[j + l];
+            MOTE_LANE_LOOP
             for (uint32_t v = 0; v < MOTE_LANES; ++v)
                 lane[l][v] += phi[(j + l) * MOTE_LANES + v] * w;
         }
     }
+    MOTE_LANE_LOOP
     for (uint32_t v = 0; v < MOTE_LANES; ++v) {
         const double sum = ((lane[0][v] + lane[4][v]) + (lane[2][v] + lane[6][v])) +
                            ((lane[1][v] + lane[5][v]) + (lane[3][v] + lane[7][v]));
