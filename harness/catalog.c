@@ -1,0 +1,88 @@
+#include "harness/catalog.h"
+
+#include "harness/file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FOLDER MOTE_SOURCE_DIR "/datasets/scenarios"
+
+char *mote_catalog_path(const char *name)
+{
+    return mote_format("%s/%s.json", FOLDER, name);
+}
+
+static int is_scenario(const struct dirent *entry)
+{
+    size_t length = strlen(entry->d_name);
+    return length > 5 && entry->d_name[0] != '.' &&
+           strcmp(entry->d_name + length - 5, ".json") == 0;
+}
+
+static mote_status read_entry(const char *file, mote_catalog_entry *entry)
+{
+    char *name = mote_format("%.*s", (int)(strlen(file) - 5), file);
+    char *path = name ? mote_catalog_path(name) : NULL;
+    if (!path) {
+        free(name);
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its name", file);
+    }
+    json_error_t error;
+    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
+    const char *purpose = json_string_value(json_object_get(root, "purpose"));
+    mote_status status = MOTE_OK;
+    if (!root)
+        status =
+            mote_fail(MOTE_EINVAL, "%s:%d:%d: %s", path, error.line, error.column, error.text);
+    else if (!purpose)
+        status = mote_fail(MOTE_EINVAL, "%s: no purpose; add a sentence", path);
+    else if (!(entry->purpose = mote_format("%s", purpose)))
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its purpose", path);
+    json_decref(root);
+    free(path);
+    if (status == MOTE_OK)
+        entry->name = name;
+    else
+        free(name);
+    return status;
+}
+
+mote_status mote_catalog_read(mote_catalog *catalog)
+{
+    struct dirent **files;
+    int count = scandir(FOLDER, &files, is_scenario, alphasort);
+    if (count < 0)
+        return mote_fail(MOTE_EIO, "%s: %s", FOLDER, strerror(errno));
+    mote_catalog read = {0};
+    mote_status status = MOTE_OK;
+    read.entries = calloc((size_t)count + 1, sizeof *read.entries);
+    if (!read.entries)
+        status = mote_fail(MOTE_ENOMEM, "no memory for %d scenarios", count);
+    for (int i = 0; i < count; ++i) {
+        if (status == MOTE_OK)
+            status = read_entry(files[i]->d_name, &read.entries[read.count]);
+        if (status == MOTE_OK)
+            ++read.count;
+        free(files[i]);
+    }
+    free(files);
+    if (status == MOTE_OK)
+        *catalog = read;
+    else
+        mote_catalog_free(&read);
+    return status;
+}
+
+void mote_catalog_free(mote_catalog *catalog)
+{
+    for (size_t i = 0; i < catalog->count; ++i) {
+        free(catalog->entries[i].name);
+        free(catalog->entries[i].purpose);
+    }
+    free(catalog->entries);
+    catalog->entries = NULL;
+    catalog->count = 0;
+}

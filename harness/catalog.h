@@ -1,0 +1,27 @@
+/* The built-in scenarios: the files of datasets/scenarios. */
+#ifndef MOTE_HARNESS_CATALOG_H
+#define MOTE_HARNESS_CATALOG_H
+
+#include "core/status.h"
+
+#include <stddef.h>
+
+typedef struct mote_catalog_entry {
+    char *name;    /* "ww" */
+    char *purpose; /* one sentence */
+} mote_catalog_entry;
+
+typedef struct mote_catalog {
+    mote_catalog_entry *entries; /* sorted by name */
+    size_t count;
+} mote_catalog;
+
+/* Lists the built-in scenarios without loading their meshes. MOTE_EIO when the folder cannot be
+   read, MOTE_EINVAL when a file in it is not a scenario. The caller destroys *catalog. */
+mote_status mote_catalog_read(mote_catalog *catalog);
+void mote_catalog_free(mote_catalog *catalog);
+
+/* The file of a built-in scenario's name; the caller frees it. NULL when memory ran out. */
+char *mote_catalog_path(const char *name);
+
+#endif

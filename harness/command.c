@@ -1,0 +1,199 @@
+#include "harness/command.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int mote_command_fail(void)
+{
+    (void)fprintf(stderr, "mote: %s\n", mote_error_text());
+    return MOTE_EXIT_BAD_INPUT;
+}
+
+int mote_command_usage(const char *command, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)fprintf(stderr, "mote: %s: ", command);
+    (void)vfprintf(stderr, format, arguments);
+    (void)fputc('\n', stderr);
+    va_end(arguments);
+    return MOTE_EXIT_USAGE;
+}
+
+int mote_command_finish(int code)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return code;
+    (void)fprintf(stderr, "mote: standard output: cannot be written: %s\n", strerror(errno));
+    return MOTE_EXIT_BAD_INPUT;
+}
+
+/* The option that an argument names, or -1; *inline_value: what follows its '=', or NULL. */
+static int find_option(const mote_option_reader *reader, const char *argument,
+                       const char **inline_value)
+{
+    *inline_value = NULL;
+    for (size_t i = 0; i < reader->count; ++i) {
+        const char *name = reader->options[i].name;
+        if (name[0] == '-') {
+            if (strcmp(argument, name) == 0)
+                return (int)i;
+            continue;
+        }
+        size_t length = strlen(name);
+        if (strncmp(argument, "--", 2) != 0 || strncmp(argument + 2, name, length) != 0)
+            continue;
+        const char *rest = argument + 2 + length;
+        if (*rest == '=')
+            *inline_value = rest + 1;
+        if (*rest == '=' || *rest == '\0')
+            return (int)i;
+    }
+    return -1;
+}
+
+static void list_options(const mote_option_reader *reader, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < reader->count && used < size; ++i) {
+        const mote_option *option = &reader->options[i];
+        int put = snprintf(text + used, size - used, "%s%s%s%s%s", i ? ", " : "",
+                           option->name[0] == '-' ? "" : "--", option->name,
+                           option->value ? " " : "", option->value ? option->value : "");
+        used += put > 0 ? (size_t)put : 0;
+    }
+}
+
+int mote_option_next(mote_option_reader *reader, const char **value)
+{
+    *value = NULL;
+    if (reader->next == 0)
+        reader->next = 1; /* argv[0] is the sub-command */
+    if (reader->next >= reader->argc)
+        return MOTE_OPTION_END;
+    const char *command = reader->argv[0];
+    const char *argument = reader->argv[reader->next++];
+    if (argument[0] != '-' || argument[1] == '\0') {
+        *value = argument;
+        return MOTE_OPTION_PLAIN;
+    }
+    const char *given;
+    int index = find_option(reader, argument, &given);
+    if (index < 0) {
+        char known[512];
+        list_options(reader, known, sizeof known);
+        (void)mote_command_usage(command, "unknown option %s; known are: %s", argument,
+                                 reader->count ? known : "none");
+        return MOTE_OPTION_ERROR;
+    }
+    const mote_option *option = &reader->options[index];
+    if (!option->value && given) {
+        (void)mote_command_usage(command, "--%s takes no value", option->name);
+        return MOTE_OPTION_ERROR;
+    }
+    if (option->value && !given) {
+        if (reader->next >= reader->argc) {
+            (void)mote_command_usage(command, "%s needs a value: %s %s", argument, argument,
+                                     option->value);
+            return MOTE_OPTION_ERROR;
+        }
+        given = reader->argv[reader->next++];
+    }
+    *value = given;
+    return index;
+}
+
+bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, uint64_t *value)
+{
+    if (text[0] < '0' || text[0] > '9')
+        return false;
+    char *end;
+    errno = 0;
+    unsigned long long number = strtoull(text, &end, 10);
+    if (errno != 0 || *end != '\0' || number < minimum || number > maximum)
+        return false;
+    *value = number;
+    return true;
+}
+
+bool mote_read_real(const char *text, double minimum, double maximum, double *value)
+{
+    char *end;
+    double number = strtod(text, &end);
+    /* Written so that a NaN fails. */
+    if (end == text || *end != '\0' || !(number >= minimum && number <= maximum))
+        return false;
+    *value = number;
+    return true;
+}
+
+mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first, uint64_t *last)
+{
+    char copy[64];
+    if (strlen(text) >= sizeof copy)
+        return mote_fail(MOTE_EINVAL, "%.60s...: not a range; write A-B", text);
+    memcpy(copy, text, strlen(text) + 1);
+    char *dash = strchr(copy, '-');
+    const char *end = copy;
+    if (dash) {
+        *dash = '\0';
+        end = dash + 1;
+    }
+    uint64_t a, b;
+    if (!mote_read_unsigned(copy, 0, UINT64_MAX, &a) ||
+        !mote_read_unsigned(end, 0, UINT64_MAX, &b))
+        return mote_fail(MOTE_EINVAL, "%s: not a range; write A-B, whole numbers", text);
+    if (a > b)
+        return mote_fail(MOTE_EINVAL, "%s: an empty range; write A-B with A <= B", text);
+    if (a < 1 || b > maximum)
+        return mote_fail(MOTE_EINVAL, "%s: outside 1-%" PRIu64 "; write A-B within it", text,
+                         maximum);
+    *first = a;
+    *last = b;
+    return MOTE_OK;
+}
+
+static mote_status unknown_method(const char *name)
+{
+    char known[512];
+    size_t used = 0;
+    known[0] = '\0';
+    for (size_t i = 0; mote_methods[i] && used < sizeof known; ++i) {
+        int put = snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                           mote_methods[i]->name);
+        used += put > 0 ? (size_t)put : 0;
+    }
+    return mote_fail(MOTE_EINVAL, "unknown method %s; known are: %s", name, known);
+}
+
+mote_status mote_method_choice_read(const char *text, mote_method_choice *choice)
+{
+    mote_method_choice read = {0};
+    if (strlen(text) >= sizeof read.text)
+        return mote_fail(MOTE_EINVAL, "%.40s...: longer than %zu characters; shorten it", text,
+                         sizeof read.text - 1);
+    memcpy(read.text, text, strlen(text) + 1);
+    char name[sizeof read.text];
+    memcpy(name, text, strlen(text) + 1);
+    char *colon = strchr(name, ':');
+    if (colon)
+        *colon = '\0';
+    read.method = mote_method_find(name);
+    if (!read.method)
+        return unknown_method(name);
+    const mote_method *method = read.method;
+    mote_parameters_default(method->parameters, method->parameter_count, read.values);
+    if (colon) {
+        mote_status status = mote_parameters_parse(method->parameters, method->parameter_count,
+                                                   colon + 1, read.values);
+        if (status != MOTE_OK)
+            return mote_fail(status, "%s: %s", text, mote_error_text());
+    }
+    *choice = read;
+    return MOTE_OK;
+}

@@ -1,0 +1,100 @@
+/* mote list methods|scenarios [--json] */
+#include "harness/catalog.h"
+#include "harness/command.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+static int print_json(json_t *value)
+{
+    if (!value) {
+        (void)mote_fail(MOTE_ENOMEM, "list: no memory for its JSON");
+        return mote_command_fail();
+    }
+    (void)json_dumpf(value, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
+    (void)fputc('\n', stdout);
+    json_decref(value);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static json_t *parameters_json(const mote_method *method)
+{
+    static const char *const kinds[] = {"integer", "real", "choice"};
+    json_t *list = json_array();
+    for (size_t i = 0; i < method->parameter_count; ++i) {
+        const mote_parameter *parameter = &method->parameters[i];
+        json_t *row = json_pack("{s:s, s:s, s:s, s:s}", "key", parameter->key, "kind",
+                                kinds[parameter->kind], "default", parameter->fallback, "help",
+                                parameter->help);
+        if (parameter->choices)
+            (void)json_object_set_new(row, "choices", json_string(parameter->choices));
+        (void)json_array_append_new(list, row);
+    }
+    return list;
+}
+
+static int list_methods(bool json)
+{
+    json_t *list = json ? json_array() : NULL;
+    for (size_t i = 0; mote_methods[i]; ++i) {
+        const mote_method *method = mote_methods[i];
+        if (json) {
+            (void)json_array_append_new(list, json_pack("{s:s, s:s, s:o}", "name", method->name,
+                                                        "summary", method->summary,
+                                                        "parameters", parameters_json(method)));
+            continue;
+        }
+        (void)printf("%s: %s\n", method->name, method->summary);
+        for (size_t p = 0; p < method->parameter_count; ++p) {
+            const mote_parameter *parameter = &method->parameters[p];
+            (void)printf("    %s=%s  %s%s%s%s\n", parameter->key, parameter->fallback,
+                         parameter->help, parameter->choices ? " (" : "",
+                         parameter->choices ? parameter->choices : "",
+                         parameter->choices ? ")" : "");
+        }
+    }
+    return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int list_scenarios(bool json)
+{
+    mote_catalog catalog;
+    if (mote_catalog_read(&catalog) != MOTE_OK)
+        return mote_command_fail();
+    json_t *list = json ? json_array() : NULL;
+    for (size_t i = 0; i < catalog.count; ++i) {
+        const mote_catalog_entry *entry = &catalog.entries[i];
+        if (json)
+            (void)json_array_append_new(
+                list, json_pack("{s:s, s:s}", "name", entry->name, "purpose", entry->purpose));
+        else
+            (void)printf("%-12s %s\n", entry->name, entry->purpose);
+    }
+    mote_catalog_free(&catalog);
+    return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
+}
+
+int mote_command_list(int argc, char **argv)
+{
+    static const mote_option options[] = {{"json", NULL}};
+    mote_option_reader reader = {options, 1, argc, argv, 0};
+    const char *what = NULL, *value;
+    bool json = false;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == 0)
+            json = true;
+        else if (!what)
+            what = value;
+        else
+            return mote_command_usage("list", "%s: one thing at a time; methods or scenarios",
+                                      value);
+    }
+    if (what && strcmp(what, "methods") == 0)
+        return list_methods(json);
+    if (what && strcmp(what, "scenarios") == 0)
+        return list_scenarios(json);
+    return mote_command_usage("list", "%s: list methods or scenarios", what ? what : "nothing");
+}

@@ -1,0 +1,183 @@
+#include "harness/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static mote_status read_descriptor(int descriptor, const char *path, size_t limit, char **text,
+                                   size_t *size)
+{
+    struct stat info;
+    if (fstat(descriptor, &info) != 0)
+        return mote_fail(MOTE_EIO, "%s: %s", path, strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a file", path);
+    if (info.st_size < 0 || (uint64_t)info.st_size > limit)
+        return mote_fail(MOTE_EINVAL, "%s: %lld bytes; at most %zu are read", path,
+                         (long long)info.st_size, limit);
+    size_t expected = (size_t)info.st_size;
+    char *data = malloc(expected + 1);
+    if (!data)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for %zu bytes", path, expected);
+    size_t done = 0;
+    while (done < expected) {
+        ssize_t got = read(descriptor, data + done, expected - done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            int error = errno;
+            free(data);
+            return mote_fail(MOTE_EIO, "%s: %s", path, strerror(error));
+        }
+        if (got == 0)
+            break;
+        done += (size_t)got;
+    }
+    data[done] = '\0';
+    *text = data;
+    *size = done;
+    return MOTE_OK;
+}
+
+mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size)
+{
+    /* O_NONBLOCK: opening a FIFO must not wait for a writer. */
+    int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0)
+        return mote_fail(MOTE_EIO, "%s: %s; name a file that can be read", path,
+                         strerror(errno));
+    mote_status status = read_descriptor(descriptor, path, limit, text, size);
+    (void)close(descriptor);
+    return status;
+}
+
+static bool write_all(int descriptor, const char *data, size_t size)
+{
+    while (size > 0) {
+        ssize_t put = write(descriptor, data, size);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put < 0)
+            return false;
+        data += put;
+        size -= (size_t)put;
+    }
+    return true;
+}
+
+mote_status mote_file_write(const char *path, const void *data, size_t size)
+{
+    char *beside = mote_format("%s.%ld.part", path, (long)getpid());
+    if (!beside)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
+    mote_status status = MOTE_OK;
+    int descriptor = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    bool whole = descriptor >= 0 && write_all(descriptor, data, size) && fsync(descriptor) == 0;
+    int error = errno;
+    if (descriptor >= 0 && close(descriptor) != 0 && whole) {
+        error = errno;
+        whole = false;
+    }
+    if (whole && rename(beside, path) != 0) {
+        error = errno;
+        whole = false;
+    }
+    if (!whole) {
+        if (descriptor >= 0)
+            (void)unlink(beside);
+        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
+    }
+    free(beside);
+    return status;
+}
+
+static mote_status make_one(const char *path)
+{
+    if (mkdir(path, 0777) == 0)
+        return MOTE_OK;
+    int error = errno;
+    struct stat info;
+    if (stat(path, &info) == 0) {
+        if (S_ISDIR(info.st_mode))
+            return MOTE_OK;
+        return mote_fail(MOTE_EIO, "%s: not a directory; name one that can be written to",
+                         path);
+    }
+    return mote_fail(MOTE_EIO, "%s: cannot be made: %s; name a directory that can be written",
+                     path, strerror(error));
+}
+
+mote_status mote_directory_make(const char *path)
+{
+    if (path[0] == '\0')
+        return mote_fail(MOTE_EIO, "an empty directory name; name a directory");
+    char *prefix = mote_format("%s", path);
+    if (!prefix)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
+    mote_status status = MOTE_OK;
+    for (char *slash = strchr(prefix + 1, '/'); slash && status == MOTE_OK;
+         slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        status = make_one(prefix);
+        *slash = '/';
+    }
+    free(prefix);
+    if (status == MOTE_OK)
+        status = make_one(path);
+    if (status == MOTE_OK && access(path, W_OK | X_OK) != 0)
+        status = mote_fail(MOTE_EIO, "%s: %s; name a directory that can be written to", path,
+                           strerror(errno));
+    return status;
+}
+
+char *mote_format(const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int size = vsnprintf(NULL, 0, format, arguments);
+    char *text = size < 0 ? NULL : malloc((size_t)size + 1);
+    if (text)
+        (void)vsnprintf(text, (size_t)size + 1, format, again);
+    va_end(again);
+    va_end(arguments);
+    return text;
+}
+
+static bool reserve(mote_text *text, size_t more)
+{
+    size_t needed = text->size + more + 1;
+    if (needed <= text->capacity)
+        return true;
+    size_t capacity = needed * 2 < 256 ? 256 : needed * 2;
+    char *data = realloc(text->data, capacity);
+    if (!data)
+        return false;
+    text->data = data;
+    text->capacity = capacity;
+    return true;
+}
+
+void mote_text_add(mote_text *text, const char *format, ...)
+{
+    if (text->failed)
+        return;
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int size = vsnprintf(NULL, 0, format, arguments);
+    if (size < 0 || !reserve(text, (size_t)size)) {
+        text->failed = 1;
+    } else {
+        (void)vsnprintf(text->data + text->size, (size_t)size + 1, format, again);
+        text->size += (size_t)size;
+    }
+    va_end(again);
+    va_end(arguments);
+}

@@ -1,0 +1,37 @@
+/* Files: read whole with a cap, written whole or not at all. */
+#ifndef MOTE_HARNESS_FILE_H
+#define MOTE_HARNESS_FILE_H
+
+#include "core/status.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Reads a regular file of at most limit bytes; *text ends with a 0 byte that *size does not
+   count. MOTE_EIO when it cannot be opened or read, MOTE_EINVAL when it is not a regular file
+   (a directory, FIFO or device is never opened for reading) or is larger than limit. The caller
+   frees *text. */
+mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size);
+
+/* Writes a file beside its final name, syncs and renames it: what has the name is whole.
+   MOTE_EIO with a text. */
+mote_status mote_file_write(const char *path, const void *data, size_t size);
+
+/* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no
+   directory, or cannot be written to. */
+mote_status mote_directory_make(const char *path);
+
+/* printf into new memory; NULL when memory ran out. The caller frees it. */
+char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
+
+/* Text that grows. Zero-initialise; after a failure (out of memory) `failed` stays set and
+   further additions do nothing. Free data. */
+typedef struct mote_text {
+    char *data;
+    size_t size, capacity;
+    int failed;
+} mote_text;
+
+void mote_text_add(mote_text *text, const char *format, ...) MOTE_PRINTF(2, 3);
+
+#endif

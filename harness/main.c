@@ -1,0 +1,68 @@
+/* mote: accuracy, time and memory of particle-based collision queries. */
+#include "harness/command.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct command {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *usage, *summary;
+} command;
+
+#define COMMAND_ROW(name, usage, summary) {#name, mote_command_##name, usage, summary},
+static const command commands[] = {MOTE_COMMANDS(COMMAND_ROW)};
+static const size_t command_count = sizeof commands / sizeof commands[0];
+
+static int print_help(void)
+{
+    (void)printf(
+        "mote measures what a particle-based collision query gives up in accuracy, and\n"
+        "saves in time and memory, against bounding volume hierarchies.\n\n");
+    for (size_t i = 0; i < command_count; ++i)
+        (void)printf("  mote %s\n        %s\n", commands[i].usage, commands[i].summary);
+    (void)printf("\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
+                 "5 a cell failed.\n");
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int is_help(const char *word)
+{
+    return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+}
+
+static int unknown_command(const char *name)
+{
+    (void)fprintf(stderr, "mote: unknown command %s; known are:", name);
+    for (size_t i = 0; i < command_count; ++i)
+        (void)fprintf(stderr, "%s %s", i ? "," : "", commands[i].name);
+    (void)fputc('\n', stderr);
+    return MOTE_EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    /* A reader that goes away is an error of a write, not a death. */
+    (void)signal(SIGPIPE, SIG_IGN);
+    if (argc < 2) {
+        (void)fprintf(stderr, "mote: no command; `mote --help` lists them\n");
+        return MOTE_EXIT_USAGE;
+    }
+    if (is_help(argv[1]) || strcmp(argv[1], "help") == 0)
+        return print_help();
+    if (strcmp(argv[1], "--version") == 0) {
+        (void)printf("mote %s\n", MOTE_VERSION);
+        return mote_command_finish(MOTE_EXIT_DONE);
+    }
+    for (size_t i = 0; i < command_count; ++i) {
+        if (strcmp(argv[1], commands[i].name) != 0)
+            continue;
+        if (argc > 2 && is_help(argv[2])) {
+            (void)printf("mote %s\n%s\n", commands[i].usage, commands[i].summary);
+            return mote_command_finish(MOTE_EXIT_DONE);
+        }
+        return commands[i].run(argc - 1, argv + 1);
+    }
+    return unknown_command(argv[1]);
+}

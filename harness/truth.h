@@ -1,0 +1,27 @@
+/* The truth: the exact distance of every frame of a scenario, from FCL's AABB trees, checked by
+   brute force, kept in a file and verified when read. */
+#ifndef MOTE_HARNESS_TRUTH_H
+#define MOTE_HARNESS_TRUTH_H
+
+#include "harness/scenario.h"
+
+typedef struct mote_truth {
+    uint64_t fingerprint; /* of the scenario it belongs to */
+    uint32_t frames;
+    /* All [frames]; frame number k is at k - 1. */
+    double *distance;     /* exact, >= 0; 0 where the surfaces touch or intersect */
+    bool *contact;        /* distance <= scenario->tolerance */
+    mote_vec3 *witness_a; /* points on body 0 and body 1, distance apart; where distance is 0 */
+    mote_vec3 *witness_b; /* they are a common point, or as near to one as FCL tells */
+    uint32_t checked;     /* frames that brute force agreed with, to 1e-12 L */
+} mote_truth;
+
+/* Reads DIR/truth/NAME-FINGERPRINT.csv when it is there, whole, and belongs to the scenario;
+   computes and writes it otherwise (in a child process: the caller's memory stays as it was).
+   MOTE_ENUMERIC, the text naming the frame, when FCL and brute force disagree by more than
+   1e-12 L. MOTE_EIO when the file cannot be written. The caller destroys *truth. */
+mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
+                                       mote_truth **truth);
+void mote_truth_destroy(mote_truth *truth); /* NULL is allowed */
+
+#endif
