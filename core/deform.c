@@ -1,6 +1,7 @@
 #include "core/deform.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Vertices are kept in blocks of MOTE_LANES, padded with copies of the last one. A block is
    x[LANES], y[LANES], z[LANES] at rest, then phi_j[LANES] for each of the padded basis
@@ -61,29 +62,52 @@ void mote_deform_destroy(mote_deform *deform)
     free(deform);
 }
 
-/* One world coordinate of a block: the rotation's row, the translation and the weights'
-   coordinate, in the order of mote_body_position. */
-static inline void deform_coordinate(const double *block, const double row[3],
-                                     double translation, const double *weights, uint32_t padded,
-                                     double out[MOTE_LANES])
+/* The displacement of a block's vertices: lane l of each vertex's sum is kept apart and the
+   lanes are added in the order of mote_lane_sum. */
+static inline void sum_block(const double *phi, const mote_weights *weights, uint32_t padded,
+                             double sum[3][MOTE_LANES])
 {
-    const double *phi = block + 3 * MOTE_LANES;
-    double lane[MOTE_LANES][MOTE_LANES] = {{0}}; /* [lane of the sum][vertex] */
-    for (uint32_t j = 0; j < padded; j += MOTE_LANES) {
-        for (uint32_t l = 0; l < MOTE_LANES; ++l) {
-            const double w = weights[j + l];
+    double lane[3][MOTE_LANES][MOTE_LANES]; /* [coordinate][lane of the sum][vertex] */
+    for (size_t l = 0; l < MOTE_LANES; ++l) {
+        double x[MOTE_LANES] = {0};
+        double y[MOTE_LANES] = {0};
+        double z[MOTE_LANES] = {0};
+        for (size_t j = l; j < padded; j += MOTE_LANES) {
+            const double wx = weights->x[j];
+            const double wy = weights->y[j];
+            const double wz = weights->z[j];
             MOTE_LANE_LOOP
-            for (uint32_t v = 0; v < MOTE_LANES; ++v)
-                lane[l][v] += phi[(j + l) * MOTE_LANES + v] * w;
+            for (size_t v = 0; v < MOTE_LANES; ++v) {
+                const double value = phi[j * MOTE_LANES + v];
+                x[v] += value * wx;
+                y[v] += value * wy;
+                z[v] += value * wz;
+            }
         }
+        memcpy(lane[0][l], x, sizeof x);
+        memcpy(lane[1][l], y, sizeof y);
+        memcpy(lane[2][l], z, sizeof z);
     }
-    MOTE_LANE_LOOP
-    for (uint32_t v = 0; v < MOTE_LANES; ++v) {
-        const double sum = ((lane[0][v] + lane[4][v]) + (lane[2][v] + lane[6][v])) +
-                           ((lane[1][v] + lane[5][v]) + (lane[3][v] + lane[7][v]));
-        const double rigid = row[0] * block[v] + row[1] * block[MOTE_LANES + v] +
-                             row[2] * block[2 * MOTE_LANES + v] + translation;
-        out[v] = padded > 0 ? rigid + sum : rigid;
+    for (int c = 0; c < 3; ++c) {
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            sum[c][v] = ((lane[c][0][v] + lane[c][4][v]) + (lane[c][2][v] + lane[c][6][v])) +
+                        ((lane[c][1][v] + lane[c][5][v]) + (lane[c][3][v] + lane[c][7][v]));
+    }
+}
+
+/* The rotation and translation of a block's vertices, as mote_pose_apply does it. */
+static inline void move_block(const double *rest, const mote_pose *pose,
+                              double world[3][MOTE_LANES])
+{
+    const double translation[3] = {pose->translation.x, pose->translation.y,
+                                   pose->translation.z};
+    for (int c = 0; c < 3; ++c) {
+        const double *row = pose->rotation.m[c];
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            world[c][v] = row[0] * rest[v] + row[1] * rest[MOTE_LANES + v] +
+                          row[2] * rest[2 * MOTE_LANES + v] + translation[c];
     }
 }
 
@@ -92,20 +116,23 @@ void mote_deform_all(const mote_deform *deform, const mote_body_state *state, mo
 {
     const uint32_t count = deform->body->mesh->vertex_count;
     const uint32_t padded = deform->body->field->padded;
-    const mote_pose *pose = &state->pose;
-    const mote_weights *w = &state->weights;
     for (uint32_t b = 0; b < deform->blocks; ++b) {
         const double *block = deform->table + b * deform->stride;
-        double x[MOTE_LANES];
-        double y[MOTE_LANES];
-        double z[MOTE_LANES];
-        deform_coordinate(block, pose->rotation.m[0], pose->translation.x, w->x, padded, x);
-        deform_coordinate(block, pose->rotation.m[1], pose->translation.y, w->y, padded, y);
-        deform_coordinate(block, pose->rotation.m[2], pose->translation.z, w->z, padded, z);
+        double p[3][MOTE_LANES];
+        move_block(block, &state->pose, p);
+        if (padded > 0) {
+            double sum[3][MOTE_LANES];
+            sum_block(block + 3 * MOTE_LANES, &state->weights, padded, sum);
+            for (int c = 0; c < 3; ++c) {
+                MOTE_LANE_LOOP
+                for (size_t v = 0; v < MOTE_LANES; ++v)
+                    p[c][v] += sum[c][v];
+            }
+        }
         const uint32_t first = b * MOTE_LANES;
         const uint32_t used = count - first < MOTE_LANES ? count - first : MOTE_LANES;
-        for (uint32_t v = 0; v < used; ++v)
-            world[first + v] = mote_vec3_make(x[v], y[v], z[v]);
+        for (size_t v = 0; v < used; ++v)
+            world[first + v] = mote_vec3_make(p[0][v], p[1][v], p[2][v]);
     }
 }
 

@@ -56,9 +56,9 @@ static mote_vec3 sum_over_basis(const mote_field *field, const mote_mesh *mesh, 
     double y[MOTE_LANES] = {0};
     double z[MOTE_LANES] = {0};
     field->kind->basis(field, mesh, vertex, phi);
-    for (uint32_t j = 0; j < field->padded; j += MOTE_LANES) {
+    for (size_t j = 0; j < field->padded; j += MOTE_LANES) {
         MOTE_LANE_LOOP
-        for (uint32_t l = 0; l < MOTE_LANES; ++l) {
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
             x[l] += phi[j + l] * weights->x[j + l];
             y[l] += phi[j + l] * weights->y[j + l];
             z[l] += phi[j + l] * weights->z[j + l];

@@ -32,9 +32,9 @@ static mote_vec3 modes_displacement(const mote_field *field, const mote_mesh *me
     double x[MOTE_LANES] = {0};
     double y[MOTE_LANES] = {0};
     double z[MOTE_LANES] = {0};
-    for (uint32_t j = 0; j < field->padded; j += MOTE_LANES) {
+    for (size_t j = 0; j < field->padded; j += MOTE_LANES) {
         MOTE_LANE_LOOP
-        for (uint32_t l = 0; l < MOTE_LANES; ++l) {
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
             x[l] += phi[j + l] * weights->x[j + l];
             y[l] += phi[j + l] * weights->y[j + l];
             z[l] += phi[j + l] * weights->z[j + l];
