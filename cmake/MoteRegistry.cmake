@@ -25,11 +25,11 @@ ${entries}    NULL,
 
 const mote_method *mote_method_find(const char *name)
 {
-    for (size_t i = 0\; mote_methods[i]\; ++i) {
+    for (size_t i = 0; mote_methods[i]; ++i) {
         if (strcmp(mote_methods[i]->name, name) == 0)
-            return mote_methods[i]\;
+            return mote_methods[i];
     }
-    return NULL\;
+    return NULL;
 }
 ")
   set(${out} ${file} PARENT_SCOPE)
