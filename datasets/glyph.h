@@ -1,0 +1,52 @@
+/* Letters as implicit surfaces: strokes of constant width in the xy-plane, joined by a smooth
+   minimum and extruded along z with rounded rims. The surface is where the field is 0; the
+   field is negative inside and its gradient points outward. Lengths are in units of the
+   letter's bounding-box diagonal, and the box is centred at the origin. */
+#ifndef MOTE_DATASETS_GLYPH_H
+#define MOTE_DATASETS_GLYPH_H
+
+#include "core/status.h"
+#include "core/vec3.h"
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define MOTE_GLYPH_STROKES 6
+
+/* The centre line of a stroke. */
+typedef struct mote_stroke {
+    double x0, y0, x1, y1;
+} mote_stroke;
+
+typedef struct mote_glyph {
+    size_t stroke_count; /* 1 .. MOTE_GLYPH_STROKES */
+    mote_stroke strokes[MOTE_GLYPH_STROKES];
+    double half_width; /* of a stroke, in the plane */
+    double half_depth; /* along z */
+    double rounding;   /* radius of the rims; below half_width and half_depth */
+    double blend; /* how close two strokes' distances are where they begin to join smoothly */
+    mote_vec3 low, high;
+} mote_glyph;
+
+/* Fills *glyph for M, T, V or W. MOTE_EINVAL for any other character, with a text that lists
+   the letters. Cost O(1). */
+mote_status mote_glyph_make(char letter, mote_glyph *glyph);
+
+/* The field at p, and its gradient (length 1 away from the joints, shorter near them, never 0
+   near the surface). Once differentiable near the surface. */
+double mote_glyph_field(const mote_glyph *glyph, mote_vec3 p, mote_vec3 *gradient);
+
+/* Half of the extent along z of the letter's column at (x, y); 0 outside the letter. */
+double mote_glyph_reach(const mote_glyph *glyph, double x, double y);
+
+/* A point of the surface near p, by `steps` of Newton's method along the gradient. p should be
+   within the rounding radius of the surface. */
+mote_vec3 mote_glyph_project(const mote_glyph *glyph, mote_vec3 p, int steps);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,22 @@
+/* Writes meshes as Wavefront OBJ. */
+#ifndef MOTE_DATASETS_OBJ_WRITE_H
+#define MOTE_DATASETS_OBJ_WRITE_H
+
+#include "core/mesh.h"
+#include "core/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Writes the mesh's triangles at the given positions ([vertex_count]; NULL: the rest positions)
+   to path, with 17 significant digits, so that reading gives the same doubles. The file is
+   written as PATH.partial and renamed when it is whole: an earlier file at path stays until
+   then. MOTE_EINVAL: a position that is not finite. MOTE_EIO: the folder or file cannot be
+   written; nothing is left behind. Cost O(v + t). */
+mote_status mote_obj_write(const char *path, const mote_vec3 *positions, const mote_mesh *mesh);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,140 @@
+#include "datasets/remesh.h"
+
+/* A flip must not fold the surface: the new triangles' normals may differ by this cosine at
+   most, or by no more than the old ones' did. */
+#define FLIP_COSINE 0.8
+#define FLIP_GAIN 1.02
+
+static double cosine(mote_vec3 a, mote_vec3 b)
+{
+    const double squares = mote_length_squared(a) * mote_length_squared(b);
+    return squares > 0 ? mote_dot(a, b) / sqrt(squares) : -1;
+}
+
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+/* Flips the edge opposite the corner if that enlarges the smallest angle. */
+static bool flip_if_better(mote_surface *s, uint32_t c)
+{
+    const uint32_t d = s->opposite[c];
+    const mote_vec3 v = s->positions[s->vertex[c]];
+    const mote_vec3 a = s->positions[s->vertex[mote_corner_next(c)]];
+    const mote_vec3 b = s->positions[s->vertex[mote_corner_previous(c)]];
+    const mote_vec3 w = s->positions[s->vertex[d]];
+    const double before =
+        smaller(mote_triangle_quality(v, a, b), mote_triangle_quality(w, b, a));
+    const double after =
+        smaller(mote_triangle_quality(v, a, w), mote_triangle_quality(w, b, v));
+    if (after <= FLIP_GAIN * before)
+        return false;
+    const mote_vec3 vab = mote_cross(mote_sub(a, v), mote_sub(b, v));
+    const mote_vec3 wba = mote_cross(mote_sub(b, w), mote_sub(a, w));
+    const mote_vec3 vaw = mote_cross(mote_sub(a, v), mote_sub(w, v));
+    const mote_vec3 wbv = mote_cross(mote_sub(b, w), mote_sub(v, w));
+    const double bend = cosine(vaw, wbv);
+    const mote_vec3 mean = mote_add(vab, wba);
+    if (bend < FLIP_COSINE && bend < cosine(vab, wba))
+        return false;
+    if (mote_dot(vaw, mean) <= 0 || mote_dot(wbv, mean) <= 0)
+        return false;
+    if (mote_surface_adjacent(s, s->vertex[c], s->vertex[d]))
+        return false;
+    mote_surface_flip(s, c);
+    return true;
+}
+
+void mote_relax_flip(mote_surface *surface)
+{
+    for (uint32_t c = 0; c < 3 * surface->triangle_slots; c++)
+        if (surface->vertex[c] != MOTE_NO_CORNER && surface->opposite[c] > c)
+            flip_if_better(surface, c);
+}
+
+/* The smallest quality of the triangles round v if v were at p, and whether all of them look to
+   the outside there. */
+static double fan_quality(const mote_surface *s, uint32_t v, mote_vec3 p, mote_vec3 outward)
+{
+    const uint32_t first = s->at_vertex[v];
+    uint32_t c = first;
+    double least = 1;
+    do {
+        const mote_vec3 a = s->positions[s->vertex[mote_corner_next(c)]];
+        const mote_vec3 b = s->positions[s->vertex[mote_corner_previous(c)]];
+        const mote_vec3 normal = mote_cross(mote_sub(a, p), mote_sub(b, p));
+        if (mote_dot(normal, outward) <= 0)
+            return 0;
+        least = smaller(least, mote_triangle_quality(p, a, b));
+        c = mote_corner_swing(s, c);
+    } while (c != first);
+    return least;
+}
+
+static mote_vec3 neighbour_mean(const mote_surface *s, uint32_t v)
+{
+    const uint32_t first = s->at_vertex[v];
+    uint32_t c = first;
+    mote_vec3 sum = {0, 0, 0};
+    double count = 0;
+    do {
+        sum = mote_add(sum, s->positions[s->vertex[mote_corner_next(c)]]);
+        count += 1;
+        c = mote_corner_swing(s, c);
+    } while (c != first);
+    return mote_scale(sum, 1 / count);
+}
+
+/* Moves v by a part of the way to its neighbours' mean. `floor` is the quality that its
+   triangles may fall to; below it they may only improve. */
+static bool move_vertex(const mote_glyph *glyph, mote_surface *s, uint32_t v, double part,
+                        double floor)
+{
+    const mote_vec3 old = s->positions[v];
+    mote_vec3 gradient;
+    mote_glyph_field(glyph, old, &gradient);
+    const mote_vec3 way = mote_sub(neighbour_mean(s, v), old);
+    const double square = mote_length_squared(gradient);
+    const double lift = square > 0 ? mote_dot(way, gradient) / square : 0;
+    const mote_vec3 tangent = mote_add_scaled(way, -lift, gradient);
+    const mote_vec3 p = mote_glyph_project(glyph, mote_add_scaled(old, part, tangent), 2);
+    mote_glyph_field(glyph, p, &gradient);
+    const double after = fan_quality(s, v, p, gradient);
+    if (after < floor) {
+        mote_glyph_field(glyph, old, &gradient);
+        if (after <= fan_quality(s, v, old, gradient))
+            return false;
+    }
+    s->positions[v] = p;
+    return true;
+}
+
+void mote_relax_smooth(const mote_glyph *glyph, mote_surface *surface)
+{
+    for (uint32_t v = 0; v < surface->vertex_slots; v++)
+        if (surface->at_vertex[v] != MOTE_NO_CORNER)
+            move_vertex(glyph, surface, v, 1, 0.2);
+}
+
+size_t mote_relax_worst(const mote_glyph *glyph, double sine_square, mote_surface *surface)
+{
+    mote_surface *s = surface;
+    size_t found = 0;
+    for (uint32_t t = 0; t < s->triangle_slots; t++) {
+        const uint32_t *v = s->vertex + 3 * (size_t)t;
+        if (v[0] == MOTE_NO_CORNER ||
+            mote_triangle_quality(s->positions[v[0]], s->positions[v[1]], s->positions[v[2]]) >=
+                sine_square)
+            continue;
+        found++;
+        bool flipped = false;
+        for (uint32_t k = 0; k < 3 && !flipped; k++)
+            flipped = flip_if_better(s, 3 * t + k);
+        for (uint32_t k = 0; k < 3; k++)
+            for (double part = 1; part > 0.1; part /= 2)
+                if (move_vertex(glyph, s, v[k], part, 1))
+                    break;
+    }
+    return found;
+}
