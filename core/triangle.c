@@ -1,0 +1,519 @@
+/* Every candidate is a pair of feasible points, so that no candidate can be below the distance
+   by more than rounding. Three sorts are enough: edge with edge (clamped, which includes
+   vertices), vertex with the inside of a face, and an edge that pierces a face. The general
+   pair is decided by the side on which each triangle lies of the other's plane; whatever
+   rounding could decide wrongly there goes to a slower search of all candidates, each refined
+   by its own residual. */
+#include "core/triangle.h"
+
+#include "core/clones.h"
+
+#include <stdbool.h>
+
+/* The relative rounding error of one operation. */
+#define ROUNDING 0x1p-53
+
+/* A height n.w over a plane n = e1 x e2 is wrong by less than this times |e1| |e2| |w|. */
+#define HEIGHT_ERROR (8 * ROUNDING)
+
+/* Distances below this times the longest edge are contacts. */
+#define CONTACT_ERROR (4 * ROUNDING)
+
+/* Below this squared sine of the corner a plane is left to the slower search. */
+#define FLAT_SINE_SQUARED (1.0 / 64)
+
+/* One candidate: the two points and their difference p - q, which is more accurate than they
+ * are. */
+typedef struct candidate {
+    double squared;
+    mote_vec3 p, q, difference;
+} candidate;
+
+/* A triangle o, o + e1, o + e2 with its normal n = e1 x e2. */
+typedef struct face {
+    mote_vec3 o, e1, e2, n;
+    double nn;    /* |n|^2 */
+    double ee;    /* |e1|^2 |e2|^2 */
+    double reach; /* |e1|^2 + |e2|^2 */
+} face;
+
+typedef enum side_kind { SIDE_CLEAR, SIDE_ONE, SIDE_BOTH, SIDE_DOUBTFUL } side_kind;
+
+/* Where the vertices of one triangle lie of the plane of the other. */
+typedef struct side {
+    side_kind kind;
+    int lowest;  /* the vertex nearest to the plane, if all are on one side */
+    double h[3]; /* n . (vertex - o) */
+} side;
+
+static double clamp01(double x)
+{
+    x = x > 0 ? x : 0;
+    return x < 1 ? x : 1;
+}
+
+/* x / y where y > 0, else 0. */
+static double ratio(double x, double y)
+{
+    return y > 0 ? x / y : 0;
+}
+
+static double max2(double x, double y)
+{
+    return x > y ? x : y;
+}
+
+static void set(mote_vec3 *to, mote_vec3 value)
+{
+    if (to)
+        *to = value;
+}
+
+/* The point of the segment o, o + d nearest to o + w, as its parameter. */
+static double project_segment(mote_vec3 d, mote_vec3 w)
+{
+    return clamp01(ratio(mote_dot(d, w), mote_dot(d, d)));
+}
+
+/* The coordinates of w along e1 and e2, after projection on the plane. Cross products lose less
+   than products of dot products: an error that is inversely proportional to the corner's sine,
+   not to its square. */
+static void project_plane(const face *f, mote_vec3 w, double *u, double *v)
+{
+    double inverse = f->nn > 0 ? 1 / f->nn : 0;
+    *u = mote_dot(mote_cross(w, f->e2), f->n) * inverse;
+    *v = mote_dot(mote_cross(f->e1, w), f->n) * inverse;
+}
+
+static void clamp_to_triangle(double *u, double *v)
+{
+    *u = clamp01(*u);
+    *v = clamp01(*v);
+    double sum = *u + *v;
+    if (sum > 1) {
+        *u /= sum;
+        *v /= sum;
+    }
+}
+
+/* w - u e1 - v e2 */
+static mote_vec3 residual(const face *f, mote_vec3 w, double u, double v)
+{
+    return mote_add_scaled(mote_add_scaled(w, -u, f->e1), -v, f->e2);
+}
+
+static mote_vec3 face_point(const face *f, double u, double v)
+{
+    return mote_add_scaled(mote_add_scaled(f->o, u, f->e1), v, f->e2);
+}
+
+static void measure_face(face *f)
+{
+    double a = mote_length_squared(f->e1), b = mote_length_squared(f->e2);
+    f->nn = mote_length_squared(f->n);
+    f->ee = a * b;
+    f->reach = a + b;
+}
+
+static face make_face(const mote_vec3 t[3])
+{
+    face f = {.o = t[0], .e1 = mote_sub(t[1], t[0]), .e2 = mote_sub(t[2], t[0])};
+    f.n = mote_cross(f.e1, f.e2);
+    measure_face(&f);
+    return f;
+}
+
+/* The squared length of the longest edge of s and t. */
+static double longest_edge_squared(const mote_vec3 s[3], const mote_vec3 t[3])
+{
+    double longest = 0;
+    for (int i = 0; i < 3; i++) {
+        longest = max2(longest, mote_distance_squared(s[i], s[(i + 1) % 3]));
+        longest = max2(longest, mote_distance_squared(t[i], t[(i + 1) % 3]));
+    }
+    return longest;
+}
+
+/* Makes a candidate that rounding cannot tell from a contact one. */
+static void settle_contact(const mote_vec3 s[3], const mote_vec3 t[3], candidate *c)
+{
+    if (c->squared > CONTACT_ERROR * CONTACT_ERROR * longest_edge_squared(s, t))
+        return;
+    c->squared = 0;
+    c->p = c->q = mote_add_scaled(c->p, -0.5, c->difference);
+}
+
+/* The three edges of a triangle, lane by lane; the fourth lane repeats the first. */
+typedef struct edges {
+    double ox[4], oy[4], oz[4]; /* start */
+    double dx[4], dy[4], dz[4]; /* end - start */
+    double length_squared[4];
+} edges;
+
+static inline void make_edges(const mote_vec3 t[3], edges *e)
+{
+    for (int k = 0; k < 4; k++) {
+        mote_vec3 o = t[k % 3], d = mote_sub(t[(k + 1) % 3], o);
+        e->ox[k] = o.x;
+        e->oy[k] = o.y;
+        e->oz[k] = o.z;
+        e->dx[k] = d.x;
+        e->dy[k] = d.y;
+        e->dz[k] = d.z;
+        e->length_squared[k] = mote_length_squared(d);
+    }
+}
+
+/* The best pair so far in each lane: its edge of the first triangle, its parameters. */
+typedef struct lanes {
+    double squared[4], s[4], t[4], edge[4];
+} lanes;
+
+/* Tries one edge (start o, direction d, dd = |d|^2) with the edges b, lane by lane without
+   branches, so that compilers vectorise it. */
+static inline void edge_row(mote_vec3 o, mote_vec3 d, double edge, const edges *restrict b,
+                            lanes *restrict best)
+{
+    double dd = mote_length_squared(d);
+    for (int k = 0; k < 4; k++) {
+        double bx = b->dx[k], by = b->dy[k], bz = b->dz[k], bb = b->length_squared[k];
+        double rx = o.x - b->ox[k], ry = o.y - b->oy[k], rz = o.z - b->oz[k];
+        double nx = d.y * bz - d.z * by, ny = d.z * bx - d.x * bz, nz = d.x * by - d.y * bx;
+        double cx = ry * bz - rz * by, cy = rz * bx - rx * bz, cz = rx * by - ry * bx;
+        double nn = nx * nx + ny * ny + nz * nz;
+        double x = -(cx * nx + cy * ny + cz * nz) / (nn > 0 ? nn : 1);
+        x = x > 0 ? x : 0;
+        x = x < 1 ? x : 1;
+        double rb = rx * bx + ry * by + rz * bz;
+        double rd = rx * d.x + ry * d.y + rz * d.z;
+        double db = d.x * bx + d.y * by + d.z * bz;
+        double y = (rb + x * db) / (bb > 0 ? bb : 1);
+        double yc = y > 0 ? y : 0;
+        yc = yc < 1 ? yc : 1;
+        double z = (yc * db - rd) / (dd > 0 ? dd : 1);
+        z = z > 0 ? z : 0;
+        z = z < 1 ? z : 1;
+        x = ((yc == y) & (nn > 0)) ? x : z;
+        double wx = rx + x * d.x - yc * bx;
+        double wy = ry + x * d.y - yc * by;
+        double wz = rz + x * d.z - yc * bz;
+        double squared = wx * wx + wy * wy + wz * wz;
+        bool better = squared < best->squared[k];
+        best->squared[k] = better ? squared : best->squared[k];
+        best->s[k] = better ? x : best->s[k];
+        best->t[k] = better ? yc : best->t[k];
+        best->edge[k] = better ? edge : best->edge[k];
+    }
+}
+
+/* The best candidate of all nine edge pairs. */
+MOTE_CLONES
+static void edge_candidate(const mote_vec3 s[3], const mote_vec3 t[3], candidate *c)
+{
+    edges b;
+    make_edges(t, &b);
+    lanes best = {.squared = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    edge_row(s[0], mote_sub(s[1], s[0]), 0, &b, &best);
+    edge_row(s[1], mote_sub(s[2], s[1]), 1, &b, &best);
+    edge_row(s[2], mote_sub(s[0], s[2]), 2, &b, &best);
+    int j = best.squared[1] < best.squared[0] ? 1 : 0;
+    j = best.squared[2] < best.squared[j] ? 2 : j;
+    int i = (int)best.edge[j], i_end = i < 2 ? i + 1 : 0, j_end = j < 2 ? j + 1 : 0;
+    mote_vec3 d = mote_sub(s[i_end], s[i]), e = mote_sub(t[j_end], t[j]);
+    c->squared = best.squared[j];
+    c->p = mote_add_scaled(s[i], best.s[j], d);
+    c->q = mote_add_scaled(t[j], best.t[j], e);
+    mote_vec3 r = mote_sub(s[i], t[j]);
+    c->difference = mote_add_scaled(mote_add_scaled(r, best.s[j], d), -best.t[j], e);
+}
+
+/* The product a b as a sum of two doubles: Dekker's, since a fused operation is not everywhere.
+ */
+static double product_tail(double a, double b, double product)
+{
+    double as = 0x1.0000002p27 * a, bs = 0x1.0000002p27 * b;
+    double ah = as - (as - a), bh = bs - (bs - b);
+    double al = a - ah, bl = b - bh;
+    return al * bl - (((product - ah * bh) - al * bh) - ah * bl);
+}
+
+/* a b - c d, to the rounding of the result even where the products cancel. */
+static double difference_of_products(double a, double b, double c, double d)
+{
+    double ab = a * b, cd = c * d;
+    return (ab - cd) + (product_tail(a, b, ab) - product_tail(c, d, cd));
+}
+
+static mote_vec3 exact_cross(mote_vec3 a, mote_vec3 b)
+{
+    return mote_vec3_make(difference_of_products(a.y, b.z, a.z, b.y),
+                          difference_of_products(a.z, b.x, a.x, b.z),
+                          difference_of_products(a.x, b.y, a.y, b.x));
+}
+
+/* A face whose corner is the one with the largest sine, which lies opposite the longest edge,
+   with a normal that is right even where the triangle is nearly a segment. */
+static face make_face_carefully(const mote_vec3 t[3])
+{
+    int corner = 0;
+    double longest = -1;
+    for (int k = 0; k < 3; k++) {
+        double length = mote_distance_squared(t[(k + 1) % 3], t[(k + 2) % 3]);
+        if (length > longest) {
+            longest = length;
+            corner = k;
+        }
+    }
+    face f = {.o = t[corner],
+              .e1 = mote_sub(t[(corner + 1) % 3], t[corner]),
+              .e2 = mote_sub(t[(corner + 2) % 3], t[corner])};
+    f.n = exact_cross(f.e1, f.e2);
+    measure_face(&f);
+    return f;
+}
+
+/* Steps of refinement by the residual; each gains the digits that the corner's sine leaves. */
+#define REFINEMENTS 6
+
+/* The point of f nearest to its o + w if that is inside, else some point of f; the difference.
+ */
+static mote_vec3 drop_carefully(const face *f, mote_vec3 w, double *u, double *v)
+{
+    mote_vec3 left = w;
+    *u = *v = 0;
+    for (int k = 0; k < REFINEMENTS; k++) {
+        double du, dv;
+        project_plane(f, left, &du, &dv);
+        *u += du;
+        *v += dv;
+        left = residual(f, w, *u, *v);
+        if (fabs(du) + fabs(dv) <= 4 * ROUNDING)
+            break;
+    }
+    clamp_to_triangle(u, v);
+    return residual(f, w, *u, *v);
+}
+
+/* Keeps the candidate "point on the face f, and point" if it is the best. */
+static void offer(candidate *best, const face *f, double u, double v, mote_vec3 point,
+                  mote_vec3 point_minus_face, bool face_is_s)
+{
+    double squared = mote_length_squared(point_minus_face);
+    if (!(squared < best->squared))
+        return;
+    mote_vec3 on_face = face_point(f, u, v);
+    best->squared = squared;
+    best->p = face_is_s ? on_face : point;
+    best->q = face_is_s ? point : on_face;
+    best->difference = mote_scale(point_minus_face, face_is_s ? -1 : 1);
+}
+
+/* Where the edge a, a + d meets the plane of f, refined; offered as a candidate. */
+static void pierce_carefully(candidate *best, const face *f, mote_vec3 a, mote_vec3 d,
+                             bool face_is_s)
+{
+    mote_vec3 w = mote_sub(a, f->o);
+    double slope = mote_dot(f->n, d);
+    if (slope == 0)
+        return;
+    mote_vec3 left = w;
+    double x = 0, u = 0, v = 0;
+    for (int k = 0; k < REFINEMENTS; k++) {
+        double x_old = x, du, dv;
+        x = clamp01(x - mote_dot(f->n, left) / slope);
+        left = mote_add_scaled(left, x - x_old, d);
+        project_plane(f, left, &du, &dv);
+        u += du;
+        v += dv;
+        left = residual(f, mote_add_scaled(w, x, d), u, v);
+        if (fabs(x - x_old) + fabs(du) + fabs(dv) <= 4 * ROUNDING)
+            break;
+    }
+    clamp_to_triangle(&u, &v);
+    mote_vec3 at = mote_add_scaled(w, x, d);
+    offer(best, f, u, v, mote_add_scaled(a, x, d), residual(f, at, u, v), face_is_s);
+}
+
+/* All candidates of the face of one triangle against the vertices and edges of the other. */
+static void face_candidates(candidate *best, const face *f, const mote_vec3 t[3],
+                            bool face_is_s)
+{
+    if (!(f->nn > 0))
+        return;
+    for (int k = 0; k < 3; k++) {
+        double u, v;
+        mote_vec3 left = drop_carefully(f, mote_sub(t[k], f->o), &u, &v);
+        offer(best, f, u, v, t[k], left, face_is_s);
+        pierce_carefully(best, f, t[k], mote_sub(t[(k + 1) % 3], t[k]), face_is_s);
+    }
+}
+
+/* The search of all candidates, for pairs that rounding could decide wrongly. */
+static void search_carefully(const mote_vec3 s[3], const mote_vec3 t[3], candidate *best)
+{
+    face fs = make_face_carefully(s), ft = make_face_carefully(t);
+    face_candidates(best, &fs, t, true);
+    face_candidates(best, &ft, s, false);
+}
+
+/* Sorts the vertices v by the side of f on which they lie. SIDE_CLEAR: all are farther from the
+   plane than the bound. SIDE_ONE: all on one side, one being nearest beyond rounding.
+   SIDE_BOTH: on both sides beyond rounding. Else SIDE_DOUBTFUL. */
+static inline side classify(const face *f, const mote_vec3 v[3], double bound_squared)
+{
+    side r = {.kind = SIDE_DOUBTFUL};
+    double ww = 0;
+    for (int k = 0; k < 3; k++) {
+        mote_vec3 w = mote_sub(v[k], f->o);
+        r.h[k] = mote_dot(f->n, w);
+        ww = max2(ww, mote_length_squared(w));
+    }
+    double error_squared = HEIGHT_ERROR * HEIGHT_ERROR * f->ee * ww;
+    double h0 = fabs(r.h[0]), h1 = fabs(r.h[1]), h2 = fabs(r.h[2]);
+    bool one = (r.h[0] > 0) == (r.h[1] > 0) && (r.h[0] > 0) == (r.h[2] > 0);
+    r.lowest = h0 <= h1 ? (h0 <= h2 ? 0 : 2) : (h1 <= h2 ? 1 : 2);
+    double h = fabs(r.h[r.lowest]), hh = h * h;
+    /* A height of 2,000 times its error is right to 0.05 %. */
+    if (one && 0.999 * hh >= bound_squared * f->nn && hh > 4e6 * error_squared) {
+        r.kind = SIDE_CLEAR;
+        return r;
+    }
+    if (hh <= error_squared || f->nn <= FLAT_SINE_SQUARED * f->ee)
+        return r;
+    double next = r.lowest == 0   ? (h1 < h2 ? h1 : h2)
+                  : r.lowest == 1 ? (h0 < h2 ? h0 : h2)
+                                  : (h0 < h1 ? h0 : h1);
+    if (!one)
+        r.kind = SIDE_BOTH;
+    else if ((next - h) * (next - h) > 4 * error_squared)
+        r.kind = SIDE_ONE;
+    return r;
+}
+
+/* The candidate vertex on the inside of f; false if the vertex does not project there. */
+static inline bool drop_vertex(const face *f, mote_vec3 vertex, bool face_is_s, candidate *c)
+{
+    mote_vec3 w = mote_sub(vertex, f->o);
+    double u, v, du, dv;
+    project_plane(f, w, &u, &v);
+    if (u < 0 || v < 0 || u + v > 1)
+        return false;
+    project_plane(f, residual(f, w, u, v), &du, &dv);
+    u += du;
+    v += dv;
+    clamp_to_triangle(&u, &v);
+    c->squared = HUGE_VAL;
+    offer(c, f, u, v, vertex, residual(f, w, u, v), face_is_s);
+    return true;
+}
+
+/* True if an edge of v, of which there are two that cross the plane, pierces f; c is the point.
+ */
+static inline bool pierce(const face *f, const mote_vec3 v[3], const double h[3],
+                          bool face_is_s, candidate *c)
+{
+    for (int k = 0; k < 3; k++) {
+        int next = k < 2 ? k + 1 : 0;
+        if ((h[k] > 0) == (h[next] > 0))
+            continue;
+        double x = h[k] / (h[k] - h[next]);
+        mote_vec3 at = mote_add_scaled(v[k], x, mote_sub(v[next], v[k]));
+        if (drop_vertex(f, at, face_is_s, c))
+            return true;
+    }
+    return false;
+}
+
+/* The candidate of a pair that has no doubtful side, if a vertex over a face or a pierced face
+   decides it; false if the edges have to. A pierced face is not quite a contact yet: rounding
+   may have left a distance that the careful search takes away. */
+static inline bool face_decides(const mote_vec3 s[3], const mote_vec3 t[3], const face *fs,
+                                const face *ft, const side *ss, const side *st, candidate *c)
+{
+    if (ss->kind == SIDE_ONE)
+        return drop_vertex(ft, s[ss->lowest], false, c) ||
+               (st->kind == SIDE_ONE && drop_vertex(fs, t[st->lowest], true, c));
+    if (st->kind == SIDE_ONE)
+        return drop_vertex(fs, t[st->lowest], true, c);
+    return pierce(ft, s, ss->h, false, c) || pierce(fs, t, st->h, true, c);
+}
+
+/* Candidates nearer than this times the pair's size are searched carefully: they may be
+ * contacts. */
+#define NEAR 1e-10
+
+double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
+                                    double bound_squared, mote_vec3 *p, mote_vec3 *q)
+{
+    face ft = make_face(t);
+    side ss = classify(&ft, s, bound_squared);
+    if (ss.kind == SIDE_CLEAR)
+        return bound_squared;
+    face fs = make_face(s);
+    side st = classify(&fs, t, bound_squared);
+    if (st.kind == SIDE_CLEAR)
+        return bound_squared;
+    bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
+    candidate c;
+    if (doubtful || !face_decides(s, t, &fs, &ft, &ss, &st, &c))
+        edge_candidate(s, t, &c);
+    bool near = c.squared <= NEAR * NEAR * (fs.reach + ft.reach);
+    if (near)
+        settle_contact(s, t, &c);
+    if ((doubtful || near) && c.squared > 0) {
+        search_carefully(s, t, &c);
+        settle_contact(s, t, &c);
+    }
+    if (c.squared >= bound_squared && c.squared > 0)
+        return c.squared;
+    set(p, c.p);
+    set(q, c.q);
+    return c.squared;
+}
+
+double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_vec3 *p,
+                              mote_vec3 *q)
+{
+    return mote_triangle_triangle_below(s, t, HUGE_VAL, p, q);
+}
+
+double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
+                            mote_vec3 *q)
+{
+    mote_vec3 s[3] = {a[0], a[1], a[0]}, t[3] = {b[0], b[1], b[0]};
+    candidate c;
+    edge_candidate(s, t, &c);
+    settle_contact(s, t, &c);
+    set(p, c.p);
+    set(q, c.q);
+    return c.squared;
+}
+
+double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
+{
+    face f = make_face(t);
+    candidate c;
+    bool flat = f.nn <= FLAT_SINE_SQUARED * f.ee;
+    if (!flat && drop_vertex(&f, p, false, &c)) {
+        set(closest, c.q);
+        return c.squared;
+    }
+    c.squared = HUGE_VAL;
+    for (int k = 0; k < 3; k++) {
+        mote_vec3 w = mote_sub(p, t[k]), d = mote_sub(t[k < 2 ? k + 1 : 0], t[k]);
+        double x = project_segment(d, w),
+               squared = mote_length_squared(mote_add_scaled(w, -x, d));
+        if (squared < c.squared) {
+            c.squared = squared;
+            c.q = mote_add_scaled(t[k], x, d);
+        }
+    }
+    if (flat) {
+        f = make_face_carefully(t);
+        double u, v;
+        mote_vec3 left = drop_carefully(&f, mote_sub(p, f.o), &u, &v);
+        offer(&c, &f, u, v, p, left, false);
+    }
+    set(closest, c.q);
+    return c.squared;
+}

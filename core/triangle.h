@@ -1,0 +1,48 @@
+/* Distances between points, segments and triangles: the innermost kernel of every method.
+
+   All functions return a squared distance (the square of the input's unit of length) together
+   with a pair of points that attains it, and share these properties:
+   - Inputs are finite. Any of them may be degenerate: a triangle may be a segment or a point.
+   - The error of the distance is a few units in the last place of the pair's extent (the larger
+   of the edges and the separation); a common offset of all coordinates costs nothing extra. The
+     square of the distance between the returned points is the returned value, to the rounding
+   of the points' own coordinates.
+   - There is no absolute tolerance: coordinates times 2^k give exactly the same points times
+   2^k and the same value times 4^k, for magnitudes from 1e-40 to 1e40.
+   - 0 is returned exactly, with equal points, where two triangles touch or intersect, or are
+   apart by less than 4.5e-16 of their longest edge, which rounding cannot tell from touching.
+   - Swapping the arguments changes the result by rounding only. Never NaN. No allocation; any
+   thread. An output pointer may be NULL. */
+#ifndef MOTE_CORE_TRIANGLE_H
+#define MOTE_CORE_TRIANGLE_H
+
+#include "core/vec3.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Squared distance from p to the triangle t (its inside included); closest is the nearest
+ * point. */
+double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest);
+
+/* Squared distance between the segments a and b; p is the nearest point on a, q on b. */
+double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
+                            mote_vec3 *q);
+
+/* Squared distance between the triangles s and t; p is the nearest point on s, q on t. */
+double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_vec3 *p,
+                              mote_vec3 *q);
+
+/* As mote_triangle_triangle where the result is below bound_squared (>= 0, may be infinite).
+   Else it returns some value >= bound_squared, which is not the distance, and leaves p and q as
+   they are. A pair that the plane of either triangle proves to be far takes about a quarter of
+   the time. */
+double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
+                                    double bound_squared, mote_vec3 *p, mote_vec3 *q);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,159 @@
+/* An independent, slow triangle distance for tests: every feature pair by its textbook formula,
+   in 113 bits where the compiler has them, without any of the shortcuts of core/triangle.c. */
+#ifndef MOTE_TESTS_TRIANGLE_REFERENCE_H
+#define MOTE_TESTS_TRIANGLE_REFERENCE_H
+
+#include "core/vec3.h"
+
+#include <stdbool.h>
+
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 wide;
+#else
+typedef long double wide;
+#endif
+
+typedef struct wide3 {
+    wide x, y, z;
+} wide3;
+
+static inline wide3 wide_from(mote_vec3 a)
+{
+    wide3 r = {a.x, a.y, a.z};
+    return r;
+}
+
+static inline wide3 wide_sub(wide3 a, wide3 b)
+{
+    wide3 r = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return r;
+}
+
+/* a + s * b */
+static inline wide3 wide_along(wide3 a, wide s, wide3 b)
+{
+    wide3 r = {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+    return r;
+}
+
+static inline wide wide_dot(wide3 a, wide3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline wide3 wide_cross(wide3 a, wide3 b)
+{
+    wide3 r = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return r;
+}
+
+static inline wide wide_min(wide a, wide b)
+{
+    return a < b ? a : b;
+}
+
+/* A square root by two steps of Newton's from the double's. */
+static inline double wide_sqrt(wide x)
+{
+    if (!(x > 0))
+        return 0;
+    wide y = sqrt((double)x);
+    y = (y + x / y) / 2;
+    return (double)((y + x / y) / 2);
+}
+
+/* Squared distance from p to the segment a b. */
+static inline wide reference_point_segment(wide3 p, wide3 a, wide3 b)
+{
+    wide3 d = wide_sub(b, a), w = wide_sub(p, a);
+    wide dd = wide_dot(d, d), x = dd > 0 ? wide_dot(w, d) / dd : 0;
+    x = x < 0 ? 0 : x > 1 ? 1 : x;
+    wide3 r = wide_along(w, -x, d);
+    return wide_dot(r, r);
+}
+
+/* Squared distance from p to the triangle t: its edges, and its inside by repeated projection,
+   from the corner that is opposite its longest edge. */
+static inline wide reference_point_triangle(wide3 p, const wide3 t[3])
+{
+    wide best = -1, longest = -1;
+    int corner = 0;
+    for (int k = 0; k < 3; k++) {
+        wide3 a = t[(k + 1) % 3], b = t[(k + 2) % 3], d = wide_sub(b, a);
+        wide squared = reference_point_segment(p, a, b);
+        best = best < 0 ? squared : wide_min(best, squared);
+        if (wide_dot(d, d) > longest) {
+            longest = wide_dot(d, d);
+            corner = k;
+        }
+    }
+    wide3 o = t[corner], e1 = wide_sub(t[(corner + 1) % 3], o),
+          e2 = wide_sub(t[(corner + 2) % 3], o), n = wide_cross(e1, e2), w = wide_sub(p, o),
+          left = w;
+    wide nn = wide_dot(n, n), u = 0, v = 0;
+    for (int k = 0; k < 3 && nn > 0; k++) {
+        u += wide_dot(wide_cross(left, e2), n) / nn;
+        v += wide_dot(wide_cross(e1, left), n) / nn;
+        left = wide_along(wide_along(w, -u, e1), -v, e2);
+    }
+    if (nn > 0 && u >= 0 && v >= 0 && u + v <= 1)
+        best = wide_min(best, wide_dot(left, left));
+    return best;
+}
+
+/* Squared distance between the segments a b and c d: ends, and the insides by the normal
+ * equations. */
+static inline wide reference_segment_segment(wide3 a, wide3 b, wide3 c, wide3 d)
+{
+    wide best =
+        wide_min(wide_min(reference_point_segment(a, c, d), reference_point_segment(b, c, d)),
+                 wide_min(reference_point_segment(c, a, b), reference_point_segment(d, a, b)));
+    wide3 e = wide_sub(b, a), f = wide_sub(d, c), r = wide_sub(a, c);
+    wide ee = wide_dot(e, e), ef = wide_dot(e, f), ff = wide_dot(f, f), det = ee * ff - ef * ef;
+    if (!(det > 0))
+        return best;
+    wide x = (ef * wide_dot(f, r) - wide_dot(e, r) * ff) / det;
+    if (x < 0 || x > 1)
+        return best;
+    return wide_min(best, reference_point_segment(wide_along(a, x, e), c, d));
+}
+
+/* True if the segment a b meets the triangle t, by the signs of volumes. */
+static inline bool reference_pierces(wide3 a, wide3 b, const wide3 t[3])
+{
+    wide3 n = wide_cross(wide_sub(t[1], t[0]), wide_sub(t[2], t[0])), d = wide_sub(b, a);
+    wide ha = wide_dot(n, wide_sub(a, t[0])), hb = wide_dot(n, wide_sub(b, t[0]));
+    if ((ha > 0 && hb > 0) || (ha < 0 && hb < 0) || ha == hb)
+        return false;
+    int positive = 0, negative = 0;
+    for (int k = 0; k < 3; k++) {
+        wide3 to = wide_sub(t[k], a), edge = wide_sub(t[(k + 1) % 3], t[k]);
+        wide volume = wide_dot(d, wide_cross(to, edge));
+        positive += volume > 0;
+        negative += volume < 0;
+    }
+    return positive == 0 || negative == 0;
+}
+
+/* Squared distance between the triangles s and t; 0 where they intersect. */
+static inline wide reference_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3])
+{
+    wide3 a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = wide_from(s[k]);
+        b[k] = wide_from(t[k]);
+    }
+    wide best = reference_point_triangle(a[0], b);
+    for (int i = 0; i < 3; i++) {
+        int i2 = (i + 1) % 3;
+        if (reference_pierces(a[i], a[i2], b) || reference_pierces(b[i], b[i2], a))
+            return 0;
+        best = wide_min(best, wide_min(reference_point_triangle(a[i], b),
+                                       reference_point_triangle(b[i], a)));
+        for (int j = 0; j < 3; j++)
+            best = wide_min(best, reference_segment_segment(a[i], a[i2], b[j], b[(j + 1) % 3]));
+    }
+    return best;
+}
+
+#endif
