@@ -8,7 +8,7 @@
      square of the distance between the returned points is the returned value, to the rounding
    of the points' own coordinates.
    - There is no absolute tolerance: coordinates times 2^k give exactly the same points times
-   2^k and the same value times 4^k, for magnitudes from 1e-40 to 1e40.
+   2^k and the same value times 4^k, for magnitudes from 1e-30 to 1e30.
    - 0 is returned exactly, with equal points, where two triangles touch or intersect, or are
    apart by less than 4.5e-16 of their longest edge, which rounding cannot tell from touching.
    - Swapping the arguments changes the result by rounding only. Never NaN. No allocation; any
