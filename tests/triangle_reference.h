@@ -19,7 +19,7 @@ typedef struct wide3 {
 
 static inline wide3 wide_from(mote_vec3 a)
 {
-    wide3 r = {a.x, a.y, a.z};
+    wide3 r = {(wide)a.x, (wide)a.y, (wide)a.z};
     return r;
 }
 
@@ -57,7 +57,7 @@ static inline double wide_sqrt(wide x)
 {
     if (!(x > 0))
         return 0;
-    wide y = sqrt((double)x);
+    wide y = (wide)sqrt((double)x);
     y = (y + x / y) / 2;
     return (double)((y + x / y) / 2);
 }
