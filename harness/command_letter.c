@@ -1,0 +1,42 @@
+/* mote letter W --triangles 11920 -o W.obj */
+#include "datasets/letter.h"
+#include "datasets/obj_write.h"
+#include "harness/command.h"
+
+#include <stdio.h>
+
+int mote_command_letter(int argc, char **argv)
+{
+    static const mote_option options[] = {{"triangles", "COUNT"}, {"-o", "FILE"}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *letter = NULL, *path = NULL, *value;
+    uint64_t triangles = 0;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN && letter)
+            return mote_command_usage("letter", "%s: one letter at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            letter = value;
+        else if (option == 1)
+            path = value;
+        else if (!mote_read_unsigned(value, 0, SIZE_MAX, &triangles))
+            return mote_command_usage("letter", "--triangles %s: give a whole number", value);
+    }
+    if (!letter || !path || triangles == 0)
+        return mote_command_usage("letter", "something is missing; write `mote letter W "
+                                            "--triangles 11920 -o W.obj`");
+    if (letter[0] == '\0' || letter[1] != '\0') {
+        (void)mote_fail(MOTE_EINVAL, "letter %s: not one letter; give T, V, M or W", letter);
+        return mote_command_fail();
+    }
+    mote_mesh *mesh;
+    if (mote_letter_create(letter[0], triangles, &mesh) != MOTE_OK)
+        return mote_command_fail();
+    mote_status status = mote_obj_write(path, NULL, mesh);
+    if (status == MOTE_OK)
+        (void)printf("%s: %u vertices, %u triangles, smallest angle %.1f degrees\n", path,
+                     mesh->vertex_count, mesh->triangle_count, mote_mesh_smallest_angle(mesh));
+    mote_mesh_destroy(mesh);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}

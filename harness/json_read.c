@@ -1,0 +1,182 @@
+#include "harness/json_read.h"
+
+#include "harness/file.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE_LIMIT ((size_t)16 << 20)
+
+mote_status mote_json_open(const char *path, mote_json_file *file)
+{
+    mote_json_file opened = {0};
+    size_t size = 0;
+    mote_status status = mote_file_read(path, SIZE_LIMIT, &opened.text, &size);
+    if (status != MOTE_OK)
+        return status;
+    json_error_t error;
+    opened.root = json_loadb(opened.text, size, JSON_REJECT_DUPLICATES, &error);
+    if (!opened.root) {
+        status = mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; correct the JSON there", path,
+                           error.line, error.column, error.text);
+    } else if (!(opened.path = mote_format("%s", path))) {
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its name", path);
+    }
+    if (status == MOTE_OK)
+        *file = opened;
+    else
+        mote_json_close(&opened);
+    return status;
+}
+
+void mote_json_close(mote_json_file *file)
+{
+    json_decref(file->root);
+    free(file->text);
+    free(file->path);
+    *file = (mote_json_file){0};
+}
+
+mote_json mote_json_root(const mote_json_file *file)
+{
+    mote_json node = {file, file->root, ""};
+    return node;
+}
+
+mote_status mote_json_fail(const mote_json *node, const char *format, ...)
+{
+    char text[640];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return mote_fail(MOTE_EINVAL, "%s:%d: %s%s%s", node->file->path,
+                     mote_json_line(node->file->text, node->path), node->path,
+                     node->path[0] ? ": " : "", text);
+}
+
+mote_json mote_json_member(const mote_json *object, const char *key)
+{
+    mote_json node = {object->file, json_object_get(object->value, key), ""};
+    (void)snprintf(node.path, sizeof node.path, "%.120s%s%.36s", object->path,
+                   object->path[0] ? "." : "", key);
+    return node;
+}
+
+mote_json mote_json_element(const mote_json *array, size_t index)
+{
+    mote_json node = {array->file, json_array_get(array->value, index), ""};
+    (void)snprintf(node.path, sizeof node.path, "%.130s[%zu]", array->path, index);
+    return node;
+}
+
+static bool is_known(const char *known, const char *key)
+{
+    size_t length = strlen(key);
+    for (const char *word = known; word; word = strchr(word, '|')) {
+        if (*word == '|')
+            ++word;
+        if (strncmp(word, key, length) == 0 && (word[length] == '|' || word[length] == '\0'))
+            return true;
+    }
+    return false;
+}
+
+mote_status mote_json_object(const mote_json *node, const char *known)
+{
+    if (!node->value)
+        return mote_json_fail(node, "is missing; give an object");
+    if (!json_is_object(node->value))
+        return mote_json_fail(node, "is not an object; write {...} with keys of %s", known);
+    const char *key;
+    json_t *value;
+    json_object_foreach(node->value, key, value)
+    {
+        if (!is_known(known, key)) {
+            mote_json member = mote_json_member(node, key);
+            return mote_json_fail(&member, "unknown key; known here are %s", known);
+        }
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_json_array(const mote_json *node, size_t minimum, size_t maximum, size_t *size)
+{
+    size_t count = json_array_size(node->value);
+    if (!json_is_array(node->value) || count < minimum || count > maximum) {
+        if (minimum == maximum)
+            return mote_json_fail(node, "is %s; give an array of %zu",
+                                  node->value ? "not that" : "missing", minimum);
+        return mote_json_fail(node, "is %s; give an array of %zu to %zu",
+                              node->value ? "not that" : "missing", minimum, maximum);
+    }
+    *size = count;
+    return MOTE_OK;
+}
+
+mote_status mote_json_real(const mote_json *node, double minimum, double maximum, double *value)
+{
+    double number = json_number_value(node->value);
+    if (!node->value)
+        return mote_json_fail(node, "is missing; give a number from %g to %g", minimum,
+                              maximum);
+    if (!json_is_number(node->value))
+        return mote_json_fail(node, "is not a number; give one from %g to %g", minimum,
+                              maximum);
+    /* Written so that a NaN would fail. */
+    if (!(number >= minimum && number <= maximum))
+        return mote_json_fail(node, "%.17g is out of range; give a number from %g to %g",
+                              number, minimum, maximum);
+    *value = number;
+    return MOTE_OK;
+}
+
+mote_status mote_json_integer(const mote_json *node, int64_t minimum, int64_t maximum,
+                              int64_t *value)
+{
+    if (!json_is_integer(node->value))
+        return mote_json_fail(node, "is %s; give a whole number from %lld to %lld",
+                              node->value ? "not a whole number" : "missing",
+                              (long long)minimum, (long long)maximum);
+    int64_t number = json_integer_value(node->value);
+    if (number < minimum || number > maximum)
+        return mote_json_fail(node, "%lld is out of range; give %lld to %lld",
+                              (long long)number, (long long)minimum, (long long)maximum);
+    *value = number;
+    return MOTE_OK;
+}
+
+mote_status mote_json_reals(const mote_json *node, size_t count, double minimum, double maximum,
+                            double *values)
+{
+    size_t size;
+    mote_status status = mote_json_array(node, count, count, &size);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        mote_json element = mote_json_element(node, i);
+        status = mote_json_real(&element, minimum, maximum, &values[i]);
+    }
+    return status;
+}
+
+mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum,
+                           mote_vec3 *value)
+{
+    double xyz[3];
+    mote_status status = mote_json_reals(node, 3, minimum, maximum, xyz);
+    if (status == MOTE_OK)
+        *value = mote_vec3_make(xyz[0], xyz[1], xyz[2]);
+    return status;
+}
+
+mote_status mote_json_string(const mote_json *node, const char **value)
+{
+    const char *text = json_string_value(node->value);
+    if (!text || !text[0])
+        return mote_json_fail(node, "is %s; give a string",
+                              node->value ? "not a string" : "missing");
+    *value = text;
+    return MOTE_OK;
+}

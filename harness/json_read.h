@@ -1,0 +1,63 @@
+/* Reading a JSON file strictly: every error names the file, the line and the path within. */
+#ifndef MOTE_HARNESS_JSON_READ_H
+#define MOTE_HARNESS_JSON_READ_H
+
+#include "core/status.h"
+#include "core/vec3.h"
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct mote_json_file {
+    char *path;
+    char *text;
+    json_t *root;
+} mote_json_file;
+
+/* A value in a file. value is NULL where an optional key is absent. */
+typedef struct mote_json {
+    const mote_json_file *file; /* borrowed */
+    json_t *value;              /* borrowed */
+    char path[160];             /* "bodies[1].field.support"; "" at the root */
+} mote_json;
+
+/* Reads and parses a file of at most 16 MiB; a key that stands twice is an error. MOTE_EINVAL
+   with "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
+mote_status mote_json_open(const char *path, mote_json_file *file);
+void mote_json_close(mote_json_file *file);
+mote_json mote_json_root(const mote_json_file *file);
+
+/* MOTE_EINVAL with "FILE:LINE: PATH: TEXT", the line being that of the value. */
+mote_status mote_json_fail(const mote_json *node, const char *format, ...) MOTE_PRINTF(2, 3);
+
+/* The member of an object, or a node without a value. */
+mote_json mote_json_member(const mote_json *object, const char *key);
+/* The element of an array, index < json_array_size(array->value). */
+mote_json mote_json_element(const mote_json *array, size_t index);
+
+/* Checks that the node is an object whose keys all stand in known ("a|b|c"). */
+mote_status mote_json_object(const mote_json *node, const char *known);
+
+/* Checks that the node is an array of minimum to maximum elements; *size is their number. */
+mote_status mote_json_array(const mote_json *node, size_t minimum, size_t maximum,
+                            size_t *size);
+
+/* A number in [minimum, maximum], finite. */
+mote_status mote_json_real(const mote_json *node, double minimum, double maximum,
+                           double *value);
+mote_status mote_json_integer(const mote_json *node, int64_t minimum, int64_t maximum,
+                              int64_t *value);
+/* An array of exactly count numbers. */
+mote_status mote_json_reals(const mote_json *node, size_t count, double minimum, double maximum,
+                            double *values);
+mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum,
+                           mote_vec3 *value);
+/* A string that is not empty, borrowed from the file. */
+mote_status mote_json_string(const mote_json *node, const char **value);
+
+/* The line, from 1, on which the value at a path begins in a valid JSON text; the line of the
+   deepest part found where the path does not exist. */
+int mote_json_line(const char *text, const char *path);
+
+#endif

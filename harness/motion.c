@@ -1,0 +1,141 @@
+#include "harness/motion.h"
+
+#include "harness/turn.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees)
+{
+    double sine, cosine;
+    mote_turn(degrees / 720, &sine, &cosine); /* half the angle */
+    const double scale = sine / mote_length(axis);
+    mote_quaternion q = {cosine, axis.x * scale, axis.y * scale, axis.z * scale};
+    return q;
+}
+
+mote_mat3 mote_quaternion_matrix(mote_quaternion q)
+{
+    const double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    const double w = q.w / length, x = q.x / length, y = q.y / length, z = q.z / length;
+    mote_mat3 r = {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                    {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                    {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
+    return r;
+}
+
+void mote_quaternions_align(mote_quaternion *keys, uint32_t count)
+{
+    for (uint32_t k = 1; k < count; ++k) {
+        const mote_quaternion *a = &keys[k - 1];
+        mote_quaternion *b = &keys[k];
+        if (a->w * b->w + a->x * b->x + a->y * b->y + a->z * b->z < 0) {
+            mote_quaternion negative = {-b->w, -b->x, -b->y, -b->z};
+            *b = negative;
+        }
+    }
+}
+
+/* splitmix64: Steele, Lea and Flood 2014. */
+static uint64_t draw_bits(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static double draw_unit(uint64_t *state)
+{
+    return (double)(draw_bits(state) >> 11) * 0x1p-53;
+}
+
+static mote_vec3 draw_direction(uint64_t *state)
+{
+    for (;;) {
+        const double x = 2 * draw_unit(state) - 1;
+        const double y = 2 * draw_unit(state) - 1;
+        const double z = 2 * draw_unit(state) - 1;
+        const mote_vec3 v = mote_vec3_make(x, y, z);
+        const double square = mote_length_squared(v);
+        if (square > 0.01 && square <= 1)
+            return mote_scale(v, 1 / sqrt(square));
+    }
+}
+
+/* low (high / low)^part by bisection of the exponent: pow may differ between machines. */
+static double between(double low, double high, double part)
+{
+    double from = 0, to = 1;
+    for (int i = 0; i < 20; ++i) {
+        const double middle = sqrt(low * high);
+        if (part < (from + to) / 2) {
+            to = (from + to) / 2;
+            high = middle;
+        } else {
+            from = (from + to) / 2;
+            low = middle;
+        }
+    }
+    return low;
+}
+
+void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, double amplitude,
+                     double low, double high, mote_wave *waves)
+{
+    uint64_t state = seed;
+    for (uint32_t j = 0; j < control_count; ++j) {
+        for (uint32_t t = 0; t < terms; ++t) {
+            mote_wave *wave = &waves[(size_t)j * terms + t];
+            wave->control = j;
+            wave->amplitude = mote_scale(draw_direction(&state), amplitude / terms);
+            wave->period = between(low, high, draw_unit(&state));
+            wave->phase = draw_unit(&state);
+        }
+    }
+}
+
+mote_pose mote_motion_pose(const mote_body_motion *motion, double frame)
+{
+    mote_pose pose = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
+    if (motion->rotation) {
+        double q[4];
+        mote_curve_evaluate(motion->rotation, frame, q);
+        mote_quaternion quaternion = {q[0], q[1], q[2], q[3]};
+        pose.rotation = mote_quaternion_matrix(quaternion);
+    }
+    double p[3] = {0, 0, 0};
+    if (motion->position)
+        mote_curve_evaluate(motion->position, frame, p);
+    pose.translation =
+        mote_sub(mote_vec3_make(p[0], p[1], p[2]), mote_rotate(&pose.rotation, motion->centre));
+    return pose;
+}
+
+void mote_motion_displacements(const mote_body_motion *motion, double frame,
+                               mote_vec3 *displacement)
+{
+    _Static_assert(sizeof(mote_vec3) == 3 * sizeof(double), "three numbers, no gaps");
+    if (motion->keyed)
+        mote_curve_evaluate(motion->keyed, frame, &displacement[0].x);
+    else
+        memset(displacement, 0, motion->control_count * sizeof *displacement);
+    for (uint32_t i = 0; i < motion->wave_count; ++i) {
+        const mote_wave *wave = &motion->waves[i];
+        double sine, cosine;
+        mote_turn(frame / wave->period + wave->phase, &sine, &cosine);
+        displacement[wave->control] =
+            mote_add_scaled(displacement[wave->control], sine, wave->amplitude);
+    }
+}
+
+void mote_body_motion_free(mote_body_motion *motion)
+{
+    mote_curve_destroy(motion->position);
+    mote_curve_destroy(motion->rotation);
+    mote_curve_destroy(motion->keyed);
+    mote_csrbf_fit_destroy(motion->fit);
+    free(motion->waves);
+    *motion = (mote_body_motion){0};
+}

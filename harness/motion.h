@@ -1,0 +1,64 @@
+/* The motion of one body over the frames of a scenario: its pose and its field's weights. */
+#ifndef MOTE_HARNESS_MOTION_H
+#define MOTE_HARNESS_MOTION_H
+
+#include "core/body.h"
+#include "core/csrbf_fit.h"
+#include "harness/curve.h"
+
+/* A unit quaternion w + xi + yj + zk of a rotation. */
+typedef struct mote_quaternion {
+    double w, x, y, z;
+} mote_quaternion;
+
+/* Rotation by degrees about an axis (any length > 0), right-handed. */
+mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees);
+/* The matrix of a quaternion of any length > 0. */
+mote_mat3 mote_quaternion_matrix(mote_quaternion q);
+
+/* One sine of a control point's displacement: amplitude * sin(2 pi (frame / period + phase)).
+ */
+typedef struct mote_wave {
+    uint32_t control;
+    mote_vec3 amplitude; /* absolute, rest axes */
+    double period;       /* frames, > 0 */
+    double phase;        /* turns */
+} mote_wave;
+
+/* What moves and deforms one body. Everything is owned. */
+typedef struct mote_body_motion {
+    mote_vec3 centre;     /* the rest point that position places and rotation turns about */
+    mote_curve *position; /* width 3, absolute; NULL: the centre stays at the origin */
+    mote_curve *rotation; /* width 4, quaternions of one sign; NULL: none */
+    mote_curve *keyed;    /* width 3 J, displacement of each control point; or NULL */
+    mote_wave *waves;     /* added to it */
+    uint32_t wave_count;
+    uint32_t control_count; /* J; 0: nothing deforms */
+    mote_csrbf_fit *fit;    /* NULL when J is 0 */
+} mote_body_motion;
+
+typedef struct mote_motion {
+    mote_body_motion body[2];
+} mote_motion;
+
+/* Waves that displace each of control_count points by at most amplitude (absolute): `terms`
+   sines each, of random direction and phase, with periods (frames) drawn from [low, high],
+   logarithmically even. The same seed gives the same bits everywhere. waves holds
+   control_count * terms. */
+void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, double amplitude,
+                     double low, double high, mote_wave *waves);
+
+/* Makes quaternions that follow each other lie on the same side, so that a curve through them
+   takes the shorter way. */
+void mote_quaternions_align(mote_quaternion *keys, uint32_t count);
+
+/* Pose of the body's rest points at a frame (any real number). */
+mote_pose mote_motion_pose(const mote_body_motion *motion, double frame);
+
+/* Displacements of the control points, rest axes: displacement[control_count]. */
+void mote_motion_displacements(const mote_body_motion *motion, double frame,
+                               mote_vec3 *displacement);
+
+void mote_body_motion_free(mote_body_motion *motion);
+
+#endif

@@ -1,0 +1,183 @@
+#include "harness/scenario.h"
+
+#include "core/deform.h"
+#include "harness/motion.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct mote_frame_buffer {
+    mote_frame frame;
+    double *weights[2];         /* 3 * padded: x, y, z */
+    mote_vec3 *displacement[2]; /* [J], rest axes */
+    mote_vec3 *before[2];       /* those of the previous frame given */
+    mote_vec3 *solution[2];     /* [J], weights in rest axes */
+};
+
+void mote_scenario_destroy(mote_scenario *scenario)
+{
+    if (!scenario)
+        return;
+    for (int i = 0; i < 2; ++i) {
+        if (i == 0 || scenario->body[1].mesh != scenario->body[0].mesh)
+            mote_mesh_destroy((mote_mesh *)(uintptr_t)scenario->body[i].mesh);
+        mote_field_destroy((mote_field *)(uintptr_t)scenario->body[i].field);
+        if (scenario->motion)
+            mote_body_motion_free(&scenario->motion->body[i]);
+    }
+    free(scenario->motion);
+    free(scenario->name);
+    free(scenario->purpose);
+    free(scenario->path);
+    free(scenario);
+}
+
+mote_status mote_frame_buffer_create(const mote_scenario *scenario, mote_frame_buffer **buffer)
+{
+    mote_frame_buffer *made = calloc(1, sizeof *made);
+    bool whole = made != NULL;
+    for (int i = 0; i < 2 && whole; ++i) {
+        const mote_field *field = scenario->body[i].field;
+        if (field->count == 0)
+            continue;
+        made->weights[i] = calloc((size_t)3 * field->padded, sizeof(double));
+        made->displacement[i] = calloc(field->count, sizeof(mote_vec3));
+        made->before[i] = calloc(field->count, sizeof(mote_vec3));
+        made->solution[i] = calloc(field->count, sizeof(mote_vec3));
+        whole =
+            made->weights[i] && made->displacement[i] && made->before[i] && made->solution[i];
+    }
+    if (!whole) {
+        mote_frame_buffer_destroy(made);
+        return mote_fail(MOTE_ENOMEM, "no memory for a frame of scenario %s", scenario->name);
+    }
+    *buffer = made;
+    return MOTE_OK;
+}
+
+void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
+{
+    if (!buffer)
+        return;
+    for (int i = 0; i < 2; ++i) {
+        free(buffer->weights[i]);
+        free(buffer->displacement[i]);
+        free(buffer->before[i]);
+        free(buffer->solution[i]);
+    }
+    free(buffer);
+}
+
+/* Weights that displace the control points as the motion says, rotated with the body. */
+static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,
+                        double number)
+{
+    const mote_field *field = scenario->body[i].field;
+    const mote_body_motion *motion = &scenario->motion->body[i];
+    mote_body_state *state = &buffer->frame.body[i];
+    state->weights = (mote_weights){NULL, NULL, NULL, field->count, field->padded};
+    if (field->count == 0)
+        return;
+    mote_motion_displacements(motion, number, buffer->displacement[i]);
+    mote_status status =
+        mote_csrbf_fit_solve(motion->fit, buffer->displacement[i], buffer->solution[i]);
+    assert(status == MOTE_OK); /* every number of a scenario was range-checked */
+    (void)status;
+    double *x = buffer->weights[i];
+    double *y = x + field->padded;
+    double *z = y + field->padded;
+    for (uint32_t j = 0; j < field->count; ++j) {
+        const mote_vec3 w = mote_rotate(&state->pose.rotation, buffer->solution[i][j]);
+        x[j] = w.x;
+        y[j] = w.y;
+        z[j] = w.z;
+    }
+    state->weights.x = x;
+    state->weights.y = y;
+    state->weights.z = z;
+}
+
+static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,
+                        uint32_t previous)
+{
+    const mote_body_motion *motion = &scenario->motion->body[i];
+    mote_body_state *state = &buffer->frame.body[i];
+    state->shape_changed = true;
+    state->pose_changed = true;
+    if (previous == 0)
+        return;
+    const mote_pose pose = mote_motion_pose(motion, previous);
+    state->pose_changed = memcmp(&pose, &state->pose, sizeof pose) != 0;
+    const uint32_t count = scenario->body[i].field->count;
+    if (count > 0)
+        mote_motion_displacements(motion, previous, buffer->before[i]);
+    state->shape_changed = count > 0 && memcmp(buffer->before[i], buffer->displacement[i],
+                                               count * sizeof(mote_vec3)) != 0;
+}
+
+const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                                      uint32_t number, uint32_t previous)
+{
+    buffer->frame.number = number;
+    for (int i = 0; i < 2; ++i) {
+        mote_body_state *state = &buffer->frame.body[i];
+        state->pose = mote_motion_pose(&scenario->motion->body[i], number);
+        state->vertices = NULL;
+        set_weights(scenario, buffer, i, number);
+        set_changes(scenario, buffer, i, previous);
+    }
+    return &buffer->frame;
+}
+
+/* FNV-1a, 64 bits, over the bytes of a number from the lowest. */
+static uint64_t hash_number(uint64_t hash, double number)
+{
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    for (int byte = 0; byte < 8; ++byte) {
+        hash ^= bits & 0xff;
+        hash *= 0x100000001b3u;
+        bits >>= 8;
+    }
+    return hash;
+}
+
+static uint64_t hash_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                            mote_deform *const deform[2], mote_vec3 *world)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (uint32_t number = 1; number <= scenario->frames; ++number) {
+        const mote_frame *frame = mote_scenario_frame(scenario, buffer, number, 0);
+        for (int i = 0; i < 2; ++i) {
+            mote_deform_all(deform[i], &frame->body[i], world);
+            for (uint32_t v = 0; v < scenario->body[i].mesh->vertex_count; ++v) {
+                hash = hash_number(hash, world[v].x);
+                hash = hash_number(hash, world[v].y);
+                hash = hash_number(hash, world[v].z);
+            }
+        }
+    }
+    return hash;
+}
+
+mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint)
+{
+    mote_frame_buffer *buffer = NULL;
+    mote_deform *deform[2] = {NULL, NULL};
+    const uint32_t a = scenario->body[0].mesh->vertex_count;
+    const uint32_t b = scenario->body[1].mesh->vertex_count;
+    mote_vec3 *world = malloc((a > b ? a : b) * sizeof *world);
+    mote_status status = mote_frame_buffer_create(scenario, &buffer);
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i)
+        status = mote_deform_create(&scenario->body[i], &deform[i]);
+    if (status == MOTE_OK && !world)
+        status = mote_fail(MOTE_ENOMEM, "no memory for %u vertices", a > b ? a : b);
+    if (status == MOTE_OK)
+        *fingerprint = hash_frames(scenario, buffer, deform, world);
+    mote_deform_destroy(deform[0]);
+    mote_deform_destroy(deform[1]);
+    mote_frame_buffer_destroy(buffer);
+    free(world);
+    return status;
+}

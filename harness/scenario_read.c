@@ -1,0 +1,235 @@
+/* A scenario file: bodies, frames, intervals, what is asked. */
+#include "harness/scenario_read.h"
+
+#include "datasets/letter.h"
+#include "harness/catalog.h"
+#include "harness/file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static mote_status read_letter(const mote_json *letter, const mote_json *body, mote_mesh **mesh)
+{
+    const char *name;
+    int64_t triangles = 0;
+    mote_status status = mote_json_string(letter, &name);
+    if (status == MOTE_OK && name[1] != '\0')
+        status = mote_json_fail(letter, "%s is not one letter; give T, V, M or W", name);
+    mote_json key = mote_json_member(body, "triangles");
+    if (status == MOTE_OK)
+        status = mote_json_integer(&key, 1, 100000000, &triangles);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_letter_create(name[0], (size_t)triangles, mesh);
+    if (status == MOTE_EINVAL)
+        status = mote_json_fail(letter, "%s", mote_error_text());
+    return status;
+}
+
+mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh)
+{
+    mote_json letter = mote_json_member(body, "letter");
+    return read_letter(&letter, body, mesh);
+}
+
+static mote_status read_interval(const mote_json *root, const char *name, uint32_t frames,
+                                 mote_interval *interval)
+{
+    mote_json node = mote_json_member(root, name);
+    if (!node.value)
+        return MOTE_OK;
+    double ends[2];
+    size_t size;
+    mote_status status = mote_json_array(&node, 2, 2, &size);
+    int64_t end[2] = {0, 0};
+    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
+        mote_json element = mote_json_element(&node, i);
+        status = mote_json_integer(&element, 1, frames, &end[i]);
+        ends[i] = (double)end[i];
+    }
+    if (status == MOTE_OK && end[0] > end[1])
+        status = mote_json_fail(&node, "%g to %g is empty; give first and last frame", ends[0],
+                                ends[1]);
+    if (status == MOTE_OK)
+        *interval = (mote_interval){(uint32_t)end[0], (uint32_t)end[1]};
+    return status;
+}
+
+static mote_status read_ask(const mote_json *root, mote_ask *ask)
+{
+    mote_json node = mote_json_member(root, "ask");
+    const char *word;
+    mote_status status = mote_json_string(&node, &word);
+    if (status != MOTE_OK)
+        return status;
+    if (strcmp(word, "distance") == 0)
+        *ask = MOTE_ASK_DISTANCE;
+    else if (strcmp(word, "contact") == 0)
+        *ask = MOTE_ASK_CONTACT;
+    else
+        status = mote_json_fail(&node, "%s is neither distance nor contact", word);
+    return status;
+}
+
+static mote_status read_frame_facts(const mote_json *root, mote_scenario *scenario)
+{
+    mote_json key = mote_json_member(root, "frames");
+    int64_t frames = 0;
+    mote_status status = mote_json_integer(&key, 1, MOTE_FRAMES_MAX, &frames);
+    scenario->frames = (uint32_t)frames;
+    if (status == MOTE_OK)
+        status = read_interval(root, "warmup", scenario->frames, &scenario->warmup);
+    if (status == MOTE_OK)
+        status = read_interval(root, "active", scenario->frames, &scenario->active);
+    if (status == MOTE_OK)
+        status = read_ask(root, &scenario->ask);
+    key = mote_json_member(root, "tolerance");
+    if (status == MOTE_OK && key.value)
+        status = mote_json_real(&key, 0, 1e3, &scenario->tolerance);
+    key = mote_json_member(root, "purpose");
+    const char *purpose;
+    if (status == MOTE_OK)
+        status = mote_json_string(&key, &purpose);
+    if (status == MOTE_OK && !(scenario->purpose = mote_format("%s", purpose)))
+        status = mote_fail(MOTE_ENOMEM, "no memory for a scenario's purpose");
+    return status;
+}
+
+/* Whether two bodies of a file name the same mesh, which is then made once. */
+static bool same_mesh(const mote_json *a, const mote_json *b)
+{
+    static const char *const keys[] = {"letter", "triangles"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        json_t *x = json_object_get(a->value, keys[i]);
+        json_t *y = json_object_get(b->value, keys[i]);
+        if (!x != !y || (x && !json_equal(x, y)))
+            return false;
+    }
+    return true;
+}
+
+static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
+{
+    mote_json bodies = mote_json_member(root, "bodies");
+    mote_json body[2];
+    size_t size;
+    mote_status status = mote_json_array(&bodies, 2, 2, &size);
+    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
+        body[i] = mote_json_element(&bodies, i);
+        status = mote_json_object(&body[i], "letter|triangles|field|motion");
+    }
+    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
+        mote_mesh *mesh = NULL;
+        if (i == 1 && same_mesh(&body[0], &body[1])) {
+            scenario->body[1].mesh = scenario->body[0].mesh;
+            break;
+        }
+        status = mote_scenario_read_mesh(&body[i], &mesh);
+        scenario->body[i].mesh = mesh;
+    }
+    if (status != MOTE_OK)
+        return status;
+    scenario->length = fmax(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
+    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
+        const mote_mesh *mesh = scenario->body[i].mesh;
+        mote_body_motion *motion = &scenario->motion->body[i];
+        mote_field *field = NULL;
+        status = mote_scenario_read_field(&body[i], mesh, &field, motion);
+        scenario->body[i].field = field;
+        if (status == MOTE_OK)
+            status = mote_scenario_read_motion(&body[i], mesh, scenario->length,
+                                               scenario->frames, motion);
+    }
+    return status;
+}
+
+static char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *base = slash ? slash + 1 : path;
+    size_t length = strlen(base);
+    if (length > 5 && strcmp(base + length - 5, ".json") == 0)
+        length -= 5;
+    return mote_format("%.*s", (int)length, base);
+}
+
+static mote_status read_scenario(const mote_json_file *file, mote_scenario *scenario)
+{
+    mote_json root = mote_json_root(file);
+    scenario->motion = calloc(1, sizeof *scenario->motion);
+    scenario->path = mote_format("%s", file->path);
+    scenario->name = name_of(file->path);
+    if (!scenario->motion || !scenario->path || !scenario->name)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    mote_status status =
+        mote_json_object(&root, "purpose|bodies|frames|warmup|active|ask|tolerance");
+    if (status == MOTE_OK)
+        status = read_frame_facts(&root, scenario);
+    if (status == MOTE_OK)
+        status = read_bodies(&root, scenario);
+    scenario->tolerance *= scenario->length;
+    return status;
+}
+
+static bool is_path(const char *name)
+{
+    size_t length = strlen(name);
+    return strchr(name, '/') || (length > 5 && strcmp(name + length - 5, ".json") == 0);
+}
+
+/* A built-in scenario that does not exist: say which do. */
+static mote_status unknown_name(const char *name)
+{
+    mote_catalog catalog;
+    mote_status status = mote_catalog_read(&catalog);
+    if (status != MOTE_OK)
+        return status;
+    mote_text known = {0};
+    for (size_t i = 0; i < catalog.count; ++i)
+        mote_text_add(&known, "%s%s", i ? ", " : "", catalog.entries[i].name);
+    mote_catalog_free(&catalog);
+    status = mote_fail(MOTE_EIO, "%s: no such scenario; known are: %s; or name a .json file",
+                       name, known.data && !known.failed ? known.data : "none");
+    free(known.data);
+    return status;
+}
+
+static bool is_listed(const char *name)
+{
+    mote_catalog catalog;
+    if (mote_catalog_read(&catalog) != MOTE_OK)
+        return true; /* opening its file will tell */
+    bool found = false;
+    for (size_t i = 0; i < catalog.count; ++i)
+        found = found || strcmp(catalog.entries[i].name, name) == 0;
+    mote_catalog_free(&catalog);
+    return found;
+}
+
+mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario)
+{
+    char *path;
+    if (is_path(name_or_path))
+        path = mote_format("%s", name_or_path);
+    else if (!is_listed(name_or_path))
+        return unknown_name(name_or_path);
+    else
+        path = mote_catalog_path(name_or_path);
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name_or_path);
+    mote_json_file file;
+    mote_status status = mote_json_open(path, &file);
+    free(path);
+    if (status != MOTE_OK)
+        return status;
+    mote_scenario *made = calloc(1, sizeof *made);
+    status = made ? read_scenario(&file, made)
+                  : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file.path);
+    mote_json_close(&file);
+    if (status == MOTE_OK)
+        *scenario = made;
+    else
+        mote_scenario_destroy(made);
+    return status;
+}

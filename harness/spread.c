@@ -1,0 +1,42 @@
+#include "harness/spread.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+mote_vec3 mote_mesh_centre(const mote_mesh *mesh)
+{
+    return mote_scale(mote_add(mesh->low, mesh->high), 0.5);
+}
+
+mote_status mote_spread(const mote_mesh *mesh, uint32_t count, mote_vec3 *points)
+{
+    double *nearest = malloc(mesh->vertex_count * sizeof *nearest);
+    if (!nearest)
+        return mote_fail(MOTE_ENOMEM, "no memory to spread %u points", count);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
+        nearest[i] = HUGE_VAL;
+    mote_vec3 last = mote_mesh_centre(mesh);
+    for (uint32_t k = 0; k < count; ++k) {
+        uint32_t farthest = 0;
+        double largest = 0;
+        for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+            const double square = mote_distance_squared(mesh->positions[i], last);
+            /* The middle of the box only ranks the first point; it is not a point itself. */
+            const double rank = k == 0 ? square : fmin(nearest[i], square);
+            if (k > 0)
+                nearest[i] = rank;
+            if (rank > largest) {
+                largest = rank;
+                farthest = i;
+            }
+        }
+        if (largest == 0) {
+            free(nearest);
+            return mote_fail(MOTE_EINVAL, "the mesh has only %u different positions, not %u", k,
+                             count);
+        }
+        points[k] = last = mesh->positions[farthest];
+    }
+    free(nearest);
+    return MOTE_OK;
+}

@@ -1,0 +1,15 @@
+/* Points spread evenly over a mesh. */
+#ifndef MOTE_HARNESS_SPREAD_H
+#define MOTE_HARNESS_SPREAD_H
+
+#include "core/mesh.h"
+
+/* Picks count different vertices by the farthest-point rule: the first is the farthest from the
+   middle of the bounding box, each next the farthest from all before; the lowest index on a
+   tie. MOTE_EINVAL when there are not that many different positions. O(count * vertices). */
+mote_status mote_spread(const mote_mesh *mesh, uint32_t count, mote_vec3 *points);
+
+/* The middle of the bounding box at rest. */
+mote_vec3 mote_mesh_centre(const mote_mesh *mesh);
+
+#endif
