@@ -1,0 +1,469 @@
+/* What all FCL methods share: two models that live across frames, brought up to date by refit,
+   and queries by FCL's traversal nodes or public functions. A method is a volume (a struct that
+   names FCL's types and says what they can do) put into Adapter.
+
+   Vertices are world positions and transforms are identities, except that a volume which takes
+   transforms in place (oriented) is refitted only when the shape changed: a motion without
+   change of shape becomes a transform.
+
+   Scale. FCL's triangle distance takes a triangle whose normal (edge cross edge) is shorter
+   than 3.2e-8 for a line, whatever its size, and its rectangle distances use an absolute 1e-7.
+   So everything is multiplied by the power of two that brings L into [2^20, 2^21), which costs
+   three multiplications a vertex, changes no bit of a mantissa, and makes these
+   thresholds 2.9e-20 L^2 and 1e-13 L. */
+#ifndef MOTE_BASELINES_FCL_ADAPTER_HPP
+#define MOTE_BASELINES_FCL_ADAPTER_HPP
+
+/* Debian's library is built for plain x86-64; with wider vectors Eigen would align its types
+   differently from what the library expects. */
+#define EIGEN_MAX_ALIGN_BYTES 16
+
+#include "baselines/fcl_parameters.hpp"
+#include "baselines/input.h"
+#include "core/triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+#include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
+#include <fcl/narrowphase/distance.h>
+
+namespace mote_fcl
+{
+
+using Vector = fcl::Vector3<double>;
+using Transform = fcl::Transform3<double>;
+
+/* L is brought into [2^SIZE_EXPONENT, 2^(SIZE_EXPONENT + 1)). */
+constexpr int SIZE_EXPONENT = 20;
+
+inline double scale_for(double length)
+{
+    return std::ldexp(1.0, std::clamp(SIZE_EXPONENT - std::ilogb(length), -1000, 1000));
+}
+
+inline Vector to_fcl(mote_vec3 v, double scale)
+{
+    return Vector(v.x * scale, v.y * scale, v.z * scale);
+}
+
+inline Transform to_fcl(const mote_pose &pose, double scale)
+{
+    Transform transform = Transform::Identity();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            transform.linear()(row, column) = pose.rotation.m[row][column];
+    }
+    transform.translation() = to_fcl(pose.translation, scale);
+    return transform;
+}
+
+inline mote_vec3 from_fcl(const Vector &v, double factor)
+{
+    return mote_vec3_make(v[0] * factor, v[1] * factor, v[2] * factor);
+}
+
+/* Runs body and turns exceptions into a status: none may pass the C contract. */
+template <class Body> mote_status guard(Body &&body) noexcept
+{
+    try {
+        return body();
+    } catch (const std::bad_alloc &) {
+        return mote_fail(MOTE_ENOMEM, "FCL ran out of memory");
+    } catch (const std::exception &error) {
+        return mote_fail(MOTE_ENUMERIC, "FCL: %s", error.what());
+    } catch (...) {
+        return mote_fail(MOTE_ENUMERIC, "FCL threw something unknown");
+    }
+}
+
+/* A distance node that also stops once a pair within `enough` is found: the yes of a contact
+   question. */
+template <class Node> class EarlyNode : public Node
+{
+  public:
+    explicit EarlyNode(double enough_) : enough(enough_)
+    {
+    }
+
+    bool canStop(double bound) const override
+    {
+        return this->result->min_distance <= enough || Node::canStop(bound);
+    }
+
+  private:
+    double enough;
+};
+
+/* An upper bound on the distance, scaled, with the points that attain it. */
+struct Bound {
+    double distance = std::numeric_limits<double>::infinity();
+    mote_vec3 witness[2] = {};
+};
+
+/* One pair of models. Volume names BV, DistanceNode (void when FCL has none), CollisionNode,
+   and the constants described in fcl_aabb.cpp. */
+template <class Volume> class Pair
+{
+  public:
+    using BV = typename Volume::BV;
+    using Model = fcl::BVHModel<BV>;
+    using Request = fcl::DistanceRequest<double>;
+    using Result = fcl::DistanceResult<double>;
+
+    static constexpr bool has_distance = !std::is_void_v<typename Volume::DistanceNode>;
+
+    Pair(const mote_setup *setup, const Options &options_)
+        : options(options_), ask(setup->ask), scale(scale_for(setup->length)),
+          tolerance(setup->tolerance * scale)
+    {
+        for (int b = 0; b < 2; ++b) {
+            rigid[b] = setup->body[b]->field->count == 0;
+            transform[b] = Transform::Identity();
+            refit_pose[b] = mote_pose{};
+        }
+    }
+
+    /* Builds both trees over the rest pose. */
+    mote_status build(const mote_setup *setup);
+
+    /* Makes the trees follow a frame. */
+    mote_status update(const mote_frame *frame);
+
+    mote_status query(mote_answer *answer);
+
+  private:
+    bool needs_refit(int b, const mote_body_state &state) const;
+    mote_status replace(int b, const mote_vec3 *vertices);
+    Bound seed() const;
+    void corners(int b, mote_vec3 corner[3]) const;
+    void collide(mote_answer *answer);
+    mote_status measure(mote_answer *answer);
+    void traverse(Result &result, mote_answer *answer);
+    template <class Node> void drive(Node &node, Result &result, mote_answer *answer);
+    void report(const Result &result, const Bound &bound, mote_answer *answer);
+
+    Model model[2];
+    Transform transform[2];  /* of the model as it is to the world */
+    mote_pose refit_pose[2]; /* that the model's vertices were taken at */
+    Options options;
+    mote_ask ask;
+    double scale;
+    double tolerance; /* scaled */
+    bool rigid[2];
+    int closest[2] = {-1, -1}; /* the last query's triangles; -1: none yet */
+};
+
+template <class Volume> mote_status Pair<Volume>::build(const mote_setup *setup)
+{
+    for (int b = 0; b < 2; ++b) {
+        const mote_mesh *mesh = setup->body[b]->mesh;
+        std::vector<Vector> vertices(mesh->vertex_count);
+        for (uint32_t i = 0; i < mesh->vertex_count; ++i)
+            vertices[i] = to_fcl(mesh->positions[i], scale);
+        std::vector<fcl::Triangle> triangles(mesh->triangle_count);
+        for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+            const uint32_t *t = mesh->triangles[i];
+            triangles[i].set(t[0], t[1], t[2]);
+        }
+        int code = model[b].beginModel(static_cast<int>(mesh->triangle_count),
+                                       static_cast<int>(mesh->vertex_count));
+        if (code == fcl::BVH_OK)
+            code = model[b].addSubModel(vertices, triangles);
+        if (code == fcl::BVH_OK)
+            code = model[b].endModel();
+        if (code != fcl::BVH_OK)
+            return mote_fail(MOTE_ENUMERIC, "FCL could not build body %d: code %d", b, code);
+    }
+    return MOTE_OK;
+}
+
+template <class Volume> mote_status Pair<Volume>::replace(int b, const mote_vec3 *vertices)
+{
+    Model &m = model[b];
+    uint32_t count = static_cast<uint32_t>(m.num_vertices);
+    mote_status status = mote_input_check_vertices(vertices, count, b);
+    if (status != MOTE_OK)
+        return status;
+    int code = m.beginReplaceModel();
+    if (code == fcl::BVH_OK) {
+        for (uint32_t i = 0; i < count; ++i)
+            m.replaceVertex(to_fcl(vertices[i], scale));
+        code = m.endReplaceModel(options.update != REBUILD, options.update == REFIT_BOTTOM_UP);
+    }
+    if (code != fcl::BVH_OK)
+        return mote_fail(MOTE_ENUMERIC, "FCL could not refit body %d: code %d", b, code);
+    return MOTE_OK;
+}
+
+/* Whether a body's tree no longer fits. Weights are in world axes, so that a body which can
+   deform keeps its shape only as long as it does not turn. */
+template <class Volume>
+bool Pair<Volume>::needs_refit(int b, const mote_body_state &state) const
+{
+    if (!Volume::oriented)
+        return state.shape_changed || state.pose_changed;
+    const mote_mat3 &rotation = state.pose.rotation;
+    bool turned = std::memcmp(&rotation, &refit_pose[b].rotation, sizeof rotation) != 0;
+    return !rigid[b] && (state.shape_changed || turned);
+}
+
+template <class Volume> mote_status Pair<Volume>::update(const mote_frame *frame)
+{
+    for (int b = 0; b < 2; ++b) {
+        const mote_body_state &state = frame->body[b];
+        mote_status status = mote_input_check_pose(&state.pose, b);
+        if (status != MOTE_OK)
+            return status;
+        if (needs_refit(b, state)) {
+            status = replace(b, state.vertices);
+            if (status != MOTE_OK)
+                return status;
+            refit_pose[b] = state.pose;
+        }
+        if (Volume::oriented && rigid[b])
+            transform[b] = to_fcl(state.pose, scale);
+        else if (Volume::oriented)
+            transform[b].translation() =
+                to_fcl(mote_sub(state.pose.translation, refit_pose[b].translation), scale);
+    }
+    return MOTE_OK;
+}
+
+/* World positions, scaled, of the corners of the last query's triangle of body b. */
+template <class Volume> void Pair<Volume>::corners(int b, mote_vec3 corner[3]) const
+{
+    const fcl::Triangle &triangle = model[b].tri_indices[closest[b]];
+    for (int k = 0; k < 3; ++k)
+        corner[k] = from_fcl(transform[b] * model[b].vertices[triangle[k]], 1);
+}
+
+template <class Volume> Bound Pair<Volume>::seed() const
+{
+    Bound bound;
+    if (!options.seeded || closest[0] < 0)
+        return bound;
+    mote_vec3 s[3], t[3];
+    corners(0, s);
+    corners(1, t);
+    bound.distance =
+        std::sqrt(mote_triangle_triangle(s, t, &bound.witness[0], &bound.witness[1]));
+    return bound;
+}
+
+template <class Volume> void Pair<Volume>::collide(mote_answer *answer)
+{
+    fcl::CollisionRequest<double> request; /* one contact is enough, and no details of it */
+    fcl::CollisionResult<double> result;
+    if (options.api) {
+        fcl::collide(&model[0], transform[0], &model[1], transform[1], request, result);
+    } else {
+        typename Volume::CollisionNode node;
+        node.enable_statistics = true;
+        if constexpr (Volume::oriented)
+            fcl::detail::initialize(node, std::as_const(model[0]), transform[0],
+                                    std::as_const(model[1]), transform[1], request, result);
+        else
+            fcl::detail::initialize(node, model[0], transform[0], model[1], transform[1],
+                                    request, result);
+        fcl::detail::collide(&node);
+        answer->counters.box_tests = static_cast<uint64_t>(node.num_bv_tests);
+        answer->counters.triangle_tests = static_cast<uint64_t>(node.num_leaf_tests);
+    }
+    answer->has_contact = true;
+    answer->contact = result.isCollision();
+}
+
+template <class Volume>
+template <class Node>
+void Pair<Volume>::drive(Node &node, Result &result, mote_answer *answer)
+{
+    Request request(true);
+    auto &base = static_cast<typename Volume::DistanceNode &>(node);
+    if constexpr (Volume::oriented)
+        fcl::detail::initialize(base, std::as_const(model[0]), transform[0],
+                                std::as_const(model[1]), transform[1], request, result);
+    else
+        fcl::detail::initialize(base, model[0], transform[0], model[1], transform[1], request,
+                                result);
+    node.enable_statistics = true;
+    node.rel_err = node.abs_err = 0;
+    fcl::detail::distance(&node, nullptr, options.queue);
+    answer->counters.box_tests = static_cast<uint64_t>(node.num_bv_tests);
+    answer->counters.triangle_tests +=
+        static_cast<uint64_t>(node.num_leaf_tests) + Volume::first_triangle_tests;
+}
+
+template <class Volume> void Pair<Volume>::traverse(Result &result, mote_answer *answer)
+{
+    if constexpr (has_distance) {
+        if (options.api) {
+            fcl::distance(&model[0], transform[0], &model[1], transform[1], Request(true),
+                          result);
+        } else if (ask == MOTE_ASK_CONTACT) {
+            EarlyNode<typename Volume::DistanceNode> node(tolerance);
+            drive(node, result, answer);
+        } else {
+            typename Volume::DistanceNode node;
+            drive(node, result, answer);
+        }
+    }
+}
+
+template <class Volume>
+void Pair<Volume>::report(const Result &result, const Bound &bound, mote_answer *answer)
+{
+    bool found = result.o1 != nullptr;
+    double distance = found ? result.min_distance : bound.distance;
+    if (found) {
+        closest[0] = static_cast<int>(result.b1);
+        closest[1] = static_cast<int>(result.b2);
+    }
+    answer->has_contact = true;
+    answer->contact = distance <= tolerance;
+    if (ask == MOTE_ASK_CONTACT)
+        return;
+    answer->has_distance = true;
+    answer->distance = distance / scale;
+    /* FCL's points mean nothing where the surfaces intersect. */
+    answer->has_witness = !found || distance > 0;
+    for (int b = 0; b < 2 && answer->has_witness; ++b) {
+        if (found)
+            answer->witness[b] = from_fcl(result.nearest_points[b], 1 / scale);
+        else
+            answer->witness[b] = mote_scale(bound.witness[b], 1 / scale);
+    }
+}
+
+template <class Volume> mote_status Pair<Volume>::measure(mote_answer *answer)
+{
+    Bound bound = seed();
+    if (bound.distance < std::numeric_limits<double>::infinity())
+        answer->counters.triangle_tests = 1;
+    /* A little above the bound, so that the pair it came from is found again with its points.
+     */
+    Result result(std::min(bound.distance * (1 + 1e-9), std::numeric_limits<double>::max()));
+    bool known = bound.distance == 0;
+    if (ask == MOTE_ASK_CONTACT) {
+        /* Nothing beyond the tolerance matters. */
+        double limit = std::numeric_limits<double>::infinity();
+        result.min_distance = std::min(result.min_distance, std::nextafter(tolerance, limit));
+        known = bound.distance <= tolerance;
+    }
+    if (!known)
+        traverse(result, answer);
+    if (ask == MOTE_ASK_DISTANCE && !result.o1 && std::isinf(bound.distance))
+        return mote_fail(MOTE_ENUMERIC, "FCL found no pair of triangles");
+    report(result, bound, answer);
+    return MOTE_OK;
+}
+
+template <class Volume> mote_status Pair<Volume>::query(mote_answer *answer)
+{
+    if (ask == MOTE_ASK_CONTACT && tolerance == 0) {
+        collide(answer);
+        return MOTE_OK;
+    }
+    return measure(answer);
+}
+
+/* The contract's functions for one volume. */
+template <class Volume> struct Adapter {
+    static mote_traits traits(const double *values)
+    {
+        Options options = read_options(values);
+        mote_traits traits = {};
+        bool vertices = !(Volume::oriented && options.update == NO_UPDATE);
+        traits.needs_vertices = vertices && !options.given;
+        traits.given_vertices = vertices && options.given;
+        traits.keeps_state = options.seeded;
+        traits.exact = Pair<Volume>::has_distance &&
+                       (Volume::bottom_up_encloses || options.update != REFIT_BOTTOM_UP);
+        return traits;
+    }
+
+    static mote_status supported(const mote_setup *setup, const Options &options)
+    {
+        bool distance = setup->ask == MOTE_ASK_DISTANCE || setup->tolerance > 0;
+        if (distance && !Pair<Volume>::has_distance)
+            return mote_fail(
+                MOTE_EUNSUPPORTED,
+                "FCL has no distance for this volume, only contact at tolerance 0");
+        if (distance && options.api && !Volume::public_distance)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "FCL's public distance does not support this volume; call=node");
+        if (options.api && options.queue != 2)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "FCL's public functions have no queue; queue=2 or call=node");
+        if (options.update != NO_UPDATE)
+            return MOTE_OK;
+        if (!Volume::oriented)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "update=none needs a volume that takes transforms in place; this "
+                             "one is rebuilt at every transform");
+        for (int b = 0; b < 2; ++b) {
+            if (setup->body[b]->field->count > 0)
+                return mote_fail(MOTE_EUNSUPPORTED,
+                                 "update=none needs rigid bodies; body %d deforms", b);
+        }
+        return MOTE_OK;
+    }
+
+    static mote_status create(const mote_setup *setup, void **state)
+    {
+        Options options = read_options(setup->values);
+        mote_status status = supported(setup, options);
+        if (status == MOTE_OK)
+            status = mote_input_check(setup);
+        if (status != MOTE_OK)
+            return status;
+        return guard([&] {
+            auto pair = std::make_unique<Pair<Volume>>(setup, options);
+            mote_status built = pair->build(setup);
+            if (built == MOTE_OK)
+                *state = pair.release();
+            return built;
+        });
+    }
+
+    static void destroy(void *state)
+    {
+        delete static_cast<Pair<Volume> *>(state);
+    }
+
+    static mote_status update(void *state, const mote_frame *frame)
+    {
+        return guard([&] { return static_cast<Pair<Volume> *>(state)->update(frame); });
+    }
+
+    static mote_status query(void *state, const mote_frame *, mote_answer *answer)
+    {
+        return guard([&] { return static_cast<Pair<Volume> *>(state)->query(answer); });
+    }
+};
+
+/* The descriptor of a volume's method. parameters has PARAMETER_COUNT entries in the order of
+   ParameterIndex. */
+template <class Volume>
+constexpr mote_method describe(const char *name, const char *summary,
+                               const mote_parameter (&parameters)[PARAMETER_COUNT])
+{
+    using A = Adapter<Volume>;
+    return mote_method{name,      summary,    parameters, PARAMETER_COUNT, A::traits,
+                       A::create, A::destroy, A::update,  A::query};
+}
+
+} // namespace mote_fcl
+
+#endif

@@ -1,0 +1,61 @@
+/* The parameters that all FCL methods share, and their parsed form. */
+#ifndef MOTE_BASELINES_FCL_PARAMETERS_HPP
+#define MOTE_BASELINES_FCL_PARAMETERS_HPP
+
+#include "core/method.h"
+
+namespace mote_fcl
+{
+
+/* In the order of the table below. */
+enum ParameterIndex { UPDATE, QUEUE, SEED, CALL, POSITIONS, PARAMETER_COUNT };
+
+enum UpdateMode { REFIT_BOTTOM_UP, REFIT_TOP_DOWN, REBUILD, NO_UPDATE };
+
+struct Options {
+    UpdateMode update;
+    int queue;   /* 2: depth first; more: entries of FCL's priority queue */
+    bool seeded; /* start from the last query's triangle pair */
+    bool api;    /* fcl::distance and fcl::collide instead of their traversal nodes */
+    bool given;  /* the vertices come free of charge */
+};
+
+inline Options read_options(const double *values)
+{
+    Options options = {};
+    options.update = static_cast<UpdateMode>(static_cast<int>(values[UPDATE]));
+    options.queue = values[QUEUE] == 0 ? 2 : 64;
+    options.seeded = values[SEED] == 1;
+    options.api = values[CALL] == 1;
+    options.given = values[POSITIONS] == 1;
+    return options;
+}
+
+constexpr mote_parameter choice(const char *key, const char *choices, const char *fallback,
+                                const char *help)
+{
+    return mote_parameter{key, MOTE_PARAMETER_CHOICE, 0, 0, choices, fallback, help};
+}
+
+/* A method's table: `static const mote_parameter table[] = {update_parameter("rebuild"),
+   MOTE_FCL_MORE_PARAMETERS}`. */
+constexpr mote_parameter update_parameter(const char *fallback)
+{
+    return choice("update", "refit-bottom-up|refit-top-down|rebuild|none", fallback,
+                  "how a tree follows a changed shape; none: rigid bodies, by transforms");
+}
+
+constexpr mote_parameter queue_parameter =
+    choice("queue", "2|64", "2", "distance traversal: 2 depth first, 64 by priority queue");
+constexpr mote_parameter seed_parameter =
+    choice("seed", "none|previous", "none",
+           "distance traversal: upper bound from the last query's triangle pair");
+constexpr mote_parameter call_parameter =
+    choice("call", "node|api", "node", "drive FCL's traversal node, or its public functions");
+constexpr mote_parameter positions_parameter =
+    choice("positions", "deform|given", "deform",
+           "deform: pay for deforming all vertices; given: they come free of charge");
+
+} // namespace mote_fcl
+
+#endif
