@@ -1,0 +1,36 @@
+/* A small random sequence from a seed (splitmix64: Steele, Lea, Flood 2014): the same on every
+   machine, for start positions. */
+#ifndef MOTE_CORE_RANDOM_H
+#define MOTE_CORE_RANDOM_H
+
+#include <stdint.h>
+
+typedef struct mote_random {
+    uint64_t state;
+} mote_random;
+
+static inline uint64_t mote_random_next(mote_random *random)
+{
+    uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+/* Uniform in 0 .. bound - 1; bound is at least 1. Unbiased (rejection). */
+static inline uint64_t mote_random_below(mote_random *random, uint64_t bound)
+{
+    const uint64_t limit = UINT64_MAX - UINT64_MAX % bound;
+    uint64_t value = mote_random_next(random);
+    while (value >= limit)
+        value = mote_random_next(random);
+    return value % bound;
+}
+
+/* Uniform in [0, 1). */
+static inline double mote_random_unit(mote_random *random)
+{
+    return (double)(mote_random_next(random) >> 11) * 0x1p-53;
+}
+
+#endif
