@@ -9,6 +9,7 @@
 #include "core/clones.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 /* The relative rounding error of one operation. */
 #define ROUNDING 0x1p-53
@@ -46,14 +47,16 @@ typedef struct side {
     double h[3]; /* n . (vertex - o) */
 } side;
 
-static double clamp01(double x)
+/* Half of x + |x| is max(x, 0) exactly; two nested choices would become four compares a lane.
+ */
+static inline double clamp01(double x)
 {
-    x = x > 0 ? x : 0;
-    return x < 1 ? x : 1;
+    double positive = 0.5 * (x + fabs(x));
+    return positive < 1 ? positive : 1;
 }
 
 /* x / y where y > 0, else 0. */
-static double ratio(double x, double y)
+static inline double ratio(double x, double y)
 {
     return y > 0 ? x / y : 0;
 }
@@ -143,79 +146,85 @@ static void settle_contact(const mote_vec3 s[3], const mote_vec3 t[3], candidate
     c->p = c->q = mote_add_scaled(c->p, -0.5, c->difference);
 }
 
-/* The three edges of a triangle, lane by lane; the fourth lane repeats the first. */
-typedef struct edges {
-    double ox[4], oy[4], oz[4]; /* start */
-    double dx[4], dy[4], dz[4]; /* end - start */
-    double length_squared[4];
-} edges;
+/* Start, end - start, 1 / |d|^2 (1 where d = 0). */
+typedef struct edge {
+    mote_vec3 o, d;
+    double inverse;
+} edge;
 
-static inline void make_edges(const mote_vec3 t[3], edges *e)
+static inline edge make_edge(mote_vec3 from, mote_vec3 to)
 {
-    for (int k = 0; k < 4; k++) {
-        mote_vec3 o = t[k % 3], d = mote_sub(t[(k + 1) % 3], o);
-        e->ox[k] = o.x;
-        e->oy[k] = o.y;
-        e->oz[k] = o.z;
-        e->dx[k] = d.x;
-        e->dy[k] = d.y;
-        e->dz[k] = d.z;
-        e->length_squared[k] = mote_length_squared(d);
-    }
+    edge e = {.o = from, .d = mote_sub(to, from)};
+    double dd = mote_length_squared(e.d);
+    e.inverse = 1 / (dd > 0 ? dd : 1);
+    return e;
 }
 
-/* The best pair so far in each lane: its edge of the first triangle, its parameters. */
-typedef struct lanes {
-    double squared[4], s[4], t[4], edge[4];
-} lanes;
+/* The nearest points of two edges, as parameters along each. */
+typedef struct nearest {
+    double squared, s, t;
+} nearest;
 
-/* Tries one edge (start o, direction d, dd = |d|^2) with the edges b, lane by lane without
-   branches, so that compilers vectorise it. */
-static inline void edge_row(mote_vec3 o, mote_vec3 d, double edge, const edges *restrict b,
-                            lanes *restrict best)
+/* The nearest points of a and b, without branches. */
+static inline nearest edge_pair(const edge *a, const edge *b)
 {
-    double dd = mote_length_squared(d);
-    for (int k = 0; k < 4; k++) {
-        double bx = b->dx[k], by = b->dy[k], bz = b->dz[k], bb = b->length_squared[k];
-        double rx = o.x - b->ox[k], ry = o.y - b->oy[k], rz = o.z - b->oz[k];
-        double nx = d.y * bz - d.z * by, ny = d.z * bx - d.x * bz, nz = d.x * by - d.y * bx;
-        double cx = ry * bz - rz * by, cy = rz * bx - rx * bz, cz = rx * by - ry * bx;
-        double nn = nx * nx + ny * ny + nz * nz;
-        double x = -(cx * nx + cy * ny + cz * nz) / (nn > 0 ? nn : 1);
-        x = x > 0 ? x : 0;
-        x = x < 1 ? x : 1;
-        double rb = rx * bx + ry * by + rz * bz;
-        double rd = rx * d.x + ry * d.y + rz * d.z;
-        double db = d.x * bx + d.y * by + d.z * bz;
-        double y = (rb + x * db) / (bb > 0 ? bb : 1);
-        double yc = y > 0 ? y : 0;
-        yc = yc < 1 ? yc : 1;
-        double z = (yc * db - rd) / (dd > 0 ? dd : 1);
-        z = z > 0 ? z : 0;
-        z = z < 1 ? z : 1;
-        x = ((yc == y) & (nn > 0)) ? x : z;
-        double wx = rx + x * d.x - yc * bx;
-        double wy = ry + x * d.y - yc * by;
-        double wz = rz + x * d.z - yc * bz;
-        double squared = wx * wx + wy * wy + wz * wz;
-        bool better = squared < best->squared[k];
-        best->squared[k] = better ? squared : best->squared[k];
-        best->s[k] = better ? x : best->s[k];
-        best->t[k] = better ? yc : best->t[k];
-        best->edge[k] = better ? edge : best->edge[k];
-    }
+    double dx = a->d.x, dy = a->d.y, dz = a->d.z, bx = b->d.x, by = b->d.y, bz = b->d.z;
+    double rx = a->o.x - b->o.x, ry = a->o.y - b->o.y, rz = a->o.z - b->o.z;
+    double nx = dy * bz - dz * by, ny = dz * bx - dx * bz, nz = dx * by - dy * bx;
+    double cx = rz * by - ry * bz, cy = rx * bz - rz * bx, cz = ry * bx - rx * by;
+    double nn = nx * nx + ny * ny + nz * nz;
+    double rb = rx * bx + ry * by + rz * bz;
+    double rd = rx * dx + ry * dy + rz * dz;
+    double db = dx * bx + dy * by + dz * bz;
+    double s = clamp01((cx * nx + cy * ny + cz * nz) / (nn > 0 ? nn : 1));
+    double free_t = (rb + s * db) * b->inverse, t = clamp01(free_t);
+    double again = clamp01((t * db - rd) * a->inverse);
+    s = ((t == free_t) & (nn > 0)) ? s : again;
+    double wx = (rx - t * bx) + s * dx;
+    double wy = (ry - t * by) + s * dy;
+    double wz = (rz - t * bz) + s * dz;
+    nearest r = {wx * wx + wy * wy + wz * wz, s, t};
+    return r;
 }
 
-/* The best candidate of all nine edge pairs. */
-MOTE_CLONES
-static void edge_candidate(const mote_vec3 s[3], const mote_vec3 t[3], candidate *c)
+/* a, b or c for k = 0, 1, 2; else a. A choice of values, where an index would go through
+ * memory. */
+static inline mote_vec3 pick(int64_t k, mote_vec3 a, mote_vec3 b, mote_vec3 c)
 {
-    edges b;
-    make_edges(t, &b);
-    lanes best = {.squared = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-    edge_row(s[0], mote_sub(s[1], s[0]), 0, &b, &best);
-    edge_row(s[1], mote_sub(s[2], s[1]), 1, &b, &best);
-    edge_row(s[2], mote_sub(s[0], s[2]), 2, &b, &best);
+    return mote_vec3_make(k == 1   ? b.x
+                          : k == 2 ? c.x
+                                   : a.x,
+                          k == 1   ? b.y
+                          : k == 2 ? c.y
+                                   : a.y,
+                          k == 1   ? b.z
+                          : k == 2 ? c.z
+                                   : a.z);
+}
+
+/* The best candidate of all nine edge pairs: the edges of t in lanes that compilers vectorise.
+   Always inlined, so that every version of its callers has it in its own instruction set. */
+__attribute__((always_inline)) static inline void
+edge_candidate(const mote_vec3 s[3], const mote_vec3 t[3], candidate *c)
+{
+    edge a0 = make_edge(s[0], s[1]), a1 = make_edge(s[1], s[2]), a2 = make_edge(s[2], s[0]);
+    struct {
+        double squared[4], s[4], t[4], edge[4];
+    } best;
+    for (int64_t k = 0; k < 4; k++) {
+        edge b = {.o = pick(k, t[0], t[1], t[2])};
+        b.d = mote_sub(pick(k, t[1], t[2], t[0]), b.o);
+        double bb = mote_length_squared(b.d);
+        b.inverse = 1 / (bb > 0 ? bb : 1);
+        nearest r0 = edge_pair(&a0, &b), r1 = edge_pair(&a1, &b), r2 = edge_pair(&a2, &b);
+        bool one = r1.squared < r0.squared;
+        double squared = one ? r1.squared : r0.squared;
+        bool two = r2.squared < squared;
+        best.squared[k] = two ? r2.squared : squared;
+        best.s[k] = two ? r2.s : (one ? r1.s : r0.s);
+        best.t[k] = two ? r2.t : (one ? r1.t : r0.t);
+        best.edge[k] = two ? 2.0 : (one ? 1.0 : 0.0);
+    }
     int j = best.squared[1] < best.squared[0] ? 1 : 0;
     j = best.squared[2] < best.squared[j] ? 2 : j;
     int i = (int)best.edge[j], i_end = i < 2 ? i + 1 : 0, j_end = j < 2 ? j + 1 : 0;
@@ -442,6 +451,7 @@ static inline bool face_decides(const mote_vec3 s[3], const mote_vec3 t[3], cons
  * contacts. */
 #define NEAR 1e-10
 
+MOTE_CLONES
 double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
                                     double bound_squared, mote_vec3 *p, mote_vec3 *q)
 {
@@ -477,6 +487,7 @@ double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_v
     return mote_triangle_triangle_below(s, t, HUGE_VAL, p, q);
 }
 
+MOTE_CLONES
 double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec3 *p,
                             mote_vec3 *q)
 {
@@ -489,6 +500,7 @@ double mote_segment_segment(const mote_vec3 a[2], const mote_vec3 b[2], mote_vec
     return c.squared;
 }
 
+MOTE_CLONES
 double mote_point_triangle(mote_vec3 p, const mote_vec3 t[3], mote_vec3 *closest)
 {
     face f = make_face(t);
