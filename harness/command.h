@@ -18,7 +18,12 @@ typedef enum mote_exit {
    harness/command_NAME.c. argv[0] is the sub-command's name; the result is a mote_exit. */
 #define MOTE_COMMANDS(X)                                                                       \
     X(list, "list methods|scenarios [--json]", "the methods and scenarios that there are")     \
-    X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")
+    X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")                  \
+    X(check, "check SCENARIO [--json]",                                                        \
+      "fingerprint; whether the active interval is what it says")                              \
+    X(approach,                                                                                \
+      "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
+      "writes the scenario with body 1 placed so that the gaps are as wished")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \
     int mote_command_##name(int argc, char **argv);

@@ -11,17 +11,33 @@ typedef struct mote_truth {
     /* All [frames]; frame number k is at k - 1. */
     double *distance;     /* exact, >= 0; 0 where the surfaces touch or intersect */
     bool *contact;        /* distance <= scenario->tolerance */
-    mote_vec3 *witness_a; /* points on body 0 and body 1, distance apart; where distance is 0 */
-    mote_vec3 *witness_b; /* they are a common point, or as near to one as FCL tells */
+    mote_vec3 *witness_a; /* points on body 0 and body 1, distance apart; NaN where FCL gives */
+    mote_vec3 *witness_b; /* none, as where the surfaces intersect */
     uint32_t checked;     /* frames that brute force agreed with, to 1e-12 L */
 } mote_truth;
 
+/* Exact distances of all frames, computed in a child process (the caller's memory stays as it
+   was), without any file. MOTE_ENUMERIC, the text naming the frame, when FCL and brute force
+   disagree by more than 1e-12 L. The caller destroys *truth. */
+mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth);
+
 /* Reads DIR/truth/NAME-FINGERPRINT.csv when it is there, whole, and belongs to the scenario;
-   computes and writes it otherwise (in a child process: the caller's memory stays as it was).
-   MOTE_ENUMERIC, the text naming the frame, when FCL and brute force disagree by more than
-   1e-12 L. MOTE_EIO when the file cannot be written. The caller destroys *truth. */
+   computes and writes it otherwise. MOTE_EIO when the file cannot be written. The caller
+   destroys *truth. */
 mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
                                        mote_truth **truth);
 void mote_truth_destroy(mote_truth *truth); /* NULL is allowed */
+
+/* For truth_file.c: an empty truth of that many frames, all distances and witnesses NaN. */
+mote_status mote_truth_allocate(uint32_t frames, mote_truth **truth);
+/* Sets contact from distance. */
+void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth);
+
+/* Reads or writes the file of a truth; reading gives MOTE_EINVAL for a file that is not whole,
+   or not of the scenario with this fingerprint. */
+mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
+                            const char *path, mote_truth **truth);
+mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,
+                             const char *path);
 
 #endif

@@ -1,0 +1,177 @@
+/* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
+#include "harness/approach.h"
+#include "harness/command.h"
+#include "harness/curve.h"
+#include "harness/file.h"
+#include "harness/json_print.h"
+#include "harness/json_read.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct request {
+    const char *scenario, *gaps, *output;
+    double direction[3];
+    uint64_t every;
+} request;
+
+/* Reads "x,y,z". */
+static bool read_direction(const char *text, double direction[3])
+{
+    char end;
+    return sscanf(text, "%lf,%lf,%lf%c", &direction[0], &direction[1], &direction[2], &end) ==
+               3 &&
+           direction[0] * direction[0] + direction[1] * direction[1] +
+                   direction[2] * direction[2] >
+               0;
+}
+
+/* "FRAME:GAP,FRAME:GAP" as a curve. */
+static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **curve)
+{
+    uint32_t at[1024];
+    double gap[1024];
+    uint32_t count = 0;
+    const char *from = text;
+    for (;;) {
+        char *end;
+        unsigned long frame = strtoul(from, &end, 10);
+        if (end == from || *end != ':' || frame < 1 || frame > frames || count == 1024)
+            return mote_fail(MOTE_EINVAL,
+                             "--gaps: %.20s: write FRAME:GAP,FRAME:GAP, frames "
+                             "from 1 to %u, gaps in L",
+                             from, frames);
+        from = end + 1;
+        gap[count] = strtod(from, &end);
+        if (end == from || (*end != ',' && *end != '\0') ||
+            !(gap[count] > -1 && gap[count] < 1e3))
+            return mote_fail(MOTE_EINVAL, "--gaps: %.20s: not a gap; give -1 to 1000, in L",
+                             from);
+        at[count++] = (uint32_t)frame;
+        if (*end == '\0')
+            break;
+        from = end + 1;
+    }
+    return mote_curve_create(at, gap, count, 1, curve);
+}
+
+/* Frames 1, 1 + every, ..., and the last. */
+static uint32_t list_frames(uint32_t frames, uint32_t every, uint32_t *list)
+{
+    uint32_t count = 0;
+    for (uint32_t frame = 1; frame < frames; frame += every)
+        list[count++] = frame;
+    list[count++] = frames;
+    return count;
+}
+
+/* Body 1's keys without their positions, then the positions found. */
+static mote_status replace_positions(json_t *root, const mote_scenario *scenario,
+                                     const uint32_t *frames, const mote_vec3 *positions,
+                                     uint32_t count)
+{
+    json_t *body = json_array_get(json_object_get(root, "bodies"), 1);
+    json_t *keys = json_array();
+    size_t index;
+    json_t *key;
+    json_array_foreach(json_object_get(body, "motion"), index, key)
+    {
+        (void)json_object_del(key, "position");
+        if (json_object_size(key) > 1)
+            (void)json_array_append(keys, key);
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        const mote_vec3 p = mote_scale(positions[k], 1 / scenario->length);
+        (void)json_array_append_new(
+            keys, json_pack("{s:i, s:[f,f,f]}", "frame", frames[k], "position", p.x, p.y, p.z));
+    }
+    if (!keys || json_object_set_new(body, "motion", keys) != 0)
+        return mote_fail(MOTE_ENOMEM, "no memory for %u key poses", count);
+    return MOTE_OK;
+}
+
+static mote_status write_result(const request *wish, const mote_scenario *scenario,
+                                const uint32_t *frames, const mote_vec3 *positions,
+                                uint32_t count)
+{
+    mote_json_file file;
+    mote_status status = mote_json_open(scenario->path, &file);
+    if (status != MOTE_OK)
+        return status;
+    mote_text text = {0};
+    status = replace_positions(file.root, scenario, frames, positions, count);
+    if (status == MOTE_OK) {
+        mote_json_print(file.root, 6, &text);
+        status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for a scenario's text")
+                             : mote_file_write(wish->output, text.data, text.size);
+    }
+    free(text.data);
+    mote_json_close(&file);
+    return status;
+}
+
+static mote_status approach(const request *wish, const mote_scenario *scenario)
+{
+    mote_curve *curve = NULL;
+    mote_status status = read_gaps(wish->gaps, scenario->frames, &curve);
+    if (status != MOTE_OK)
+        return status;
+    const size_t most = scenario->frames / wish->every + 2;
+    uint32_t *frames = malloc(most * sizeof *frames);
+    double *gaps = malloc(most * sizeof *gaps);
+    mote_vec3 *positions = malloc(most * sizeof *positions);
+    if (!frames || !gaps || !positions) {
+        status = mote_fail(MOTE_ENOMEM, "no memory for %zu frames", most);
+    } else {
+        uint32_t count = list_frames(scenario->frames, (uint32_t)wish->every, frames);
+        for (uint32_t k = 0; k < count; ++k)
+            mote_curve_evaluate(curve, frames[k], &gaps[k]);
+        const double *u = wish->direction;
+        mote_approach_plan plan = {
+            mote_vec3_make(u[0], u[1], u[2]), {0, 0, 0}, frames, gaps, count};
+        status = mote_approach_solve(scenario, &plan, positions);
+        if (status == MOTE_OK)
+            status = write_result(wish, scenario, frames, positions, count);
+    }
+    free(frames);
+    free(gaps);
+    free(positions);
+    mote_curve_destroy(curve);
+    return status;
+}
+
+int mote_command_approach(int argc, char **argv)
+{
+    static const mote_option options[] = {
+        {"gaps", "FRAME:GAP,..."}, {"every", "FRAMES"}, {"direction", "X,Y,Z"}, {"-o", "FILE"}};
+    mote_option_reader reader = {options, 4, argc, argv, 0};
+    request wish = {NULL, NULL, NULL, {1, 0, 0}, 16};
+    const char *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        bool good = option != MOTE_OPTION_ERROR;
+        if (option == MOTE_OPTION_PLAIN && wish.scenario)
+            return mote_command_usage("approach", "%s: one scenario at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            wish.scenario = value;
+        else if (option == 0)
+            wish.gaps = value;
+        else if (option == 1 && !mote_read_unsigned(value, 1, 100000, &wish.every))
+            return mote_command_usage("approach", "--every %s: give a number of frames", value);
+        else if (option == 2 && !read_direction(value, wish.direction))
+            return mote_command_usage("approach", "--direction %s: give x,y,z", value);
+        else if (option == 3)
+            wish.output = value;
+        if (!good)
+            return MOTE_EXIT_USAGE;
+    }
+    if (!wish.scenario || !wish.gaps || !wish.output)
+        return mote_command_usage("approach", "something is missing; write `mote approach "
+                                              "SCENARIO --gaps 1:0.5,100:-0.01 -o FILE.json`");
+    mote_scenario *scenario;
+    if (mote_scenario_load(wish.scenario, &scenario) != MOTE_OK)
+        return mote_command_fail();
+    mote_status status = approach(&wish, scenario);
+    mote_scenario_destroy(scenario);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}

@@ -1,0 +1,167 @@
+/* mote check SCENARIO [--json]: its fingerprint, and whether it is what it says. */
+#include "harness/command.h"
+#include "harness/truth.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define NEAR 0.1 /* of L: a scenario's active frames are nearer than this */
+#define NEAR_SHARE 0.9
+
+typedef struct findings {
+    uint64_t fingerprint;
+    uint32_t contacts;        /* frames */
+    uint32_t active_frames;   /* 0: none named */
+    uint32_t active_contacts; /* of them */
+    uint32_t active_near;
+    uint32_t checked;
+    double smallest, largest; /* distance, of L */
+    mote_interval longest;    /* the longest run of frames that could be called active */
+} findings;
+
+/* The longest run of which at least NEAR_SHARE are near: of prefix sums of (near - share), the
+   farthest pair that does not fall. O(frames^2) at worst, of additions. */
+static mote_interval longest_active(const mote_scenario *scenario, const mote_truth *truth)
+{
+    mote_interval best = {0, 0};
+    uint32_t best_size = 0;
+    for (uint32_t first = 0; first + best_size < truth->frames; ++first) {
+        uint32_t near = 0;
+        for (uint32_t k = first; k < truth->frames; ++k) {
+            const uint32_t size = k - first + 1;
+            near += truth->distance[k] <= NEAR * scenario->length;
+            if (size > best_size && near >= NEAR_SHARE * size) {
+                best_size = size;
+                best = (mote_interval){first + 1, k + 1};
+            }
+        }
+    }
+    return best;
+}
+
+static void look(const mote_scenario *scenario, const mote_truth *truth, findings *found)
+{
+    found->checked = truth->checked;
+    found->smallest = found->largest = truth->distance[0] / scenario->length;
+    for (uint32_t k = 0; k < truth->frames; ++k) {
+        const double distance = truth->distance[k] / scenario->length;
+        found->smallest = distance < found->smallest ? distance : found->smallest;
+        found->largest = distance > found->largest ? distance : found->largest;
+        found->contacts += truth->contact[k];
+        if (k + 1 < scenario->active.first || k + 1 > scenario->active.last)
+            continue;
+        ++found->active_frames;
+        found->active_contacts += truth->contact[k];
+        found->active_near += distance <= NEAR;
+    }
+    found->longest = longest_active(scenario, truth);
+}
+
+static bool active_holds(const findings *found)
+{
+    return found->active_near >= NEAR_SHARE * found->active_frames;
+}
+
+static int print_json(const mote_scenario *scenario, const findings *found)
+{
+    char fingerprint[32];
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, found->fingerprint);
+    json_t *root = json_pack(
+        "{s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:[i,i], s:[i,i]}", "scenario", scenario->name,
+        "fingerprint", fingerprint, "frames", scenario->frames, "checked", found->checked,
+        "contacts", found->contacts, "smallest", found->smallest, "largest", found->largest,
+        "active", scenario->active.first, scenario->active.last, "longest_active",
+        found->longest.first, found->longest.last);
+    if (root && found->active_frames > 0) {
+        (void)json_object_set_new(root, "active_contacts",
+                                  json_integer(found->active_contacts));
+        (void)json_object_set_new(root, "active_near", json_integer(found->active_near));
+        (void)json_object_set_new(root, "active_holds", json_boolean(active_holds(found)));
+    }
+    if (!root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0) {
+        json_decref(root);
+        (void)mote_fail(MOTE_EIO, "check: its JSON could not be written");
+        return mote_command_fail();
+    }
+    (void)fputc('\n', stdout);
+    json_decref(root);
+    return MOTE_EXIT_DONE;
+}
+
+static void print_lines(const mote_scenario *scenario, const findings *found)
+{
+    (void)printf("%s: fingerprint %016" PRIx64 "\n", scenario->name, found->fingerprint);
+    (void)printf("%u frames, truth from %.4g to %.4g L, contact in %u (%.1f %%)\n",
+                 scenario->frames, found->smallest, found->largest, found->contacts,
+                 100.0 * found->contacts / scenario->frames);
+    (void)printf("%u frames checked by brute force\n", found->checked);
+    if (found->active_frames > 0)
+        (void)printf(
+            "active %u-%u: truth <= %g L in %.1f %% of frames (needed: %g %%), contact "
+            "in %.1f %%\n",
+            scenario->active.first, scenario->active.last, NEAR,
+            100.0 * found->active_near / found->active_frames, 100 * NEAR_SHARE,
+            100.0 * found->active_contacts / found->active_frames);
+    if (found->longest.first > 0)
+        (void)printf("longest interval that is active: %u-%u\n", found->longest.first,
+                     found->longest.last);
+}
+
+static int check(const char *name, bool json)
+{
+    mote_scenario *scenario;
+    if (mote_scenario_load(name, &scenario) != MOTE_OK)
+        return mote_command_fail();
+    findings found = {0};
+    mote_truth *truth = NULL;
+    mote_status status = mote_scenario_fingerprint(scenario, &found.fingerprint);
+    if (status == MOTE_OK)
+        status = mote_truth_compute(scenario, &truth);
+    int code;
+    if (status == MOTE_OK) {
+        look(scenario, truth, &found);
+        code = MOTE_EXIT_DONE;
+        if (json)
+            code = print_json(scenario, &found);
+        else
+            print_lines(scenario, &found);
+        if (code == MOTE_EXIT_DONE && !active_holds(&found)) {
+            (void)fprintf(stderr,
+                          "mote: %s: active %u-%u: only %u of %u frames have truth <= %g L; "
+                          "name an interval in which at least %g %% have\n",
+                          scenario->path, scenario->active.first, scenario->active.last,
+                          found.active_near, found.active_frames, NEAR, 100 * NEAR_SHARE);
+            code = MOTE_EXIT_CHECK_FAILED;
+        }
+    } else {
+        code = mote_command_fail();
+        /* The bodies were read; that two exact methods disagree is a failed check. */
+        code = status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
+    }
+    mote_truth_destroy(truth);
+    mote_scenario_destroy(scenario);
+    return mote_command_finish(code);
+}
+
+int mote_command_check(int argc, char **argv)
+{
+    static const mote_option options[] = {{"json", NULL}};
+    mote_option_reader reader = {options, 1, argc, argv, 0};
+    const char *name = NULL, *value;
+    bool json = false;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN && name)
+            return mote_command_usage("check", "%s: one scenario at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            name = value;
+        else
+            json = true;
+    }
+    if (!name)
+        return mote_command_usage("check", "no scenario; write `mote check SCENARIO`");
+    return check(name, json);
+}

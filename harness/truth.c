@@ -1,0 +1,268 @@
+#include "harness/truth.h"
+
+#include "harness/child.h"
+#include "harness/file.h"
+#include "harness/probe.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define ORACLE "fcl-aabb"
+#define REFEREE "brute-force"
+#define AGREEMENT 1e-12 /* of L */
+
+/* Frames that the referee looks at, from each group; all frames when there are few. */
+#define CHECKED_CONTACTS 6
+#define CHECKED_NEAR 8
+#define CHECKED_EVEN 10
+
+/* What a child hands back for each frame. */
+typedef struct truth_row {
+    double distance;
+    mote_vec3 a, b;
+} truth_row;
+
+/* Where there is no witness. */
+static const mote_vec3 nowhere = {(double)NAN, (double)NAN, (double)NAN};
+
+mote_status mote_truth_allocate(uint32_t frames, mote_truth **truth)
+{
+    mote_truth *made = calloc(1, sizeof *made);
+    if (made) {
+        made->frames = frames;
+        made->distance = malloc(frames * sizeof *made->distance);
+        made->contact = calloc(frames, sizeof *made->contact);
+        made->witness_a = malloc(frames * sizeof *made->witness_a);
+        made->witness_b = malloc(frames * sizeof *made->witness_b);
+    }
+    if (!made || !made->distance || !made->contact || !made->witness_a || !made->witness_b) {
+        mote_truth_destroy(made);
+        return mote_fail(MOTE_ENOMEM, "no memory for the truth of %u frames", frames);
+    }
+    for (uint32_t i = 0; i < frames; ++i) {
+        made->distance[i] = nowhere.x;
+        made->witness_a[i] = made->witness_b[i] = nowhere;
+    }
+    *truth = made;
+    return MOTE_OK;
+}
+
+void mote_truth_destroy(mote_truth *truth)
+{
+    if (!truth)
+        return;
+    free(truth->distance);
+    free(truth->contact);
+    free(truth->witness_a);
+    free(truth->witness_b);
+    free(truth);
+}
+
+void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth)
+{
+    for (uint32_t i = 0; i < truth->frames; ++i)
+        truth->contact[i] = truth->distance[i] <= scenario->tolerance;
+}
+
+static mote_status make_probe(const mote_scenario *scenario, const char *method,
+                              mote_probe **probe)
+{
+    mote_method_choice choice;
+    mote_status status = mote_method_choice_read(method, &choice);
+    if (status == MOTE_OK)
+        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
+                                   MOTE_ASK_DISTANCE, 0, 0, probe);
+    return status;
+}
+
+static mote_status answer_all(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                              truth_row *rows)
+{
+    mote_probe *probe;
+    mote_status status = make_probe(scenario, ORACLE, &probe);
+    if (status != MOTE_OK)
+        return status;
+    for (uint32_t k = 0; k < scenario->frames && status == MOTE_OK; ++k) {
+        mote_answer answer;
+        const mote_frame *frame = mote_scenario_frame(scenario, buffer, k + 1, k);
+        status = mote_probe_answer(probe, frame, &answer);
+        if (status != MOTE_OK)
+            break;
+        if (!answer.has_distance || !(answer.distance >= 0))
+            status = mote_fail(MOTE_ENUMERIC, "%s: frame %u: %s gave no distance",
+                               scenario->name, k + 1, ORACLE);
+        rows[k].distance = answer.distance;
+        rows[k].a = answer.has_witness ? answer.witness[0] : nowhere;
+        rows[k].b = answer.has_witness ? answer.witness[1] : nowhere;
+    }
+    mote_probe_destroy(probe);
+    return status;
+}
+
+/* Marks at most count of the frames for which wanted[k], evenly, the first and last included.
+ */
+static void mark_evenly(const bool *wanted, uint32_t frames, uint32_t count, bool *marked)
+{
+    uint32_t total = 0;
+    for (uint32_t k = 0; k < frames; ++k)
+        total += wanted[k];
+    const uint32_t pick = total < count ? total : count;
+    uint32_t seen = 0, picked = 0;
+    for (uint32_t k = 0; k < frames; ++k) {
+        if (!wanted[k])
+            continue;
+        const uint64_t at = pick > 1 ? (uint64_t)picked * (total - 1) / (pick - 1) : 0;
+        if (picked < pick && seen == at) {
+            marked[k] = true;
+            ++picked;
+        }
+        ++seen;
+    }
+}
+
+static void mark_nearest(const truth_row *rows, uint32_t frames, uint32_t count, bool *marked)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t best = frames;
+        for (uint32_t k = 0; k < frames; ++k) {
+            if (!marked[k] && rows[k].distance > 0 &&
+                (best == frames || rows[k].distance < rows[best].distance))
+                best = k;
+        }
+        if (best < frames)
+            marked[best] = true;
+    }
+}
+
+static mote_status choose_frames(const truth_row *rows, uint32_t frames, bool *marked)
+{
+    bool *wanted = malloc(frames * sizeof *wanted);
+    if (!wanted)
+        return mote_fail(MOTE_ENOMEM, "no memory to check %u frames", frames);
+    for (uint32_t k = 0; k < frames; ++k)
+        wanted[k] = rows[k].distance == 0;
+    mark_evenly(wanted, frames, CHECKED_CONTACTS, marked);
+    mark_nearest(rows, frames, CHECKED_NEAR, marked);
+    /* Of those not chosen yet, so that the groups add up. */
+    for (uint32_t k = 0; k < frames; ++k)
+        wanted[k] = !marked[k];
+    mark_evenly(wanted, frames, CHECKED_EVEN, marked);
+    free(wanted);
+    return MOTE_OK;
+}
+
+static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                                const truth_row *rows, const bool *marked, uint32_t *checked)
+{
+    mote_probe *probe;
+    mote_status status = make_probe(scenario, REFEREE, &probe);
+    if (status != MOTE_OK)
+        return status;
+    *checked = 0;
+    for (uint32_t k = 0; k < scenario->frames && status == MOTE_OK; ++k) {
+        if (!marked[k])
+            continue;
+        mote_answer answer;
+        const mote_frame *frame = mote_scenario_frame(scenario, buffer, k + 1, 0);
+        status = mote_probe_answer(probe, frame, &answer);
+        if (status == MOTE_OK &&
+            !(fabs(answer.distance - rows[k].distance) <= AGREEMENT * scenario->length))
+            status = mote_fail(MOTE_ENUMERIC,
+                               "%s: frame %u: %s says %.17g, %s %.17g; they may differ by %g L",
+                               scenario->name, k + 1, ORACLE, rows[k].distance, REFEREE,
+                               answer.distance, AGREEMENT);
+        ++*checked;
+    }
+    mote_probe_destroy(probe);
+    return status;
+}
+
+/* In the child: answers, checks, hands back the count checked and all rows. */
+static mote_status work(void *context, int output)
+{
+    const mote_scenario *scenario = context;
+    mote_frame_buffer *buffer = NULL;
+    uint32_t checked = 0;
+    truth_row *rows = calloc(scenario->frames, sizeof *rows);
+    bool *marked = calloc(scenario->frames, sizeof *marked);
+    mote_status status = rows && marked ? mote_frame_buffer_create(scenario, &buffer)
+                                        : mote_fail(MOTE_ENOMEM, "no memory for the truth");
+    if (status == MOTE_OK)
+        status = answer_all(scenario, buffer, rows);
+    if (status == MOTE_OK)
+        status = choose_frames(rows, scenario->frames, marked);
+    if (status == MOTE_OK)
+        status = check_frames(scenario, buffer, rows, marked, &checked);
+    if (status == MOTE_OK)
+        status = mote_child_put(output, &checked, sizeof checked);
+    if (status == MOTE_OK)
+        status = mote_child_put(output, rows, scenario->frames * sizeof *rows);
+    mote_frame_buffer_destroy(buffer);
+    free(rows);
+    free(marked);
+    return status;
+}
+
+mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth)
+{
+    const size_t size = sizeof(uint32_t) + scenario->frames * sizeof(truth_row);
+    const mote_child_limits limits = {0, 0, size};
+    char *output = NULL;
+    size_t got = 0;
+    mote_truth *made = NULL;
+    /* The context is not written to; the child has a copy anyway. */
+    mote_status status =
+        mote_child_run("truth", work, (void *)(uintptr_t)scenario, limits, &output, &got);
+    if (status == MOTE_OK && got != size)
+        status = mote_fail(MOTE_EIO, "%s: the truth's process ended early", scenario->name);
+    if (status == MOTE_OK)
+        status = mote_truth_allocate(scenario->frames, &made);
+    if (status == MOTE_OK) {
+        memcpy(&made->checked, output, sizeof made->checked);
+        for (uint32_t k = 0; k < scenario->frames; ++k) {
+            truth_row row;
+            memcpy(&row, output + sizeof(uint32_t) + k * sizeof row, sizeof row);
+            made->distance[k] = row.distance;
+            made->witness_a[k] = row.a;
+            made->witness_b[k] = row.b;
+        }
+        mote_truth_set_contacts(scenario, made);
+        *truth = made;
+    }
+    free(output);
+    return status;
+}
+
+mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
+                                       mote_truth **truth)
+{
+    uint64_t fingerprint;
+    mote_status status = mote_scenario_fingerprint(scenario, &fingerprint);
+    if (status != MOTE_OK)
+        return status;
+    char *folder = mote_format("%s/truth", directory);
+    char *path =
+        mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scenario->name, fingerprint);
+    if (!folder || !path)
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a path", directory);
+    else
+        status = mote_directory_make(folder);
+    /* A file that is missing or damaged is computed again. */
+    if (status == MOTE_OK && mote_truth_read(scenario, fingerprint, path, truth) != MOTE_OK) {
+        mote_truth *made = NULL;
+        status = mote_truth_compute(scenario, &made);
+        if (status == MOTE_OK) {
+            made->fingerprint = fingerprint;
+            status = mote_truth_write(scenario, made, path);
+        }
+        if (status == MOTE_OK)
+            *truth = made;
+        else
+            mote_truth_destroy(made);
+    }
+    free(folder);
+    free(path);
+    return status;
+}

@@ -1,0 +1,146 @@
+/* The file of a truth: a line that says whose it is, a CSV, and a last line with a hash of all
+   before it, so that a file that was cut or edited is not believed. */
+#include "harness/truth.h"
+
+#include "harness/file.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COLUMNS "frame,distance,ax,ay,az,bx,by,bz\n"
+
+static uint64_t hash_text(const char *text, size_t size)
+{
+    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
+    for (size_t i = 0; i < size; ++i)
+        hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
+    return hash;
+}
+
+static char *first_line(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames,
+                        uint32_t checked)
+{
+    return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, %u checked\n",
+                       scenario->name, fingerprint, frames, checked);
+}
+
+static void add_row(mote_text *text, const mote_truth *truth, uint32_t k)
+{
+    const mote_vec3 a = truth->witness_a[k];
+    const mote_vec3 b = truth->witness_b[k];
+    mote_text_add(text, "%u,%.17g,", k + 1, truth->distance[k]);
+    if (isnan(a.x))
+        mote_text_add(text, ",,,,,\n");
+    else
+        mote_text_add(text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", a.x, a.y, a.z, b.x, b.y,
+                      b.z);
+}
+
+mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,
+                             const char *path)
+{
+    mote_text text = {0};
+    char *first = first_line(scenario, truth->fingerprint, truth->frames, truth->checked);
+    if (first)
+        mote_text_add(&text, "%s%s", first, COLUMNS);
+    for (uint32_t k = 0; first && k < truth->frames; ++k)
+        add_row(&text, truth, k);
+    mote_status status = first && !text.failed
+                             ? MOTE_OK
+                             : mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path);
+    if (status == MOTE_OK) {
+        const uint64_t hash = hash_text(text.data, text.size);
+        mote_text_add(&text, "# hash %016" PRIx64 "\n", hash);
+        status = text.failed ? mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path)
+                             : mote_file_write(path, text.data, text.size);
+    }
+    free(first);
+    free(text.data);
+    return status;
+}
+
+/* Reads "K,d,ax,ay,az,bx,by,bz\n" with an empty witness allowed; NULL when it is not that. */
+static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
+{
+    char *end;
+    if (strtoul(at, &end, 10) != k + 1 || *end != ',')
+        return NULL;
+    at = end + 1;
+    truth->distance[k] = strtod(at, &end);
+    if (end == at || *end != ',' || !(truth->distance[k] >= 0))
+        return NULL;
+    at = end + 1;
+    if (strncmp(at, ",,,,,\n", 6) == 0)
+        return at + 6;
+    double number[6];
+    for (int i = 0; i < 6; ++i) {
+        number[i] = strtod(at, &end);
+        if (end == at || *end != (i < 5 ? ',' : '\n'))
+            return NULL;
+        at = end + 1;
+    }
+    truth->witness_a[k] = mote_vec3_make(number[0], number[1], number[2]);
+    truth->witness_b[k] = mote_vec3_make(number[3], number[4], number[5]);
+    return at;
+}
+
+/* The text with its last line checked and cut off; false when it is not whole. */
+static bool check_hash(char *text, size_t size)
+{
+    static const size_t last_size = sizeof "# hash 0123456789abcdef\n" - 1;
+    if (size < last_size)
+        return false;
+    char *last = text + size - last_size;
+    char expected[32];
+    (void)snprintf(expected, sizeof expected, "# hash %016" PRIx64 "\n",
+                   hash_text(text, size - last_size));
+    bool same = strcmp(last, expected) == 0;
+    *last = '\0';
+    return same;
+}
+
+static bool read_text(const mote_scenario *scenario, uint64_t fingerprint, char *text,
+                      size_t size, mote_truth *truth)
+{
+    if (!check_hash(text, size))
+        return false;
+    const char *comma = strrchr(text, '#') == text ? strstr(text, " frames, ") : NULL;
+    if (!comma)
+        return false;
+    truth->checked = (uint32_t)strtoul(comma + strlen(" frames, "), NULL, 10);
+    char *first = first_line(scenario, fingerprint, scenario->frames, truth->checked);
+    const size_t length = first ? strlen(first) : 0;
+    bool good = first && strncmp(text, first, length) == 0 &&
+                strncmp(text + length, COLUMNS, strlen(COLUMNS)) == 0;
+    free(first);
+    const char *at = good ? text + length + strlen(COLUMNS) : NULL;
+    for (uint32_t k = 0; at && k < truth->frames; ++k)
+        at = read_row(at, truth, k);
+    truth->fingerprint = fingerprint;
+    return at && *at == '\0';
+}
+
+mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
+                            const char *path, mote_truth **truth)
+{
+    char *text;
+    size_t size;
+    mote_status status = mote_file_read(path, (size_t)1 << 30, &text, &size);
+    if (status != MOTE_OK)
+        return status;
+    mote_truth *made;
+    status = mote_truth_allocate(scenario->frames, &made);
+    if (status == MOTE_OK && read_text(scenario, fingerprint, text, size, made)) {
+        mote_truth_set_contacts(scenario, made);
+        *truth = made;
+    } else if (status == MOTE_OK) {
+        mote_truth_destroy(made);
+        status = mote_fail(MOTE_EINVAL, "%s: not the whole truth of %s; remove it", path,
+                           scenario->name);
+    }
+    free(text);
+    return status;
+}
