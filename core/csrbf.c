@@ -55,6 +55,39 @@ static mote_vec3 csrbf_displacement(const mote_field *field, const mote_mesh *me
     return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
 }
 
+MOTE_CLONES
+static void csrbf_displacement_single(const mote_field *field, const mote_mesh *mesh,
+                                      uint32_t vertex, const mote_weights_single *weights,
+                                      float displacement[3])
+{
+    const mote_vec3 p = mesh->positions[vertex];
+    const float px = (float)p.x;
+    const float py = (float)p.y;
+    const float pz = (float)p.z;
+    const float inverse = (float)(1 / field->support);
+    const float *cx = field->centre_single;
+    const float *cy = cx + field->padded;
+    const float *cz = cy + field->padded;
+    float x[MOTE_LANES] = {0};
+    float y[MOTE_LANES] = {0};
+    float z[MOTE_LANES] = {0};
+    for (size_t j = 0; j < field->padded; j += MOTE_LANES) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const float dx = (px - cx[j + l]) * inverse;
+            const float dy = (py - cy[j + l]) * inverse;
+            const float dz = (pz - cz[j + l]) * inverse;
+            const float phi = mote_wendland_c2_single(sqrtf(dx * dx + dy * dy + dz * dz));
+            x[l] += phi * weights->x[j + l];
+            y[l] += phi * weights->y[j + l];
+            z[l] += phi * weights->z[j + l];
+        }
+    }
+    displacement[0] = mote_lane_sum_single(x);
+    displacement[1] = mote_lane_sum_single(y);
+    displacement[2] = mote_lane_sum_single(z);
+}
+
 /* With s = |x - c| / support: d phi / dx = -20 (1 - s)^3 (x - c) / support^2, smooth at s = 0.
  */
 static void csrbf_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
@@ -76,12 +109,14 @@ static void csrbf_destroy(mote_field *field)
     free(field->centre_x);
     free(field->centre_y);
     free(field->centre_z);
+    free(field->centre_single);
     free(field);
 }
 
 static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .basis = csrbf_basis,
                                            .displacement = csrbf_displacement,
+                                           .displacement_single = csrbf_displacement_single,
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};
 
@@ -113,16 +148,20 @@ mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, do
     made->centre_x = malloc(made->padded * sizeof(double));
     made->centre_y = malloc(made->padded * sizeof(double));
     made->centre_z = malloc(made->padded * sizeof(double));
-    if (!made->centre_x || !made->centre_y || !made->centre_z) {
+    made->centre_single = malloc(3 * made->padded * sizeof(float));
+    if (!made->centre_x || !made->centre_y || !made->centre_z || !made->centre_single) {
         csrbf_destroy(made);
         return mote_fail(MOTE_ENOMEM, "no memory for a field of %u centres", count);
     }
-    made->bytes += 3 * made->padded * sizeof(double);
+    made->bytes += 3 * made->padded * (sizeof(double) + sizeof(float));
     for (uint32_t j = 0; j < made->padded; ++j) {
         const mote_vec3 c = centres[j < count ? j : 0];
         made->centre_x[j] = c.x;
         made->centre_y[j] = c.y;
         made->centre_z[j] = c.z;
+        made->centre_single[j] = (float)c.x;
+        made->centre_single[made->padded + j] = (float)c.y;
+        made->centre_single[2 * made->padded + j] = (float)c.z;
     }
     *field = made;
     return MOTE_OK;

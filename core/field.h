@@ -24,6 +24,12 @@ typedef struct mote_weights {
     uint32_t count, padded;
 } mote_weights;
 
+/* The same in single precision. */
+typedef struct mote_weights_single {
+    const float *x, *y, *z; /* [padded] */
+    uint32_t padded;
+} mote_weights_single;
+
 typedef struct mote_field mote_field;
 
 typedef struct mote_field_kind {
@@ -38,6 +44,11 @@ typedef struct mote_field_kind {
      */
     mote_vec3 (*displacement)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                               const mote_weights *weights);
+
+    /* The same in single precision throughout, for the weights rounded to it. NULL: the sum
+       over basis() rounded to it. */
+    void (*displacement_single)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                                const mote_weights_single *weights, float displacement[3]);
 
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
        the padding. For modes: the least-squares gradient over the one-ring. */
@@ -54,8 +65,9 @@ struct mote_field {
     double support;  /* CSRBF: support radius, > 0 */
     /* CSRBF: centres by coordinate [padded]; padding lies far outside every support */
     double *centre_x, *centre_y, *centre_z;
-    const void *data; /* of other kinds */
-    size_t bytes;     /* heap held, this struct included */
+    float *centre_single; /* CSRBF: x, y, z of the centres rounded, [3][padded] */
+    const void *data;     /* of other kinds */
+    size_t bytes;         /* heap held, this struct included */
 };
 
 /* At most this many basis functions (after padding). */
@@ -81,6 +93,11 @@ void mote_field_destroy(mote_field *field);
 /* sum_j phi_j w_j at a rest vertex; zero for a static field. */
 mote_vec3 mote_field_displacement(const mote_field *field, const mote_mesh *mesh,
                                   uint32_t vertex, const mote_weights *weights);
+
+/* The same in single precision. */
+void mote_field_displacement_single(const mote_field *field, const mote_mesh *mesh,
+                                    uint32_t vertex, const mote_weights_single *weights,
+                                    float displacement[3]);
 
 /* The fixed order in which MOTE_LANES partial sums are added. */
 static inline double mote_lane_sum(const double lane[MOTE_LANES])

@@ -16,4 +16,17 @@ static inline double mote_wendland_c2(double r)
     return q2 * q2 * (4 * r + 1);
 }
 
+static inline float mote_wendland_c2_single(float r)
+{
+    const float q = 1 - r > 0 ? 1 - r : 0;
+    const float q2 = q * q;
+    return q2 * q2 * (4 * r + 1);
+}
+
+static inline float mote_lane_sum_single(const float lane[MOTE_LANES])
+{
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
 #endif

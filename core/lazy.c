@@ -2,17 +2,19 @@
 
 #include <stdlib.h>
 
-static uint32_t log2_at_least(uint32_t count)
+/* A table of at least twice the expected positions, so that probes stay short. */
+static uint32_t table_bits(const mote_body *body, uint32_t expected)
 {
+    if (expected > body->mesh->vertex_count)
+        expected = body->mesh->vertex_count;
     uint32_t bits = 4;
-    while (bits < 31 && (1u << bits) < count)
+    while (bits < 31 && (1u << bits) < 2 * expected)
         ++bits;
     return bits;
 }
 
-static void use_table(mote_lazy *lazy, mote_lazy_slot *slots, uint32_t bits)
+static void set_size(mote_lazy *lazy, uint32_t bits)
 {
-    lazy->slots = slots;
     lazy->mask = (1u << bits) - 1;
     lazy->shift = 32 - bits;
     lazy->limit = 1u << (bits - 1);
@@ -20,21 +22,61 @@ static void use_table(mote_lazy *lazy, mote_lazy_slot *slots, uint32_t bits)
 
 mote_status mote_lazy_init(mote_lazy *lazy, const mote_body *body, uint32_t expected)
 {
-    if (expected > body->mesh->vertex_count)
-        expected = body->mesh->vertex_count;
-    const uint32_t bits = log2_at_least(2 * expected);
+    const uint32_t bits = table_bits(body, expected);
     mote_lazy_slot *slots = calloc((size_t)1 << bits, sizeof *slots);
     if (!slots)
         return mote_fail(MOTE_ENOMEM, "no memory for %u positions", 1u << bits);
-    *lazy = (mote_lazy){.body = body};
-    use_table(lazy, slots, bits);
+    *lazy = (mote_lazy){.body = body, .slots = slots};
+    set_size(lazy, bits);
+    return MOTE_OK;
+}
+
+mote_status mote_lazy_init_single(mote_lazy *lazy, const mote_body *body, uint32_t expected)
+{
+    const uint32_t bits = table_bits(body, expected);
+    mote_lazy_slot_single *slots = calloc((size_t)1 << bits, sizeof *slots);
+    /* One float more, so that a field without weights is no request for 0 bytes. */
+    float *weights = malloc((3 * (size_t)body->field->padded + 1) * sizeof *weights);
+    if (!slots || !weights) {
+        free(slots);
+        free(weights);
+        return mote_fail(MOTE_ENOMEM, "no memory for %u positions", 1u << bits);
+    }
+    *lazy = (mote_lazy){.body = body, .singles = slots, .weights_single = weights};
+    set_size(lazy, bits);
     return MOTE_OK;
 }
 
 void mote_lazy_free(mote_lazy *lazy)
 {
     free(lazy->slots);
+    free(lazy->singles);
+    free(lazy->weights_single);
     lazy->slots = NULL;
+    lazy->singles = NULL;
+    lazy->weights_single = NULL;
+}
+
+static void round_weights(mote_lazy *lazy)
+{
+    const mote_weights *w = &lazy->state->weights;
+    const uint32_t padded = lazy->body->field->padded;
+    for (uint32_t j = 0; j < padded; ++j) {
+        lazy->weights_single[j] = (float)w->x[j];
+        lazy->weights_single[padded + j] = (float)w->y[j];
+        lazy->weights_single[2 * padded + j] = (float)w->z[j];
+    }
+}
+
+/* After 2^32 frames old stamps could be taken for new ones. */
+static void clear_stamps(mote_lazy *lazy)
+{
+    for (uint32_t i = 0; i <= lazy->mask; ++i) {
+        if (lazy->singles)
+            lazy->singles[i].stamp = 0;
+        else
+            lazy->slots[i].stamp = 0;
+    }
 }
 
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given)
@@ -42,17 +84,31 @@ void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_giv
     lazy->state = state;
     lazy->given = use_given ? state->vertices : NULL;
     lazy->filled = 0;
-    if (++lazy->stamp == 0) { /* after 2^32 frames old stamps could be taken for new ones */
-        for (uint32_t i = 0; i <= lazy->mask; ++i)
-            lazy->slots[i].stamp = 0;
+    if (++lazy->stamp == 0) {
+        clear_stamps(lazy);
         lazy->stamp = 1;
     }
+    if (lazy->singles && !lazy->given)
+        round_weights(lazy);
+}
+
+static uint32_t first_index(const mote_lazy *lazy, uint32_t vertex)
+{
+    return (vertex * 2654435769u) >> lazy->shift;
 }
 
 static uint32_t free_index(const mote_lazy *lazy, uint32_t vertex)
 {
-    uint32_t index = (vertex * 2654435769u) >> lazy->shift;
+    uint32_t index = first_index(lazy, vertex);
     while (lazy->slots[index].stamp == lazy->stamp)
+        index = (index + 1) & lazy->mask;
+    return index;
+}
+
+static uint32_t free_index_single(const mote_lazy *lazy, uint32_t vertex)
+{
+    uint32_t index = first_index(lazy, vertex);
+    while (lazy->singles[index].stamp == lazy->stamp)
         index = (index + 1) & lazy->mask;
     return index;
 }
@@ -65,10 +121,29 @@ static bool grow(mote_lazy *lazy)
         return false;
     mote_lazy_slot *old = lazy->slots;
     const uint32_t old_mask = lazy->mask;
-    use_table(lazy, slots, bits);
+    lazy->slots = slots;
+    set_size(lazy, bits);
     for (uint32_t i = 0; i <= old_mask; ++i) {
         if (old[i].stamp == lazy->stamp)
             slots[free_index(lazy, old[i].vertex)] = old[i];
+    }
+    free(old);
+    return true;
+}
+
+static bool grow_single(mote_lazy *lazy)
+{
+    const uint32_t bits = 32 - lazy->shift + 1;
+    mote_lazy_slot_single *slots = bits < 32 ? calloc((size_t)1 << bits, sizeof *slots) : NULL;
+    if (!slots)
+        return false;
+    mote_lazy_slot_single *old = lazy->singles;
+    const uint32_t old_mask = lazy->mask;
+    lazy->singles = slots;
+    set_size(lazy, bits);
+    for (uint32_t i = 0; i <= old_mask; ++i) {
+        if (old[i].stamp == lazy->stamp)
+            slots[free_index_single(lazy, old[i].vertex)] = old[i];
     }
     free(old);
     return true;
@@ -86,4 +161,52 @@ mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index)
     lazy->slots[index] = (mote_lazy_slot){vertex, lazy->stamp, position};
     ++lazy->filled;
     return position;
+}
+
+static mote_lazy_slot_single evaluate_single(const mote_lazy *lazy, uint32_t vertex)
+{
+    const mote_field *field = lazy->body->field;
+    const mote_pose *pose = &lazy->state->pose;
+    const mote_vec3 rest = lazy->body->mesh->positions[vertex];
+    const float x[3] = {(float)rest.x, (float)rest.y, (float)rest.z};
+    const float t[3] = {(float)pose->translation.x, (float)pose->translation.y,
+                        (float)pose->translation.z};
+    float d[3] = {0, 0, 0};
+    if (field->count > 0) {
+        const float *w = lazy->weights_single;
+        const mote_weights_single weights = {w, w + field->padded,
+                                             w + 2 * (size_t)field->padded, field->padded};
+        mote_field_displacement_single(field, lazy->body->mesh, vertex, &weights, d);
+    }
+    mote_lazy_slot_single slot = {vertex, lazy->stamp, {0, 0, 0}};
+    for (int c = 0; c < 3; ++c) {
+        const double *row = pose->rotation.m[c];
+        slot.position[c] =
+            (float)row[0] * x[0] + (float)row[1] * x[1] + (float)row[2] * x[2] + t[c] + d[c];
+    }
+    return slot;
+}
+
+static mote_vec3 widened(const float position[3])
+{
+    return mote_vec3_make((double)position[0], (double)position[1], (double)position[2]);
+}
+
+mote_vec3 mote_lazy_position_single(mote_lazy *lazy, uint32_t vertex)
+{
+    uint32_t index = first_index(lazy, vertex);
+    for (; lazy->singles[index].stamp == lazy->stamp; index = (index + 1) & lazy->mask) {
+        if (lazy->singles[index].vertex == vertex)
+            return widened(lazy->singles[index].position);
+    }
+    const mote_lazy_slot_single slot = evaluate_single(lazy, vertex);
+    ++lazy->evaluated;
+    if (lazy->filled >= lazy->limit) {
+        if (!grow_single(lazy))
+            return widened(slot.position);
+        index = free_index_single(lazy, vertex);
+    }
+    lazy->singles[index] = slot;
+    ++lazy->filled;
+    return widened(slot.position);
 }

@@ -15,11 +15,19 @@ typedef struct mote_lazy_slot {
     mote_vec3 position;
 } mote_lazy_slot;
 
+/* The same in single precision. */
+typedef struct mote_lazy_slot_single {
+    uint32_t vertex, stamp;
+    float position[3];
+} mote_lazy_slot_single;
+
 typedef struct mote_lazy {
     const mote_body *body;
     const mote_body_state *state;
-    const mote_vec3 *given; /* vertices already deformed by somebody else, or NULL */
-    mote_lazy_slot *slots;  /* [mask + 1], a power of two */
+    const mote_vec3 *given;         /* vertices already deformed by somebody else, or NULL */
+    mote_lazy_slot *slots;          /* [mask + 1], a power of two; NULL in single precision */
+    mote_lazy_slot_single *singles; /* [mask + 1] in single precision, else NULL */
+    float *weights_single; /* x, y, z of the frame's weights rounded, [3][padded], or NULL */
     uint32_t mask, shift;
     uint32_t stamp;
     uint32_t filled;    /* slots filled in this frame */
@@ -29,6 +37,11 @@ typedef struct mote_lazy {
 
 /* expected: how many vertices a query is likely to visit (a hint; the table grows). */
 mote_status mote_lazy_init(mote_lazy *lazy, const mote_body *body, uint32_t expected);
+
+/* The same with positions evaluated and remembered in single precision (the trade of precision
+   for speed and memory): 20 bytes a slot instead of 32. */
+mote_status mote_lazy_init_single(mote_lazy *lazy, const mote_body *body, uint32_t expected);
+
 void mote_lazy_free(mote_lazy *lazy);
 
 /* Starts a frame: forgets all positions. state is borrowed until the next call. With use_given,
@@ -39,10 +52,15 @@ void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_giv
    evaluates). */
 mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index);
 
+/* mote_lazy_position in single precision. */
+mote_vec3 mote_lazy_position_single(mote_lazy *lazy, uint32_t vertex);
+
 static inline mote_vec3 mote_lazy_position(mote_lazy *lazy, uint32_t vertex)
 {
     if (lazy->given)
         return lazy->given[vertex];
+    if (lazy->singles)
+        return mote_lazy_position_single(lazy, vertex);
     uint32_t index = (vertex * 2654435769u) >> lazy->shift;
     for (;;) {
         const mote_lazy_slot *slot = &lazy->slots[index];

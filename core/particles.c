@@ -53,7 +53,9 @@ static mote_status allocate_body(mote_particles *p, const mote_body *body, int b
     p->place[b][1] = p->place[b][0] + n;
     p->place[b][2] = p->place[b][1] + n;
     /* A warm query looks at about one ring a particle and a few steps. */
-    return mote_lazy_init(&p->lazy[b], body, n < 1u << 24 ? 16 * (uint32_t)n : 1u << 28);
+    const uint32_t expected = n < 1u << 24 ? 16 * (uint32_t)n : 1u << 28;
+    return p->options.single ? mote_lazy_init_single(&p->lazy[b], body, expected)
+                             : mote_lazy_init(&p->lazy[b], body, expected);
 }
 
 static void place_at_start(mote_particles *p)

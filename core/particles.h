@@ -21,6 +21,7 @@ typedef struct mote_particles_options {
     uint32_t nmin; /* a query ends when fewer than max(1, nmin) particles moved in a step */
     uint32_t nmax; /* or after this many steps (paper 3.5); 0: particles never move */
     bool surface;  /* move over vertices, edge midpoints and face centroids (paper 3.4) */
+    bool single;   /* positions evaluated and remembered in single precision */
     bool coherent; /* start where the last query ended; else where the first one did */
     mote_start start;
     uint64_t seed;
