@@ -13,6 +13,14 @@
 #define MOTE_CLONES
 #endif
 
+/* Before helpers of such functions: a helper that is not inlined would run with the narrowest
+   instruction set. */
+#if defined(__GNUC__)
+#define MOTE_INLINE static inline __attribute__((always_inline))
+#else
+#define MOTE_INLINE static inline
+#endif
+
 /* Lanes of every vectorised sum over doubles. */
 #define MOTE_LANES 8
 

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 /* phi of one group of MOTE_LANES centres. */
-static inline void evaluate_lanes(const mote_field *field, uint32_t first, mote_vec3 p,
-                                  double inverse, double phi[MOTE_LANES])
+MOTE_INLINE void evaluate_lanes(const mote_field *field, uint32_t first, mote_vec3 p,
+                                double inverse, double phi[MOTE_LANES])
 {
     const double *cx = field->centre_x + first;
     const double *cy = field->centre_y + first;

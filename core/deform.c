@@ -64,8 +64,8 @@ void mote_deform_destroy(mote_deform *deform)
 
 /* The displacement of a block's vertices: lane l of each vertex's sum is kept apart and the
    lanes are added in the order of mote_lane_sum. */
-static inline void sum_block(const double *phi, const mote_weights *weights, uint32_t padded,
-                             double sum[3][MOTE_LANES])
+MOTE_INLINE void sum_block(const double *phi, const mote_weights *weights, uint32_t padded,
+                           double sum[3][MOTE_LANES])
 {
     double lane[3][MOTE_LANES][MOTE_LANES]; /* [coordinate][lane of the sum][vertex] */
     for (size_t l = 0; l < MOTE_LANES; ++l) {
@@ -97,8 +97,8 @@ static inline void sum_block(const double *phi, const mote_weights *weights, uin
 }
 
 /* The rotation and translation of a block's vertices, as mote_pose_apply does it. */
-static inline void move_block(const double *rest, const mote_pose *pose,
-                              double world[3][MOTE_LANES])
+MOTE_INLINE void move_block(const double *rest, const mote_pose *pose,
+                            double world[3][MOTE_LANES])
 {
     const double translation[3] = {pose->translation.x, pose->translation.y,
                                    pose->translation.z};

@@ -16,9 +16,9 @@ typedef struct product {
 #define FACTORS 8
 
 /* Squared distances of the candidates to one particle, in units of L, not above the cut. */
-static inline void squared_distances(const mote_candidates *c, const mote_sources *sources,
-                                     uint32_t j, double inverse, double cut,
-                                     double out[MOTE_LANES])
+MOTE_INLINE void squared_distances(const mote_candidates *c, const mote_sources *sources,
+                                   uint32_t j, double inverse, double cut,
+                                   double out[MOTE_LANES])
 {
     const double x = sources->x[j];
     const double y = sources->y[j];
@@ -34,7 +34,7 @@ static inline void squared_distances(const mote_candidates *c, const mote_source
 }
 
 /* A zero or subnormal mantissa (a coincident pair) marks the lane's product as zero. */
-static inline void normalise(product *p)
+MOTE_INLINE void normalise(product *p)
 {
     uint64_t bits[MOTE_LANES];
     memcpy(bits, p->mantissa, sizeof bits);
@@ -47,9 +47,8 @@ static inline void normalise(product *p)
     memcpy(p->mantissa, bits, sizeof bits);
 }
 
-static inline void multiply(const mote_candidates *c, const mote_sources *sources,
-                            uint32_t first, uint32_t end, double inverse, double cut,
-                            product *p)
+MOTE_INLINE void multiply(const mote_candidates *c, const mote_sources *sources, uint32_t first,
+                          uint32_t end, double inverse, double cut, product *p)
 {
     for (uint32_t j = first; j < end; j += FACTORS) {
         const uint32_t stop = end - j < FACTORS ? end : j + FACTORS;
@@ -64,8 +63,8 @@ static inline void multiply(const mote_candidates *c, const mote_sources *source
     }
 }
 
-static inline void product_over(const mote_candidates *c, const mote_sources *sources,
-                                double inverse, double cut, product *p)
+MOTE_INLINE void product_over(const mote_candidates *c, const mote_sources *sources,
+                              double inverse, double cut, product *p)
 {
     MOTE_LANE_LOOP
     for (int l = 0; l < MOTE_LANES; ++l) {
@@ -81,7 +80,7 @@ static inline void product_over(const mote_candidates *c, const mote_sources *so
 }
 
 /* other / same as exponent and mantissa in [1, 2). */
-static inline void ratio_of(const product *other, const product *same, mote_potentials *out)
+MOTE_INLINE void ratio_of(const product *other, const product *same, mote_potentials *out)
 {
     MOTE_LANE_LOOP
     for (int l = 0; l < MOTE_LANES; ++l) {
@@ -97,7 +96,7 @@ static inline void ratio_of(const product *other, const product *same, mote_pote
     }
 }
 
-static void log_sum(const product *p, double out[MOTE_LANES])
+MOTE_INLINE void log_sum(const product *p, double out[MOTE_LANES])
 {
     for (int l = 0; l < MOTE_LANES; ++l)
         out[l] =
@@ -106,9 +105,9 @@ static void log_sum(const product *p, double out[MOTE_LANES])
                 : -0.5 * (log(p->mantissa[l]) + 0.6931471805599453 * (double)p->exponent[l]);
 }
 
-static inline void add_inverse(const mote_candidates *c, const mote_sources *sources,
-                               uint32_t first, uint32_t end, double inverse, double cut,
-                               double out[MOTE_LANES])
+MOTE_INLINE void add_inverse(const mote_candidates *c, const mote_sources *sources,
+                             uint32_t first, uint32_t end, double inverse, double cut,
+                             double out[MOTE_LANES])
 {
     const bool square = sources->law == MOTE_LAW_INVERSE_SQUARE;
     for (uint32_t j = first; j < end; ++j) {
@@ -121,8 +120,8 @@ static inline void add_inverse(const mote_candidates *c, const mote_sources *sou
 }
 
 /* The sum of one law's pair potentials (with the sign of repulsion). */
-static inline void sum_over(const mote_candidates *c, const mote_sources *sources,
-                            double inverse, double cut, double out[MOTE_LANES])
+MOTE_INLINE void sum_over(const mote_candidates *c, const mote_sources *sources, double inverse,
+                          double cut, double out[MOTE_LANES])
 {
     if (sources->law == MOTE_LAW_LOG) {
         product p;
