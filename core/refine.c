@@ -1,0 +1,370 @@
+/* Everything is measured along the line between the two current witnesses: the reach of a point
+   is how far it lies from its own body's witness towards the other's. A pair of faces can only
+   be nearer than the distance d of the witnesses if their reaches add up to more than 0, which
+   rejects nearly all faces before any of them is looked at closely. */
+#include "core/refine.h"
+
+#include "core/triangle.h"
+
+/* Comes nearer: by more than this part of the distance. */
+#define MARGIN 1e-12
+
+/* Alternate projection goes on while it takes this part off the squared distance. */
+#define WORTHWHILE 1e-3
+
+/* Far above what a search from anywhere on a mesh of millions needs; rounding cannot exceed it.
+ */
+#define ROUNDS_MAX 10000
+
+/* Faces kept at a time; longer lists are taken piece by piece. */
+#define LIST_MAX 32
+
+typedef struct search {
+    mote_lazy *const *lazy;
+    mote_refined *best;
+    double enough_squared;
+    /* Set by aim: */
+    double distance;
+    mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
+    double slack; /* faces with reaches that sum up to no more than this are not nearer */
+} search;
+
+/* Walks over the faces around up to three vertices, each once. */
+typedef struct face_cursor {
+    const mote_mesh *mesh;
+    const uint32_t *centres;
+    uint32_t count, index; /* of centres */
+    uint32_t k;            /* ring entry */
+    bool opened;           /* the centre's own position is known */
+    bool carried;          /* corner 2 of the last face is corner 1 of this one */
+    uint32_t vertex[3];
+    mote_vec3 corner[3];
+    double reach[3];
+} face_cursor;
+
+/* A face with its reach and bounding box. */
+typedef struct listed_face {
+    mote_vec3 corner[3];
+    uint32_t vertex[3];
+    double reach;
+    mote_vec3 low, high;
+} listed_face;
+
+typedef struct face_list {
+    listed_face face[LIST_MAX];
+    uint32_t count;
+} face_list;
+
+static double max2(double x, double y)
+{
+    return x > y ? x : y;
+}
+
+static double min2(double x, double y)
+{
+    return x < y ? x : y;
+}
+
+static bool done(const search *s)
+{
+    return s->best->squared <= s->enough_squared;
+}
+
+static void aim(search *s)
+{
+    const mote_refined *best = s->best;
+    s->distance = sqrt(best->squared);
+    const mote_vec3 u =
+        mote_scale(mote_sub(best->witness[1], best->witness[0]), 1 / s->distance);
+    s->origin[0] = best->witness[0];
+    s->origin[1] = best->witness[1];
+    s->toward[0] = u;
+    s->toward[1] = mote_scale(u, -1);
+    s->slack = MARGIN * s->distance;
+}
+
+/* After an improvement, with the aim kept. */
+static void tighten(search *s)
+{
+    s->slack = s->distance - (1 - MARGIN) * sqrt(s->best->squared);
+}
+
+static double reach_of(const search *s, int side, mote_vec3 p)
+{
+    return mote_dot(mote_sub(p, s->origin[side]), s->toward[side]);
+}
+
+static void look_at(const search *s, int side, face_cursor *c, int i, uint32_t vertex)
+{
+    c->vertex[i] = vertex;
+    c->corner[i] = mote_lazy_position(s->lazy[side], vertex);
+    c->reach[i] = reach_of(s, side, c->corner[i]);
+}
+
+static face_cursor cursor_at(const search *s, int side, const uint32_t *centres, uint32_t count)
+{
+    const mote_mesh *mesh = s->lazy[side]->body->mesh;
+    return (face_cursor){
+        .mesh = mesh, .centres = centres, .count = count, .k = mesh->ring_start[centres[0]]};
+}
+
+/* True if the face is around a centre that comes earlier. */
+static bool seen_before(const face_cursor *c)
+{
+    for (uint32_t i = 0; i < c->index; ++i) {
+        if (c->vertex[1] == c->centres[i] || c->vertex[2] == c->centres[i])
+            return true;
+    }
+    return false;
+}
+
+/* Steps to the next face; false after the last. */
+static bool next_face(const search *s, int side, face_cursor *c)
+{
+    while (c->index < c->count) {
+        const uint32_t centre = c->centres[c->index];
+        const uint32_t first = c->mesh->ring_start[centre];
+        const uint32_t end = c->mesh->ring_start[centre + 1];
+        if (!c->opened) {
+            look_at(s, side, c, 0, centre);
+            c->opened = true;
+        }
+        while (c->k < end) {
+            const uint32_t entry = c->mesh->ring[c->k++];
+            const bool joined = !(entry & MOTE_RING_END);
+            if (joined && c->carried) {
+                c->vertex[1] = c->vertex[2];
+                c->corner[1] = c->corner[2];
+                c->reach[1] = c->reach[2];
+            } else if (joined) {
+                look_at(s, side, c, 1, entry);
+            }
+            c->carried = joined;
+            if (!joined)
+                continue;
+            const uint32_t next = c->k < end ? c->k : first;
+            look_at(s, side, c, 2, MOTE_RING_VERTEX(c->mesh->ring[next]));
+            if (c->index == 0 || !seen_before(c))
+                return true;
+        }
+        c->opened = c->carried = false;
+        if (++c->index < c->count)
+            c->k = c->mesh->ring_start[c->centres[c->index]];
+    }
+    return false;
+}
+
+static double face_reach(const face_cursor *c)
+{
+    return max2(c->reach[0], max2(c->reach[1], c->reach[2]));
+}
+
+static void keep_face(mote_refined *best, int side, const uint32_t vertex[3],
+                      const mote_vec3 corner[3])
+{
+    int nearest = 0;
+    double least = HUGE_VAL;
+    for (int i = 0; i < 3; ++i) {
+        const double squared = mote_distance_squared(corner[i], best->witness[side]);
+        best->triangle[side][i] = vertex[i];
+        if (squared < least) {
+            least = squared;
+            nearest = i;
+        }
+    }
+    best->vertex[side] = vertex[nearest];
+}
+
+/* Moves one side's witness to the point nearest to the other's on the faces around its vertex.
+ */
+static void approach(search *s, int side)
+{
+    mote_refined *best = s->best;
+    const uint32_t centre = best->vertex[side];
+    const mote_vec3 other = best->witness[1 - side];
+    aim(s);
+    ++best->rings;
+    face_cursor c = cursor_at(s, side, &centre, 1);
+    while (next_face(s, side, &c)) {
+        if (face_reach(&c) <= s->slack)
+            continue;
+        mote_vec3 closest;
+        const double squared = mote_point_triangle(other, c.corner, &closest);
+        if (squared < best->squared) {
+            best->squared = squared;
+            best->witness[side] = closest;
+            keep_face(best, side, c.vertex, c.corner);
+            tighten(s);
+        }
+    }
+}
+
+static void alternate(search *s)
+{
+    for (int round = 0; round < ROUNDS_MAX && !done(s); ++round) {
+        const double before = s->best->squared;
+        approach(s, 1);
+        if (!done(s))
+            approach(s, 0);
+        if (!(s->best->squared < before * (1 - WORTHWHILE)))
+            return;
+    }
+}
+
+/* The largest reach of the vertices in the rings of the centres. */
+static double rings_reach(search *s, int side, const uint32_t *centres, uint32_t count)
+{
+    const mote_mesh *mesh = s->lazy[side]->body->mesh;
+    double reach = -HUGE_VAL;
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t first = mesh->ring_start[centres[i]];
+        const uint32_t end = mesh->ring_start[centres[i] + 1];
+        for (uint32_t k = first; k < end; ++k) {
+            const uint32_t v = MOTE_RING_VERTEX(mesh->ring[k]);
+            reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], v)));
+        }
+        reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], centres[i])));
+    }
+    s->best->rings += count;
+    return reach;
+}
+
+static void list_face(face_list *list, const face_cursor *c)
+{
+    listed_face *f = &list->face[list->count++];
+    mote_vec3 low = c->corner[0];
+    mote_vec3 high = low;
+    f->reach = face_reach(c);
+    for (int i = 0; i < 3; ++i) {
+        const mote_vec3 p = c->corner[i];
+        f->corner[i] = p;
+        f->vertex[i] = c->vertex[i];
+        low = mote_vec3_make(min2(low.x, p.x), min2(low.y, p.y), min2(low.z, p.z));
+        high = mote_vec3_make(max2(high.x, p.x), max2(high.y, p.y), max2(high.z, p.z));
+    }
+    f->low = low;
+    f->high = high;
+}
+
+/* Lists the next faces that reach far enough for a partner of the given reach; false when there
+   are none left. */
+static bool fill_list(const search *s, int side, face_cursor *c, double partner,
+                      face_list *list)
+{
+    list->count = 0;
+    while (list->count < LIST_MAX && next_face(s, side, c)) {
+        if (face_reach(c) + partner > s->slack)
+            list_face(list, c);
+    }
+    return list->count > 0;
+}
+
+static double box_gap_squared(const listed_face *a, const listed_face *b)
+{
+    const double x = max2(0, max2(a->low.x - b->high.x, b->low.x - a->high.x));
+    const double y = max2(0, max2(a->low.y - b->high.y, b->low.y - a->high.y));
+    const double z = max2(0, max2(a->low.z - b->high.z, b->low.z - a->high.z));
+    return x * x + y * y + z * z;
+}
+
+static void measure_pair(search *s, const listed_face *a, const listed_face *b)
+{
+    mote_refined *best = s->best;
+    if (a->reach + b->reach <= s->slack)
+        return;
+    const double bound = best->squared * (1 - MARGIN);
+    if (box_gap_squared(a, b) >= bound)
+        return;
+    mote_vec3 p, q;
+    ++best->triangle_tests;
+    const double squared = mote_triangle_triangle_below(a->corner, b->corner, bound, &p, &q);
+    if (!(squared < bound))
+        return;
+    best->squared = squared;
+    best->witness[0] = p;
+    best->witness[1] = q;
+    keep_face(best, 0, a->vertex, a->corner);
+    keep_face(best, 1, b->vertex, b->corner);
+    tighten(s);
+}
+
+/* Measures the faces around the first centres against those around the second; true if a pair
+   is nearer than the witnesses were. */
+static bool check_rings(search *s, const uint32_t *centres0, const uint32_t *centres1,
+                        uint32_t count)
+{
+    const double before = s->best->squared;
+    aim(s);
+    const double reach0 = rings_reach(s, 0, centres0, count);
+    const double reach1 = rings_reach(s, 1, centres1, count);
+    if (reach0 + reach1 <= s->slack)
+        return false;
+    face_list list0, list1;
+    face_cursor c0 = cursor_at(s, 0, centres0, count);
+    while (fill_list(s, 0, &c0, reach1, &list0)) {
+        face_cursor c1 = cursor_at(s, 1, centres1, count);
+        while (fill_list(s, 1, &c1, reach0, &list1)) {
+            for (uint32_t i = 0; i < list0.count; ++i) {
+                for (uint32_t j = 0; j < list1.count && !done(s); ++j)
+                    measure_pair(s, &list0.face[i], &list1.face[j]);
+            }
+            if (done(s))
+                return true;
+        }
+    }
+    return s->best->squared < before;
+}
+
+static void descend(search *s)
+{
+    for (int round = 0; round < ROUNDS_MAX && !done(s); ++round) {
+        alternate(s);
+        if (done(s))
+            return;
+        const uint32_t at[2] = {s->best->vertex[0], s->best->vertex[1]};
+        if (check_rings(s, &at[0], &at[1], 1))
+            continue;
+        uint32_t around[2][3];
+        for (int i = 0; i < 3; ++i) {
+            around[0][i] = s->best->triangle[0][i];
+            around[1][i] = s->best->triangle[1][i];
+        }
+        if (!check_rings(s, around[0], around[1], 3))
+            return;
+    }
+}
+
+void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
+                          double enough_squared, mote_refined *result)
+{
+    *result = (mote_refined){.vertex = {vertex[0], vertex[1]}};
+    for (int side = 0; side < 2; ++side) {
+        /* The first two entries of a ring are always joined: no fan is without a face. */
+        const mote_mesh *mesh = lazy[side]->body->mesh;
+        const uint32_t *ring = &mesh->ring[mesh->ring_start[vertex[side]]];
+        result->witness[side] = mote_lazy_position(lazy[side], vertex[side]);
+        result->triangle[side][0] = vertex[side];
+        result->triangle[side][1] = MOTE_RING_VERTEX(ring[0]);
+        result->triangle[side][2] = MOTE_RING_VERTEX(ring[1]);
+    }
+    result->squared = mote_distance_squared(result->witness[0], result->witness[1]);
+    search s = {.lazy = lazy, .best = result, .enough_squared = enough_squared};
+    descend(&s);
+}
+
+void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3],
+                           const uint32_t triangle1[3], double enough_squared,
+                           mote_refined *result)
+{
+    *result = (mote_refined){.triangle_tests = 1};
+    mote_vec3 s0[3], s1[3];
+    for (int i = 0; i < 3; ++i) {
+        s0[i] = mote_lazy_position(lazy[0], triangle0[i]);
+        s1[i] = mote_lazy_position(lazy[1], triangle1[i]);
+    }
+    result->squared = mote_triangle_triangle(s0, s1, &result->witness[0], &result->witness[1]);
+    keep_face(result, 0, triangle0, s0);
+    keep_face(result, 1, triangle1, s1);
+    search s = {.lazy = lazy, .best = result, .enough_squared = enough_squared};
+    descend(&s);
+}
