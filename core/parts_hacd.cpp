@@ -1,0 +1,251 @@
+#include "core/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <new>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include <bullet/HACD/hacdHACD.h>
+#include <meshoptimizer.h>
+
+namespace
+{
+
+using Point = HACD::Vec3<HACD::Real>;
+using Face = HACD::Vec3<long>;
+using Corners = std::vector<unsigned>; /* vertices of the mesh, three a face */
+
+constexpr uint32_t NO_LABEL = UINT32_MAX;
+
+/* Small components are not simplified below this. */
+constexpr size_t COMPONENT_TRIANGLES = 100;
+
+/* The decomposition of a mesh, one connected component after another. */
+class Decomposition
+{
+  public:
+    Decomposition(const mote_mesh *mesh_, const mote_vec3 *positions_)
+        : mesh(mesh_), positions(positions_), number(mesh_->vertex_count, -1),
+          label(mesh_->vertex_count, NO_LABEL)
+    {
+    }
+
+    bool run();
+
+    uint32_t count = 0;
+    const mote_mesh *mesh;
+    const mote_vec3 *positions;
+
+  private:
+    std::vector<Corners> components() const;
+    Corners simplify(const Corners &corners);
+    bool decompose(const Corners &corners);
+    bool cluster(std::vector<Point> &points, std::vector<Face> &faces, const Corners &corners);
+    void spread();
+    void renumber();
+
+    std::vector<long> number; /* of a vertex among a component's points; -1 between calls */
+    std::vector<float> xyz;   /* the positions for meshoptimizer, once needed */
+
+  public:
+    std::vector<uint32_t> label; /* of the vertices */
+};
+
+bool Decomposition::run()
+{
+    for (const Corners &corners : components()) {
+        if (!decompose(simplify(corners)))
+            return false;
+    }
+    spread();
+    renumber();
+    return true;
+}
+
+std::vector<Corners> Decomposition::components() const
+{
+    std::vector<Corners> result(mesh->component_count);
+    for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
+        const uint32_t *t = mesh->triangles[f];
+        Corners &corners = result[mesh->component[t[0]]];
+        corners.insert(corners.end(), t, t + 3);
+    }
+    return result;
+}
+
+/* The component with its share of MOTE_PARTS_TRIANGLES. */
+Corners Decomposition::simplify(const Corners &corners)
+{
+    size_t share = MOTE_PARTS_TRIANGLES * (corners.size() / 3) / mesh->triangle_count;
+    size_t target = 3 * std::max(share, COMPONENT_TRIANGLES);
+    if (corners.size() <= target)
+        return corners;
+    if (xyz.empty()) {
+        /* A mesh of unit size around the origin: meshoptimizer has floats only. */
+        for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+            mote_vec3 v = mote_scale(mote_sub(positions[i], positions[0]), 1 / mesh->diagonal);
+            xyz.insert(xyz.end(), {static_cast<float>(v.x), static_cast<float>(v.y),
+                                   static_cast<float>(v.z)});
+        }
+    }
+    Corners kept(corners.size());
+    size_t size =
+        meshopt_simplify(kept.data(), corners.data(), corners.size(), xyz.data(),
+                         mesh->vertex_count, 3 * sizeof(float), target, 1e30f, 0, nullptr);
+    /* It keeps vertices where fans of triangles meet; the other form keeps no topology. */
+    if (size > 2 * target)
+        size = meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), xyz.data(),
+                                      mesh->vertex_count, 3 * sizeof(float), target, 1e30f,
+                                      nullptr);
+    kept.resize(size);
+    return kept;
+}
+
+/* Labels the vertices that the simplification of one component kept. */
+bool Decomposition::decompose(const Corners &corners)
+{
+    std::vector<Point> points;
+    std::vector<Face> faces;
+    for (uint32_t v : corners) {
+        if (number[v] >= 0)
+            continue;
+        number[v] = static_cast<long>(points.size());
+        points.emplace_back(positions[v].x, positions[v].y, positions[v].z);
+    }
+    for (size_t i = 0; i + 2 < corners.size(); i += 3)
+        faces.emplace_back(number[corners[i]], number[corners[i + 1]], number[corners[i + 2]]);
+    for (uint32_t v : corners)
+        number[v] = -1;
+    return faces.empty() || cluster(points, faces, corners);
+}
+
+bool Decomposition::cluster(std::vector<Point> &points, std::vector<Face> &faces,
+                            const Corners &corners)
+{
+    HACD::HACD hacd;
+    hacd.SetPoints(points.data());
+    hacd.SetNPoints(points.size());
+    hacd.SetTriangles(faces.data());
+    hacd.SetNTriangles(faces.size());
+    hacd.SetNClusters(1);
+    hacd.SetConcavity(100);
+    hacd.SetCompacityWeight(0.1);
+    hacd.SetVolumeWeight(0);
+    hacd.SetAddExtraDistPoints(true);
+    hacd.SetAddFacesPoints(true);
+    hacd.SetNVerticesPerCH(100);
+    if (!hacd.Compute())
+        return false;
+    const long *partition = hacd.GetPartition();
+    uint32_t clusters = static_cast<uint32_t>(hacd.GetNClusters());
+    for (size_t i = 0; i < corners.size(); ++i) {
+        long part = partition[i / 3];
+        if (part < 0 || part >= static_cast<long>(clusters))
+            return false;
+        if (label[corners[i]] == NO_LABEL)
+            label[corners[i]] = count + static_cast<uint32_t>(part);
+    }
+    count += clusters;
+    return true;
+}
+
+/* Labels spread along the edges, each vertex taking that of the nearest labelled one (Dijkstra;
+   ties go to the lower vertex number). */
+void Decomposition::spread()
+{
+    using Entry = std::pair<double, uint32_t>;
+    std::vector<double> distance(mesh->vertex_count, HUGE_VAL);
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+        if (label[v] != NO_LABEL) {
+            distance[v] = 0;
+            queue.emplace(0.0, v);
+        }
+    }
+    while (!queue.empty()) {
+        auto [length, v] = queue.top();
+        queue.pop();
+        if (length > distance[v])
+            continue;
+        for (uint32_t k = mesh->ring_start[v]; k < mesh->ring_start[v + 1]; ++k) {
+            uint32_t next = MOTE_RING_VERTEX(mesh->ring[k]);
+            double step = mote_length(mote_sub(positions[next], positions[v]));
+            if (length + step < distance[next]) {
+                distance[next] = length + step;
+                label[next] = label[v];
+                queue.emplace(distance[next], next);
+            }
+        }
+    }
+}
+
+/* Numbers the labels in the order of first appearance; a component that has none becomes a part
+   of its own. */
+void Decomposition::renumber()
+{
+    std::vector<uint32_t> renumbered(size_t{count} + mesh->component_count, NO_LABEL);
+    uint32_t used = 0;
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+        uint32_t old = label[v] == NO_LABEL ? count + mesh->component[v] : label[v];
+        if (renumbered[old] == NO_LABEL)
+            renumbered[old] = used++;
+        label[v] = renumbered[old];
+    }
+    count = used;
+}
+
+mote_status make_parts(const mote_mesh *mesh, const mote_vec3 *positions, mote_parts **parts)
+{
+    Decomposition decomposition(mesh, positions);
+    if (!decomposition.run())
+        return mote_fail(MOTE_ENUMERIC, "HACD could not decompose the mesh into convex parts");
+    const std::vector<uint32_t> &label = decomposition.label;
+    auto *result = static_cast<mote_parts *>(malloc(sizeof(mote_parts)));
+    auto *copy = static_cast<uint32_t *>(malloc(label.size() * sizeof(uint32_t)));
+    if (!result || !copy) {
+        free(result);
+        free(copy);
+        return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
+    }
+    std::copy(label.begin(), label.end(), copy);
+    *result = mote_parts{decomposition.count, mesh->vertex_count, copy};
+    *parts = result;
+    return MOTE_OK;
+}
+
+} // namespace
+
+extern "C" mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 *positions,
+                                         mote_parts **parts)
+{
+    if (!positions)
+        positions = mesh->positions;
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        mote_vec3 v = positions[i];
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+            return mote_fail(MOTE_EINVAL, "vertex %u is (%g, %g, %g); it must be finite", i,
+                             v.x, v.y, v.z);
+    }
+    try {
+        return make_parts(mesh, positions, parts);
+    } catch (const std::bad_alloc &) {
+        return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
+    } catch (const std::exception &error) {
+        return mote_fail(MOTE_ENUMERIC, "convex parts: %s", error.what());
+    } catch (...) {
+        return mote_fail(MOTE_ENUMERIC, "HACD threw something unknown");
+    }
+}
+
+extern "C" void mote_parts_destroy(mote_parts *parts)
+{
+    if (!parts)
+        return;
+    free(parts->label);
+    free(parts);
+}
