@@ -2,6 +2,7 @@
 
 #include "core/mesh_ring.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,32 +89,44 @@ static mote_status measure_extent(mote_mesh *mesh)
     const mote_vec3 unit = mote_vec3_make(ldexp(half.x, -exponent), ldexp(half.y, -exponent),
                                           ldexp(half.z, -exponent));
     mesh->diagonal = ldexp(mote_length(unit), exponent + 1);
-    if (!isfinite(mesh->diagonal))
+    if (!isnormal(mesh->diagonal))
         return mote_fail(MOTE_EINVAL,
-                         "the mesh is too large; its bounding-box diagonal must be "
-                         "a finite number");
+                         "the bounding-box diagonal is %.3g; it must be a normal number, from "
+                         "%.2g to %.2g",
+                         mesh->diagonal, DBL_MIN, DBL_MAX);
     return MOTE_OK;
 }
 
-/* Each ring names every edge from both of its ends. */
+/* The power of two that brings L to 1 .. 2: lengths times it have squares in range, and keep
+   their bits. */
+static double unit_of(const mote_mesh *mesh)
+{
+    return ldexp(1, -ilogb(mesh->diagonal));
+}
+
+/* Each ring names every edge from both of its ends; a closed fan among several names its first
+   edge again at its end. */
 static void measure_edges(mote_mesh *mesh)
 {
+    const double unit = unit_of(mesh);
     double sum = 0;
     uint64_t count = 0;
     for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
-        const uint32_t first = mesh->ring_start[v];
+        uint32_t first = mesh->ring_start[v];
         const uint32_t end = mesh->ring_start[v + 1];
         for (uint32_t k = first; k < end; ++k) {
             const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
-            if (u < v)
+            const bool repeated = k > first && u == mesh->ring[first];
+            if (mesh->ring[k] & MOTE_RING_END)
+                first = k + 1;
+            if (u < v || repeated)
                 continue;
             const mote_vec3 edge = mote_sub(mesh->positions[u], mesh->positions[v]);
-            const double length = mote_length(mote_scale(edge, 1 / mesh->diagonal));
-            sum += length;
+            sum += mote_length(mote_scale(edge, unit));
             ++count;
         }
     }
-    mesh->mean_edge = sum / (double)count * mesh->diagonal;
+    mesh->mean_edge = sum / (double)count / unit;
 }
 
 static mote_status label_components(mote_mesh *mesh)
@@ -201,13 +214,14 @@ int64_t mote_mesh_euler(const mote_mesh *mesh)
            (int64_t)mesh->triangle_count;
 }
 
-static double smallest_angle_of(mote_vec3 a, mote_vec3 b, mote_vec3 c)
+/* The smallest angle of a triangle in degrees; its sides are multiplied by unit. */
+static double smallest_angle_of(mote_vec3 a, mote_vec3 b, mote_vec3 c, double unit)
 {
     const mote_vec3 corner[3] = {a, b, c};
     double smallest = 180;
     for (int k = 0; k < 3; ++k) {
-        const mote_vec3 u = mote_sub(corner[(k + 1) % 3], corner[k]);
-        const mote_vec3 v = mote_sub(corner[(k + 2) % 3], corner[k]);
+        const mote_vec3 u = mote_scale(mote_sub(corner[(k + 1) % 3], corner[k]), unit);
+        const mote_vec3 v = mote_scale(mote_sub(corner[(k + 2) % 3], corner[k]), unit);
         const double angle = atan2(mote_length(mote_cross(u, v)), mote_dot(u, v));
         smallest = fmin(smallest, angle * 57.29577951308232);
     }
@@ -216,13 +230,13 @@ static double smallest_angle_of(mote_vec3 a, mote_vec3 b, mote_vec3 c)
 
 double mote_mesh_smallest_angle(const mote_mesh *mesh)
 {
-    const double unit = 1 / mesh->diagonal;
+    const double unit = unit_of(mesh);
     double smallest = 180;
     for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
         const uint32_t *t = mesh->triangles[f];
-        smallest = fmin(smallest, smallest_angle_of(mote_scale(mesh->positions[t[0]], unit),
-                                                    mote_scale(mesh->positions[t[1]], unit),
-                                                    mote_scale(mesh->positions[t[2]], unit)));
+        smallest =
+            fmin(smallest, smallest_angle_of(mesh->positions[t[0]], mesh->positions[t[1]],
+                                             mesh->positions[t[2]], unit));
     }
     return smallest;
 }
