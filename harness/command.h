@@ -19,7 +19,7 @@ typedef enum mote_exit {
 #define MOTE_COMMANDS(X)                                                                       \
     X(list, "list methods|scenarios [--json]", "the methods and scenarios that there are")     \
     X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")                  \
-    X(check, "check SCENARIO [--json]",                                                        \
+    X(check, "check SCENARIO [--json] [--out DIR]",                                            \
       "fingerprint; whether the active interval is what it says")                              \
     X(approach,                                                                                \
       "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \

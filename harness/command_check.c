@@ -1,4 +1,4 @@
-/* mote check SCENARIO [--json]: its fingerprint, and whether it is what it says. */
+/* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether it is what it says. */
 #include "harness/command.h"
 #include "harness/truth.h"
 
@@ -109,16 +109,28 @@ static void print_lines(const mote_scenario *scenario, const findings *found)
                      found->longest.last);
 }
 
-static int check(const char *name, bool json)
+/* With a directory, the truth is kept there, or taken from there. */
+static mote_status find_truth(const mote_scenario *scenario, const char *directory,
+                              uint64_t *fingerprint, mote_truth **truth)
+{
+    if (directory) {
+        mote_status status = mote_truth_load_or_compute(scenario, directory, truth);
+        if (status == MOTE_OK)
+            *fingerprint = (*truth)->fingerprint;
+        return status;
+    }
+    mote_status status = mote_scenario_fingerprint(scenario, fingerprint);
+    return status == MOTE_OK ? mote_truth_compute(scenario, truth) : status;
+}
+
+static int check(const char *name, bool json, const char *directory)
 {
     mote_scenario *scenario;
     if (mote_scenario_load(name, &scenario) != MOTE_OK)
         return mote_command_fail();
     findings found = {0};
     mote_truth *truth = NULL;
-    mote_status status = mote_scenario_fingerprint(scenario, &found.fingerprint);
-    if (status == MOTE_OK)
-        status = mote_truth_compute(scenario, &truth);
+    mote_status status = find_truth(scenario, directory, &found.fingerprint, &truth);
     int code;
     if (status == MOTE_OK) {
         look(scenario, truth, &found);
@@ -147,9 +159,9 @@ static int check(const char *name, bool json)
 
 int mote_command_check(int argc, char **argv)
 {
-    static const mote_option options[] = {{"json", NULL}};
-    mote_option_reader reader = {options, 1, argc, argv, 0};
-    const char *name = NULL, *value;
+    static const mote_option options[] = {{"json", NULL}, {"out", "DIR"}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *name = NULL, *directory = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -158,10 +170,12 @@ int mote_command_check(int argc, char **argv)
             return mote_command_usage("check", "%s: one scenario at a time", value);
         if (option == MOTE_OPTION_PLAIN)
             name = value;
-        else
+        else if (option == 0)
             json = true;
+        else
+            directory = value;
     }
     if (!name)
         return mote_command_usage("check", "no scenario; write `mote check SCENARIO`");
-    return check(name, json);
+    return check(name, json, directory);
 }
