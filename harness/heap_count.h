@@ -1,0 +1,22 @@
+/* The heap of this process, counted: the program's own malloc family passes every call on to
+   the C library and keeps the books, C++ operator new and libraries included. */
+#ifndef MOTE_HARNESS_HEAP_COUNT_H
+#define MOTE_HARNESS_HEAP_COUNT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct mote_heap {
+    bool counted;         /* false where sanitizers own the allocator: the rest is 0 then */
+    int64_t live_bytes;   /* usable bytes of the blocks in use */
+    int64_t peak_bytes;   /* the most live bytes since the last mote_heap_reset_peak */
+    uint64_t allocations; /* blocks handed out since the process started */
+} mote_heap;
+
+/* Any thread; no allocation. */
+mote_heap mote_heap_read(void);
+
+/* Sets the peak to what is live now. */
+void mote_heap_reset_peak(void);
+
+#endif

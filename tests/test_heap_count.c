@@ -1,0 +1,92 @@
+#include "harness/heap_count.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The compiler may not take calls away whose result escapes through this. */
+static void *volatile sink;
+
+static void skip_if_not_counted(void)
+{
+    if (!mote_heap_read().counted)
+        skip();
+}
+
+static void heap_after_malloc_and_free_is_what_it_was(void **state)
+{
+    (void)state;
+    skip_if_not_counted();
+    mote_heap before = mote_heap_read();
+    sink = malloc(100000);
+    mote_heap during = mote_heap_read();
+    free(sink);
+    mote_heap after = mote_heap_read();
+    assert_true(during.live_bytes - before.live_bytes >= 100000);
+    assert_true(during.live_bytes - before.live_bytes < 110000);
+    assert_int_equal(during.allocations - before.allocations, 1);
+    assert_int_equal(after.live_bytes, before.live_bytes);
+}
+
+static void heap_counts_every_allocating_function(void **state)
+{
+    (void)state;
+    skip_if_not_counted();
+    void *blocks[5] = {NULL};
+    mote_heap before = mote_heap_read();
+    blocks[0] = calloc(10, 1000);
+    blocks[1] = realloc(NULL, 10000);
+    blocks[2] = aligned_alloc(64, 10048);
+    assert_int_equal(posix_memalign(&blocks[3], 64, 10000), 0);
+    blocks[4] = strdup("text");
+    mote_heap during = mote_heap_read();
+    for (int i = 0; i < 5; ++i) {
+        assert_non_null(blocks[i]);
+        free(blocks[i]);
+    }
+    assert_int_equal(during.allocations - before.allocations, 5);
+    assert_true(during.live_bytes - before.live_bytes >= 40048);
+    assert_int_equal(mote_heap_read().live_bytes, before.live_bytes);
+}
+
+static void heap_after_realloc_holds_the_new_size_only(void **state)
+{
+    (void)state;
+    skip_if_not_counted();
+    mote_heap before = mote_heap_read();
+    sink = malloc(1000);
+    sink = realloc(sink, 500000);
+    assert_true(mote_heap_read().live_bytes - before.live_bytes < 510000);
+    sink = realloc(sink, 10);
+    assert_true(mote_heap_read().live_bytes - before.live_bytes < 10000);
+    free(sink);
+    assert_int_equal(mote_heap_read().live_bytes, before.live_bytes);
+}
+
+static void heap_peak_is_kept_until_reset(void **state)
+{
+    (void)state;
+    skip_if_not_counted();
+    mote_heap_reset_peak();
+    mote_heap before = mote_heap_read();
+    sink = malloc(300000);
+    free(sink);
+    assert_true(mote_heap_read().peak_bytes - before.live_bytes >= 300000);
+    mote_heap_reset_peak();
+    assert_int_equal(mote_heap_read().peak_bytes, mote_heap_read().live_bytes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(heap_after_malloc_and_free_is_what_it_was),
+        cmocka_unit_test(heap_counts_every_allocating_function),
+        cmocka_unit_test(heap_after_realloc_holds_the_new_size_only),
+        cmocka_unit_test(heap_peak_is_kept_until_reset),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
