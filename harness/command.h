@@ -23,7 +23,14 @@ typedef enum mote_exit {
       "fingerprint; whether the active interval is what it says")                              \
     X(approach,                                                                                \
       "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
-      "writes the scenario with body 1 placed so that the gaps are as wished")
+      "writes the scenario with body 1 placed so that the gaps are as wished")                 \
+    X(run,                                                                                     \
+      "run SCENARIO... [--method NAME[:key=a|b,...]]... [--particles 1,2,4-8]\n"               \
+      "           [--replicates K] [--frames A-B] [--out DIR] [--shard I/N] [--seed S]\n"      \
+      "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--dry-run]",      \
+      "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
+    X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
+      "the rows of a run, computed from its cells")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \
     int mote_command_##name(int argc, char **argv);

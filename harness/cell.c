@@ -1,0 +1,219 @@
+#include "harness/cell.h"
+
+#include "harness/record.h"
+
+#include <ctype.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const mote_cache_names[] = {"hot", "evict"};
+const char *const mote_cell_status_names[] = {"ok", "crashed", "timeout", "unsupported"};
+
+static uint64_t fnv1a(const char *text)
+{
+    uint64_t hash = 14695981039346656037u;
+    for (; *text; ++text)
+        hash = (hash ^ (unsigned char)*text) * 1099511628211u;
+    return hash;
+}
+
+/* The name as part of a file's name. */
+static void plain(const char *name, char *out, size_t size)
+{
+    size_t used = 0;
+    for (; *name && used + 1 < size; ++name)
+        out[used++] = isalnum((unsigned char)*name) || *name == '-' ? *name : '_';
+    out[used] = '\0';
+}
+
+/* "key=value," for every parameter. */
+static void describe_values(const mote_method_choice *choice, mote_text *text)
+{
+    for (size_t i = 0; i < choice->method->parameter_count; ++i) {
+        char value[64];
+        const mote_parameter *parameter = &choice->method->parameters[i];
+        mote_text_add(text, "%s=%s,", parameter->key,
+                      mote_parameter_text(parameter, choice->values[i], value, sizeof value));
+    }
+}
+
+void mote_cell_name(mote_cell *cell, uint64_t program)
+{
+    const mote_scenario *scenario = cell->subject->scenario;
+    mote_text text = {0};
+    mote_text_add(&text, "%016" PRIx64 " %d %.17g %s ", cell->subject->fingerprint,
+                  (int)scenario->ask, scenario->tolerance, cell->choice->method->name);
+    describe_values(cell->choice, &text);
+    mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
+                  cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
+                  program);
+    char name[20], method[28];
+    plain(scenario->name, name, sizeof name);
+    plain(cell->choice->method->name, method, sizeof method);
+    (void)snprintf(cell->id, sizeof cell->id, "%s-%s-r%u-%016" PRIx64, name, method,
+                   cell->replicate, text.data ? fnv1a(text.data) : 0);
+    free(text.data);
+}
+
+static json_t *parameter_json(const mote_parameter *parameter, double value)
+{
+    char text[64];
+    (void)mote_parameter_text(parameter, value, text, sizeof text);
+    char *end;
+    double number = strtod(text, &end);
+    if (parameter->kind == MOTE_PARAMETER_CHOICE || end == text || *end != '\0' ||
+        number - number != 0)
+        return json_string(text);
+    if (parameter->kind == MOTE_PARAMETER_INTEGER)
+        return json_integer((json_int_t)number);
+    return json_real(number);
+}
+
+json_t *mote_choice_json(const mote_method_choice *choice)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; object && i < choice->method->parameter_count; ++i) {
+        const mote_parameter *parameter = &choice->method->parameters[i];
+        if (json_object_set_new(object, parameter->key,
+                                parameter_json(parameter, choice->values[i])) != 0) {
+            json_decref(object);
+            object = NULL;
+        }
+    }
+    return object;
+}
+
+static json_t *interval_json(uint32_t first, uint32_t last)
+{
+    return json_pack("[i,i]", (int)first, (int)last);
+}
+
+/* What is known of a cell before it ran. */
+static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
+{
+    const mote_scenario *scenario = cell->subject->scenario;
+    char fingerprint[20], hash[20];
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, cell->subject->fingerprint);
+    (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
+    return json_pack(
+        "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
+        " s:f, s:s, s:i, s:o*, s:s}",
+        "schema", 1, "id", cell->id, "status", mote_cell_status_names[status], "scenario",
+        scenario->name, "fingerprint", fingerprint, "method", cell->choice->method->name,
+        "parameters", mote_choice_json(cell->choice), "replicate", (int)cell->replicate,
+        "frames", interval_json(cell->first, cell->last), "stride", (int)cell->stride, "seed",
+        (json_int_t)cell->seed, "cache", mote_cache_names[cell->cache], "triangles",
+        (int)scenario->body[0].mesh->triangle_count,
+        (int)scenario->body[1].mesh->triangle_count, "vertices",
+        (int)scenario->body[0].mesh->vertex_count, (int)scenario->body[1].mesh->vertex_count,
+        "length", scenario->length, "tolerance", scenario->tolerance, "ask",
+        scenario->ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
+        (int)scenario->frames, "active",
+        interval_json(scenario->active.first, scenario->active.last), "program", hash);
+}
+
+static void add_real(mote_text *text, bool present, double value)
+{
+    if (present)
+        mote_text_add(text, ",%.17g", value);
+    else
+        mote_text_add(text, ",");
+}
+
+static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row *row)
+{
+    const mote_answer *answer = &row->answer;
+    const mote_truth *truth = cell->subject->truth;
+    double exact = truth->distance[row->frame - 1];
+    mote_text_add(text, "%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64, row->frame, row->deform_ns,
+                  row->update_ns, row->query_ns);
+    add_real(text, answer->has_distance, answer->distance);
+    add_real(text, answer->has_lower, answer->lower);
+    add_real(text, true, exact);
+    add_real(text, answer->has_distance,
+             (answer->distance - exact) / cell->subject->scenario->length);
+    if (answer->has_contact)
+        mote_text_add(text, ",%d", answer->contact ? 1 : 0);
+    else
+        mote_text_add(text, ",");
+    mote_text_add(text, ",%d", truth->contact[row->frame - 1] ? 1 : 0);
+    for (int side = 0; side < 2; ++side) {
+        add_real(text, answer->has_witness, answer->witness[side].x);
+        add_real(text, answer->has_witness, answer->witness[side].y);
+        add_real(text, answer->has_witness, answer->witness[side].z);
+    }
+#define ADD_COUNTER(name) mote_text_add(text, ",%" PRIu64, answer->counters.name);
+    MOTE_COUNTERS(ADD_COUNTER)
+    mote_text_add(text, ",%" PRIu64, row->allocations);
+    MOTE_COUNTERS_MORE(ADD_COUNTER)
+#undef ADD_COUNTER
+    mote_text_add(text, "\n");
+}
+
+static mote_status record_rows(const mote_cell *cell, const mote_cell_result *result,
+                               const char *directory)
+{
+    mote_text text = {0};
+    mote_text_add(&text, "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error,"
+                         "contact,contact_truth,ax,ay,az,bx,by,bz");
+#define ADD_NAME(name) mote_text_add(&text, "," #name);
+    MOTE_COUNTERS(ADD_NAME)
+    mote_text_add(&text, ",allocations");
+    MOTE_COUNTERS_MORE(ADD_NAME)
+#undef ADD_NAME
+    mote_text_add(&text, "\n");
+    for (size_t i = 0; i < result->row_count; ++i)
+        add_row(&text, cell, &result->rows[i]);
+    char name[MOTE_CELL_ID_SIZE + 16];
+    (void)snprintf(name, sizeof name, "cells/%s.csv", cell->id);
+    return mote_record_text(directory, name, &text);
+}
+
+static json_t *bytes_json(bool counted, int64_t bytes)
+{
+    return counted ? json_integer(bytes) : json_null();
+}
+
+static mote_status record_json(const mote_cell *cell, json_t *object, const char *directory)
+{
+    char name[MOTE_CELL_ID_SIZE + 16];
+    (void)snprintf(name, sizeof name, "cells/%s.json", cell->id);
+    return mote_record_json(directory, name, object);
+}
+
+mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *result,
+                             uint64_t program, const char *directory)
+{
+    mote_status status = record_rows(cell, result, directory);
+    if (status != MOTE_OK)
+        return status;
+    json_t *object = cell_json(cell, MOTE_CELL_OK, program);
+    json_t *more =
+        json_pack("{s:I, s:I, s:o*, s:o*, s:o*, s:I, s:i, s:[f,f], s:f}", "build_ns",
+                  (json_int_t)result->build_ns, "clock_ns", (json_int_t)result->clock_ns,
+                  "heap_live_bytes", bytes_json(result->heap_counted, result->heap_live_bytes),
+                  "heap_peak_bytes", bytes_json(result->heap_counted, result->heap_peak_bytes),
+                  "deform_bytes", json_integer(result->deform_bytes), "rss_peak_bytes",
+                  (json_int_t)result->rss_peak_bytes, "core", result->core, "load",
+                  result->load[0], result->load[1], "wall_seconds", result->wall_seconds);
+    if (!object || !more || json_object_update(object, more) != 0) {
+        json_decref(object);
+        object = NULL;
+    }
+    json_decref(more);
+    return record_json(cell, object, directory);
+}
+
+mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status status,
+                                     const char *reason, uint64_t program,
+                                     const char *directory)
+{
+    json_t *object = cell_json(cell, status, program);
+    if (object && json_object_set_new(object, "reason", json_string(reason)) != 0) {
+        json_decref(object);
+        object = NULL;
+    }
+    return record_json(cell, object, directory);
+}

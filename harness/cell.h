@@ -1,0 +1,97 @@
+/* A cell: one (scenario, method, parameters, replicate), measured in a process of its own and
+   stored as cells/ID.json and, when it ran to its end, cells/ID.csv. */
+#ifndef MOTE_HARNESS_CELL_H
+#define MOTE_HARNESS_CELL_H
+
+#include "harness/command.h"
+#include "harness/heap_count.h"
+#include "harness/scenario.h"
+#include "harness/truth.h"
+
+#include <jansson.h>
+
+/* A scenario with what is known of it before anything is measured. */
+typedef struct mote_subject {
+    mote_scenario *scenario;
+    uint64_t fingerprint;
+    mote_truth *truth; /* NULL until something is measured */
+} mote_subject;
+
+typedef enum mote_cache {
+    MOTE_CACHE_HOT,  /* frames follow each other at once */
+    MOTE_CACHE_EVICT /* 32 MB are walked between frames, outside the clock */
+} mote_cache;
+
+extern const char *const mote_cache_names[]; /* "hot", "evict" */
+
+typedef enum mote_cell_status {
+    MOTE_CELL_OK,
+    MOTE_CELL_CRASHED,     /* its process died, or the method failed in a frame */
+    MOTE_CELL_TIMEOUT,     /* it was ended after the time allowed */
+    MOTE_CELL_UNSUPPORTED, /* the method cannot answer what the scenario asks */
+    MOTE_CELL_STATUSES
+} mote_cell_status;
+
+extern const char *const mote_cell_status_names[]; /* "ok", "crashed", ... */
+
+/* Stride asked for: every frame for a method that keeps state, or is fast; else every 16th. */
+#define MOTE_STRIDE_AUTO 0u
+#define MOTE_STRIDE_SLOW 16u
+#define MOTE_STRIDE_SLOW_NS 10e6
+
+#define MOTE_CELL_ID_SIZE 96
+
+typedef struct mote_cell {
+    const mote_subject *subject;      /* borrowed */
+    const mote_method_choice *choice; /* borrowed */
+    uint32_t replicate;               /* from 1 */
+    uint32_t first, last;             /* frames, inclusive */
+    uint32_t stride_asked;            /* MOTE_STRIDE_AUTO or the stride */
+    uint32_t stride;                  /* the one used, >= 1 */
+    uint64_t seed;                    /* the run's; replicate r draws from seed + r - 1 */
+    mote_cache cache;
+    char id[MOTE_CELL_ID_SIZE];
+} mote_cell;
+
+/* Writes cell->id: a readable beginning, then a hash of everything that decides what is
+   measured: the scenario's fingerprint, the question, method, every parameter, replicate,
+   frames, stride asked, seed, cache, and program (mote_program_hash). */
+void mote_cell_name(mote_cell *cell, uint64_t program);
+
+/* What one frame gave. */
+typedef struct mote_cell_row {
+    uint32_t frame;
+    uint64_t deform_ns, update_ns, query_ns; /* 0 for what the method does not need */
+    uint64_t allocations;                    /* during update and query */
+    mote_answer answer;
+} mote_cell_row;
+
+/* What a whole cell gave. */
+typedef struct mote_cell_result {
+    mote_cell_row *rows;
+    size_t row_count;
+    uint64_t build_ns; /* create, and the tables of full deformation when charged */
+    uint64_t clock_ns; /* a reading of the clock, subtracted from every time */
+    bool heap_counted;
+    int64_t heap_live_bytes, heap_peak_bytes; /* the method's; shared mesh and field left out */
+    int64_t deform_bytes; /* of these: tables and vertices of full deformation */
+    int64_t rss_peak_bytes;
+    int core;            /* pinned to, or -1 */
+    double load[2];      /* load average before and after */
+    double wall_seconds; /* of the process */
+} mote_cell_result;
+
+/* Writes both files of a cell that ran to its end, the CSV first. */
+mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *result,
+                             uint64_t program, const char *directory);
+
+/* Writes the JSON of a cell that did not; reason is one line. */
+mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status status,
+                                     const char *reason, uint64_t program,
+                                     const char *directory);
+
+/* Every parameter with its value, defaults included: numbers as numbers, choices, "auto" and
+   "inf" as text. NULL when memory ran out; the caller decrefs. */
+json_t *mote_choice_json(const mote_method_choice *choice);
+
+#endif

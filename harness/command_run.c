@@ -1,0 +1,242 @@
+#include "harness/command.h"
+#include "harness/run.h"
+#include "harness/summary.h"
+#include "harness/table.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const mote_option options[] = {
+    {"method", "NAME[:key=value,...]"},
+    {"particles", "1,2,4-8"},
+    {"replicates", "K"},
+    {"frames", "A-B"},
+    {"out", "DIR"},
+    {"shard", "I/N"},
+    {"seed", "S"},
+    {"timeout", "SECONDS"},
+    {"cache", "hot|evict"},
+    {"stride", "auto|K"},
+    {"dry-run", NULL},
+};
+enum {
+    OPTION_METHOD,
+    OPTION_PARTICLES,
+    OPTION_REPLICATES,
+    OPTION_FRAMES,
+    OPTION_OUT,
+    OPTION_SHARD,
+    OPTION_SEED,
+    OPTION_TIMEOUT,
+    OPTION_CACHE,
+    OPTION_STRIDE,
+    OPTION_DRY_RUN,
+    OPTION_COUNT
+};
+
+#define DEFAULT_REPLICATES 3
+#define DEFAULT_TIMEOUT 1800
+#define REPLICATES_MAX 1000
+
+typedef struct request {
+    mote_run_options run;
+    const char **scenarios; /* [argc] */
+    const char **methods;   /* [argc] */
+    size_t method_count;
+    const char *particles, *frames;
+    mote_choices choices;
+} request;
+
+static bool read_shard(const char *text, mote_plan_options *plan)
+{
+    uint64_t shard, shards;
+    char first[16];
+    const char *slash = strchr(text, '/');
+    if (!slash || (size_t)(slash - text) >= sizeof first)
+        return false;
+    memcpy(first, text, (size_t)(slash - text));
+    first[slash - text] = '\0';
+    if (!mote_read_unsigned(slash + 1, 1, UINT32_MAX, &shards) ||
+        !mote_read_unsigned(first, 1, shards, &shard))
+        return false;
+    plan->shard = (uint32_t)shard;
+    plan->shards = (uint32_t)shards;
+    return true;
+}
+
+static bool read_cache(const char *text, mote_cache *cache)
+{
+    bool evict = strcmp(text, mote_cache_names[MOTE_CACHE_EVICT]) == 0;
+    *cache = evict ? MOTE_CACHE_EVICT : MOTE_CACHE_HOT;
+    return evict || strcmp(text, mote_cache_names[MOTE_CACHE_HOT]) == 0;
+}
+
+static bool read_count(const char *text, uint64_t maximum, uint32_t *value)
+{
+    uint64_t read;
+    if (!mote_read_unsigned(text, 1, maximum, &read))
+        return false;
+    *value = (uint32_t)read;
+    return true;
+}
+
+static bool read_stride(const char *text, uint32_t *stride)
+{
+    *stride = MOTE_STRIDE_AUTO;
+    return strcmp(text, "auto") == 0 || read_count(text, UINT32_MAX, stride);
+}
+
+/* False: the value is wrong; expected says what would be right. */
+static bool take_option(request *q, int option, const char *value, const char **expected)
+{
+    mote_plan_options *plan = &q->run.plan;
+    *expected = options[option].value;
+    switch (option) {
+    case OPTION_METHOD:
+        q->methods[q->method_count++] = value;
+        return true;
+    case OPTION_PARTICLES:
+        q->particles = value;
+        return true;
+    case OPTION_REPLICATES:
+        *expected = "a whole number from 1 to 1000";
+        return read_count(value, REPLICATES_MAX, &plan->replicates);
+    case OPTION_FRAMES:
+        q->frames = value;
+        return true;
+    case OPTION_OUT:
+        q->run.directory = value;
+        *expected = "a directory";
+        return value[0] != '\0';
+    case OPTION_SHARD:
+        *expected = "I/N with 1 <= I <= N";
+        return read_shard(value, plan);
+    case OPTION_SEED:
+        *expected = "a whole number below 2^62";
+        return mote_read_unsigned(value, 0, ((uint64_t)1 << 62) - 1, &plan->seed);
+    case OPTION_TIMEOUT:
+        *expected = "seconds, at least 0.001";
+        return mote_read_real(value, 1e-3, 1e9, &q->run.timeout);
+    case OPTION_CACHE:
+        return read_cache(value, &plan->cache);
+    case OPTION_STRIDE:
+        return read_stride(value, &plan->stride);
+    default:
+        q->run.dry_run = true;
+        return true;
+    }
+}
+
+static void add_scenario(request *q, const char *name)
+{
+    for (size_t i = 0; i < q->run.scenario_count; ++i) {
+        if (strcmp(q->scenarios[i], name) == 0)
+            return;
+    }
+    q->scenarios[q->run.scenario_count++] = name;
+}
+
+/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
+static int read_arguments(int argc, char **argv, request *q)
+{
+    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    for (;;) {
+        const char *value, *expected;
+        int option = mote_option_next(&reader, &value);
+        if (option == MOTE_OPTION_END)
+            break;
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN)
+            add_scenario(q, value);
+        else if (!take_option(q, option, value, &expected))
+            return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
+                                      value, expected);
+    }
+    if (q->run.scenario_count == 0)
+        return mote_command_usage(argv[0], "no scenario; `mote list scenarios` shows them");
+    return MOTE_EXIT_DONE;
+}
+
+/* The configurations asked for, or every method there is. */
+static mote_status expand_methods(request *q)
+{
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; status == MOTE_OK && i < q->method_count; ++i)
+        status = mote_choices_add(&q->choices, q->methods[i], q->particles);
+    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_methods[i]; ++i)
+        status = mote_choices_add(&q->choices, mote_methods[i]->name, q->particles);
+    return status;
+}
+
+/* Frames beyond a scenario's end are found when it is loaded. */
+static mote_status read_frames(request *q)
+{
+    uint64_t first = 0, last = 0;
+    mote_status status = MOTE_OK;
+    if (q->frames)
+        status = mote_read_range(q->frames, UINT32_MAX, &first, &last);
+    q->run.plan.first = (uint32_t)first;
+    q->run.plan.last = (uint32_t)last;
+    return status == MOTE_OK ? MOTE_OK : mote_fail(status, "--frames %s", mote_error_text());
+}
+
+/* Summary and table, also of a run that was cut short. */
+static int report(const char *directory)
+{
+    mote_summary summary;
+    if (mote_summary_make(directory, &summary) != MOTE_OK ||
+        mote_summary_write(&summary, directory) != MOTE_OK)
+        return mote_command_fail();
+    mote_table_print(&summary, stdout);
+    mote_summary_free(&summary);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int execute(request *q)
+{
+    if (expand_methods(q) != MOTE_OK || read_frames(q) != MOTE_OK)
+        return mote_command_fail();
+    mote_run_outcome outcome;
+    mote_status status = mote_run(&q->run, &outcome);
+    if (status != MOTE_OK) {
+        (void)mote_command_fail();
+        return outcome.started ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_BAD_INPUT;
+    }
+    if (q->run.dry_run)
+        return MOTE_EXIT_DONE;
+    int code = report(q->run.directory);
+    if (code == MOTE_EXIT_DONE && outcome.failed > 0) {
+        (void)fprintf(stderr, "mote: %zu of %zu cells failed; see their reason in %s/cells\n",
+                      outcome.failed, outcome.cells, q->run.directory);
+        code = MOTE_EXIT_CELL_FAILED;
+    }
+    return code;
+}
+
+int mote_command_run(int argc, char **argv)
+{
+    request q = {.run = {.directory = "results/run",
+                         .timeout = DEFAULT_TIMEOUT,
+                         .plan = {.replicates = DEFAULT_REPLICATES, .shard = 1, .shards = 1},
+                         .argc = argc,
+                         .argv = argv}};
+    q.scenarios = calloc((size_t)argc + 1, sizeof *q.scenarios);
+    q.methods = calloc((size_t)argc + 1, sizeof *q.methods);
+    q.run.scenarios = q.scenarios;
+    q.run.choices = &q.choices;
+    int code;
+    if (!q.scenarios || !q.methods) {
+        (void)mote_fail(MOTE_ENOMEM, "no memory for the command line");
+        code = mote_command_fail();
+    } else {
+        code = read_arguments(argc, argv, &q);
+        if (code == MOTE_EXIT_DONE)
+            code = execute(&q);
+    }
+    mote_choices_free(&q.choices);
+    free(q.scenarios);
+    free(q.methods);
+    return code;
+}

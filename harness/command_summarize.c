@@ -1,0 +1,83 @@
+/* mote summarize DIR: the rows of a run, computed again from its cells. */
+#include "harness/command.h"
+#include "harness/summary.h"
+#include "harness/table.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const formats[] = {"table", "json", "csv", "gbench", "gha", "bencher"};
+enum { FORMAT_TABLE, FORMAT_JSON, FORMAT_CSV, FORMAT_GBENCH, FORMAT_GHA, FORMAT_BENCHER };
+#define FORMAT_COUNT (sizeof formats / sizeof formats[0])
+
+static int print_json(json_t *object)
+{
+    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(object);
+    if (!text) {
+        (void)mote_fail(MOTE_ENOMEM, "no memory for the summary");
+        return mote_command_fail();
+    }
+    (void)printf("%s\n", text);
+    free(text);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int print(const mote_summary *summary, size_t format)
+{
+    switch (format) {
+    case FORMAT_JSON:
+        return print_json(mote_summary_json(summary));
+    case FORMAT_GBENCH:
+        return print_json(mote_gbench_json(summary));
+    case FORMAT_GHA:
+        return print_json(mote_gha_json(summary));
+    case FORMAT_BENCHER:
+        return print_json(mote_bencher_json(summary));
+    case FORMAT_CSV:
+        mote_table_print_csv(summary, stdout);
+        break;
+    default:
+        mote_table_print(summary, stdout);
+        break;
+    }
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static size_t find_format(const char *name)
+{
+    size_t format = 0;
+    while (format < FORMAT_COUNT && strcmp(formats[format], name) != 0)
+        ++format;
+    return format;
+}
+
+int mote_command_summarize(int argc, char **argv)
+{
+    static const mote_option options[] = {{"format", "table|json|csv|gbench|gha|bencher"}};
+    mote_option_reader reader = {options, 1, argc, argv, 0};
+    const char *directory = NULL, *value;
+    size_t format = FORMAT_TABLE;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN && directory)
+            return mote_command_usage(argv[0], "%s: one directory at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            directory = value;
+        else if ((format = find_format(value)) == FORMAT_COUNT)
+            return mote_command_usage(argv[0], "--format %s: choose %s", value,
+                                      options[0].value);
+    }
+    if (!directory)
+        return mote_command_usage(argv[0],
+                                  "no directory; write `mote summarize results/paper`");
+    mote_summary summary;
+    if (mote_summary_make(directory, &summary) != MOTE_OK)
+        return mote_command_fail();
+    int code = mote_summary_write(&summary, directory) == MOTE_OK ? print(&summary, format)
+                                                                  : mote_command_fail();
+    mote_summary_free(&summary);
+    return code;
+}

@@ -1,0 +1,142 @@
+#include "harness/manifest.h"
+
+#include "harness/record.h"
+#include "harness/spawn.h"
+
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <time.h>
+#include <unistd.h>
+
+#define PROGRAM_LIMIT ((size_t)1 << 30)
+
+mote_status mote_program_hash(uint64_t *hash)
+{
+    /* /proc/self/exe is a link; the file behind it is a regular one. */
+    char path[4096];
+    ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
+    if (length <= 0)
+        return mote_fail(MOTE_EIO, "/proc/self/exe: cannot be read; is /proc mounted?");
+    path[length] = '\0';
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = mote_file_read(path, PROGRAM_LIMIT, &data, &size);
+    if (status != MOTE_OK)
+        return status;
+    uint64_t value = 14695981039346656037u;
+    for (size_t i = 0; i < size; ++i)
+        value = (value ^ (unsigned char)data[i]) * 1099511628211u;
+    free(data);
+    *hash = value;
+    return MOTE_OK;
+}
+
+/* The value of a line "KEY : VALUE" of a file in /proc; "" when there is none. */
+static void proc_value(const char *path, const char *key, char *value, size_t size)
+{
+    value[0] = '\0';
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return;
+    char line[1024];
+    while (fgets(line, sizeof line, file)) {
+        const char *colon = strchr(line, ':');
+        if (!colon || strncmp(line, key, strlen(key)) != 0)
+            continue;
+        const char *start = colon + 1 + strspn(colon + 1, " \t");
+        (void)snprintf(value, size, "%.*s", (int)strcspn(start, "\n"), start);
+        break;
+    }
+    (void)fclose(file);
+}
+
+static json_t *text_or_null(const char *text)
+{
+    return text[0] ? json_string(text) : json_null();
+}
+
+/* Commit, and whether tracked files differ from it; null outside a clone. */
+static void add_sources(json_t *object)
+{
+    static const char *const commit[] = {"git", "rev-parse", "HEAD", NULL};
+    static const char *const dirty[] = {"git", "status", "--porcelain", "--untracked-files=no",
+                                        NULL};
+    char text[256] = "", changes[256] = "";
+    bool known = mote_spawn(commit, MOTE_SOURCE_DIR, text, sizeof text) == MOTE_OK &&
+                 mote_spawn(dirty, MOTE_SOURCE_DIR, changes, sizeof changes) == MOTE_OK;
+    (void)json_object_set_new(object, "commit", known ? text_or_null(text) : json_null());
+    (void)json_object_set_new(object, "dirty",
+                              known ? json_boolean(changes[0] != '\0') : json_null());
+}
+
+static void add_machine(json_t *object)
+{
+    char processor[256], memory[64];
+    proc_value("/proc/cpuinfo", "model name", processor, sizeof processor);
+    proc_value("/proc/meminfo", "MemTotal", memory, sizeof memory);
+    struct utsname system;
+    const char *kernel = uname(&system) == 0 ? system.release : "";
+    (void)json_object_set_new(object, "processor", text_or_null(processor));
+    (void)json_object_set_new(object, "cores", json_integer(sysconf(_SC_NPROCESSORS_ONLN)));
+    (void)json_object_set_new(object, "memory", text_or_null(memory));
+    (void)json_object_set_new(object, "kernel", text_or_null(kernel));
+}
+
+static json_t *command_line(int argc, char **argv)
+{
+    json_t *array = json_array();
+    for (int i = 0; array && i < argc; ++i)
+        (void)json_array_append_new(array, json_string(argv[i]));
+    return array;
+}
+
+static void now_text(char *text, size_t size)
+{
+    time_t now = time(NULL);
+    struct tm utc;
+    if (!gmtime_r(&now, &utc) || strftime(text, size, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
+        text[0] = '\0';
+}
+
+/* The sessions so far, or none; the caller decrefs. */
+static json_t *old_sessions(const char *directory)
+{
+    char *path = mote_format("%s/manifest.json", directory);
+    json_t *old = NULL;
+    if (path && access(path, F_OK) == 0 &&
+        mote_record_read_json(directory, "manifest.json", &old) != MOTE_OK)
+        old = NULL;
+    free(path);
+    json_t *sessions = json_incref(json_object_get(old, "sessions"));
+    json_decref(old);
+    return json_is_array(sessions) ? sessions : json_array();
+}
+
+mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,
+                                int argc, char **argv)
+{
+    char started[32], hash[20];
+    now_text(started, sizeof started);
+    (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
+    json_t *sessions = old_sessions(directory);
+    json_t *session = json_pack("{s:s, s:s, s:I, s:o}", "started", started, "program", hash,
+                                "seed", (json_int_t)seed, "command", command_line(argc, argv));
+    if (!sessions || !session || json_array_append_new(sessions, session) != 0) {
+        json_decref(sessions);
+        return mote_fail(MOTE_ENOMEM, "%s/manifest.json: no memory", directory);
+    }
+    json_t *object =
+        json_pack("{s:i, s:s, s:s, s:s, s:s, s:s, s:s, s:I, s:o}", "schema", 1, "version",
+                  MOTE_VERSION, "program", hash, "compiler", MOTE_COMPILER, "build_type",
+                  MOTE_BUILD_TYPE, "flags", MOTE_FLAGS, "libraries", MOTE_LIBRARIES, "seed",
+                  (json_int_t)seed, "sessions", sessions);
+    if (object) {
+        add_sources(object);
+        add_machine(object);
+    }
+    return mote_record_json(directory, "manifest.json", object);
+}

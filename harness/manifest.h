@@ -1,0 +1,18 @@
+/* Where figures come from: program, sources, compiler, libraries, machine. */
+#ifndef MOTE_HARNESS_MANIFEST_H
+#define MOTE_HARNESS_MANIFEST_H
+
+#include "core/status.h"
+
+#include <stdint.h>
+
+/* Hash of this program's own file: changes with anything that was compiled in. MOTE_EIO when it
+   cannot be read. */
+mote_status mote_program_hash(uint64_t *hash);
+
+/* Writes directory/manifest.json: what is true now, and under "sessions" a line for each time
+   that something was measured into the directory, this one added. */
+mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,
+                                int argc, char **argv);
+
+#endif

@@ -1,0 +1,234 @@
+#include "harness/measure.h"
+
+#include "core/deform.h"
+#include "harness/statistics.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#define EVICT_BYTES ((size_t)32 << 20)
+#define CACHE_LINE 64
+
+/* What a cell holds while it runs. */
+typedef struct session {
+    const mote_cell *cell;
+    mote_traits traits;
+    void *state; /* the method's */
+    mote_frame_buffer *buffer;
+    mote_deform *deform[2];
+    mote_vec3 *vertices[2];
+    volatile unsigned char *evict; /* NULL when caches stay hot */
+    uint64_t clock_ns;
+} session;
+
+uint64_t mote_clock_ns(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
+}
+
+uint64_t mote_clock_cost_ns(void)
+{
+    double costs[1001];
+    size_t count = sizeof costs / sizeof costs[0];
+    for (size_t i = 0; i < count; ++i) {
+        uint64_t start = mote_clock_ns();
+        costs[i] = (double)(mote_clock_ns() - start);
+    }
+    return (uint64_t)mote_statistics_median(costs, count);
+}
+
+static mote_status make_vertices(session *s)
+{
+    for (int side = 0; side < 2; ++side) {
+        const mote_body *body = &s->cell->subject->scenario->body[side];
+        s->vertices[side] = malloc(body->mesh->vertex_count * sizeof(mote_vec3));
+        if (!s->vertices[side])
+            return mote_fail(MOTE_ENOMEM, "no memory for %u vertices",
+                             body->mesh->vertex_count);
+        mote_status status = mote_deform_create(body, &s->deform[side]);
+        if (status != MOTE_OK)
+            return status;
+    }
+    return MOTE_OK;
+}
+
+static int64_t vertices_bytes(const session *s)
+{
+    size_t bytes = 0;
+    for (int side = 0; side < 2; ++side)
+        bytes += mote_deform_bytes(s->deform[side]) +
+                 s->cell->subject->scenario->body[side].mesh->vertex_count * sizeof(mote_vec3);
+    return (int64_t)bytes;
+}
+
+/* Everything that is nobody's cost. */
+static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
+{
+    const mote_cell *cell = s->cell;
+    s->traits = cell->choice->method->traits(cell->choice->values);
+    result->rows = calloc(rows, sizeof *result->rows);
+    if (!result->rows)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu rows", rows);
+    if (cell->cache == MOTE_CACHE_EVICT) {
+        s->evict = malloc(EVICT_BYTES);
+        if (!s->evict)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu bytes to walk", EVICT_BYTES);
+    }
+    mote_status status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
+    if (status == MOTE_OK && s->traits.given_vertices)
+        status = make_vertices(s);
+    s->clock_ns = mote_clock_cost_ns();
+    result->clock_ns = s->clock_ns;
+    return status;
+}
+
+/* Everything that the method needs built: timed, and its bytes counted. */
+static mote_status build(session *s, mote_cell_result *result)
+{
+    const mote_cell *cell = s->cell;
+    const mote_scenario *scenario = cell->subject->scenario;
+    mote_setup setup = {.body = {&scenario->body[0], &scenario->body[1]},
+                        .length = scenario->length,
+                        .ask = scenario->ask,
+                        .tolerance = scenario->tolerance,
+                        .seed = cell->seed + cell->replicate - 1,
+                        .values = cell->choice->values};
+    uint64_t start = mote_clock_ns();
+    if (s->traits.needs_vertices && !s->traits.given_vertices) {
+        mote_status status = make_vertices(s);
+        if (status != MOTE_OK)
+            return status;
+        result->deform_bytes = vertices_bytes(s);
+    }
+    mote_status status = cell->choice->method->create(&setup, &s->state);
+    result->build_ns = mote_clock_ns() - start;
+    return status;
+}
+
+static void walk(volatile unsigned char *bytes)
+{
+    for (size_t i = 0; i < EVICT_BYTES; i += CACHE_LINE)
+        bytes[i] = (unsigned char)(bytes[i] + 1);
+}
+
+static void deform(const session *s, mote_frame *frame)
+{
+    for (int side = 0; side < 2; ++side) {
+        mote_body_state *body = &frame->body[side];
+        if (body->shape_changed || body->pose_changed)
+            mote_deform_all(s->deform[side], body, s->vertices[side]);
+        body->vertices = s->vertices[side];
+    }
+}
+
+static uint64_t elapsed(const session *s, uint64_t start, uint64_t end)
+{
+    uint64_t ns = end - start;
+    return ns > s->clock_ns ? ns - s->clock_ns : 0;
+}
+
+static mote_status run_frame(session *s, uint32_t number, uint32_t previous, mote_cell_row *row)
+{
+    const mote_method *method = s->cell->choice->method;
+    mote_frame frame =
+        *mote_scenario_frame(s->cell->subject->scenario, s->buffer, number, previous);
+    mote_status status = MOTE_OK;
+    row->frame = number;
+    if (s->traits.given_vertices)
+        deform(s, &frame);
+    if (s->evict)
+        walk(s->evict);
+    if (s->traits.needs_vertices && !s->traits.given_vertices) {
+        uint64_t start = mote_clock_ns();
+        deform(s, &frame);
+        row->deform_ns = elapsed(s, start, mote_clock_ns());
+    }
+    uint64_t allocations = mote_heap_read().allocations;
+    if (method->update) {
+        uint64_t start = mote_clock_ns();
+        status = method->update(s->state, &frame);
+        row->update_ns = elapsed(s, start, mote_clock_ns());
+    }
+    if (status == MOTE_OK) {
+        uint64_t start = mote_clock_ns();
+        status = method->query(s->state, &frame, &row->answer);
+        row->query_ns = elapsed(s, start, mote_clock_ns());
+    }
+    row->allocations = mote_heap_read().allocations - allocations;
+    if (!row->answer.has_contact && row->answer.has_distance) {
+        row->answer.has_contact = true;
+        row->answer.contact = row->answer.distance <= s->cell->subject->scenario->tolerance;
+    }
+    return status;
+}
+
+static mote_status run_frames(session *s, size_t rows, mote_cell_result *result)
+{
+    uint32_t previous = 0;
+    for (size_t i = 0; i < rows; ++i) {
+        uint32_t number = s->cell->first + (uint32_t)i * s->cell->stride;
+        mote_status status = run_frame(s, number, previous, &result->rows[i]);
+        if (status != MOTE_OK) {
+            char text[512];
+            (void)snprintf(text, sizeof text, "%s", mote_error_text());
+            return mote_fail(status, "frame %u: %s", number, text);
+        }
+        previous = number;
+        result->row_count = i + 1;
+    }
+    return MOTE_OK;
+}
+
+static void close_session(session *s)
+{
+    s->cell->choice->method->destroy(s->state);
+    for (int side = 0; side < 2; ++side) {
+        mote_deform_destroy(s->deform[side]);
+        free(s->vertices[side]);
+    }
+    mote_frame_buffer_destroy(s->buffer);
+    free((void *)(uintptr_t)s->evict);
+}
+
+mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
+                              mote_cell_result *result)
+{
+    session s = {.cell = cell};
+    mote_cell_result measured = {.core = -1};
+    size_t rows = (cell->last - cell->first) / cell->stride + 1;
+    if (frame_limit && rows > frame_limit)
+        rows = frame_limit;
+    mote_status status = prepare(&s, &measured, rows);
+    mote_heap before = mote_heap_read();
+    mote_heap_reset_peak();
+    if (status == MOTE_OK)
+        status = build(&s, &measured);
+    int64_t built = mote_heap_read().live_bytes;
+    if (status == MOTE_OK)
+        status = run_frames(&s, rows, &measured);
+    mote_heap after = mote_heap_read();
+    int64_t live = built > after.live_bytes ? built : after.live_bytes;
+    measured.heap_counted = after.counted;
+    measured.heap_live_bytes = live - before.live_bytes;
+    measured.heap_peak_bytes = after.peak_bytes - before.live_bytes;
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        measured.rss_peak_bytes = (int64_t)usage.ru_maxrss * 1024;
+    close_session(&s);
+    if (status == MOTE_OK)
+        *result = measured;
+    else
+        mote_cell_result_free(&measured);
+    return status;
+}
+
+void mote_cell_result_free(mote_cell_result *result)
+{
+    free(result->rows);
+    result->rows = NULL;
+    result->row_count = 0;
+}

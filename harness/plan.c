@@ -1,0 +1,196 @@
+#include "harness/plan.h"
+
+#include "harness/file.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mote_choices_free(mote_choices *choices)
+{
+    free(choices->items);
+    mote_choices none = {0};
+    *choices = none;
+}
+
+static bool same_choice(const mote_method_choice *a, const mote_method_choice *b)
+{
+    if (a->method != b->method)
+        return false;
+    for (size_t i = 0; i < a->method->parameter_count; ++i) {
+        if (a->values[i] < b->values[i] || a->values[i] > b->values[i])
+            return false;
+    }
+    return true;
+}
+
+static mote_status add_one(mote_choices *choices, const char *text)
+{
+    mote_method_choice choice;
+    mote_status status = mote_method_choice_read(text, &choice);
+    if (status != MOTE_OK)
+        return status;
+    for (size_t i = 0; i < choices->count; ++i) {
+        if (same_choice(&choices->items[i], &choice))
+            return MOTE_OK;
+    }
+    if (choices->count == MOTE_CHOICES_MAX)
+        return mote_fail(MOTE_EINVAL, "more than %d configurations; split the run",
+                         MOTE_CHOICES_MAX);
+    if (choices->count == choices->capacity) {
+        size_t capacity = choices->capacity ? 2 * choices->capacity : 16;
+        mote_method_choice *items = realloc(choices->items, capacity * sizeof *items);
+        if (!items)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu configurations", capacity);
+        choices->items = items;
+        choices->capacity = capacity;
+    }
+    choices->items[choices->count++] = choice;
+    return MOTE_OK;
+}
+
+static bool has_parameter_n(const char *text)
+{
+    char name[64];
+    size_t length = strcspn(text, ":");
+    if (length >= sizeof name)
+        return false;
+    memcpy(name, text, length);
+    name[length] = '\0';
+    const mote_method *method = mote_method_find(name);
+    for (size_t i = 0; method && i < method->parameter_count; ++i) {
+        if (strcmp(method->parameters[i].key, "n") == 0)
+            return true;
+    }
+    return false;
+}
+
+static bool sets_n(const char *text)
+{
+    const char *colon = strchr(text, ':');
+    return colon && (strncmp(colon, ":n=", 3) == 0 || strstr(colon, ",n=") != NULL);
+}
+
+static mote_status add_with_particles(mote_choices *choices, const char *text,
+                                      const char *particles)
+{
+    for (const char *part = particles;; ++part) {
+        size_t length = strcspn(part, ",");
+        char *range = mote_format("%.*s", (int)length, part);
+        uint64_t first = 0, last = 0;
+        mote_status status = range ? mote_read_range(range, UINT32_MAX, &first, &last)
+                                   : mote_fail(MOTE_ENOMEM, "no memory for a range");
+        free(range);
+        if (status == MOTE_OK && last - first >= MOTE_CHOICES_MAX)
+            status = mote_fail(MOTE_EINVAL, "more than %d particle counts", MOTE_CHOICES_MAX);
+        for (uint64_t n = first; status == MOTE_OK && n <= last; ++n) {
+            char *full = mote_format("%s%cn=%" PRIu64, text, strchr(text, ':') ? ',' : ':', n);
+            status = full ? add_one(choices, full)
+                          : mote_fail(MOTE_ENOMEM, "no memory for a configuration");
+            free(full);
+        }
+        if (status != MOTE_OK)
+            return mote_fail(status, "%s; particles are numbers and ranges: 1,2,4-8",
+                             mote_error_text());
+        part += length;
+        if (*part == '\0')
+            return MOTE_OK;
+    }
+}
+
+mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles)
+{
+    const char *bar = strchr(text, '|');
+    if (!bar) {
+        if (particles && has_parameter_n(text) && !sets_n(text))
+            return add_with_particles(choices, text, particles);
+        return add_one(choices, text);
+    }
+    /* The first list is expanded here, the others one level down. */
+    const char *start = bar;
+    while (start > text && start[-1] != '=' && start[-1] != ',' && start[-1] != ':')
+        --start;
+    const char *end = bar + strcspn(bar, ",");
+    for (const char *item = start; item <= end;) {
+        size_t length = strcspn(item, "|,");
+        char *one =
+            mote_format("%.*s%.*s%s", (int)(start - text), text, (int)length, item, end);
+        mote_status status = one ? mote_choices_add(choices, one, particles)
+                                 : mote_fail(MOTE_ENOMEM, "no memory for a configuration");
+        free(one);
+        if (status != MOTE_OK)
+            return status;
+        item += length + 1;
+    }
+    return MOTE_OK;
+}
+
+static mote_status check_frames(const mote_plan_options *options, const mote_subject *subject)
+{
+    const mote_scenario *scenario = subject->scenario;
+    if (options->last > scenario->frames)
+        return mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u",
+                         options->first, options->last, scenario->name, scenario->frames);
+    return MOTE_OK;
+}
+
+/* The cells of one scenario and replicate. */
+static void add_group(const mote_plan_options *options, const mote_subject *subject,
+                      uint32_t replicate, const mote_choices *choices, mote_plan *plan)
+{
+    for (size_t k = 0; k < choices->count; ++k) {
+        mote_cell cell = {
+            .subject = subject,
+            .choice = &choices->items[(k + replicate - 1) % choices->count],
+            .replicate = replicate,
+            .first = options->last ? options->first : 1,
+            .last = options->last ? options->last : subject->scenario->frames,
+            .stride_asked = options->stride,
+            .stride = 1,
+            .seed = options->seed,
+            .cache = options->cache,
+        };
+        mote_cell_name(&cell, options->program);
+        plan->cells[plan->count++] = cell;
+    }
+}
+
+/* Leaves the cells of this shard. */
+static void take_shard(const mote_plan_options *options, size_t groups, size_t group_size,
+                       mote_plan *plan)
+{
+    if (options->shards <= 1)
+        return;
+    size_t kept = 0;
+    for (size_t i = 0; i < plan->count; ++i) {
+        size_t unit = groups >= options->shards ? i / group_size : i;
+        if (unit % options->shards == options->shard - 1)
+            plan->cells[kept++] = plan->cells[i];
+    }
+    plan->count = kept;
+}
+
+mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
+                           size_t subject_count, const mote_choices *choices, mote_plan *plan)
+{
+    size_t groups = subject_count * options->replicates;
+    if (groups * choices->count > MOTE_CHOICES_MAX)
+        return mote_fail(MOTE_EINVAL,
+                         "%zu cells; at most %d in one run, use --shard or split it",
+                         groups * choices->count, MOTE_CHOICES_MAX);
+    for (size_t s = 0; s < subject_count; ++s) {
+        mote_status status = check_frames(options, &subjects[s]);
+        if (status != MOTE_OK)
+            return status;
+    }
+    mote_plan made = {.cells = calloc(groups * choices->count + 1, sizeof *made.cells)};
+    if (!made.cells)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", groups * choices->count);
+    for (uint32_t replicate = 1; replicate <= options->replicates; ++replicate) {
+        for (size_t s = 0; s < subject_count; ++s)
+            add_group(options, &subjects[s], replicate, choices, &made);
+    }
+    take_shard(options, groups, choices->count, &made);
+    *plan = made;
+    return MOTE_OK;
+}

@@ -1,0 +1,47 @@
+/* The plan of a run: which cells, in which order. */
+#ifndef MOTE_HARNESS_PLAN_H
+#define MOTE_HARNESS_PLAN_H
+
+#include "harness/cell.h"
+
+/* A growing list of configurations. Zero-initialise; free with mote_choices_free. */
+typedef struct mote_choices {
+    mote_method_choice *items;
+    size_t count, capacity;
+} mote_choices;
+
+/* At most this many configurations and cells in one run. */
+#define MOTE_CHOICES_MAX 10000
+
+/* Adds every configuration that text names: "NAME:key=a|b,key=c", each value of a list. With
+   particles ("1,2,4-8", or NULL), a method that has a parameter n, and whose text does not set
+   it, is added once for each number. One that is in the list already is not added again.
+   MOTE_EINVAL with a text for an unknown method or key, a bad value, a bad list. */
+mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles);
+void mote_choices_free(mote_choices *choices);
+
+typedef struct mote_plan_options {
+    uint32_t replicates;    /* >= 1 */
+    uint32_t first, last;   /* frames; 0, 0: all of each scenario */
+    uint32_t stride;        /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
+    uint32_t shard, shards; /* shard of shards, from 1; 1, 1: everything */
+    uint64_t seed;
+    mote_cache cache;
+    uint64_t program; /* mote_program_hash */
+} mote_plan_options;
+
+typedef struct mote_plan {
+    mote_cell *cells;
+    size_t count;
+} mote_plan;
+
+/* Replicates outermost, then scenarios, then configurations in an order rotated by the
+   replicate, so that no method always runs first or after the same one. A shard is made of
+   whole (scenario, replicate) groups where there are enough of them, so that methods are
+   compared on one machine. MOTE_EINVAL when the frames lie outside a scenario. subjects and
+   choices are borrowed by the cells. cell->stride is 1 until it is known. The caller frees
+   plan->cells. */
+mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
+                           size_t subject_count, const mote_choices *choices, mote_plan *plan);
+
+#endif

@@ -1,0 +1,68 @@
+#include "harness/record.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* No file of a run is larger. */
+#define FILE_LIMIT ((size_t)1 << 30)
+
+static mote_status write_at(const char *directory, const char *name, const void *data,
+                            size_t size)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+    mote_status status = mote_file_write(path, data, size);
+    free(path);
+    return status;
+}
+
+mote_status mote_record_text(const char *directory, const char *name, mote_text *text)
+{
+    mote_status status =
+        text->failed ? mote_fail(MOTE_ENOMEM, "%s/%s: no memory for the file", directory, name)
+                     : write_at(directory, name, text->data, text->size);
+    free(text->data);
+    mote_text none = {0};
+    *text = none;
+    return status;
+}
+
+mote_status mote_record_json(const char *directory, const char *name, json_t *object)
+{
+    char *dump = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    mote_text text = {0};
+    text.failed = !dump;
+    if (dump)
+        mote_text_add(&text, "%s\n", dump);
+    free(dump);
+    json_decref(object);
+    return mote_record_text(directory, name, &text);
+}
+
+mote_status mote_record_read_json(const char *directory, const char *name, json_t **object)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &data, &size)
+                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+    if (status == MOTE_OK) {
+        json_error_t error;
+        json_t *read = json_loadb(data, size, JSON_REJECT_DUPLICATES, &error);
+        if (read)
+            *object = read;
+        else
+            status = mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; expected JSON that mote wrote", path,
+                               error.line, error.column, error.text);
+    }
+    free(data);
+    free(path);
+    return status;
+}
+
+json_t *mote_json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}

@@ -1,0 +1,23 @@
+/* Files of a run directory: whole or absent. */
+#ifndef MOTE_HARNESS_RECORD_H
+#define MOTE_HARNESS_RECORD_H
+
+#include "harness/file.h"
+
+#include <jansson.h>
+
+/* Writes directory/name, text taken over and freed. MOTE_ENOMEM when text failed. */
+mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
+
+/* Writes directory/name, numbers with 17 digits; object is taken over (decref'd), NULL is
+   MOTE_ENOMEM. */
+mote_status mote_record_json(const char *directory, const char *name, json_t *object);
+
+/* Reads directory/name as JSON; MOTE_EINVAL with file, line and column when it is not. The
+   caller decrefs. */
+mote_status mote_record_read_json(const char *directory, const char *name, json_t **object);
+
+/* A real, or null where it is not finite. */
+json_t *mote_json_number(double value);
+
+#endif

@@ -1,0 +1,75 @@
+#include "harness/spawn.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define STATUS_NOT_RUN 127
+
+static _Noreturn void run(const char *const argv[], const char *directory, int out)
+{
+    if (directory && chdir(directory) != 0)
+        _exit(STATUS_NOT_RUN);
+    if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
+        _exit(STATUS_NOT_RUN);
+    /* execvp does not write to its arguments: POSIX keeps the type for old callers. */
+    union {
+        const char *const *given;
+        char *const *wanted;
+    } arguments = {.given = argv};
+    (void)execvp(argv[0], arguments.wanted);
+    _exit(STATUS_NOT_RUN);
+}
+
+/* Reads to the end; keeps what fits. */
+static void keep_output(int in, char *output, size_t size)
+{
+    size_t used = 0;
+    char block[4096];
+    for (;;) {
+        ssize_t got = read(in, block, sizeof block);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            break;
+        size_t fits = size - 1 - used < (size_t)got ? size - 1 - used : (size_t)got;
+        memcpy(output + used, block, fits);
+        used += fits;
+    }
+    while (used > 0 && output[used - 1] == '\n')
+        --used;
+    output[used] = '\0';
+}
+
+mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
+                       size_t size)
+{
+    int ends[2] = {-1, -1};
+    if (output && pipe(ends) != 0)
+        return mote_fail(MOTE_EIO, "%s: no pipe: %s", argv[0], strerror(errno));
+    (void)fflush(NULL);
+    pid_t pid = fork();
+    if (pid == 0)
+        run(argv, directory, ends[1]);
+    int error = errno;
+    if (output) {
+        (void)close(ends[1]);
+        if (pid > 0)
+            keep_output(ends[0], output, size);
+        (void)close(ends[0]);
+    }
+    if (pid < 0)
+        return mote_fail(MOTE_EIO, "%s: no process: %s", argv[0], strerror(error));
+    int status = 0;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        return MOTE_OK;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == STATUS_NOT_RUN)
+        return mote_fail(MOTE_EIO, "%s: cannot be run; is it installed?", argv[0]);
+    return mote_fail(MOTE_EIO, "%s: ended with status %d", argv[0],
+                     WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+}

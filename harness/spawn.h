@@ -1,0 +1,16 @@
+/* Running other programs, without a shell. */
+#ifndef MOTE_HARNESS_SPAWN_H
+#define MOTE_HARNESS_SPAWN_H
+
+#include "core/status.h"
+
+#include <stddef.h>
+
+/* Runs argv[0] (searched in PATH) with argv, ended by NULL, in directory (NULL: this one) and
+   waits. Its standard output is kept in output (size bytes, cut, ended by a 0 byte; trailing
+   line ends taken off) or, when output is NULL, goes where ours goes. MOTE_EIO when it cannot
+   be run or ends with another status than 0. */
+mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
+                       size_t size);
+
+#endif

@@ -1,0 +1,361 @@
+#include "harness/stored.h"
+
+#include "harness/record.h"
+#include "harness/statistics.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)1 << 30)
+#define COLUMNS_MAX 64
+
+#define NAME_TEXT(name) #name,
+const char *const mote_stored_count_names[MOTE_STORED_COUNTS] = {
+    MOTE_COUNTERS(NAME_TEXT) MOTE_COUNTERS_MORE(NAME_TEXT) "allocations"};
+#undef NAME_TEXT
+
+/* The columns that are read, by position in this list. */
+enum {
+    COLUMN_FRAME,
+    COLUMN_DEFORM,
+    COLUMN_UPDATE,
+    COLUMN_QUERY,
+    COLUMN_TRUTH,
+    COLUMN_ERROR,
+    COLUMN_CONTACT,
+    COLUMN_CONTACT_TRUTH,
+    COLUMN_COUNTS
+};
+static const char *const column_names[COLUMN_COUNTS] = {"frame",    "deform_ns",    "update_ns",
+                                                        "query_ns", "truth",        "error",
+                                                        "contact",  "contact_truth"};
+
+void mote_stored_free(mote_stored *stored)
+{
+    for (size_t i = 0; i < stored->count; ++i) {
+        mote_stored_cell *cell = &stored->cells[i];
+        json_decref(cell->json);
+        free(cell->group);
+        free(cell->frame);
+        free(cell->deform_ns);
+        free(cell->update_ns);
+        free(cell->query_ns);
+        free(cell->total_ns);
+        free(cell->error);
+        free(cell->truth);
+        free(cell->contact);
+        free(cell->contact_truth);
+    }
+    free(stored->cells);
+    mote_stored none = {0};
+    *stored = none;
+}
+
+double mote_stored_number(const mote_stored_cell *cell, const char *key)
+{
+    const json_t *value = json_object_get(cell->json, key);
+    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
+}
+
+static mote_status make_arrays(mote_stored_cell *cell, size_t frames)
+{
+    size_t some = frames + 1;
+    cell->frame = calloc(some, sizeof *cell->frame);
+    cell->deform_ns = calloc(some, sizeof *cell->deform_ns);
+    cell->update_ns = calloc(some, sizeof *cell->update_ns);
+    cell->query_ns = calloc(some, sizeof *cell->query_ns);
+    cell->total_ns = calloc(some, sizeof *cell->total_ns);
+    cell->error = calloc(some, sizeof *cell->error);
+    cell->truth = calloc(some, sizeof *cell->truth);
+    cell->contact = calloc(some, sizeof *cell->contact);
+    cell->contact_truth = calloc(some, sizeof *cell->contact_truth);
+    if (!cell->frame || !cell->deform_ns || !cell->update_ns || !cell->query_ns ||
+        !cell->total_ns || !cell->error || !cell->truth || !cell->contact ||
+        !cell->contact_truth)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    return MOTE_OK;
+}
+
+/* Which column of the file holds each column and count that is read; false when one is missing.
+ */
+typedef struct column_map {
+    int column[COLUMNS_MAX]; /* file column -> our index, -1: not read */
+    size_t count;
+} column_map;
+
+static int find_column(const char *name, size_t length)
+{
+    for (int k = 0; k < COLUMN_COUNTS; ++k) {
+        if (strlen(column_names[k]) == length && memcmp(column_names[k], name, length) == 0)
+            return k;
+    }
+    for (int k = 0; k < MOTE_STORED_COUNTS; ++k) {
+        const char *count = mote_stored_count_names[k];
+        if (strlen(count) == length && memcmp(count, name, length) == 0)
+            return COLUMN_COUNTS + k;
+    }
+    return -1;
+}
+
+static bool map_columns(const char *header, column_map *map)
+{
+    unsigned found = 0;
+    map->count = 0;
+    for (const char *name = header;; ++name) {
+        size_t length = strcspn(name, ",\n");
+        if (map->count == COLUMNS_MAX)
+            return false;
+        int index = find_column(name, length);
+        map->column[map->count++] = index;
+        if (index >= 0 && index < COLUMN_COUNTS)
+            found |= 1u << index;
+        name += length;
+        if (*name != ',')
+            break;
+    }
+    return found == (1u << COLUMN_COUNTS) - 1;
+}
+
+/* Puts the value of one field, MOTE_NONE when empty, where it belongs. */
+static void put_value(mote_stored_cell *cell, size_t row, int index, double value)
+{
+    bool none = value != value;
+    switch (index) {
+    case COLUMN_FRAME:
+        cell->frame[row] = none ? 0 : (uint32_t)value;
+        return;
+    case COLUMN_DEFORM:
+        cell->deform_ns[row] = none ? 0 : value;
+        return;
+    case COLUMN_UPDATE:
+        cell->update_ns[row] = none ? 0 : value;
+        return;
+    case COLUMN_QUERY:
+        cell->query_ns[row] = none ? 0 : value;
+        return;
+    case COLUMN_TRUTH:
+        cell->truth[row] = value;
+        return;
+    case COLUMN_ERROR:
+        cell->error[row] = value;
+        return;
+    case COLUMN_CONTACT:
+        cell->contact[row] = none ? -1 : value > 0;
+        return;
+    case COLUMN_CONTACT_TRUTH:
+        cell->contact_truth[row] = none ? -1 : value > 0;
+        return;
+    default:
+        break;
+    }
+    mote_stored_count *count = &cell->counts[index - COLUMN_COUNTS];
+    if (!none) {
+        count->sum += value;
+        count->max = value > count->max ? value : count->max;
+    }
+}
+
+/* Reads one line into a row; NULL when it is not one. */
+static const char *read_row(const char *line, const column_map *map, mote_stored_cell *cell,
+                            size_t row)
+{
+    for (size_t k = 0; k < map->count; ++k) {
+        char *end;
+        double value = MOTE_NONE;
+        if (*line != ',' && *line != '\n') {
+            value = strtod(line, &end);
+            if (end == line || value - value != 0)
+                return NULL;
+            line = end;
+        }
+        if (*line != (k + 1 < map->count ? ',' : '\n'))
+            return NULL;
+        ++line;
+        if (map->column[k] >= 0)
+            put_value(cell, row, map->column[k], value);
+    }
+    cell->total_ns[row] = cell->deform_ns[row] + cell->update_ns[row] + cell->query_ns[row];
+    return line;
+}
+
+static mote_status read_frames(const char *path, const char *text, mote_stored_cell *cell)
+{
+    column_map map;
+    size_t lines = 0;
+    for (const char *p = text; *p; ++p)
+        lines += *p == '\n' ? 1 : 0;
+    if (lines == 0 || !map_columns(text, &map))
+        return mote_fail(MOTE_EINVAL, "%s:1: not the header of a cell that mote wrote", path);
+    mote_status status = make_arrays(cell, lines - 1);
+    const char *line = strchr(text, '\n') + 1;
+    for (size_t row = 0; status == MOTE_OK && row + 1 < lines; ++row) {
+        line = read_row(line, &map, cell, row);
+        if (!line || (row > 0 && cell->frame[row] <= cell->frame[row - 1]))
+            return mote_fail(MOTE_EINVAL, "%s:%zu: not a frame's row; expected %zu fields",
+                             path, row + 2, map.count);
+        cell->frames = row + 1;
+    }
+    return status;
+}
+
+/* What the replicates of one configuration have in common, as text that sorts by scenario,
+   caches and method. */
+static char *group_name(const mote_stored_cell *cell)
+{
+    char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
+    char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
+    char *group = NULL;
+    if (parameters && frames)
+        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f", cell->scenario,
+                            cell->cache, cell->method, parameters, cell->fingerprint, frames,
+                            cell->stride, mote_stored_number(cell, "seed"));
+    free(parameters);
+    free(frames);
+    return group;
+}
+
+static bool read_status(const char *text, mote_cell_status *status)
+{
+    for (int k = 0; text && k < MOTE_CELL_STATUSES; ++k) {
+        if (strcmp(text, mote_cell_status_names[k]) == 0) {
+            *status = (mote_cell_status)k;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Fills the fields that lie in cell->json. */
+static mote_status read_fields(const char *name, mote_stored_cell *cell)
+{
+    const char *status;
+    int replicate, stride, first, last;
+    if (json_unpack(cell->json, "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i]}", "id",
+                    &cell->id, "status", &status, "scenario", &cell->scenario, "fingerprint",
+                    &cell->fingerprint, "method", &cell->method, "cache", &cell->cache,
+                    "parameters", &cell->parameters, "replicate", &replicate, "stride", &stride,
+                    "active", &first, &last) != 0 ||
+        !read_status(status, &cell->status) || replicate < 1 || stride < 1)
+        return mote_fail(MOTE_EINVAL, "%s: a field of a cell is missing or wrong", name);
+    cell->replicate = (uint32_t)replicate;
+    cell->stride = (uint32_t)stride;
+    cell->active_first = (uint32_t)first;
+    cell->active_last = (uint32_t)last;
+    cell->group = group_name(cell);
+    return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
+}
+
+static mote_status read_csv(const char *directory, mote_stored_cell *cell)
+{
+    char *path = mote_format("%s/cells/%s.csv", directory, cell->id);
+    char *text = NULL;
+    size_t size = 0;
+    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
+                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    if (status == MOTE_OK)
+        status = read_frames(path, text, cell);
+    free(text);
+    free(path);
+    return status;
+}
+
+/* *wanted: measured by this program ("": any). */
+static mote_status read_cell(const char *directory, const char *file, const char *program,
+                             mote_stored_cell *cell, bool *wanted)
+{
+    char *name = mote_format("cells/%s", file);
+    mote_status status = name ? mote_record_read_json(directory, name, &cell->json)
+                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    if (status == MOTE_OK)
+        status = read_fields(name, cell);
+    if (status == MOTE_OK) {
+        const char *by = json_string_value(json_object_get(cell->json, "program"));
+        *wanted = program[0] == '\0' || (by && strcmp(by, program) == 0);
+    }
+    if (status == MOTE_OK && *wanted && cell->status == MOTE_CELL_OK)
+        status = read_csv(directory, cell);
+    free(name);
+    return status;
+}
+
+/* The program that measured last; "" without a manifest. */
+static void manifest_program(const char *directory, char *program, size_t size)
+{
+    json_t *manifest = NULL;
+    program[0] = '\0';
+    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
+        return;
+    const char *text = json_string_value(json_object_get(manifest, "program"));
+    if (text && strlen(text) < size)
+        memcpy(program, text, strlen(text) + 1);
+    json_decref(manifest);
+}
+
+static int by_group(const void *a, const void *b)
+{
+    const mote_stored_cell *first = a, *second = b;
+    int order = strcmp(first->group, second->group);
+    if (order != 0)
+        return order;
+    return first->replicate < second->replicate ? -1 : first->replicate > second->replicate;
+}
+
+static bool is_cell_file(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 5 && name[0] != '.' && strcmp(name + length - 5, ".json") == 0;
+}
+
+static mote_status add_file(const char *directory, const char *file, const char *program,
+                            mote_stored *stored)
+{
+    mote_stored_cell *cells =
+        realloc(stored->cells, (stored->count + 1) * sizeof *stored->cells);
+    if (!cells)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", stored->count + 1);
+    stored->cells = cells;
+    mote_stored_cell *cell = &cells[stored->count];
+    memset(cell, 0, sizeof *cell);
+    ++stored->count;
+    bool wanted = true;
+    mote_status status = read_cell(directory, file, program, cell, &wanted);
+    if (status == MOTE_OK && !wanted) {
+        json_decref(cell->json);
+        free(cell->group);
+        --stored->count;
+        ++stored->left_out;
+    }
+    return status;
+}
+
+mote_status mote_stored_read(const char *directory, mote_stored *stored)
+{
+    mote_stored read = {0};
+    char program[32];
+    manifest_program(directory, program, sizeof program);
+    char *path = mote_format("%s/cells", directory);
+    DIR *folder = path ? opendir(path) : NULL;
+    mote_status status = folder
+                             ? MOTE_OK
+                             : mote_fail(MOTE_EIO, "%s/cells: %s; name the directory of a run",
+                                         directory, path ? strerror(errno) : "no memory");
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL;
+         entry && status == MOTE_OK; entry = readdir(folder)) {
+        if (is_cell_file(entry->d_name))
+            status = add_file(directory, entry->d_name, program, &read);
+    }
+    if (folder)
+        (void)closedir(folder);
+    free(path);
+    if (status != MOTE_OK) {
+        mote_stored_free(&read);
+        return status;
+    }
+    if (read.count > 0)
+        qsort(read.cells, read.count, sizeof *read.cells, by_group);
+    *stored = read;
+    return MOTE_OK;
+}

@@ -1,0 +1,247 @@
+#include "harness/summary.h"
+
+#include "harness/record.h"
+#include "harness/summary_row.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void mote_summary_free(mote_summary *summary)
+{
+    for (size_t i = 0; i < summary->count; ++i)
+        free(summary->rows[i].label);
+    free(summary->rows);
+    mote_stored_free(&summary->stored);
+    mote_summary none = {0};
+    *summary = none;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const mote_summary_row *first = a, *second = b;
+    int order = strcmp(first->first->scenario, second->first->scenario);
+    if (order == 0)
+        order = strcmp(second->first->cache, first->first->cache); /* hot, then evict */
+    if (order == 0)
+        order = strcmp(first->first->method, second->first->method);
+    if (order == 0 && (first->n < second->n || first->n > second->n))
+        order = first->n < second->n ? -1 : 1;
+    return order ? order : strcmp(first->first->group, second->first->group);
+}
+
+static bool is_text(const mote_stored_cell *cell, const char *key, const char *value)
+{
+    const char *text = json_string_value(json_object_get(cell->parameters, key));
+    return text && strcmp(text, value) == 0;
+}
+
+static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK &&
+           strcmp(a->first->scenario, b->first->scenario) == 0 &&
+           strcmp(a->first->fingerprint, b->first->fingerprint) == 0 &&
+           strcmp(a->first->cache, b->first->cache) == 0;
+}
+
+/* FCL as its users call it: no seed, no queue. */
+static bool is_plain_aabb(const mote_stored_cell *cell)
+{
+    /* The queue is a number in one place and a choice in another. */
+    const json_t *queue = json_object_get(cell->parameters, "queue");
+    bool two = is_text(cell, "queue", "2") ||
+               (json_is_integer(queue) && json_integer_value(queue) == 2);
+    return is_text(cell, "seed", "none") && two;
+}
+
+/* The row that this one's ratio is taken to: fcl-aabb:seed=none,queue=2, or any fcl-aabb. */
+static size_t find_reference(const mote_summary *summary, const mote_summary_row *row)
+{
+    size_t found = SIZE_MAX;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        if (!comparable(row, other) || strcmp(other->first->method, "fcl-aabb") != 0)
+            continue;
+        if (is_plain_aabb(other->first))
+            return i;
+        found = found == SIZE_MAX ? i : found;
+    }
+    return found;
+}
+
+static size_t find_best_fcl(const mote_summary *summary, const mote_summary_row *row)
+{
+    size_t best = SIZE_MAX;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        if (comparable(row, other) && strncmp(other->first->method, "fcl-", 4) == 0 &&
+            (best == SIZE_MAX || other->total.median < summary->rows[best].total.median))
+            best = i;
+    }
+    return best;
+}
+
+static mote_status take_ratio(const mote_summary *summary, const mote_summary_row *row,
+                              size_t to, mote_part part, mote_ratio *ratio)
+{
+    ratio->to = to;
+    if (to == SIZE_MAX)
+        return MOTE_OK;
+    return mote_summary_ratio(row, &summary->rows[to], part, ratio);
+}
+
+static mote_status take_ratios(mote_summary *summary)
+{
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
+        mote_summary_row *row = &summary->rows[i];
+        size_t reference = find_reference(summary, row);
+        status = take_ratio(summary, row, reference, MOTE_PART_TOTAL, &row->ratio);
+        if (status == MOTE_OK)
+            status = take_ratio(summary, row, reference, MOTE_PART_GIVEN, &row->ratio_given);
+        if (status == MOTE_OK)
+            status = take_ratio(summary, row, find_best_fcl(summary, row), MOTE_PART_TOTAL,
+                                &row->ratio_best);
+    }
+    return status;
+}
+
+static mote_status make_rows(mote_summary *summary)
+{
+    const mote_stored *stored = &summary->stored;
+    for (size_t i = 0; i < stored->count;) {
+        size_t end = i + 1;
+        while (end < stored->count &&
+               strcmp(stored->cells[end].group, stored->cells[i].group) == 0)
+            ++end;
+        mote_status status =
+            mote_summary_row_make(&stored->cells[i], end - i, &summary->rows[summary->count]);
+        if (status != MOTE_OK)
+            return status;
+        ++summary->count;
+        i = end;
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_summary_make(const char *directory, mote_summary *summary)
+{
+    mote_summary made = {0};
+    mote_status status = mote_stored_read(directory, &made.stored);
+    if (status != MOTE_OK)
+        return status;
+    made.rows = calloc(made.stored.count + 1, sizeof *made.rows);
+    status = made.rows ? make_rows(&made) : mote_fail(MOTE_ENOMEM, "no memory for a summary");
+    if (status == MOTE_OK && made.count > 0)
+        qsort(made.rows, made.count, sizeof *made.rows, by_place);
+    if (status == MOTE_OK)
+        status = take_ratios(&made);
+    if (status == MOTE_OK)
+        *summary = made;
+    else
+        mote_summary_free(&made);
+    return status;
+}
+
+static json_t *time_json(const mote_time *time)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "median",
+                     mote_json_number(time->median), "ci_low", mote_json_number(time->low),
+                     "ci_high", mote_json_number(time->high), "mean",
+                     mote_json_number(time->mean), "p95", mote_json_number(time->p95), "max",
+                     mote_json_number(time->max), "sum", mote_json_number(time->sum));
+}
+
+static json_t *ratio_json(const mote_summary *summary, const mote_ratio *ratio)
+{
+    if (ratio->to == SIZE_MAX)
+        return json_null();
+    return json_pack("{s:s, s:o, s:o, s:o}", "to", summary->rows[ratio->to].label, "value",
+                     mote_json_number(ratio->value), "ci_low", mote_json_number(ratio->low),
+                     "ci_high", mote_json_number(ratio->high));
+}
+
+static json_t *error_json(const mote_error_summary *error)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "median",
+                     mote_json_number(error->median), "p95", mote_json_number(error->p95),
+                     "p99", mote_json_number(error->p99), "max", mote_json_number(error->max),
+                     "min_signed", mote_json_number(error->min_signed), "max_signed",
+                     mote_json_number(error->max_signed), "exact_rate",
+                     mote_json_number(error->exact_rate), "exact_rate_separated",
+                     mote_json_number(error->exact_rate_separated));
+}
+
+/* Mean and largest of each count over the frames of all replicates. */
+static json_t *counters_json(const mote_summary_row *row)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < MOTE_STORED_COUNTS && row->finished > 0; ++k) {
+        double sum = 0, max = 0, frames = 0;
+        for (size_t r = 0; r < row->replicates; ++r) {
+            sum += row->cells[r].counts[k].sum;
+            max = row->cells[r].counts[k].max > max ? row->cells[r].counts[k].max : max;
+            frames += (double)row->cells[r].frames;
+        }
+        (void)json_object_set_new(object, mote_stored_count_names[k],
+                                  json_pack("{s:f, s:f}", "mean", sum / frames, "max", max));
+    }
+    return object;
+}
+
+static json_t *integer_or_null(double value)
+{
+    return value == value ? json_integer((json_int_t)value) : json_null();
+}
+
+static json_t *row_json(const mote_summary *summary, const mote_summary_row *row)
+{
+    const json_t *cell = row->first->json;
+    json_t *object = json_pack(
+        "{s:s, s:s, s:s, s:O, s:O, s:O, s:s, s:i, s:O, s:i, s:i, s:s}", "scenario",
+        row->first->scenario, "method", row->first->method, "label", row->label, "parameters",
+        row->first->parameters, "triangles", json_object_get(cell, "triangles"), "vertices",
+        json_object_get(cell, "vertices"), "cache", row->first->cache, "stride",
+        (int)row->first->stride, "seed", json_object_get(cell, "seed"), "frames",
+        (int)row->frames, "replicates", (int)row->finished, "status",
+        mote_cell_status_names[row->status]);
+    if (!object)
+        return NULL;
+    json_t *reason = json_object_get(cell, "reason");
+    if (reason)
+        (void)json_object_set(object, "reason", reason);
+#define SET_TIME(name, key) (void)json_object_set_new(object, key, time_json(&row->name));
+    MOTE_TIMES(SET_TIME)
+#undef SET_TIME
+    (void)json_object_set_new(object, "ratio", ratio_json(summary, &row->ratio));
+    (void)json_object_set_new(object, "ratio_given", ratio_json(summary, &row->ratio_given));
+    (void)json_object_set_new(object, "ratio_best", ratio_json(summary, &row->ratio_best));
+    (void)json_object_set_new(object, "error", error_json(&row->error));
+    (void)json_object_set_new(object, "contacts", mote_json_number(row->contacts));
+    (void)json_object_set_new(object, "missed", mote_json_number(row->missed));
+    (void)json_object_set_new(object, "false_contacts", mote_json_number(row->false_contacts));
+    (void)json_object_set_new(object, "heap_live_bytes", integer_or_null(row->heap_live_bytes));
+    (void)json_object_set_new(object, "heap_peak_bytes", integer_or_null(row->heap_peak_bytes));
+    (void)json_object_set_new(object, "rss_peak_bytes", integer_or_null(row->rss_peak_bytes));
+    (void)json_object_set_new(object, "counters", counters_json(row));
+    return object;
+}
+
+json_t *mote_summary_json(const mote_summary *summary)
+{
+    json_t *rows = json_array();
+    for (size_t i = 0; rows && i < summary->count; ++i) {
+        if (json_array_append_new(rows, row_json(summary, &summary->rows[i])) != 0) {
+            json_decref(rows);
+            rows = NULL;
+        }
+    }
+    if (!rows)
+        return NULL;
+    return json_pack("{s:i, s:i, s:o}", "schema", 1, "cells_left_out",
+                     (int)summary->stored.left_out, "rows", rows);
+}
+
+mote_status mote_summary_write(const mote_summary *summary, const char *directory)
+{
+    return mote_record_json(directory, "summary.json", mote_summary_json(summary));
+}

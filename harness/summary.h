@@ -1,0 +1,78 @@
+/* The summary of a run: one row a configuration, from its cells alone. */
+#ifndef MOTE_HARNESS_SUMMARY_H
+#define MOTE_HARNESS_SUMMARY_H
+
+#include "harness/statistics.h"
+#include "harness/stored.h"
+
+/* A time over frames and replicates, in nanoseconds. median, p95 and max are over all frames of
+   all replicates; the interval is the median's (mote_statistics_median_interval); sum is the
+   mean over replicates of the sum over frames. */
+typedef struct mote_time {
+    double median, low, high, mean, p95, max, sum;
+} mote_time;
+
+/* How many times slower another row is: median over common frames and replicates of (the
+   other's total / this total). */
+typedef struct mote_ratio {
+    size_t to; /* index of the other row; SIZE_MAX: there is none */
+    double value, low, high;
+} mote_ratio;
+
+/* Errors are in L; MOTE_NONE where no frame has an answer. */
+typedef struct mote_error_summary {
+    double median, p95, p99, max; /* of the absolute error */
+    double min_signed, max_signed;
+    double exact_rate;           /* share of frames with absolute error <= 1e-9 */
+    double exact_rate_separated; /* the same where truth > 0 */
+} mote_error_summary;
+
+#define MOTE_EXACT_ERROR 1e-9
+
+/* The times of a row, X(name, JSON key). given leaves deformation out: nobody is charged for
+ * it. */
+#define MOTE_TIMES(X)                                                                          \
+    X(total, "total_ns")                                                                       \
+    X(deform, "deform_ns")                                                                     \
+    X(update, "update_ns")                                                                     \
+    X(query, "query_ns")                                                                       \
+    X(active_total, "active_total_ns")                                                         \
+    X(given_total, "given_total_ns")
+
+typedef struct mote_summary_row {
+    const mote_stored_cell *cells; /* [replicates], in the summary's stored */
+    size_t replicates;             /* that ran, whatever their end */
+    size_t finished;               /* of these, with status ok; they come first in no order */
+    const mote_stored_cell *first; /* one with status ok, or else any */
+    mote_cell_status status;       /* ok when any replicate is, else the worst */
+    char *label;                   /* "particle-paper:n=5": parameters that are not default */
+    double n;                      /* the parameter n, or MOTE_NONE */
+    size_t frames;                 /* of one replicate */
+#define MOTE_TIME_FIELD(name, key) mote_time name;
+    MOTE_TIMES(MOTE_TIME_FIELD)
+#undef MOTE_TIME_FIELD
+    mote_ratio ratio;       /* to fcl-aabb:seed=none,queue=2, or the first fcl-aabb there is */
+    mote_ratio ratio_given; /* the same where nobody is charged for deformation */
+    mote_ratio ratio_best;  /* to the fastest row of FCL */
+    mote_error_summary error;
+    double contacts, missed, false_contacts;                 /* frames, mean over replicates */
+    double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
+} mote_summary_row;
+
+typedef struct mote_summary {
+    mote_stored stored;
+    mote_summary_row *rows; /* by scenario, caches, method, n */
+    size_t count;
+} mote_summary;
+
+/* Reads a run directory and computes its rows. The caller frees *summary. */
+mote_status mote_summary_make(const char *directory, mote_summary *summary);
+void mote_summary_free(mote_summary *summary);
+
+/* The summary as the object that summary.json holds; NULL when memory ran out. */
+json_t *mote_summary_json(const mote_summary *summary);
+
+/* Writes directory/summary.json. */
+mote_status mote_summary_write(const mote_summary *summary, const char *directory);
+
+#endif

@@ -1,0 +1,347 @@
+#include "harness/summary_row.h"
+
+#include "harness/file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Any fixed number: intervals of the same data are the same. */
+#define BOOTSTRAP_SEED 20030901u
+
+/* The frames of a time that count: from first to last, 0, 0 for all. */
+typedef struct slice {
+    double *all;              /* values of all replicates */
+    mote_replicate *replicas; /* [count], inside all */
+    size_t count, total;
+} slice;
+
+static void free_slice(slice *s)
+{
+    free(s->all);
+    free(s->replicas);
+}
+
+typedef double (*value_of)(const mote_stored_cell *cell, size_t frame);
+
+#define DEFINE_VALUE(name, expression)                                                         \
+    static double name(const mote_stored_cell *cell, size_t frame)                             \
+    {                                                                                          \
+        return expression;                                                                     \
+    }
+DEFINE_VALUE(total_of, cell->total_ns[frame])
+DEFINE_VALUE(deform_of, cell->deform_ns[frame])
+DEFINE_VALUE(update_of, cell->update_ns[frame])
+DEFINE_VALUE(query_of, cell->query_ns[frame])
+DEFINE_VALUE(given_of, cell->update_ns[frame] + cell->query_ns[frame])
+DEFINE_VALUE(error_of, cell->error[frame])
+#undef DEFINE_VALUE
+
+static bool ran(const mote_stored_cell *cell)
+{
+    return cell->status == MOTE_CELL_OK && cell->frames > 0;
+}
+
+/* Gathers the values of a row's replicates over the frames first .. last. */
+static mote_status gather(const mote_summary_row *row, value_of value, uint32_t first,
+                          uint32_t last, slice *s)
+{
+    slice made = {0};
+    size_t most = 0;
+    for (size_t r = 0; r < row->replicates; ++r)
+        most += ran(&row->cells[r]) ? row->cells[r].frames : 0;
+    made.all = malloc((most + 1) * sizeof *made.all);
+    made.replicas = calloc(row->replicates + 1, sizeof *made.replicas);
+    if (!made.all || !made.replicas) {
+        free_slice(&made);
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu values", most);
+    }
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (!ran(cell))
+            continue;
+        mote_replicate *replicate = &made.replicas[made.count++];
+        replicate->values = made.all + made.total;
+        for (size_t k = 0; k < cell->frames; ++k) {
+            double here = value(cell, k);
+            if (cell->frame[k] < first || cell->frame[k] > last || here != here)
+                continue;
+            made.all[made.total++] = here;
+            ++replicate->count;
+        }
+    }
+    *s = made;
+    return MOTE_OK;
+}
+
+static mote_status make_time(const mote_summary_row *row, value_of value, uint32_t first,
+                             uint32_t last, mote_time *time)
+{
+    mote_time none = {MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE,
+                      MOTE_NONE, MOTE_NONE, MOTE_NONE};
+    *time = none;
+    slice s = {0};
+    mote_status status = gather(row, value, first, last, &s);
+    if (status != MOTE_OK)
+        return status;
+    mote_confidence interval = {MOTE_NONE, MOTE_NONE};
+    if (s.total > 0) {
+        /* A time that is always 0 (no refit) has no logarithm. */
+        double least = s.all[0];
+        for (size_t i = 0; i < s.total; ++i)
+            least = s.all[i] < least ? s.all[i] : least;
+        status = mote_statistics_median_interval(s.replicas, s.count, least > 0, BOOTSTRAP_SEED,
+                                                 &interval);
+        time->mean = mote_statistics_mean(s.all, s.total);
+        time->sum = time->mean * (double)s.total / (double)s.count;
+        mote_statistics_sort(s.all, s.total);
+        time->median = mote_statistics_quantile(s.all, s.total, 0.5);
+        time->p95 = mote_statistics_quantile(s.all, s.total, 0.95);
+        time->max = s.all[s.total - 1];
+        time->low = interval.low;
+        time->high = interval.high;
+    }
+    free_slice(&s);
+    return status;
+}
+
+static mote_status make_times(mote_summary_row *row)
+{
+    uint32_t first = row->first->active_first, last = row->first->active_last;
+    mote_status status = make_time(row, total_of, 0, UINT32_MAX, &row->total);
+    if (status == MOTE_OK)
+        status = make_time(row, deform_of, 0, UINT32_MAX, &row->deform);
+    if (status == MOTE_OK)
+        status = make_time(row, update_of, 0, UINT32_MAX, &row->update);
+    if (status == MOTE_OK)
+        status = make_time(row, query_of, 0, UINT32_MAX, &row->query);
+    if (status == MOTE_OK)
+        status = make_time(row, given_of, 0, UINT32_MAX, &row->given_total);
+    if (status == MOTE_OK) /* last is 0 without an active interval: no frame, no figure */
+        status = make_time(row, total_of, first, last, &row->active_total);
+    return status;
+}
+
+static void count_exact(const mote_summary_row *row, mote_error_summary *error)
+{
+    double answers = 0, exact = 0, separated = 0, exact_separated = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        for (size_t k = 0; k < cell->frames; ++k) {
+            if (cell->error[k] != cell->error[k])
+                continue;
+            bool is_exact = fabs(cell->error[k]) <= MOTE_EXACT_ERROR;
+            answers += 1;
+            exact += is_exact ? 1 : 0;
+            separated += cell->truth[k] > 0 ? 1 : 0;
+            exact_separated += cell->truth[k] > 0 && is_exact ? 1 : 0;
+        }
+    }
+    error->exact_rate = answers > 0 ? exact / answers : MOTE_NONE;
+    error->exact_rate_separated = separated > 0 ? exact_separated / separated : MOTE_NONE;
+}
+
+static mote_status make_error(const mote_summary_row *row, mote_error_summary *error)
+{
+    mote_error_summary none = {MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE,
+                               MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE};
+    *error = none;
+    slice s = {0};
+    mote_status status = gather(row, error_of, 0, UINT32_MAX, &s);
+    if (status != MOTE_OK)
+        return status;
+    if (s.total > 0) {
+        mote_statistics_sort(s.all, s.total);
+        error->min_signed = s.all[0];
+        error->max_signed = s.all[s.total - 1];
+        for (size_t i = 0; i < s.total; ++i)
+            s.all[i] = fabs(s.all[i]);
+        mote_statistics_sort(s.all, s.total);
+        error->median = mote_statistics_quantile(s.all, s.total, 0.5);
+        error->p95 = mote_statistics_quantile(s.all, s.total, 0.95);
+        error->p99 = mote_statistics_quantile(s.all, s.total, 0.99);
+        error->max = s.all[s.total - 1];
+    }
+    free_slice(&s);
+    count_exact(row, error);
+    return MOTE_OK;
+}
+
+static void count_contacts(mote_summary_row *row)
+{
+    double answers = 0, contacts = 0, missed = 0, false_contacts = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        for (size_t k = 0; k < cell->frames; ++k) {
+            contacts += cell->contact_truth[k] == 1 ? 1 : 0;
+            if (cell->contact[k] < 0 || cell->contact_truth[k] < 0)
+                continue;
+            answers += 1;
+            missed += cell->contact_truth[k] > cell->contact[k] ? 1 : 0;
+            false_contacts += cell->contact_truth[k] < cell->contact[k] ? 1 : 0;
+        }
+    }
+    double finished = (double)row->finished;
+    row->contacts = row->finished ? contacts / finished : MOTE_NONE;
+    row->missed = answers > 0 ? missed / finished : MOTE_NONE;
+    row->false_contacts = answers > 0 ? false_contacts / finished : MOTE_NONE;
+}
+
+/* The largest over the replicates of a number of theirs. */
+static double largest(const mote_summary_row *row, const char *key)
+{
+    double most = MOTE_NONE;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        double value = mote_stored_number(&row->cells[r], key);
+        most = value > most || most != most ? value : most;
+    }
+    return most;
+}
+
+/* A parameter's value as it would be written on the command line, and whether it is the
+   default. The method may be gone from this build: then nothing is a default. */
+static char *value_text(const mote_method *method, const char *key, const json_t *value,
+                        bool *usual)
+{
+    char text[64], fallback[64];
+    *usual = false;
+    for (size_t i = 0; method && i < method->parameter_count; ++i) {
+        const mote_parameter *parameter = &method->parameters[i];
+        if (strcmp(parameter->key, key) != 0)
+            continue;
+        double values[MOTE_PARAMETERS_MAX];
+        mote_parameters_default(method->parameters, method->parameter_count, values);
+        (void)mote_parameter_text(parameter, values[i], fallback, sizeof fallback);
+        if (json_is_number(value))
+            (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
+        else
+            (void)snprintf(text, sizeof text, "%s", json_string_value(value));
+        *usual = strcmp(text, fallback) == 0;
+        return mote_format("%s", text);
+    }
+    return json_dumps(value, JSON_ENCODE_ANY);
+}
+
+/* "method:key=value,..." with what differs from the defaults. */
+static char *make_label(const mote_stored_cell *cell)
+{
+    mote_text text = {0};
+    mote_text_add(&text, "%s", cell->method);
+    const mote_method *method = mote_method_find(cell->method);
+    const char *key;
+    json_t *value;
+    char separator = ':';
+    json_object_foreach(cell->parameters, key, value)
+    {
+        bool usual;
+        char *shown = value_text(method, key, value, &usual);
+        if (shown && !usual) {
+            mote_text_add(&text, "%c%s=%s", separator, key, shown);
+            separator = ',';
+        }
+        free(shown);
+    }
+    if (text.failed) {
+        free(text.data);
+        return NULL;
+    }
+    return text.data;
+}
+
+mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
+                                  mote_summary_row *row)
+{
+    mote_summary_row made = {.cells = cells, .replicates = replicates, .first = &cells[0]};
+    made.status = cells[0].status;
+    for (size_t r = 0; r < replicates; ++r) {
+        if (ran(&cells[r])) {
+            made.first = made.finished ? made.first : &cells[r];
+            made.status = MOTE_CELL_OK;
+            ++made.finished;
+        }
+    }
+    made.frames = made.first->frames;
+    made.label = make_label(made.first);
+    if (!made.label)
+        return mote_fail(MOTE_ENOMEM, "no memory for a label");
+    const json_t *n = json_object_get(made.first->parameters, "n");
+    made.n = json_is_number(n) ? json_number_value(n) : MOTE_NONE;
+    made.ratio.to = made.ratio_given.to = made.ratio_best.to = SIZE_MAX;
+    made.heap_live_bytes = largest(&made, "heap_live_bytes");
+    made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
+    made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
+    count_contacts(&made);
+    mote_status status = make_times(&made);
+    if (status == MOTE_OK)
+        status = make_error(&made, &made.error);
+    if (status == MOTE_OK)
+        *row = made;
+    else
+        free(made.label);
+    return status;
+}
+
+/* The ratios other / row of the frames that two cells share; returns how many. */
+static size_t pair_frames(const mote_stored_cell *row, const mote_stored_cell *other,
+                          value_of value, double *ratios)
+{
+    size_t count = 0;
+    for (size_t i = 0, k = 0; i < row->frames && k < other->frames;) {
+        if (row->frame[i] < other->frame[k]) {
+            ++i;
+        } else if (row->frame[i] > other->frame[k]) {
+            ++k;
+        } else {
+            double mine = value(row, i++), theirs = value(other, k++);
+            if (mine > 0 && theirs > 0)
+                ratios[count++] = theirs / mine;
+        }
+    }
+    return count;
+}
+
+static const mote_stored_cell *find_replicate(const mote_summary_row *row, uint32_t replicate)
+{
+    for (size_t r = 0; r < row->replicates; ++r) {
+        if (row->cells[r].replicate == replicate && ran(&row->cells[r]))
+            return &row->cells[r];
+    }
+    return NULL;
+}
+
+mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *other,
+                               mote_part part, mote_ratio *ratio)
+{
+    slice s = {0};
+    size_t most = 0;
+    for (size_t r = 0; r < row->replicates; ++r)
+        most += row->cells[r].frames;
+    s.all = malloc((most + 1) * sizeof *s.all);
+    s.replicas = calloc(row->replicates + 1, sizeof *s.replicas);
+    if (!s.all || !s.replicas) {
+        free_slice(&s);
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu ratios", most);
+    }
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *mine = &row->cells[r];
+        const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
+        if (!ran(mine) || !theirs)
+            continue;
+        mote_replicate *replicate = &s.replicas[s.count];
+        replicate->values = s.all + s.total;
+        replicate->count = pair_frames(
+            mine, theirs, part == MOTE_PART_TOTAL ? total_of : given_of, s.all + s.total);
+        s.total += replicate->count;
+        s.count += replicate->count ? 1 : 0;
+    }
+    mote_confidence interval;
+    mote_status status =
+        mote_statistics_median_interval(s.replicas, s.count, true, BOOTSTRAP_SEED, &interval);
+    if (status == MOTE_OK) {
+        ratio->value = mote_statistics_median(s.all, s.total);
+        ratio->low = interval.low;
+        ratio->high = interval.high;
+    }
+    free_slice(&s);
+    return status;
+}

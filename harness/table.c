@@ -1,0 +1,210 @@
+#include "harness/table.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CELL 24
+
+typedef char field[CELL];
+
+/* Three digits and a unit. */
+static const char *time_text(double ns, field text)
+{
+    static const struct {
+        double above;
+        const char *unit;
+    } units[] = {{1e9, "s"}, {1e6, "ms"}, {1e3, "us"}, {0, "ns"}};
+    if (ns != ns)
+        return "-";
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i) {
+        double scaled = units[i].above > 0 ? ns / units[i].above : ns;
+        if (ns < units[i].above * 0.9995)
+            continue;
+        int digits = scaled < 9.995 && ns > 0 ? 2 : scaled < 99.95 && ns > 0 ? 1 : 0;
+        (void)snprintf(text, CELL, "%.*f %s", digits, scaled, units[i].unit);
+        break;
+    }
+    return text;
+}
+
+static const char *number_text(double value, const char *format, field text)
+{
+    if (value != value)
+        return "-";
+    /* The callers' formats are literals below. */
+    if (strcmp(format, "ratio") == 0)
+        (void)snprintf(text, CELL,
+                       value < 9.995   ? "%.2f"
+                       : value < 99.95 ? "%.1f"
+                                       : "%.0f",
+                       value);
+    else if (strcmp(format, "percent") == 0)
+        (void)snprintf(text, CELL, "%.1f %%", 100 * value);
+    else if (strcmp(format, "error") == 0)
+        (void)snprintf(text, CELL, "%.1e", value);
+    else
+        (void)snprintf(text, CELL, "%.4g", value);
+    return text;
+}
+
+static const char *bytes_text(double bytes, field text)
+{
+    if (bytes != bytes)
+        return "-";
+    if (bytes < 10e3)
+        (void)snprintf(text, CELL, "%.0f B", bytes);
+    else if (bytes < 10e6)
+        (void)snprintf(text, CELL, "%.1f kB", bytes / 1e3);
+    else
+        (void)snprintf(text, CELL, "%.1f MB", bytes / 1e6);
+    return text;
+}
+
+static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
+           strcmp(a->first->cache, b->first->cache) == 0;
+}
+
+static size_t label_width(const mote_summary *summary)
+{
+    size_t width = strlen("method");
+    for (size_t i = 0; i < summary->count; ++i) {
+        size_t length = strlen(summary->rows[i].label);
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+/* The largest number of frames and of replicates in the block that starts at a row. */
+static void print_head(const mote_summary *summary, size_t start, int width, FILE *out)
+{
+    const mote_summary_row *row = &summary->rows[start];
+    size_t frames = 0, replicates = 0;
+    for (size_t i = start; i < summary->count && same_block(row, &summary->rows[i]); ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        frames = other->frames > frames ? other->frames : frames;
+        replicates = other->replicates > replicates ? other->replicates : replicates;
+    }
+    const json_t *triangles = json_object_get(row->first->json, "triangles");
+    (void)fprintf(out, "%s%s: %d and %d triangles, %zu frames, %zu replicates, caches %s\n",
+                  start ? "\n" : "", row->first->scenario,
+                  (int)json_integer_value(json_array_get(triangles, 0)),
+                  (int)json_integer_value(json_array_get(triangles, 1)), frames, replicates,
+                  row->first->cache);
+    (void)fprintf(out, "%-*s %5s %9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %7s %6s %6s %9s\n",
+                  width, "", "", "total", "", "deform", "update", "query", "fcl-aabb",
+                  "best FCL", "error/L", "", "", "exact", "missed", "false", "heap");
+    (void)fprintf(out, "%-*s %5s %9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %7s %6s %6s %9s\n",
+                  width, "method", "n", "median", "p95", "median", "median", "median", "/ this",
+                  "/ this", "median", "p99", "max", "", "", "", "");
+}
+
+static void print_row(const mote_summary_row *row, int width, FILE *out)
+{
+    field f[16];
+    (void)fprintf(out, "%-*s %5s ", width, row->label, number_text(row->n, "count", f[0]));
+    if (row->status != MOTE_CELL_OK) {
+        const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
+        (void)fprintf(out, "%s: %s\n", mote_cell_status_names[row->status],
+                      reason ? reason : "");
+        return;
+    }
+    (void)fprintf(
+        out, "%9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %7s %6s %6s %9s",
+        time_text(row->total.median, f[1]), time_text(row->total.p95, f[2]),
+        time_text(row->deform.median, f[3]), time_text(row->update.median, f[4]),
+        time_text(row->query.median, f[5]), number_text(row->ratio.value, "ratio", f[6]),
+        number_text(row->ratio_best.value, "ratio", f[7]),
+        number_text(row->error.median, "error", f[8]),
+        number_text(row->error.p99, "error", f[9]), number_text(row->error.max, "error", f[10]),
+        number_text(row->error.exact_rate, "percent", f[11]),
+        number_text(row->missed, "count", f[12]),
+        number_text(row->false_contacts, "count", f[13]),
+        bytes_text(row->heap_live_bytes, f[14]));
+    if (row->first->stride > 1)
+        (void)fprintf(out, "  every %uth frame", row->first->stride);
+    if (row->finished < row->replicates)
+        (void)fprintf(out, "  %zu of %zu replicates ended badly",
+                      row->replicates - row->finished, row->replicates);
+    (void)fprintf(out, "\n");
+}
+
+/* What the two columns of ratios are taken to, below a block. */
+static void print_foot(const mote_summary *summary, const mote_summary_row *row, FILE *out)
+{
+    if (row->ratio.to != SIZE_MAX)
+        (void)fprintf(out, "fcl-aabb: %s; best FCL: %s\n", summary->rows[row->ratio.to].label,
+                      summary->rows[row->ratio_best.to].label);
+}
+
+void mote_table_print(const mote_summary *summary, FILE *out)
+{
+    int width = (int)label_width(summary);
+    for (size_t i = 0; i < summary->count;) {
+        size_t start = i;
+        const mote_summary_row *measured = &summary->rows[i];
+        print_head(summary, i, width, out);
+        for (; i < summary->count && same_block(&summary->rows[start], &summary->rows[i]);
+             ++i) {
+            print_row(&summary->rows[i], width, out);
+            if (summary->rows[i].status == MOTE_CELL_OK)
+                measured = &summary->rows[i];
+        }
+        print_foot(summary, measured, out);
+    }
+    if (summary->stored.left_out > 0)
+        (void)fprintf(out, "%zu cells were measured by another build and are left out\n",
+                      summary->stored.left_out);
+}
+
+static void csv_number(double value, FILE *out)
+{
+    if (value == value)
+        (void)fprintf(out, ",%.17g", value);
+    else
+        (void)fputc(',', out);
+}
+
+static void csv_time(const mote_time *time, FILE *out)
+{
+    csv_number(time->median, out);
+    csv_number(time->low, out);
+    csv_number(time->high, out);
+    csv_number(time->mean, out);
+    csv_number(time->p95, out);
+    csv_number(time->max, out);
+}
+
+void mote_table_print_csv(const mote_summary *summary, FILE *out)
+{
+    (void)fprintf(out, "scenario,cache,method,label,n,stride,frames,replicates,status");
+#define PRINT_NAMES(name, key)                                                                 \
+    (void)fprintf(out, ",%s_median,%s_ci_low,%s_ci_high,%s_mean,%s_p95,%s_max", key, key, key, \
+                  key, key, key);
+    MOTE_TIMES(PRINT_NAMES)
+#undef PRINT_NAMES
+    (void)fprintf(out, ",ratio,ratio_ci_low,ratio_ci_high,ratio_best,error_median,error_p95,"
+                       "error_p99,error_max,exact_rate,contacts,missed,false_contacts,"
+                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes\n");
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        (void)fprintf(out, "%s,%s,%s,\"%s\"", row->first->scenario, row->first->cache,
+                      row->first->method, row->label);
+        csv_number(row->n, out);
+        (void)fprintf(out, ",%u,%zu,%zu,%s", row->first->stride, row->frames, row->finished,
+                      mote_cell_status_names[row->status]);
+#define PRINT_TIME(name, key) csv_time(&row->name, out);
+        MOTE_TIMES(PRINT_TIME)
+#undef PRINT_TIME
+        const double rest[] = {
+            row->ratio.value,      row->ratio.low,       row->ratio.high,
+            row->ratio_best.value, row->error.median,    row->error.p95,
+            row->error.p99,        row->error.max,       row->error.exact_rate,
+            row->contacts,         row->missed,          row->false_contacts,
+            row->heap_live_bytes,  row->heap_peak_bytes, row->rss_peak_bytes};
+        for (size_t k = 0; k < sizeof rest / sizeof rest[0]; ++k)
+            csv_number(rest[k], out);
+        (void)fputc('\n', out);
+    }
+}

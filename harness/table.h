@@ -1,0 +1,20 @@
+/* A summary as text: the table on the terminal, CSV, and the formats of other tools. */
+#ifndef MOTE_HARNESS_TABLE_H
+#define MOTE_HARNESS_TABLE_H
+
+#include "harness/summary.h"
+
+#include <stdio.h>
+
+/* A block a scenario and caches, a line a configuration. */
+void mote_table_print(const mote_summary *summary, FILE *out);
+
+/* One line a configuration, times in nanoseconds, an empty field for what there is not. */
+void mote_table_print_csv(const mote_summary *summary, FILE *out);
+
+/* What benchmark trackers read. NULL when memory ran out; the caller decrefs. */
+json_t *mote_gbench_json(const mote_summary *summary);  /* Google Benchmark */
+json_t *mote_gha_json(const mote_summary *summary);     /* github-action-benchmark */
+json_t *mote_bencher_json(const mote_summary *summary); /* Bencher */
+
+#endif
