@@ -21,6 +21,8 @@ typedef enum mote_exit {
     X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")                  \
     X(check, "check SCENARIO [--json] [--out DIR]",                                            \
       "fingerprint; whether the active interval is what it says")                              \
+    X(export, "export SCENARIO --frame K --out DIR [--method NAME[:key=value,...]]...",        \
+      "writes a frame's deformed meshes and what methods say of them")                         \
     X(approach,                                                                                \
       "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
       "writes the scenario with body 1 placed so that the gaps are as wished")                 \
