@@ -140,7 +140,7 @@ static inline const mote_frame *scene_next(scene *s, double reach, bool pose_onl
 /* The distance of the frame by all pairs of triangles. */
 static inline double scene_distance(const scene *s)
 {
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (uint32_t i = 0; i < s->mesh[0]->triangle_count; ++i) {
         for (uint32_t j = 0; j < s->mesh[1]->triangle_count; ++j) {
             mote_vec3 corner[2][3];
@@ -159,7 +159,7 @@ static inline double scene_distance(const scene *s)
 /* Distance of a point from the surface of body b in the frame. */
 static inline double scene_point_distance(const scene *s, int b, mote_vec3 p)
 {
-    double best = INFINITY;
+    double best = HUGE_VAL;
     for (uint32_t i = 0; i < s->mesh[b]->triangle_count; ++i) {
         mote_vec3 corner[3];
         for (int k = 0; k < 3; ++k)
