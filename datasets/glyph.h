@@ -8,6 +8,7 @@
 #include "core/status.h"
 #include "core/vec3.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -16,14 +17,22 @@ extern "C" {
 
 #define MOTE_GLYPH_STROKES 6
 
-/* The centre line of a stroke. */
+/* The centre line of a stroke. A line starts at (x, y) and goes along the unit vector (ux, uy)
+   for `extent`. An arc has its centre at (x, y), the radius `extent`, and spans to both sides
+   of the direction (ux, uy) an angle with the given sine and cosine (0 and -1: a whole circle).
+ */
 typedef struct mote_stroke {
-    double x0, y0, x1, y1;
+    double x, y, ux, uy;
+    double extent;
+    double sine, cosine;
+    bool arc;
+    bool continues; /* goes on, in the same direction, where the stroke before it ends */
 } mote_stroke;
 
 typedef struct mote_glyph {
     size_t stroke_count; /* 1 .. MOTE_GLYPH_STROKES */
     mote_stroke strokes[MOTE_GLYPH_STROKES];
+    unsigned holes;    /* the Euler characteristic of the surface is 2 - 2 * holes */
     double half_width; /* of a stroke, in the plane */
     double half_depth; /* along z */
     double rounding;   /* radius of the rims; below half_width and half_depth */
@@ -42,9 +51,11 @@ double mote_glyph_field(const mote_glyph *glyph, mote_vec3 p, mote_vec3 *gradien
 /* Half of the extent along z of the letter's column at (x, y); 0 outside the letter. */
 double mote_glyph_reach(const mote_glyph *glyph, double x, double y);
 
-/* A point of the surface near p, by `steps` of Newton's method along the gradient. p should be
-   within the rounding radius of the surface. */
-mote_vec3 mote_glyph_project(const mote_glyph *glyph, mote_vec3 p, int steps);
+/* A point of the surface near p, by `steps` (>= 1) of Newton's method along the gradient, which
+   is returned as it was before the last step. p should be within the rounding radius of the
+   surface. */
+mote_vec3 mote_glyph_project(const mote_glyph *glyph, mote_vec3 p, int steps,
+                             mote_vec3 *gradient);
 
 #ifdef __cplusplus
 }

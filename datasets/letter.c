@@ -22,12 +22,25 @@ static mote_status relax(const mote_glyph *glyph, mote_surface *surface)
     for (int sweep = 0; sweep < EXTRA_SWEEPS; sweep++)
         if (mote_relax_worst(glyph, WANTED_QUALITY, surface) == 0)
             break;
+    mote_vec3 gradient;
     for (size_t v = 0; v < surface->vertex_slots; v++)
-        surface->positions[v] = mote_glyph_project(glyph, surface->positions[v], 3);
+        surface->positions[v] = mote_glyph_project(glyph, surface->positions[v], 3, &gradient);
     if (mote_relax_worst(glyph, PROMISED_QUALITY, surface) > 0)
         return mote_fail(MOTE_ENUMERIC, "letter: %zu triangles have an angle below 10 degrees",
                          surface->live_triangles);
     return MOTE_OK;
+}
+
+/* A grid too coarse for a glyph would join its strokes or tear them. */
+static mote_status check_euler(const mote_glyph *glyph, const mote_surface *surface)
+{
+    const int64_t euler =
+        (int64_t)surface->vertex_slots - (int64_t)(surface->triangle_slots / 2);
+    const int64_t wanted = 2 - 2 * (int64_t)glyph->holes;
+    if (euler == wanted)
+        return MOTE_OK;
+    return mote_fail(MOTE_ENUMERIC, "letter: Euler characteristic %lld where it should be %lld",
+                     (long long)euler, (long long)wanted);
 }
 
 static mote_status check_arguments(size_t triangle_count)
@@ -58,6 +71,8 @@ mote_status mote_letter_create(char letter, size_t triangle_count, mote_mesh **m
     if (status != MOTE_OK)
         return status;
     status = mote_simplify(&glyph, triangle_count, &surface);
+    if (status == MOTE_OK)
+        status = check_euler(&glyph, &surface);
     if (status == MOTE_OK)
         status = relax(&glyph, &surface);
     if (status == MOTE_OK)

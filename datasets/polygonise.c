@@ -147,7 +147,8 @@ static mote_vec3 cell_point(const grid *g, size_t i, size_t j, int32_t k)
     const mote_vec3 p = {g->x0 + ((double)i + sum[0] / crossed) * g->cell,
                          g->y0 + ((double)j + sum[1] / crossed) * g->cell,
                          ((double)k + 0.5 + sum[2] / crossed) * g->cell};
-    return mote_glyph_project(g->glyph, p, 4);
+    mote_vec3 gradient;
+    return mote_glyph_project(g->glyph, p, 4, &gradient);
 }
 
 static void number_vertices(grid *g)

@@ -114,9 +114,8 @@ static bool try_collapse(const mote_glyph *glyph, mote_surface *s, collapse_roun
     if (r->locked[u] || r->locked[v] || !may_merge(s, u, v, r->locked))
         return false;
     const mote_vec3 middle = mote_scale(mote_add(s->positions[u], s->positions[v]), 0.5);
-    const mote_vec3 p = mote_glyph_project(glyph, middle, 3);
     mote_vec3 outward;
-    mote_glyph_field(glyph, p, &outward);
+    const mote_vec3 p = mote_glyph_project(glyph, middle, 3, &outward);
     if (!fan_stays_sound(s, u, v, p, outward, r->limit) ||
         !fan_stays_sound(s, v, u, p, outward, r->limit))
         return false;
