@@ -272,11 +272,10 @@ template <class Volume> void Pair<Volume>::collide(mote_answer *answer)
         typename Volume::CollisionNode node;
         node.enable_statistics = true;
         if constexpr (Volume::oriented)
-            fcl::detail::initialize(node, std::as_const(model[0]), transform[0],
-                                    std::as_const(model[1]), transform[1], request, result);
+            initialize(node, std::as_const(model[0]), transform[0], std::as_const(model[1]),
+                       transform[1], request, result);
         else
-            fcl::detail::initialize(node, model[0], transform[0], model[1], transform[1],
-                                    request, result);
+            initialize(node, model[0], transform[0], model[1], transform[1], request, result);
         fcl::detail::collide(&node);
         answer->counters.box_tests = static_cast<uint64_t>(node.num_bv_tests);
         answer->counters.triangle_tests = static_cast<uint64_t>(node.num_leaf_tests);
@@ -292,11 +291,10 @@ void Pair<Volume>::drive(Node &node, Result &result, mote_answer *answer)
     Request request(true);
     auto &base = static_cast<typename Volume::DistanceNode &>(node);
     if constexpr (Volume::oriented)
-        fcl::detail::initialize(base, std::as_const(model[0]), transform[0],
-                                std::as_const(model[1]), transform[1], request, result);
+        initialize(base, std::as_const(model[0]), transform[0], std::as_const(model[1]),
+                   transform[1], request, result);
     else
-        fcl::detail::initialize(base, model[0], transform[0], model[1], transform[1], request,
-                                result);
+        initialize(base, model[0], transform[0], model[1], transform[1], request, result);
     node.enable_statistics = true;
     node.rel_err = node.abs_err = 0;
     fcl::detail::distance(&node, nullptr, options.queue);

@@ -74,13 +74,33 @@ static const variant distance_variants[] = {
     {"fcl-obbrss", "seed=previous,queue=64"},
     {"fcl-obbrss", "call=api,seed=previous"},
     {"fcl-obbrss", "update=rebuild"},
+    {"fcl-obb", ""},
+    {"fcl-obb", "queue=64,seed=previous"},
+    {"fcl-rss", ""},
+    {"fcl-rss", "queue=64,seed=previous"},
+    {"fcl-rss", "call=api"},
+    {"fcl-kios", ""},
+    {"fcl-kios", "queue=64,seed=previous"},
+    {"fcl-kios", "call=api"},
 };
 
 enum { DISTANCE_VARIANTS = sizeof distance_variants / sizeof *distance_variants };
 
 static const variant contact_variants[] = {
-    {"fcl-aabb", ""},           {"fcl-aabb", "call=api"},      {"fcl-obb", ""},
-    {"fcl-obb", "call=api"},    {"fcl-obb", "update=rebuild"}, {"fcl-obbrss", ""},
+    {"fcl-rss", ""},
+    {"fcl-rss", "call=api"},
+    {"fcl-kios", ""},
+    {"fcl-kios", "call=api"},
+    {"fcl-kdop18", ""},
+    {"fcl-kdop18", "call=api"},
+    {"fcl-kdop18", "update=rebuild"},
+    {"fcl-kdop18", "update=refit-top-down"},
+    {"fcl-aabb", ""},
+    {"fcl-aabb", "call=api"},
+    {"fcl-obb", ""},
+    {"fcl-obb", "call=api"},
+    {"fcl-obb", "update=rebuild"},
+    {"fcl-obbrss", ""},
     {"fcl-obbrss", "call=api"},
 };
 
@@ -150,22 +170,25 @@ static void query_on_rigid_bodies_without_vertices_equals_brute_force(void **unu
     (void)unused;
     static const variant rigid[] = {{"fcl-obbrss", "update=none"},
                                     {"fcl-obbrss", "update=none,seed=previous,queue=64"},
-                                    {"fcl-obbrss", "update=none,call=api"}};
+                                    {"fcl-obbrss", "update=none,call=api"},
+                                    {"fcl-obb", "update=none"},
+                                    {"fcl-rss", "update=none,seed=previous"},
+                                    {"fcl-kios", "update=none"}};
     scene s;
     scene_init(&s, 10, 6, 1, false);
-    void *state[3];
-    for (int i = 0; i < 3; ++i)
+    void *state[6];
+    for (int i = 0; i < 6; ++i)
         state[i] = create(&rigid[i], &s, MOTE_ASK_DISTANCE, 0);
     for (int f = 0; f < 30; ++f) {
         mote_frame frame = *scene_next(&s, 1.3, false);
         frame.body[0].vertices = frame.body[1].vertices = NULL;
         double expected = scene_distance(&s);
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 6; ++i) {
             mote_answer a = answer(&rigid[i], state[i], &frame);
             check_distance(&rigid[i], &s, &a, expected);
         }
     }
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 6; ++i)
         mote_method_find(rigid[i].method)->destroy(state[i]);
     scene_free(&s);
 }
@@ -176,7 +199,7 @@ static void run_contact(const variant *variants, int count, double tolerance)
     scene s;
     scene_init(&s, 14, 9, 1, true);
     tolerance *= s.length;
-    void *state[16];
+    void *state[32];
     for (int i = 0; i < count; ++i)
         state[i] = create(&variants[i], &s, MOTE_ASK_CONTACT, tolerance);
     int contacts = 0, frames = 60;
@@ -290,14 +313,15 @@ static void query_scaled_by_a_power_of_two_gives_the_same_bits(void **unused)
 static void create_of_what_fcl_lacks_is_unsupported(void **unused)
 {
     (void)unused;
-    static const variant lacking[] = {{"fcl-obb", ""},
-                                      {"fcl-aabb", "update=none"},
-                                      {"fcl-aabb", "call=api,queue=64"},
-                                      {"fcl-obbrss", "update=none"}};
+    static const variant lacking[] = {
+        {"fcl-obb", "call=api"},         {"fcl-kdop18", ""},
+        {"fcl-kdop18", "seed=previous"}, {"fcl-obb", "update=none"},
+        {"fcl-aabb", "update=none"},     {"fcl-aabb", "call=api,queue=64"},
+        {"fcl-obbrss", "update=none"}};
     scene s;
     scene_init(&s, 6, 4, 1, true);
     mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);
-    for (int i = 0; i < 4; ++i) {
+    for (size_t i = 0; i < sizeof lacking / sizeof *lacking; ++i) {
         assert_int_equal(try_create(&lacking[i], &setup), MOTE_EUNSUPPORTED);
         assert_true(strlen(mote_error_text()) > 20);
     }

@@ -1,0 +1,25 @@
+/* fcl-rss: FCL with rectangle swept spheres. FCL's bottom-up refit of them is wrong, so the
+   default refits top-down. */
+#include "baselines/fcl_adapter.hpp"
+
+namespace
+{
+
+struct RssVolume {
+    using BV = fcl::RSS<double>;
+    using DistanceNode = fcl::detail::MeshDistanceTraversalNodeRSS<double>;
+    using CollisionNode = fcl::detail::MeshCollisionTraversalNodeRSS<double>;
+    static constexpr bool oriented = true;
+    static constexpr bool bottom_up_encloses = false;
+    static constexpr bool public_distance = true;
+    static constexpr unsigned first_triangle_tests = 1;
+};
+
+constexpr mote_parameter parameters[] = {
+    mote_fcl::update_parameter("refit-top-down"), mote_fcl::queue_parameter,
+    mote_fcl::seed_parameter, mote_fcl::call_parameter, mote_fcl::positions_parameter};
+
+} // namespace
+
+MOTE_METHOD(fcl_rss) = mote_fcl::describe<RssVolume>(
+    "fcl-rss", "FCL 0.7: rectangle swept spheres, refit top-down", parameters);
