@@ -13,6 +13,9 @@ typedef struct variant {
 static const variant variants[] = {
     {"brute-force", ""},
     {"brute-force", "positions=given"},
+    {"aabb-tree", ""},
+    {"aabb-tree", "seed=none"},
+    {"aabb-tree", "positions=given"},
 };
 
 enum { VARIANTS = sizeof variants / sizeof *variants };

@@ -1,0 +1,321 @@
+/* aabb-tree: the tuned competitor. Two trees of axis-aligned boxes over world positions,
+   refitted in one pass each frame, traversed together from the root, nearer pair first, with
+   the last frame's closest pair of triangles as the first bound. */
+#include "baselines/box_tree.h"
+#include "baselines/input.h"
+#include "core/clones.h"
+#include "core/method.h"
+#include "core/triangle.h"
+
+#include <stdlib.h>
+
+enum { SEED, POSITIONS, PARAMETER_COUNT };
+
+static const mote_parameter parameters[PARAMETER_COUNT] = {
+    [SEED] = {"seed", MOTE_PARAMETER_CHOICE, 0, 0, "none|previous", "previous",
+              "first upper bound: none, or from the last query's triangle pair"},
+    [POSITIONS] = {"positions", MOTE_PARAMETER_CHOICE, 0, 0, "deform|given", "deform",
+                   "deform: pay for deforming all vertices; given: they come free of charge"},
+};
+
+/* Bodies farther from the origin than this times L get a new origin. */
+#define FAR_FROM_ORIGIN 8
+
+/* Pairs of nodes that wait: opening one node replaces a pair by at most eight. */
+#define STACK (MOTE_BOX_WIDTH * 2 * MOTE_BOX_LEVELS)
+
+typedef struct tree_state {
+    mote_setup setup;
+    bool seeded;
+    double scale; /* brings L near 1: a power of two */
+    mote_vec3 origin;
+    float reach; /* largest coordinate of both trees */
+    bool placed; /* false before the first frame */
+    mote_box_tree tree[2];
+    uint32_t last[2]; /* the last query's triangles */
+    bool has_last;
+} tree_state;
+
+/* A pair of nodes, one of each tree, and four times the squared distance of their boxes. */
+typedef struct node_pair {
+    uint32_t node[2], level[2];
+    float four_squared;
+} node_pair;
+
+/* A query under way. */
+typedef struct search {
+    const tree_state *state;
+    const mote_vec3 *vertices[2];
+    mote_counters *counters;
+    double squared; /* the best distance so far and where it is */
+    double enough;  /* a squared distance at which the search may stop */
+    mote_vec3 p, q;
+    uint32_t triangle[2];
+    float limit;        /* pairs of boxes at four_squared >= limit are too far */
+    float direction[3]; /* from p to q */
+    float distance;     /* rounded up, and the margin, in the trees' unit */
+    uint32_t size;
+    node_pair stack[STACK];
+} search;
+
+static mote_traits traits(const double *values)
+{
+    bool given = values[POSITIONS] > 0;
+    return (mote_traits){.needs_vertices = !given,
+                         .given_vertices = given,
+                         .keeps_state = values[SEED] > 0,
+                         .exact = true};
+}
+
+static void destroy(void *state)
+{
+    tree_state *s = state;
+    if (!s)
+        return;
+    for (int b = 0; b < 2; b++)
+        mote_box_tree_free(&s->tree[b]);
+    free(s);
+}
+
+static mote_status create(const mote_setup *setup, void **state)
+{
+    mote_status status = mote_input_check(setup);
+    if (status != MOTE_OK)
+        return status;
+    tree_state *s = calloc(1, sizeof *s);
+    if (!s)
+        return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
+    s->setup = *setup;
+    s->seeded = setup->values[SEED] > 0;
+    s->scale = ldexp(1, -ilogb(setup->length));
+    for (int b = 0; b < 2 && status == MOTE_OK; b++)
+        status = mote_box_tree_init(&s->tree[b], setup->body[b]->mesh);
+    if (status != MOTE_OK) {
+        destroy(s);
+        return status;
+    }
+    *state = s;
+    return MOTE_OK;
+}
+
+/* Takes a body's positions; MOTE_EINVAL if one is not finite. */
+static mote_status move(tree_state *s, const mote_frame *frame, int b)
+{
+    const mote_vec3 *vertices = frame->body[b].vertices;
+    uint32_t count = s->tree[b].mesh->vertex_count;
+    if (!vertices)
+        return mote_input_check_vertices(vertices, count, b);
+    float reach = mote_box_tree_move(&s->tree[b], vertices, s->origin, s->scale);
+    if (!isfinite(reach)) {
+        mote_status status = mote_input_check_vertices(vertices, count, b);
+        if (status != MOTE_OK)
+            return status;
+        return mote_fail(MOTE_EINVAL,
+                         "body %d: more than 1e38 L away; nearer bodies are needed", b);
+    }
+    s->reach = reach > s->reach ? reach : s->reach;
+    return MOTE_OK;
+}
+
+/* Takes the positions of the bodies that changed, or of both about a new origin. */
+static mote_status move_changed(tree_state *s, const mote_frame *frame, bool both,
+                                bool moved[2])
+{
+    for (int b = 0; b < 2; b++) {
+        const mote_body_state *body = &frame->body[b];
+        moved[b] = both || body->shape_changed || body->pose_changed;
+        mote_status status = moved[b] ? move(s, frame, b) : MOTE_OK;
+        if (status != MOTE_OK)
+            return status;
+    }
+    return MOTE_OK;
+}
+
+static mote_status update(void *state, const mote_frame *frame)
+{
+    tree_state *s = state;
+    bool moved[2];
+    mote_status status = MOTE_OK;
+    if (s->placed)
+        status = move_changed(s, frame, false, moved);
+    if (status == MOTE_OK && (!s->placed || s->reach > FAR_FROM_ORIGIN)) {
+        if (!frame->body[0].vertices)
+            return mote_input_check_vertices(NULL, 0, 0);
+        s->origin = frame->body[0].vertices[0];
+        s->reach = 0;
+        status = move_changed(s, frame, true, moved);
+    }
+    s->placed = status == MOTE_OK;
+    for (int b = 0; b < 2 && s->placed; b++) {
+        if (moved[b])
+            mote_box_tree_refit(&s->tree[b], s->reach);
+    }
+    return status;
+}
+
+static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[3])
+{
+    const uint32_t *t = q->state->tree[b].mesh->triangles[triangle];
+    for (int k = 0; k < 3; k++)
+        corner[k] = q->vertices[b][t[k]];
+}
+
+/* Takes the consequences of a new best pair. Without one, limit is as far as it may be. */
+static void set_limits(search *q)
+{
+    double scale = q->state->scale, distance = sqrt(q->squared) * scale;
+    double limit = 4 * q->squared * scale * scale * (1 + 0x1p-20);
+    q->limit = limit < 1e38 ? (float)limit : HUGE_VALF;
+    q->distance = distance < 1e38
+                      ? (float)(distance * (1 + 0x1p-20)) + mote_box_margin(q->state->reach)
+                      : HUGE_VALF;
+    mote_vec3 u = mote_sub(q->q, q->p);
+    double length = mote_length(u), inverse = length > 0 ? 1 / length : 0;
+    q->direction[0] = (float)(u.x * inverse);
+    q->direction[1] = (float)(u.y * inverse);
+    q->direction[2] = (float)(u.z * inverse);
+}
+
+static void measure(search *q, uint32_t a, uint32_t b)
+{
+    mote_vec3 s[3], t[3], p_s, p_t;
+    corners(q, 0, a, s);
+    corners(q, 1, b, t);
+    q->counters->triangle_tests++;
+    double squared = mote_triangle_triangle_below(s, t, q->squared, &p_s, &p_t);
+    if (!(squared < q->squared))
+        return;
+    q->squared = squared;
+    q->p = p_s;
+    q->q = p_t;
+    q->triangle[0] = a;
+    q->triangle[1] = b;
+    set_limits(q);
+}
+
+/* The extent of each triangle of a leaf along the current direction, towards the other body:
+   highest for body 0, lowest for body 1. Returns how many triangles there are. */
+static uint32_t extents(const search *q, int b, uint32_t leaf, float extent[MOTE_BOX_LEAF])
+{
+    const mote_box_tree *tree = &q->state->tree[b];
+    uint32_t first = leaf * MOTE_BOX_LEAF, count = tree->mesh->triangle_count - first;
+    count = count < MOTE_BOX_LEAF ? count : MOTE_BOX_LEAF;
+    const float *u = q->direction;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t *t = tree->mesh->triangles[tree->order[first + i]];
+        float x[3];
+        for (int k = 0; k < 3; k++) {
+            const float *p = tree->position[t[k]];
+            x[k] = p[0] * u[0] + p[1] * u[1] + p[2] * u[2];
+        }
+        float low = x[0] < x[1] ? x[0] : x[1], high = x[0] < x[1] ? x[1] : x[0];
+        extent[i] = b == 0 ? (x[2] > high ? x[2] : high) : (x[2] < low ? x[2] : low);
+    }
+    return count;
+}
+
+/* Measures the triangles of two leaves, but for those that the current direction separates. */
+static void measure_leaves(search *q, uint32_t a, uint32_t b)
+{
+    float high[MOTE_BOX_LEAF], low[MOTE_BOX_LEAF];
+    uint32_t a_count = extents(q, 0, a, high), b_count = extents(q, 1, b, low);
+    for (uint32_t i = 0; i < a_count; i++) {
+        for (uint32_t j = 0; j < b_count && q->squared > q->enough; j++) {
+            if (low[j] - high[i] < q->distance)
+                measure(q, q->state->tree[0].order[a * MOTE_BOX_LEAF + i],
+                        q->state->tree[1].order[b * MOTE_BOX_LEAF + j]);
+        }
+    }
+}
+
+static float size_of(const mote_box *box)
+{
+    float size = box->half[0] > box->half[1] ? box->half[0] : box->half[1];
+    return box->half[2] > size ? box->half[2] : size;
+}
+
+/* Opens the larger node of a pair: the pairs of its children with the other that are not too
+   far go on the stack, the nearest on top. */
+MOTE_CLONES
+static void open_pair(search *q, const node_pair *pair)
+{
+    const mote_box_tree *tree = q->state->tree;
+    mote_box box[2] = {mote_box_of(&tree[0], pair->level[0], pair->node[0]),
+                       mote_box_of(&tree[1], pair->level[1], pair->node[1])};
+    int side = size_of(&box[1]) > size_of(&box[0]);
+    if (pair->level[side] == tree[side].height)
+        side = 1 - side;
+    float four_squared[MOTE_BOX_WIDTH];
+    mote_box_block_distance(&box[1 - side],
+                            mote_box_children(&tree[side], pair->level[side], pair->node[side]),
+                            four_squared);
+    q->counters->box_tests += MOTE_BOX_WIDTH;
+    node_pair *bottom = q->stack + q->size;
+    for (uint32_t i = 0; i < MOTE_BOX_WIDTH; i++) {
+        if (!(four_squared[i] < q->limit))
+            continue;
+        node_pair *to = q->stack + q->size++;
+        for (; to > bottom && to[-1].four_squared < four_squared[i]; to--)
+            *to = to[-1];
+        *to = *pair;
+        to->node[side] = pair->node[side] * MOTE_BOX_WIDTH + i;
+        to->level[side]++;
+        to->four_squared = four_squared[i];
+    }
+}
+
+static void traverse(search *q)
+{
+    const mote_box_tree *tree = q->state->tree;
+    q->stack[q->size++] = (node_pair){0};
+    while (q->size > 0 && q->squared > q->enough) {
+        node_pair pair = q->stack[--q->size];
+        if (!(pair.four_squared < q->limit))
+            continue;
+        if (pair.level[0] == tree[0].height && pair.level[1] == tree[1].height)
+            measure_leaves(q, pair.node[0], pair.node[1]);
+        else
+            open_pair(q, &pair);
+    }
+}
+
+static mote_status query(void *state, const mote_frame *frame, mote_answer *answer)
+{
+    tree_state *s = state;
+    bool contact_only = s->setup.ask == MOTE_ASK_CONTACT;
+    double tolerance = s->setup.tolerance;
+    search q = {.state = s,
+                .vertices = {frame->body[0].vertices, frame->body[1].vertices},
+                .counters = &answer->counters,
+                .squared = HUGE_VAL,
+                .enough = contact_only ? tolerance * tolerance : 0};
+    set_limits(&q);
+    if (s->seeded && s->has_last)
+        measure(&q, s->last[0], s->last[1]);
+    traverse(&q);
+    for (int b = 0; b < 2; b++)
+        s->last[b] = q.triangle[b];
+    s->has_last = true;
+    double distance = sqrt(q.squared);
+    answer->has_contact = true;
+    answer->contact = distance <= tolerance;
+    if (contact_only)
+        return MOTE_OK;
+    answer->has_distance = answer->has_witness = true;
+    answer->distance = distance;
+    answer->witness[0] = q.p;
+    answer->witness[1] = q.q;
+    return MOTE_OK;
+}
+
+MOTE_METHOD(aabb_tree) = {
+    .name = "aabb-tree",
+    .summary = "our own tuned trees of axis-aligned boxes, refitted every frame",
+    .parameters = parameters,
+    .parameter_count = PARAMETER_COUNT,
+    .traits = traits,
+    .create = create,
+    .destroy = destroy,
+    .update = update,
+    .query = query,
+};

@@ -1,0 +1,301 @@
+#include "baselines/box_tree.h"
+
+#include "core/clones.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void mote_box_tree_free(mote_box_tree *tree)
+{
+    free(tree->blocks);
+    free(tree->order);
+    free(tree->leaf_start);
+    free(tree->leaf_vertex);
+    free(tree->position);
+    *tree = (mote_box_tree){0};
+}
+
+/* --- building -------------------------------------------------------------------------------
+ */
+
+/* What only building needs. */
+typedef struct builder {
+    mote_box_tree *tree;
+    mote_vec3 *centroid; /* [triangle_count], times three */
+} builder;
+
+static double coordinate(mote_vec3 v, int axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/* The axis along which the centroids of a range of triangles extend most. */
+static int longest_axis(const builder *b, uint32_t first, uint32_t end)
+{
+    int best = 0;
+    double longest = -1;
+    for (int axis = 0; axis < 3; axis++) {
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (uint32_t i = first; i < end; i++) {
+            double x = coordinate(b->centroid[b->tree->order[i]], axis);
+            low = x < low ? x : low;
+            high = x > high ? x : high;
+        }
+        if (high - low > longest) {
+            longest = high - low;
+            best = axis;
+        }
+    }
+    return best;
+}
+
+static double median_of_three(double a, double b, double c)
+{
+    double low = a < b ? a : b, high = a < b ? b : a;
+    return c < low ? low : c > high ? high : c;
+}
+
+/* Orders the triangles first .. end - 1 so that those before `middle` are not above those from
+   it on, along the axis (Hoare's selection). */
+static void select_middle(const builder *b, int axis, uint32_t first, uint32_t end,
+                          uint32_t middle)
+{
+    uint32_t *order = b->tree->order;
+    int64_t low = first, high = (int64_t)end - 1;
+    while (low < high) {
+        double pivot = median_of_three(coordinate(b->centroid[order[low]], axis),
+                                       coordinate(b->centroid[order[(low + high) / 2]], axis),
+                                       coordinate(b->centroid[order[high]], axis));
+        int64_t i = low, j = high;
+        while (i <= j) {
+            while (coordinate(b->centroid[order[i]], axis) < pivot)
+                i++;
+            while (coordinate(b->centroid[order[j]], axis) > pivot)
+                j--;
+            if (i <= j) {
+                uint32_t kept = order[i];
+                order[i++] = order[j];
+                order[j--] = kept;
+            }
+        }
+        if (middle <= j)
+            high = j;
+        else if (middle >= i)
+            low = i;
+        else
+            return;
+    }
+}
+
+/* Arranges `count` leaves from leaf `first` on into subtrees of `unit` leaves each, the last of
+   which may have fewer: halves at a time, along the longest axis, down to single leaves. */
+static void arrange(const builder *b, uint32_t first, uint32_t count, uint32_t unit)
+{
+    while (unit > 1 && count <= unit)
+        unit /= MOTE_BOX_WIDTH;
+    if (count <= unit)
+        return;
+    uint32_t children = (count + unit - 1) / unit, left = children / 2 * unit;
+    uint32_t triangles = b->tree->mesh->triangle_count, from = first * MOTE_BOX_LEAF;
+    uint32_t end = (first + count) * MOTE_BOX_LEAF;
+    end = end < triangles ? end : triangles;
+    select_middle(b, longest_axis(b, from, end), from, end, from + left * MOTE_BOX_LEAF);
+    arrange(b, first, left, unit);
+    arrange(b, first + left, count - left, unit);
+}
+
+static uint32_t leaf_end(const mote_box_tree *tree, uint32_t leaf)
+{
+    uint32_t end = (leaf + 1) * MOTE_BOX_LEAF;
+    return end < tree->mesh->triangle_count ? end : tree->mesh->triangle_count;
+}
+
+/* Appends a vertex to a leaf's list unless it is there. */
+static uint32_t add_vertex(uint32_t *list, uint32_t from, uint32_t end, uint32_t vertex)
+{
+    for (uint32_t i = from; i < end; i++) {
+        if (list[i] == vertex)
+            return end;
+    }
+    list[end] = vertex;
+    return end + 1;
+}
+
+/* Lists the vertices of every leaf once; the list is cut to its length afterwards. */
+static void list_vertices(mote_box_tree *tree)
+{
+    uint32_t end = 0;
+    for (uint32_t leaf = 0; leaf < tree->leaves; leaf++) {
+        tree->leaf_start[leaf] = end;
+        for (uint32_t i = leaf * MOTE_BOX_LEAF; i < leaf_end(tree, leaf); i++) {
+            for (int k = 0; k < 3; k++)
+                end = add_vertex(tree->leaf_vertex, tree->leaf_start[leaf], end,
+                                 tree->mesh->triangles[tree->order[i]][k]);
+        }
+    }
+    tree->leaf_start[tree->leaves] = end;
+    uint32_t *cut = realloc(tree->leaf_vertex, end * sizeof *cut);
+    tree->leaf_vertex = cut ? cut : tree->leaf_vertex;
+}
+
+/* Numbers the blocks of all levels. */
+static void lay_out(mote_box_tree *tree)
+{
+    uint32_t count[MOTE_BOX_LEVELS], height = 0, nodes = tree->leaves;
+    do {
+        nodes = (nodes + MOTE_BOX_WIDTH - 1) / MOTE_BOX_WIDTH;
+        count[height++] = nodes;
+    } while (nodes > 1);
+    tree->height = height;
+    tree->first_block[0] = 0;
+    for (uint32_t level = 0; level < height; level++)
+        tree->first_block[level + 1] = tree->first_block[level] + count[height - 1 - level];
+}
+
+static bool allocate(mote_box_tree *tree)
+{
+    size_t triangles = tree->mesh->triangle_count;
+    tree->blocks = aligned_alloc(64, tree->first_block[tree->height] * sizeof *tree->blocks);
+    tree->order = malloc(triangles * sizeof *tree->order);
+    tree->leaf_start = malloc(((size_t)tree->leaves + 1) * sizeof *tree->leaf_start);
+    tree->leaf_vertex = malloc(3 * triangles * sizeof *tree->leaf_vertex);
+    tree->position = malloc(tree->mesh->vertex_count * sizeof *tree->position);
+    return tree->blocks && tree->order && tree->leaf_start && tree->leaf_vertex &&
+           tree->position;
+}
+
+mote_status mote_box_tree_init(mote_box_tree *tree, const mote_mesh *mesh)
+{
+    *tree = (mote_box_tree){.mesh = mesh};
+    tree->leaves = (mesh->triangle_count + MOTE_BOX_LEAF - 1) / MOTE_BOX_LEAF;
+    lay_out(tree);
+    builder b = {tree, malloc(mesh->triangle_count * sizeof *b.centroid)};
+    if (!b.centroid || !allocate(tree)) {
+        free(b.centroid);
+        return mote_fail(MOTE_ENOMEM, "no memory for a tree of %u triangles",
+                         mesh->triangle_count);
+    }
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *t = mesh->triangles[i];
+        tree->order[i] = i;
+        b.centroid[i] = mote_add(mote_add(mesh->positions[t[0]], mesh->positions[t[1]]),
+                                 mesh->positions[t[2]]);
+    }
+    uint32_t unit = 1;
+    for (uint32_t level = 1; level < tree->height; level++)
+        unit *= MOTE_BOX_WIDTH;
+    arrange(&b, 0, tree->leaves, unit);
+    free(b.centroid);
+    list_vertices(tree);
+    return MOTE_OK;
+}
+
+/* --- refit ----------------------------------------------------------------------------------
+ */
+
+static inline float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static inline float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+MOTE_CLONES
+float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
+                         double scale)
+{
+    float reach[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, 0};
+    for (uint32_t i = 0; i < tree->mesh->vertex_count; i++) {
+        float p[4] = {(float)((world[i].x - origin.x) * scale),
+                      (float)((world[i].y - origin.y) * scale),
+                      (float)((world[i].z - origin.z) * scale), 0};
+        for (int k = 0; k < 4; k++) {
+            tree->position[i][k] = p[k];
+            reach[k] = larger(fabsf(p[k]), reach[k]);
+            bad[k] += p[k] - p[k];
+        }
+    }
+    return larger(larger(reach[0], reach[1]), reach[2]) + (bad[0] + bad[1] + bad[2]);
+}
+
+/* The box of leaf i into its lane. */
+static inline void refit_leaf(mote_box_tree *tree, uint32_t leaf, float margin)
+{
+    const uint32_t *v = tree->leaf_vertex + tree->leaf_start[leaf];
+    const uint32_t *end = tree->leaf_vertex + tree->leaf_start[leaf + 1];
+    float low[4], high[4];
+    memcpy(low, tree->position[*v], sizeof low);
+    memcpy(high, low, sizeof high);
+    while (++v < end) {
+        const float *p = tree->position[*v];
+        for (int k = 0; k < 4; k++) {
+            low[k] = smaller(p[k], low[k]);
+            high[k] = larger(p[k], high[k]);
+        }
+    }
+    mote_box_block *block =
+        &tree->blocks[tree->first_block[tree->height - 1] + leaf / MOTE_BOX_WIDTH];
+    for (int k = 0; k < 3; k++) {
+        block->centre[k][leaf % MOTE_BOX_WIDTH] = 0.5f * (low[k] + high[k]);
+        block->half[k][leaf % MOTE_BOX_WIDTH] = 0.5f * (high[k] - low[k]) + margin;
+    }
+}
+
+/* The box around the boxes of a block, along axis k. */
+static inline void enclose(const mote_box_block *block, int k, float margin, float *centre,
+                           float *half)
+{
+    float low[MOTE_BOX_WIDTH], high[MOTE_BOX_WIDTH];
+    for (int i = 0; i < MOTE_BOX_WIDTH; i++) {
+        bool empty = block->half[k][i] < 0;
+        low[i] = empty ? HUGE_VALF : block->centre[k][i] - block->half[k][i];
+        high[i] = empty ? -HUGE_VALF : block->centre[k][i] + block->half[k][i];
+    }
+    for (int width = MOTE_BOX_WIDTH / 2; width > 0; width /= 2) {
+        for (int i = 0; i < width; i++) {
+            low[i] = smaller(low[i], low[i + width]);
+            high[i] = larger(high[i], high[i + width]);
+        }
+    }
+    *centre = 0.5f * (low[0] + high[0]);
+    *half = 0.5f * (high[0] - low[0]) + margin;
+}
+
+/* Empties the lanes of the last block of a level that have no child. */
+static void empty_lanes(mote_box_tree *tree, uint32_t level, uint32_t nodes)
+{
+    mote_box_block *block =
+        &tree->blocks[tree->first_block[level] + (nodes - 1) / MOTE_BOX_WIDTH];
+    for (uint32_t i = (nodes - 1) % MOTE_BOX_WIDTH + 1; i < MOTE_BOX_WIDTH; i++) {
+        for (int k = 0; k < 3; k++) {
+            block->centre[k][i] = 0;
+            block->half[k][i] = -HUGE_VALF;
+        }
+    }
+}
+
+MOTE_CLONES
+void mote_box_tree_refit(mote_box_tree *tree, float reach)
+{
+    float margin = mote_box_margin(reach);
+    for (uint32_t leaf = 0; leaf < tree->leaves; leaf++)
+        refit_leaf(tree, leaf, margin);
+    empty_lanes(tree, tree->height - 1, tree->leaves);
+    for (uint32_t level = tree->height - 1; level > 0; level--) {
+        uint32_t nodes = tree->first_block[level + 1] - tree->first_block[level];
+        for (uint32_t i = 0; i < nodes; i++) {
+            const mote_box_block *from = &tree->blocks[tree->first_block[level] + i];
+            mote_box_block *to =
+                &tree->blocks[tree->first_block[level - 1] + i / MOTE_BOX_WIDTH];
+            for (int k = 0; k < 3; k++)
+                enclose(from, k, margin, &to->centre[k][i % MOTE_BOX_WIDTH],
+                        &to->half[k][i % MOTE_BOX_WIDTH]);
+        }
+        empty_lanes(tree, level - 1, nodes);
+    }
+    for (int k = 0; k < 3; k++)
+        enclose(tree->blocks, k, margin, &tree->root.centre[k], &tree->root.half[k]);
+}
