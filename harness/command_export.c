@@ -57,17 +57,27 @@ static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe
     return status;
 }
 
-/* One method's row; a method that cannot answer says why there. */
+static mote_status ask_method(const mote_scenario *scenario, const mote_method_choice *choice,
+                              mote_ask ask, uint32_t frame, mote_answer *answer)
+{
+    mote_probe *probe = NULL;
+    mote_status status = mote_probe_create(&scenario->body[0], &scenario->body[1], choice, ask,
+                                           scenario->tolerance, 1, &probe);
+    if (status == MOTE_OK)
+        status = answer_frame(scenario, probe, choice, frame, answer);
+    mote_probe_destroy(probe);
+    return status;
+}
+
+/* One method's row: its distance, or its contact where it knows no distance, or why it cannot
+   answer. */
 static mote_status add_answer(const mote_scenario *scenario, const mote_method_choice *choice,
                               uint32_t frame, json_t *answers)
 {
-    mote_probe *probe = NULL;
     mote_answer answer = {0};
-    mote_status status = mote_probe_create(&scenario->body[0], &scenario->body[1], choice,
-                                           scenario->ask, scenario->tolerance, 1, &probe);
-    if (status == MOTE_OK)
-        status = answer_frame(scenario, probe, choice, frame, &answer);
-    mote_probe_destroy(probe);
+    mote_status status = ask_method(scenario, choice, MOTE_ASK_DISTANCE, frame, &answer);
+    if (status == MOTE_EUNSUPPORTED)
+        status = ask_method(scenario, choice, MOTE_ASK_CONTACT, frame, &answer);
     json_t *row = NULL;
     if (status == MOTE_OK)
         row = answer_json(&answer);

@@ -1,0 +1,344 @@
+#include "core/deform.h"
+#include "harness/file.h"
+#include "harness/json_read.h"
+#include "harness/motion.h"
+#include "harness/scenario.h"
+#include "harness/spread.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define FOLDER "test_scenario_files"
+#define FILE_NAME FOLDER "/s.json"
+
+static const char good_text[] =
+    "{\n"
+    "  \"purpose\": \"a test\",\n"
+    "  \"frames\": 40,\n"
+    "  \"warmup\": [1, 5],\n"
+    "  \"active\": [10, 40],\n"
+    "  \"ask\": \"distance\",\n"
+    "  \"tolerance\": 0.01,\n"
+    "  \"bodies\": [\n"
+    "    {\"letter\": \"M\", \"triangles\": 600,\n"
+    "     \"field\": {\"count\": 14, \"support\": 0.4,\n"
+    "                \"displacement\": {\"random\": {\"seed\": 5, \"amplitude\": 0.05,\n"
+    "                                              \"periods\": [20, 60]}}},\n"
+    "     \"motion\": [{\"frame\": 1, \"axis\": [0, 0, 1], \"degrees\": 0},\n"
+    "                {\"frame\": 40, \"axis\": [0, 0, 1], \"degrees\": 60}]},\n"
+    "    {\"letter\": \"V\", \"triangles\": 500,\n"
+    "     \"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]},\n"
+    "                {\"frame\": 20, \"position\": [1, 0, 0]}]}\n"
+    "  ]\n"
+    "}\n";
+
+/* good_text with the first `from` replaced. */
+static void write_changed(const char *from, const char *to)
+{
+    const char *at = strstr(good_text, from);
+    assert_non_null(at);
+    char *text =
+        mote_format("%.*s%s%s", (int)(at - good_text), good_text, to, at + strlen(from));
+    assert_non_null(text);
+    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    free(text);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    (void)unlink(FILE_NAME);
+    return rmdir(FOLDER);
+}
+
+static mote_scenario *load_good(void)
+{
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_file_write(FILE_NAME, good_text, strlen(good_text)), MOTE_OK);
+    assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_OK);
+    return scenario;
+}
+
+static void mote_scenario_load_good_file_reads_every_part(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    assert_string_equal(s->name, "s");
+    assert_string_equal(s->purpose, "a test");
+    assert_int_equal(s->frames, 40);
+    assert_int_equal(s->warmup.first, 1);
+    assert_int_equal(s->active.last, 40);
+    assert_int_equal(s->ask, MOTE_ASK_DISTANCE);
+    assert_int_equal(s->body[0].mesh->triangle_count, 600);
+    assert_int_equal(s->body[1].mesh->triangle_count, 500);
+    assert_int_equal(s->body[0].field->count, 14);
+    assert_int_equal(s->body[1].field->count, 0);
+    assert_true(s->length == fmax(s->body[0].mesh->diagonal, s->body[1].mesh->diagonal));
+    assert_true(s->tolerance == 0.01 * s->length);
+    mote_scenario_destroy(s);
+}
+
+/* Control points are vertices here, so the deformed vertex shows its control vector. */
+static void mote_scenario_frame_control_points_are_displaced_exactly(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    const mote_mesh *mesh = s->body[0].mesh;
+    mote_vec3 points[14], wished[14];
+    assert_int_equal(mote_spread(mesh, 14, points), MOTE_OK);
+    mote_frame_buffer *buffer;
+    assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
+    double largest = 0;
+    for (uint32_t number = 1; number <= 40; number += 13) {
+        const mote_frame *frame = mote_scenario_frame(s, buffer, number, 0);
+        const mote_body_state *body = &frame->body[0];
+        mote_motion_displacements(&s->motion->body[0], number, wished);
+        for (int j = 0; j < 14; ++j) {
+            uint32_t v = 0;
+            while (mote_distance_squared(mesh->positions[v], points[j]) > 0)
+                ++v;
+            const mote_vec3 world = mote_body_position(&s->body[0], body, v);
+            const mote_vec3 expected =
+                mote_pose_apply(&body->pose, mote_add(points[j], wished[j]));
+            assert_true(mote_length(mote_sub(world, expected)) < 1e-10 * s->length);
+            largest = fmax(largest, mote_length(wished[j]));
+        }
+    }
+    assert_true(largest > 0.01 * s->length && largest <= 0.05 * s->length);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(s);
+}
+
+static void mote_scenario_frame_changes_are_told_against_the_previous(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    mote_frame_buffer *buffer;
+    assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
+    const mote_frame *frame = mote_scenario_frame(s, buffer, 30, 0);
+    assert_true(frame->body[1].shape_changed && frame->body[1].pose_changed);
+    frame = mote_scenario_frame(s, buffer, 30, 25);
+    assert_true(frame->body[0].shape_changed && frame->body[0].pose_changed);
+    /* Body 1 is rigid, and rests from frame 20 on. */
+    assert_false(frame->body[1].shape_changed || frame->body[1].pose_changed);
+    frame = mote_scenario_frame(s, buffer, 12, 11);
+    assert_false(frame->body[1].shape_changed);
+    assert_true(frame->body[1].pose_changed);
+    frame = mote_scenario_frame(s, buffer, 12, 12);
+    assert_false(frame->body[0].shape_changed || frame->body[0].pose_changed);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(s);
+}
+
+/* An FNV-1a of our own, over bytes written out. */
+static void mote_scenario_fingerprint_matches_a_hash_of_written_bytes(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    uint64_t fingerprint, again, hash = 14695981039346656037u;
+    assert_int_equal(mote_scenario_fingerprint(s, &fingerprint), MOTE_OK);
+    assert_int_equal(mote_scenario_fingerprint(s, &again), MOTE_OK);
+    assert_true(fingerprint == again);
+    mote_frame_buffer *buffer;
+    assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
+    for (uint32_t number = 1; number <= s->frames; ++number) {
+        const mote_frame *frame = mote_scenario_frame(s, buffer, number, number - 1);
+        for (int i = 0; i < 2; ++i) {
+            for (uint32_t v = 0; v < s->body[i].mesh->vertex_count; ++v) {
+                const mote_vec3 p = mote_body_position(&s->body[i], &frame->body[i], v);
+                unsigned char bytes[24];
+                memcpy(bytes, &p, sizeof bytes); /* little-endian, as the machine */
+                for (int b = 0; b < 24; ++b)
+                    hash = (hash ^ bytes[b]) * 1099511628211u;
+            }
+        }
+    }
+    assert_true(hash == fingerprint);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(s);
+}
+
+typedef struct bad_case {
+    const char *from, *to; /* change of good_text */
+    const char *place;     /* what the message begins with, after the file's name */
+    const char *what;      /* part of it */
+} bad_case;
+
+static const bad_case bad_cases[] = {
+    {"\"frames\": 40", "\"frames\": 40,\n \"fps\": 3", ":4: fps: ", "unknown key"},
+    {"\"frames\": 40", "\"frames\": 0", ":3: frames: ", "out of range"},
+    {"\"frames\": 40", "\"frames\": 1e9", ":3: frames: ", "not a whole number"},
+    {"\"frames\": 40", "\"frames\": 40, \"frames\": 41", ":3:", "uplicate"},
+    {"\"active\": [10, 40]", "\"active\": [10, 41]", ":5: active[1]: ", "1 to 40"},
+    {"\"active\": [10, 40]", "\"active\": [40, 10]", ":5: active: ", "empty"},
+    {"\"distance\"", "\"speed\"", ":6: ask: ", "neither distance nor contact"},
+    {"0.01,", "-1,", ":7: tolerance: ", "out of range"},
+    {"0.01,", "1e999,", ":7:", "overflow"},
+    {"0.01,", "NaN,", ":7:", "token"},
+    {"\"letter\": \"M\"", "\"letter\": \"Q\"", ":9: bodies[0].letter: ", "use M, T, V or W"},
+    {"\"letter\": \"M\"", "\"letter\": \"MM\"", ":9: bodies[0].letter: ", "not one letter"},
+    {"600", "601", ":9: bodies[0].letter: ", "odd"},
+    {"600", "-600", ":9: bodies[0].triangles: ", "out of range"},
+    {"\"count\": 14", "\"count\": 14, \"centres\": [[0,0,0]]",
+     ":10: bodies[0].field: ", "both"},
+    {"\"count\": 14", "\"count\": 0", ":10: bodies[0].field.count: ", "1 to"},
+    {"\"support\": 0.4", "\"support\": 0", ":10: bodies[0].field.support: ", "out of range"},
+    {"\"count\": 14", "\"centres\": [[0,0,0],[0,0,0]]", ":10: bodies[0].field: ", "singular"},
+    {"\"seed\": 5, ", "", ":11: bodies[0].field.displacement.random", "seed"},
+    {"[20, 60]", "[60, 20]", ":12: bodies[0].field.displacement.random.periods: ", "shorter"},
+    {"\"axis\": [0, 0, 1]", "\"axis\": [0, 0, 0]", ":13: bodies[0].motion[0].axis: ", "zero"},
+    {"\"axis\": [0, 0, 1], \"degrees\": 0", "\"degrees\": 0",
+     ":13: bodies[0].motion[0].axis: ", "missing"},
+    {"{\"frame\": 40, \"axis\"", "{\"frame\": 1, \"axis\"", ":13: bodies[0].motion: ", "rise"},
+    {"\"frame\": 20, ", "\"frame\": 41, ", ":17: bodies[1].motion[1].frame: ", "1 to 40"},
+    {"[1, 0, 0]", "[1, 0]", ":17: bodies[1].motion[1].position: ", "array of 3"},
+    {"[1, 0, 0]", "[1, 0, \"x\"]", ":17: bodies[1].motion[1].position[2]: ", "not a number"},
+    {"\"position\": [1, 0, 0]", "\"quaternion\": [1, 1, 0, 0]",
+     ":17: bodies[1].motion[1].quaternion: ", "length"},
+    {", \"position\": [1, 0, 0]", "", ":17: bodies[1].motion[1]: ", "sets nothing"},
+    {"  ]\n}", "  ]\n", ":20:", "near end of file"},
+};
+
+static void mote_scenario_load_bad_file_names_line_and_path(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof bad_cases / sizeof bad_cases[0]; ++i) {
+        const bad_case *bad = &bad_cases[i];
+        write_changed(bad->from, bad->to);
+        mote_scenario *scenario = NULL;
+        assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
+        assert_null(scenario);
+        const char *text = mote_error_text();
+        char *place = mote_format("%s%s", FILE_NAME, bad->place);
+        assert_non_null(place);
+        if (strncmp(text, place, strlen(place)) != 0 || !strstr(text, bad->what))
+            fail_msg("case %zu: \"%s\" lacks \"%s\" or \"%s\"", i, text, place, bad->what);
+        assert_null(strchr(text, '\n'));
+        free(place);
+    }
+}
+
+/* Every prefix of a valid file is refused, none crashes. */
+static void mote_scenario_load_truncated_anywhere_is_refused(void **state)
+{
+    (void)state;
+    for (size_t size = 0; size + 2 < sizeof good_text; ++size) {
+        assert_int_equal(mote_file_write(FILE_NAME, good_text, size), MOTE_OK);
+        mote_scenario *scenario = NULL;
+        assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
+        assert_null(scenario);
+    }
+}
+
+static void mote_scenario_load_not_a_file_is_refused(void **state)
+{
+    (void)state;
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_scenario_load("no/such/file.json", &scenario), MOTE_EIO);
+    assert_int_equal(mote_scenario_load(FOLDER "/", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("/dev/zero", &scenario), MOTE_EINVAL);
+    (void)unlink(FOLDER "/pipe.json");
+    assert_int_equal(mkfifo(FOLDER "/pipe.json", 0600), 0);
+    assert_int_equal(mote_scenario_load(FOLDER "/pipe.json", &scenario), MOTE_EINVAL);
+    assert_int_equal(unlink(FOLDER "/pipe.json"), 0);
+    assert_int_equal(mote_scenario_load("ww ww", &scenario), MOTE_EIO);
+    assert_non_null(strstr(mote_error_text(), "known are"));
+    assert_null(scenario);
+}
+
+static void mote_json_line_nested_path_is_found(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"a\": \"x]}\\\"{\",\n \"b\": [1, {\"c\": 2,\n\"d\": [\n[], 5]}]}";
+    assert_int_equal(mote_json_line(text, "a"), 1);
+    assert_int_equal(mote_json_line(text, "b[1].c"), 2);
+    assert_int_equal(mote_json_line(text, "b[1].d"), 3);
+    assert_int_equal(mote_json_line(text, "b[1].d[1]"), 4);
+    assert_int_equal(mote_json_line(text, "b[7].d[1]"), 2);
+}
+
+/* The second point is the farthest from the first, by brute force. */
+static void mote_spread_points_are_far_apart(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    const mote_mesh *mesh = s->body[0].mesh;
+    mote_vec3 points[6];
+    assert_int_equal(mote_spread(mesh, 6, points), MOTE_OK);
+    for (int k = 1; k < 6; ++k) {
+        double best = 0, own = 1e300;
+        for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+            double nearest = 1e300;
+            for (int j = 0; j < k; ++j)
+                nearest = fmin(nearest, mote_distance_squared(mesh->positions[v], points[j]));
+            best = fmax(best, nearest);
+        }
+        for (int j = 0; j < k; ++j)
+            own = fmin(own, mote_distance_squared(points[k], points[j]));
+        assert_true(own == best);
+    }
+    mote_scenario_destroy(s);
+}
+
+/* The paper's scenarios are what the paper says. */
+static void mote_scenario_load_paper_scenarios_have_the_paper_s_sizes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        uint32_t triangles[2], controls[2], frames_at_least;
+        mote_ask ask;
+    } facts[] = {{"ww", {11920, 11920}, {14, 14}, 1984, MOTE_ASK_DISTANCE},
+                 {"tt", {1380, 1380}, {0, 0}, 300, MOTE_ASK_CONTACT},
+                 {"mv", {2968, 1764}, {14, 12}, 500, MOTE_ASK_DISTANCE}};
+    for (size_t i = 0; i < 3; ++i) {
+        mote_scenario *s;
+        assert_int_equal(mote_scenario_load(facts[i].name, &s), MOTE_OK);
+        for (int b = 0; b < 2; ++b) {
+            assert_int_equal(s->body[b].mesh->triangle_count, facts[i].triangles[b]);
+            assert_int_equal(s->body[b].field->count, facts[i].controls[b]);
+        }
+        assert_true(s->frames >= facts[i].frames_at_least);
+        assert_int_equal(s->ask, facts[i].ask);
+        if (i == 0) {
+            assert_int_equal(s->frames, 1984);
+            assert_int_equal(s->warmup.last, 49);
+            assert_int_equal(s->active.first, 950);
+            assert_int_equal(s->active.last, 1984);
+        }
+        mote_scenario_destroy(s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_scenario_load_good_file_reads_every_part),
+        cmocka_unit_test(mote_scenario_frame_control_points_are_displaced_exactly),
+        cmocka_unit_test(mote_scenario_frame_changes_are_told_against_the_previous),
+        cmocka_unit_test(mote_scenario_fingerprint_matches_a_hash_of_written_bytes),
+        cmocka_unit_test(mote_scenario_load_bad_file_names_line_and_path),
+        cmocka_unit_test(mote_scenario_load_truncated_anywhere_is_refused),
+        cmocka_unit_test(mote_scenario_load_not_a_file_is_refused),
+        cmocka_unit_test(mote_json_line_nested_path_is_found),
+        cmocka_unit_test(mote_spread_points_are_far_apart),
+        cmocka_unit_test(mote_scenario_load_paper_scenarios_have_the_paper_s_sizes),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

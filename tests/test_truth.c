@@ -1,0 +1,145 @@
+#include "harness/file.h"
+#include "harness/truth.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define FOLDER "test_truth_files"
+
+static const char small_text[] =
+    "{\"purpose\": \"a small one\", \"frames\": 30, \"ask\": \"distance\", \"bodies\": [\n"
+    "{\"letter\": \"T\", \"triangles\": 400},\n"
+    "{\"letter\": \"V\", \"triangles\": 400, \"field\": {\"count\": 5, \"support\": 0.5,\n"
+    "\"displacement\": {\"random\": {\"seed\": 1, \"amplitude\": 0.03, \"periods\": [9, "
+    "20]}}},\n"
+    "\"motion\": [{\"frame\": 1, \"position\": [1.5, 0, 0]},\n"
+    "{\"frame\": 30, \"position\": [0, 0, 0]}]}]}\n";
+
+static char *truth_path(const mote_scenario *scenario)
+{
+    uint64_t fingerprint;
+    assert_int_equal(mote_scenario_fingerprint(scenario, &fingerprint), MOTE_OK);
+    char *path =
+        mote_format("%s/truth/%s-%016" PRIx64 ".csv", FOLDER, scenario->name, fingerprint);
+    assert_non_null(path);
+    return path;
+}
+
+static int set_up(void **state)
+{
+    mote_scenario *scenario;
+    if (mote_directory_make(FOLDER) != MOTE_OK ||
+        mote_file_write(FOLDER "/small.json", small_text, strlen(small_text)) != MOTE_OK ||
+        mote_scenario_load(FOLDER "/small.json", &scenario) != MOTE_OK)
+        return -1;
+    *state = scenario;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    char *path = truth_path(*state);
+    (void)unlink(path);
+    free(path);
+    mote_scenario_destroy(*state);
+    (void)rmdir(FOLDER "/truth");
+    (void)unlink(FOLDER "/small.json");
+    return rmdir(FOLDER);
+}
+
+static void mote_truth_compute_small_scenario_is_exact_where_known(void **state)
+{
+    const mote_scenario *scenario = *state;
+    mote_truth *truth;
+    assert_int_equal(mote_truth_compute(scenario, &truth), MOTE_OK);
+    assert_int_equal(truth->frames, 30);
+    assert_true(truth->checked >= 20);
+    /* Bodies on the same spot intersect; far apart ones have witnesses that far apart. */
+    assert_true(truth->distance[29] == 0 && truth->contact[29]);
+    assert_true(truth->distance[0] > 0.3 && !truth->contact[0]);
+    const double apart = sqrt(mote_distance_squared(truth->witness_a[0], truth->witness_b[0]));
+    assert_true(fabs(apart - truth->distance[0]) < 1e-12);
+    mote_truth_destroy(truth);
+}
+
+static void mote_truth_load_or_compute_twice_gives_the_same_bits(void **state)
+{
+    const mote_scenario *scenario = *state;
+    mote_truth *first, *second;
+    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &first), MOTE_OK);
+    char *path = truth_path(scenario);
+    assert_int_equal(access(path, R_OK), 0);
+    /* It is the file that is read: without the right to write, nothing is computed anew. */
+    assert_int_equal(mote_truth_read(scenario, first->fingerprint, path, &second), MOTE_OK);
+    assert_int_equal(second->checked, first->checked);
+    for (uint32_t k = 0; k < 30; ++k) {
+        assert_true(first->distance[k] == second->distance[k]);
+        assert_true(first->contact[k] == second->contact[k]);
+        if (isnan(first->witness_b[k].z))
+            assert_true(isnan(second->witness_b[k].z));
+        else
+            assert_true(first->witness_b[k].z == second->witness_b[k].z);
+    }
+    free(path);
+    mote_truth_destroy(first);
+    mote_truth_destroy(second);
+}
+
+static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
+{
+    const mote_scenario *scenario = *state;
+    mote_truth *truth, *read = NULL;
+    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
+    char *path = truth_path(scenario);
+    char *text;
+    size_t size;
+    assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+    assert_int_equal(mote_truth_read(scenario, truth->fingerprint + 1, path, &read),
+                     MOTE_EINVAL);
+    for (size_t i = 0; i < size; i += 7) {
+        char kept = text[i];
+        text[i] = kept == '1' ? '2' : '1';
+        assert_int_equal(mote_file_write(path, text, size), MOTE_OK);
+        text[i] = kept;
+        assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
+                         MOTE_EINVAL);
+        assert_int_equal(mote_file_write(path, text, i), MOTE_OK);
+        assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
+                         MOTE_EINVAL);
+    }
+    assert_null(read);
+    /* A damaged file is replaced. */
+    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &read), MOTE_OK);
+    assert_true(read->distance[7] == truth->distance[7]);
+    mote_truth_destroy(read);
+    mote_truth_destroy(truth);
+    free(text);
+    free(path);
+}
+
+static void mote_truth_load_or_compute_unwritable_folder_is_an_error(void **state)
+{
+    mote_truth *truth = NULL;
+    assert_int_equal(mote_truth_load_or_compute(*state, "/proc/nothing", &truth), MOTE_EIO);
+    assert_null(truth);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_truth_compute_small_scenario_is_exact_where_known),
+        cmocka_unit_test(mote_truth_load_or_compute_twice_gives_the_same_bits),
+        cmocka_unit_test(mote_truth_read_changed_or_cut_file_is_refused),
+        cmocka_unit_test(mote_truth_load_or_compute_unwritable_folder_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
