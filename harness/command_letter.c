@@ -27,7 +27,7 @@ int mote_command_letter(int argc, char **argv)
         return mote_command_usage("letter", "something is missing; write `mote letter W "
                                             "--triangles 11920 -o W.obj`");
     if (letter[0] == '\0' || letter[1] != '\0') {
-        (void)mote_fail(MOTE_EINVAL, "letter %s: not one letter; give T, V, M or W", letter);
+        (void)mote_fail(MOTE_EINVAL, "letter %s: not one letter; give one capital", letter);
         return mote_command_fail();
     }
     mote_mesh *mesh;

@@ -15,7 +15,7 @@ static mote_status read_letter(const mote_json *letter, const mote_json *body, m
     int64_t triangles = 0;
     mote_status status = mote_json_string(letter, &name);
     if (status == MOTE_OK && name[1] != '\0')
-        status = mote_json_fail(letter, "%s is not one letter; give T, V, M or W", name);
+        status = mote_json_fail(letter, "%s is not one letter; give one capital", name);
     mote_json key = mote_json_member(body, "triangles");
     if (status == MOTE_OK)
         status = mote_json_integer(&key, 1, 100000000, &triangles);
