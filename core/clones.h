@@ -32,4 +32,11 @@
 #define MOTE_LANE_LOOP
 #endif
 
+/* The fixed order in which MOTE_LANES partial sums are added. */
+static inline double mote_lane_sum(const double lane[MOTE_LANES])
+{
+    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
+           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
 #endif

@@ -99,13 +99,6 @@ void mote_field_displacement_single(const mote_field *field, const mote_mesh *me
                                     uint32_t vertex, const mote_weights_single *weights,
                                     float displacement[3]);
 
-/* The fixed order in which MOTE_LANES partial sums are added. */
-static inline double mote_lane_sum(const double lane[MOTE_LANES])
-{
-    return ((lane[0] + lane[4]) + (lane[2] + lane[6])) +
-           ((lane[1] + lane[5]) + (lane[3] + lane[7]));
-}
-
 #ifdef __cplusplus
 }
 #endif

@@ -19,6 +19,7 @@ enum parameter_index {
     P_START,
     P_SEED,
     P_COHERENT,
+    P_FAR_CACHE,
     P_PRECISION,
     P_TOLERANCE,
     P_POSITIONS,
@@ -54,6 +55,10 @@ static const mote_parameter parameters[P_COUNT] = {
                 "seed of the first places; auto: the run's"},
     [P_COHERENT] = {"coherent", MOTE_PARAMETER_CHOICE, 0, 0, "no|yes", "yes",
                     "start where the last query ended (paper 3.5), or anew"},
+    [P_FAR_CACHE] =
+        {"far_cache", MOTE_PARAMETER_REAL, 0, 1, NULL, "0",
+         "part by which a distance may change before a distant influence is computed "
+         "anew; 0: always anew (paper 3.5)"},
     [P_PRECISION] = {"precision", MOTE_PARAMETER_CHOICE, 0, 0, "double|single", "double",
                      "positions evaluated and remembered as double or float (lazy positions)"},
     [P_TOLERANCE] = {"tolerance", MOTE_PARAMETER_REAL, 0, HUGE_VAL, "auto", "auto",
@@ -104,6 +109,7 @@ static mote_particles_options options_of(const mote_setup *setup)
     o.surface = v[P_MOVE] > 0;
     o.start = v[P_START] > 0 ? MOTE_START_FARTHEST : MOTE_START_RANDOM;
     o.seed = v[P_SEED] == MOTE_AUTO ? setup->seed : (uint64_t)v[P_SEED];
+    o.far_cache = v[P_FAR_CACHE];
     o.single = v[P_PRECISION] > 0;
     o.coherent = v[P_COHERENT] > 0;
     return o;

@@ -1,14 +1,17 @@
 #include "core/particles.h"
 
+#include "core/far_cache.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 struct mote_particles {
     mote_particles_options options;
-    double inverse_square_length;
+    double length, inverse_square_length;
     mote_lazy lazy[2];
     mote_site *site[2];  /* [count] */
     uint32_t *first[2];  /* [count] vertices of the first query */
+    mote_far_cache *far; /* NULL when nothing is cached */
     double *place[2][3]; /* world positions by coordinate, [count] each */
 };
 
@@ -23,7 +26,8 @@ typedef struct candidate_batch {
 typedef struct move_search {
     mote_particles *particles;
     int body;
-    mote_sources same, other;
+    mote_vec3 here;
+    mote_far_split split; /* what acts: near, and the slope of the rest when it is cached */
     candidate_batch batch;
     mote_site best;
     mote_vec3 best_place;
@@ -47,7 +51,7 @@ static mote_status allocate_body(mote_particles *p, const mote_body *body, int b
     const size_t n = p->options.count;
     p->site[b] = malloc(n * sizeof *p->site[b]);
     p->first[b] = malloc(n * sizeof *p->first[b]);
-    p->place[b][0] = malloc(3 * n * sizeof(double));
+    p->place[b][0] = calloc(3 * n, sizeof(double));
     if (!p->site[b] || !p->first[b] || !p->place[b][0])
         return mote_fail(MOTE_ENOMEM, "no memory for %zu particles", n);
     p->place[b][1] = p->place[b][0] + n;
@@ -66,6 +70,13 @@ static void place_at_start(mote_particles *p)
     }
 }
 
+/* Over a ring of radius h the potential of a particle at distance r is quadratic to (h / r)^3.
+ */
+static double near_distance(const mote_body *const bodies[2])
+{
+    return 8 * fmax(bodies[0]->mesh->mean_edge, bodies[1]->mesh->mean_edge);
+}
+
 mote_status mote_particles_create(const mote_body *const bodies[2], double length,
                                   const mote_particles_options *options,
                                   mote_particles **particles)
@@ -74,6 +85,7 @@ mote_status mote_particles_create(const mote_body *const bodies[2], double lengt
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for particles");
     made->options = *options;
+    made->length = length;
     made->inverse_square_length = 1 / length / length;
     mote_status status = MOTE_OK;
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
@@ -90,6 +102,9 @@ mote_status mote_particles_create(const mote_body *const bodies[2], double lengt
             status = mote_start_vertices(bodies[b]->mesh, options->count, options->start,
                                          options->seed + (uint64_t)b, made->first[b]);
     }
+    if (status == MOTE_OK && options->far_cache > 0)
+        status = mote_far_cache_create(options->count, options->far_cache,
+                                       near_distance(bodies), length, &made->far);
     if (status != MOTE_OK) {
         mote_particles_destroy(made);
         return status;
@@ -109,11 +124,15 @@ void mote_particles_destroy(mote_particles *particles)
         free(particles->place[b][0]);
         mote_lazy_free(&particles->lazy[b]);
     }
+    mote_far_cache_destroy(particles->far);
     free(particles);
 }
 
 static void set_place(mote_particles *p, int b, uint32_t i, mote_vec3 position)
 {
+    if (p->far)
+        mote_far_cache_moved(p->far,
+                             mote_length(mote_sub(position, mote_particles_position(p, b, i))));
     p->place[b][0][i] = position.x;
     p->place[b][1][i] = position.y;
     p->place[b][2][i] = position.z;
@@ -121,8 +140,13 @@ static void set_place(mote_particles *p, int b, uint32_t i, mote_vec3 position)
 
 void mote_particles_begin(mote_particles *particles, const mote_frame *frame, bool use_given)
 {
-    if (!particles->options.coherent)
+    if (!particles->options.coherent) {
         place_at_start(particles);
+        if (particles->far)
+            mote_far_cache_reset(particles->far);
+    }
+    if (particles->far)
+        mote_far_cache_step(particles->far);
     for (int b = 0; b < 2; ++b) {
         mote_lazy_begin(&particles->lazy[b], &frame->body[b], use_given);
         for (uint32_t i = 0; i < particles->options.count; ++i)
@@ -164,6 +188,11 @@ static mote_vec3 place_in_lane(const mote_candidates *c, int lane)
     return mote_vec3_make(c->x[lane], c->y[lane], c->z[lane]);
 }
 
+static double reach_squared(const mote_particles *p)
+{
+    return p->options.reach * p->options.reach;
+}
+
 static void judge_batch(move_search *search)
 {
     candidate_batch *batch = &search->batch;
@@ -172,8 +201,10 @@ static void judge_batch(move_search *search)
     for (int lane = used; lane < MOTE_LANES; ++lane)
         add_candidate(batch, batch->site[0], place_in_lane(&batch->place, 0));
     mote_potentials potentials;
-    mote_potential(&batch->place, &search->same, &search->other, p->inverse_square_length,
-                   p->options.reach * p->options.reach, &potentials);
+    mote_potential(&batch->place, &search->split.same, &search->split.other,
+                   p->inverse_square_length, reach_squared(p), &potentials);
+    if (p->far)
+        mote_far_cache_add(&search->split, &batch->place, p->length, &potentials);
     for (int lane = 0; lane < used; ++lane)
         judge(search, batch->site[lane], place_in_lane(&batch->place, lane),
               potentials.major[lane], potentials.minor[lane]);
@@ -216,18 +247,32 @@ static mote_sources sources_of(const mote_particles *p, int b, mote_law law, uin
     return sources;
 }
 
+/* What acts on particle i: all particles, or the near ones and the slope of the rest. */
+static void find_sources(move_search *search, uint32_t i)
+{
+    mote_particles *p = search->particles;
+    const int b = search->body;
+    const mote_sources same = sources_of(p, b, p->options.repel[b], i);
+    const mote_sources other = sources_of(p, 1 - b, p->options.attract[b], p->options.count);
+    if (p->far)
+        mote_far_cache_split(p->far, b, i, search->here, &same, &other, reach_squared(p),
+                             &search->split);
+    else
+        search->split = (mote_far_split){.same = same, .other = other};
+}
+
 /* Moves particle i of body b to its best neighbouring site; says whether it moved. */
 static bool move_particle(mote_particles *p, int b, uint32_t i)
 {
     move_search search;
     search.particles = p;
     search.body = b;
-    search.same = sources_of(p, b, p->options.repel[b], i);
-    search.other = sources_of(p, 1 - b, p->options.attract[b], p->options.count);
+    search.here = mote_particles_position(p, b, i);
+    find_sources(&search, i);
     search.batch.count = 0;
     search.started = search.moved = false;
     const mote_site here = p->site[b][i];
-    consider(&search, here, mote_particles_position(p, b, i));
+    consider(&search, here, search.here);
     if (p->options.surface)
         mote_site_neighbours(p->lazy[b].body->mesh, here, consider_site, &search);
     else
@@ -244,6 +289,8 @@ static bool move_particle(mote_particles *p, int b, uint32_t i)
 static uint32_t sweep(mote_particles *p)
 {
     uint32_t moved = 0;
+    if (p->far)
+        mote_far_cache_step(p->far);
     for (int b = 0; b < 2; ++b) {
         for (uint32_t i = 0; i < p->options.count; ++i)
             moved += move_particle(p, b, i);

@@ -18,11 +18,13 @@ typedef struct mote_particles_options {
     mote_law attract[2]; /* law by which particles of body 0, 1 are attracted */
     mote_law repel[2];   /* law by which they are repelled by their own kind */
     double reach;        /* R_eff / L (paper 3.3); 0: no attraction; infinite: no limit */
-    uint32_t nmin; /* a query ends when fewer than max(1, nmin) particles moved in a step */
-    uint32_t nmax; /* or after this many steps (paper 3.5); 0: particles never move */
-    bool surface;  /* move over vertices, edge midpoints and face centroids (paper 3.4) */
-    bool single;   /* positions evaluated and remembered in single precision */
-    bool coherent; /* start where the last query ended; else where the first one did */
+    uint32_t nmin;    /* a query ends when fewer than max(1, nmin) particles moved in a step */
+    uint32_t nmax;    /* or after this many steps (paper 3.5); 0: particles never move */
+    bool surface;     /* move over vertices, edge midpoints and face centroids (paper 3.4) */
+    bool single;      /* positions evaluated and remembered in single precision */
+    double far_cache; /* > 0: the influence of distant particles is kept until their distance
+                         vector has changed by this part (paper 3.5); 0: never kept */
+    bool coherent;    /* start where the last query ended; else where the first one did */
     mote_start start;
     uint64_t seed;
 } mote_particles_options;
