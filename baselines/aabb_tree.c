@@ -42,6 +42,15 @@ typedef struct node_pair {
     float four_squared;
 } node_pair;
 
+/* What is known of a leaf's triangles: their boxes, and how far each extends along the current
+   direction towards the other body. */
+typedef struct leaf_view {
+    uint32_t leaf, count;
+    uint32_t improvements;                  /* the best pair's, when the direction was taken */
+    float extent[MOTE_BOX_WIDTH], farthest; /* of all triangles */
+    mote_box_block boxes;
+} leaf_view;
+
 /* A query under way. */
 typedef struct search {
     const tree_state *state;
@@ -51,10 +60,12 @@ typedef struct search {
     double enough;  /* a squared distance at which the search may stop */
     mote_vec3 p, q;
     uint32_t triangle[2];
-    float limit;        /* pairs of boxes at four_squared >= limit are too far */
-    float direction[3]; /* from p to q */
-    float distance;     /* rounded up, and the margin, in the trees' unit */
+    float limit;           /* pairs of boxes at four_squared >= limit are too far */
+    float direction[3];    /* from p to q */
+    float distance;        /* rounded up, and the margin, in the trees' unit */
+    uint32_t improvements; /* of the best pair */
     uint32_t size;
+    leaf_view view[2];
     node_pair stack[STACK];
 } search;
 
@@ -153,6 +164,18 @@ static mote_status update(void *state, const mote_frame *frame)
     return status;
 }
 
+static inline float smallest(float a, float b, float c)
+{
+    a = b < a ? b : a;
+    return c < a ? c : a;
+}
+
+static inline float largest(float a, float b, float c)
+{
+    a = b > a ? b : a;
+    return c > a ? c : a;
+}
+
 static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[3])
 {
     const uint32_t *t = q->state->tree[b].mesh->triangles[triangle];
@@ -160,12 +183,13 @@ static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[
         corner[k] = q->vertices[b][t[k]];
 }
 
-/* Takes the consequences of a new best pair. Without one, limit is as far as it may be. */
+/* Takes the consequences of a new best pair, or of the first bound. */
 static void set_limits(search *q)
 {
     double scale = q->state->scale, distance = sqrt(q->squared) * scale;
     double limit = 4 * q->squared * scale * scale * (1 + 0x1p-20);
-    q->limit = limit < 1e38 ? (float)limit : HUGE_VALF;
+    q->limit =
+        limit < 1e38 ? (float)limit + 0x1p-126f : HUGE_VALF; /* above 0: boxes that meet */
     q->distance = distance < 1e38
                       ? (float)(distance * (1 + 0x1p-20)) + mote_box_margin(q->state->reach)
                       : HUGE_VALF;
@@ -190,40 +214,67 @@ static void measure(search *q, uint32_t a, uint32_t b)
     q->q = p_t;
     q->triangle[0] = a;
     q->triangle[1] = b;
+    q->improvements++;
     set_limits(q);
 }
 
-/* The extent of each triangle of a leaf along the current direction, towards the other body:
-   highest for body 0, lowest for body 1. Returns how many triangles there are. */
-static uint32_t extents(const search *q, int b, uint32_t leaf, float extent[MOTE_BOX_LEAF])
+/* Puts triangle i of a leaf, its corners given, into the leaf's view. */
+static inline void view_triangle(leaf_view *view, int b, uint32_t i, const float *const p[3],
+                                 const float *u, float margin)
 {
-    const mote_box_tree *tree = &q->state->tree[b];
-    uint32_t first = leaf * MOTE_BOX_LEAF, count = tree->mesh->triangle_count - first;
-    count = count < MOTE_BOX_LEAF ? count : MOTE_BOX_LEAF;
-    const float *u = q->direction;
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t *t = tree->mesh->triangles[tree->order[first + i]];
-        float x[3];
-        for (int k = 0; k < 3; k++) {
-            const float *p = tree->position[t[k]];
-            x[k] = p[0] * u[0] + p[1] * u[1] + p[2] * u[2];
-        }
-        float low = x[0] < x[1] ? x[0] : x[1], high = x[0] < x[1] ? x[1] : x[0];
-        extent[i] = b == 0 ? (x[2] > high ? x[2] : high) : (x[2] < low ? x[2] : low);
+    float x[3];
+    for (int k = 0; k < 3; k++) {
+        float low = smallest(p[0][k], p[1][k], p[2][k]),
+              high = largest(p[0][k], p[1][k], p[2][k]);
+        view->boxes.centre[k][i] = 0.5f * (low + high);
+        view->boxes.half[k][i] = 0.5f * (high - low) + margin;
+        x[k] = p[k][0] * u[0] + p[k][1] * u[1] + p[k][2] * u[2];
     }
-    return count;
+    view->extent[i] = b == 0 ? largest(x[0], x[1], x[2]) : smallest(x[0], x[1], x[2]);
 }
 
-/* Measures the triangles of two leaves, but for those that the current direction separates. */
-static void measure_leaves(search *q, uint32_t a, uint32_t b)
+/* The view of a leaf of body b, which is often the one that was looked at before. */
+static const leaf_view *view_leaf(search *q, int b, uint32_t leaf)
 {
-    float high[MOTE_BOX_LEAF], low[MOTE_BOX_LEAF];
-    uint32_t a_count = extents(q, 0, a, high), b_count = extents(q, 1, b, low);
-    for (uint32_t i = 0; i < a_count; i++) {
-        for (uint32_t j = 0; j < b_count && q->squared > q->enough; j++) {
-            if (low[j] - high[i] < q->distance)
-                measure(q, q->state->tree[0].order[a * MOTE_BOX_LEAF + i],
-                        q->state->tree[1].order[b * MOTE_BOX_LEAF + j]);
+    leaf_view *view = &q->view[b];
+    if (view->leaf == leaf && view->improvements == q->improvements)
+        return view;
+    const mote_box_tree *tree = &q->state->tree[b];
+    uint32_t first = leaf * MOTE_BOX_LEAF, count = tree->mesh->triangle_count - first;
+    view->leaf = leaf;
+    view->improvements = q->improvements;
+    view->count = count < MOTE_BOX_LEAF ? count : MOTE_BOX_LEAF;
+    float margin = mote_box_margin(q->state->reach);
+    for (uint32_t i = 0; i < view->count; i++) {
+        const uint32_t *t = tree->mesh->triangles[tree->order[first + i]];
+        const float *corner[3] = {tree->position[t[0]], tree->position[t[1]],
+                                  tree->position[t[2]]};
+        view_triangle(view, b, i, corner, q->direction, margin);
+        float x = view->extent[i];
+        bool farther = i == 0 || (b == 0 ? x > view->farthest : x < view->farthest);
+        view->farthest = farther ? x : view->farthest;
+    }
+    return view;
+}
+
+/* Measures the triangles of two leaves, but for those that their boxes or the current direction
+   separate. */
+MOTE_CLONES
+static void measure_leaves(search *q, uint32_t leaf_a, uint32_t leaf_b)
+{
+    const leaf_view *a = view_leaf(q, 0, leaf_a), *b = view_leaf(q, 1, leaf_b);
+    const uint32_t *a_order = q->state->tree[0].order + leaf_a * MOTE_BOX_LEAF;
+    const uint32_t *b_order = q->state->tree[1].order + leaf_b * MOTE_BOX_LEAF;
+    for (uint32_t i = 0; i < a->count; i++) {
+        if (!(b->farthest - a->extent[i] < q->distance))
+            continue;
+        float four_squared[MOTE_BOX_WIDTH];
+        mote_box box = mote_box_lane(&a->boxes, i);
+        mote_box_block_distance(&box, &b->boxes, four_squared);
+        q->counters->box_tests += b->count;
+        for (uint32_t j = 0; j < b->count && q->squared > q->enough; j++) {
+            if (four_squared[j] < q->limit && b->extent[j] - a->extent[i] < q->distance)
+                measure(q, a_order[i], b_order[j]);
         }
     }
 }
@@ -283,22 +334,25 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
 {
     tree_state *s = state;
     bool contact_only = s->setup.ask == MOTE_ASK_CONTACT;
-    double tolerance = s->setup.tolerance;
+    double enough = contact_only ? s->setup.tolerance * s->setup.tolerance : 0;
     search q = {.state = s,
                 .vertices = {frame->body[0].vertices, frame->body[1].vertices},
                 .counters = &answer->counters,
-                .squared = HUGE_VAL,
-                .enough = contact_only ? tolerance * tolerance : 0};
+                .view = {{.leaf = UINT32_MAX}, {.leaf = UINT32_MAX}},
+                .squared = contact_only ? nextafter(enough, HUGE_VAL) : HUGE_VAL,
+                .enough = enough};
     set_limits(&q);
     if (s->seeded && s->has_last)
         measure(&q, s->last[0], s->last[1]);
     traverse(&q);
-    for (int b = 0; b < 2; b++)
-        s->last[b] = q.triangle[b];
-    s->has_last = true;
+    if (q.improvements > 0) {
+        s->has_last = true;
+        s->last[0] = q.triangle[0];
+        s->last[1] = q.triangle[1];
+    }
     double distance = sqrt(q.squared);
     answer->has_contact = true;
-    answer->contact = distance <= tolerance;
+    answer->contact = contact_only ? q.squared <= enough : distance <= s->setup.tolerance;
     if (contact_only)
         return MOTE_OK;
     answer->has_distance = answer->has_witness = true;

@@ -9,8 +9,8 @@
 /* Children of a node. */
 #define MOTE_BOX_WIDTH 8
 
-/* Triangles of a leaf; the last leaf may have fewer. */
-#define MOTE_BOX_LEAF 4
+/* Triangles of a leaf, at most MOTE_BOX_WIDTH; the last leaf may have fewer. */
+#define MOTE_BOX_LEAF 8
 
 /* Enough for 2^31 triangles. */
 #define MOTE_BOX_LEVELS 12
@@ -63,18 +63,22 @@ static inline float mote_box_margin(float reach)
     return 0x1p-20f * reach;
 }
 
+static inline mote_box mote_box_lane(const mote_box_block *block, uint32_t lane)
+{
+    mote_box box;
+    for (int k = 0; k < 3; k++) {
+        box.centre[k] = block->centre[k][lane];
+        box.half[k] = block->half[k][lane];
+    }
+    return box;
+}
+
 static inline mote_box mote_box_of(const mote_box_tree *tree, uint32_t level, uint32_t node)
 {
     if (level == 0)
         return tree->root;
-    const mote_box_block *block =
-        &tree->blocks[tree->first_block[level - 1] + node / MOTE_BOX_WIDTH];
-    mote_box box;
-    for (int k = 0; k < 3; k++) {
-        box.centre[k] = block->centre[k][node % MOTE_BOX_WIDTH];
-        box.half[k] = block->half[k][node % MOTE_BOX_WIDTH];
-    }
-    return box;
+    return mote_box_lane(&tree->blocks[tree->first_block[level - 1] + node / MOTE_BOX_WIDTH],
+                         node % MOTE_BOX_WIDTH);
 }
 
 static inline const mote_box_block *mote_box_children(const mote_box_tree *tree, uint32_t level,

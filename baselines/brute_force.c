@@ -214,7 +214,8 @@ static found first_bound(const brute_state *s, const mote_frame *frame)
 /* The bound in the boxes' unit, rounded up. */
 static float float_bound(const brute_state *s, double squared)
 {
-    return (float)(squared * s->scale * s->scale * (1 + 0x1p-20));
+    double bound = squared * s->scale * s->scale * (1 + 0x1p-20);
+    return bound < 1e38 ? (float)bound : HUGE_VALF;
 }
 
 /* Measures box i of body 0 against the near boxes of one block of body 1. */
@@ -243,6 +244,8 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     bool contact_only = s->setup.ask == MOTE_ASK_CONTACT;
     double enough = contact_only ? s->setup.tolerance * s->setup.tolerance : 0;
     found best = first_bound(s, frame);
+    if (contact_only && best.squared > enough)
+        best.squared = nextafter(enough, HUGE_VAL);
     uint32_t triangles = s->setup.body[0]->mesh->triangle_count;
     for (uint32_t i = 0; i < triangles && best.squared > enough; i++) {
         for (uint32_t block = 0; block < s->boxes[1].blocks && best.squared > enough; block++)
@@ -250,7 +253,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     }
     double distance = sqrt(best.squared);
     answer->has_contact = true;
-    answer->contact = distance <= s->setup.tolerance;
+    answer->contact = contact_only ? best.squared <= enough : distance <= s->setup.tolerance;
     if (contact_only)
         return MOTE_OK;
     answer->has_distance = answer->has_witness = true;
