@@ -99,8 +99,9 @@ static void csrbf_gradient(const mote_field *field, const mote_mesh *mesh, uint3
         const mote_vec3 c =
             mote_vec3_make(field->centre_x[j], field->centre_y[j], field->centre_z[j]);
         const mote_vec3 d = mote_scale(mote_sub(p, c), inverse);
-        const double q = fmax(1 - mote_length(d), 0);
-        gradient[j] = mote_scale(d, j < field->count ? -20 * q * q * q * inverse : 0);
+        const double q = 1 - mote_length(d);
+        gradient[j] = j < field->count && q > 0 ? mote_scale(d, -20 * q * q * q * inverse)
+                                                : mote_vec3_make(0, 0, 0);
     }
 }
 

@@ -1,11 +1,11 @@
 /* How a body deforms: a displacement that is linear in per-frame weights,
        d(x_i) = sum over j of phi_j(x_i) * w_j,
    with J scalar basis functions phi_j known at rest and one weight vector w_j each. Three
-   kinds: static         J = 0: nothing is evaluated; CSRBF          phi_j = Wendland C2
-   function of |x - c_j| / support (paper section 4); linear modes   per-vertex displacement
-   vectors with one scalar weight s each; a mode is three basis functions (its x, y and z
-   column) with weights (s,0,0), (0,s,0), (0,0,s). Immutable once made. A new kind is a new
-   source file that fills the struct below. */
+   kinds: static  J = 0; nothing is evaluated csrbf   phi_j = Wendland's C2 function of |x -
+   c_j| / support (paper section 4) modes   per-vertex displacement vectors with one scalar
+   weight s each; a mode is three basis functions (its x, y and z column) with weights (s,0,0),
+   (0,s,0), (0,0,s) Immutable once made. A new kind is a new source file that fills the struct
+   below. */
 #ifndef MOTE_CORE_FIELD_H
 #define MOTE_CORE_FIELD_H
 
@@ -63,7 +63,7 @@ struct mote_field {
     uint32_t count;  /* J; 0 when nothing deforms */
     uint32_t padded; /* J rounded up to a multiple of MOTE_LANES */
     double support;  /* CSRBF: support radius, > 0 */
-    /* CSRBF: centres by coordinate [padded]; padding lies far outside every support */
+    /* CSRBF: centres by coordinate [padded]; the padding repeats the first, with weight 0 */
     double *centre_x, *centre_y, *centre_z;
     float *centre_single; /* CSRBF: x, y, z of the centres rounded, [3][padded] */
     const void *data;     /* of other kinds */

@@ -8,19 +8,19 @@
 mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
                                 mote_field **field);
 
-/* Wendland's C2 function (1-r)^4 (4r+1) for 0 <= r < 1, else 0. */
+/* Wendland's C2 function (1-r)^4 (4r+1) for 0 <= r < 1, else 0, an infinite r included. */
 static inline double mote_wendland_c2(double r)
 {
-    const double q = 1 - r > 0 ? 1 - r : 0;
-    const double q2 = q * q;
-    return q2 * q2 * (4 * r + 1);
+    const double s = r < 1 ? r : 1;
+    const double q2 = (1 - s) * (1 - s);
+    return q2 * q2 * (4 * s + 1);
 }
 
 static inline float mote_wendland_c2_single(float r)
 {
-    const float q = 1 - r > 0 ? 1 - r : 0;
-    const float q2 = q * q;
-    return q2 * q2 * (4 * r + 1);
+    const float s = r < 1 ? r : 1;
+    const float q2 = (1 - s) * (1 - s);
+    return q2 * q2 * (4 * s + 1);
 }
 
 static inline float mote_lane_sum_single(const float lane[MOTE_LANES])

@@ -59,17 +59,25 @@ static bool solve3(double m[3][3], mote_vec3 b, mote_vec3 *g)
     return true;
 }
 
+/* From a vertex to entry k of its ring, times unit. */
+static mote_vec3 ring_edge(const mote_mesh *mesh, uint32_t vertex, uint32_t k, double unit)
+{
+    const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
+    return mote_scale(mote_sub(mesh->positions[u], mesh->positions[vertex]), unit);
+}
+
 /* The least-squares gradient over the one-ring. Directions in which the ring has no extent (a
-   flat ring's normal) get slope 0, by a small ridge on the diagonal. */
+   flat ring's normal) get slope 0, by a small ridge on the diagonal. Lengths are taken in mean
+   edges: a determinant of their sixth power leaves the range of a double early. */
 static void modes_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                            mote_vec3 *gradient)
 {
     double m[3][3] = {{0}};
     const uint32_t first = mesh->ring_start[vertex];
     const uint32_t end = mesh->ring_start[vertex + 1];
+    const double unit = 1 / mesh->mean_edge;
     for (uint32_t k = first; k < end; ++k) {
-        const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
-        const mote_vec3 d = mote_sub(mesh->positions[u], mesh->positions[vertex]);
+        const mote_vec3 d = ring_edge(mesh, vertex, k, unit);
         const double v[3] = {d.x, d.y, d.z};
         for (int a = 0; a < 3; ++a) {
             for (int b = 0; b < 3; ++b)
@@ -83,9 +91,9 @@ static void modes_gradient(const mote_field *field, const mote_mesh *mesh, uint3
     for (uint32_t j = 0; j < field->padded; ++j) {
         mote_vec3 b = {0, 0, 0};
         for (uint32_t k = first; k < end; ++k) {
-            const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
-            const mote_vec3 d = mote_sub(mesh->positions[u], mesh->positions[vertex]);
-            b = mote_add_scaled(b, row_of(field, u)[j] - here[j], d);
+            const double *there = row_of(field, MOTE_RING_VERTEX(mesh->ring[k]));
+            const double slope = (there[j] - here[j]) * unit;
+            b = mote_add_scaled(b, slope, ring_edge(mesh, vertex, k, unit));
         }
         if (!solve3(m, b, &gradient[j]))
             gradient[j] = mote_vec3_make(0, 0, 0);
