@@ -32,7 +32,8 @@ typedef enum mote_exit {
       "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--dry-run]",      \
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
-      "the rows of a run, computed from its cells")
+      "the rows of a run, computed from its cells")                                            \
+    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \
     int mote_command_##name(int argc, char **argv);

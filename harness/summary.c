@@ -29,12 +29,6 @@ static int by_place(const void *a, const void *b)
     return order ? order : strcmp(first->first->group, second->first->group);
 }
 
-static bool is_text(const mote_stored_cell *cell, const char *key, const char *value)
-{
-    const char *text = json_string_value(json_object_get(cell->parameters, key));
-    return text && strcmp(text, value) == 0;
-}
-
 static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
 {
     return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK &&
@@ -43,17 +37,8 @@ static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
            strcmp(a->first->cache, b->first->cache) == 0;
 }
 
-/* FCL as its users call it: no seed, no queue. */
-static bool is_plain_aabb(const mote_stored_cell *cell)
-{
-    /* The queue is a number in one place and a choice in another. */
-    const json_t *queue = json_object_get(cell->parameters, "queue");
-    bool two = is_text(cell, "queue", "2") ||
-               (json_is_integer(queue) && json_integer_value(queue) == 2);
-    return is_text(cell, "seed", "none") && two;
-}
-
-/* The row that this one's ratio is taken to: fcl-aabb:seed=none,queue=2, or any fcl-aabb. */
+/* The row that this one's ratio is taken to: fcl-aabb as its users call it, which is its
+   default (seed=none, queue=2), or any fcl-aabb. */
 static size_t find_reference(const mote_summary *summary, const mote_summary_row *row)
 {
     size_t found = SIZE_MAX;
@@ -61,7 +46,7 @@ static size_t find_reference(const mote_summary *summary, const mote_summary_row
         const mote_summary_row *other = &summary->rows[i];
         if (!comparable(row, other) || strcmp(other->first->method, "fcl-aabb") != 0)
             continue;
-        if (is_plain_aabb(other->first))
+        if (strcmp(other->label, "fcl-aabb") == 0)
             return i;
         found = found == SIZE_MAX ? i : found;
     }

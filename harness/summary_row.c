@@ -248,6 +248,8 @@ static char *make_label(const mote_stored_cell *cell)
     return text.data;
 }
 
+static const mote_ratio no_ratio = {SIZE_MAX, MOTE_NONE, MOTE_NONE, MOTE_NONE};
+
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
                                   mote_summary_row *row)
 {
@@ -266,7 +268,7 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
         return mote_fail(MOTE_ENOMEM, "no memory for a label");
     const json_t *n = json_object_get(made.first->parameters, "n");
     made.n = json_is_number(n) ? json_number_value(n) : MOTE_NONE;
-    made.ratio.to = made.ratio_given.to = made.ratio_best.to = SIZE_MAX;
+    made.ratio = made.ratio_given = made.ratio_best = no_ratio;
     made.heap_live_bytes = largest(&made, "heap_live_bytes");
     made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
