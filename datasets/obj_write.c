@@ -73,17 +73,15 @@ static mote_status write_partial(const char *path, const char *partial,
 
 mote_status mote_obj_write(const char *path, const mote_vec3 *positions, const mote_mesh *mesh)
 {
-    static const char suffix[] = ".partial";
     const mote_vec3 *points = positions ? positions : mesh->positions;
     const mote_status status = check_positions(points, mesh->vertex_count);
     if (status != MOTE_OK)
         return status;
-    const size_t length = strlen(path);
-    char *partial = malloc(length + sizeof suffix);
+    const size_t size = strlen(path) + sizeof "..partial" + 3 * sizeof(long);
+    char *partial = malloc(size);
     if (!partial)
-        return mote_fail(MOTE_ENOMEM, "obj: no memory for a file name of %zu bytes", length);
-    memcpy(partial, path, length);
-    memcpy(partial + length, suffix, sizeof suffix);
+        return mote_fail(MOTE_ENOMEM, "obj: no memory for a file name of %zu bytes", size);
+    (void)snprintf(partial, size, "%s.%ld.partial", path, (long)getpid());
     const mote_status written = write_partial(path, partial, points, mesh);
     free(partial);
     return written;

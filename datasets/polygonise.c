@@ -93,6 +93,8 @@ static mote_status grid_sample(grid *g, double cell)
                 2 * (size_t)(abs(r[0] - r[1]) + abs(r[0] - r[g->nx])) + (r[0] > 0 ? 2 : 0);
         }
     }
+    if (g->quad_count == 0)
+        return mote_fail(MOTE_ENUMERIC, "letter: a grid of %zu x %zu misses it", g->nx, g->ny);
     return MOTE_OK;
 }
 
@@ -268,9 +270,11 @@ mote_status mote_polygonise(const mote_glyph *glyph, size_t triangle_count,
                             mote_surface *surface)
 {
     grid g = {.glyph = glyph};
-    mote_status status = choose_cell(&g, triangle_count);
-    if (status != MOTE_OK)
+    const mote_status status = choose_cell(&g, triangle_count);
+    if (status != MOTE_OK) {
+        grid_clear(&g);
         return status;
+    }
     g.first_vertex = malloc((g.nx - 1) * (g.ny - 1) * sizeof *g.first_vertex);
     uint32_t *vertex = malloc(6 * g.quad_count * sizeof *vertex);
     if (!g.first_vertex || !vertex)

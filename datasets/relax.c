@@ -123,6 +123,15 @@ void mote_relax_smooth(const mote_glyph *glyph, mote_surface *surface)
             move_vertex(glyph, surface, v, SMOOTH_PART, 0.2);
 }
 
+/* Moves v where that enlarges the smallest angle round it, all the way or a part of it. */
+static void improve_vertex(const mote_glyph *glyph, mote_surface *s, uint32_t v)
+{
+    double part = 1;
+    for (int halving = 0; halving < 4; halving++, part /= 2)
+        if (move_vertex(glyph, s, v, part, 1))
+            return;
+}
+
 size_t mote_relax_worst(const mote_glyph *glyph, double sine_square, mote_surface *surface)
 {
     mote_surface *s = surface;
@@ -138,9 +147,7 @@ size_t mote_relax_worst(const mote_glyph *glyph, double sine_square, mote_surfac
         for (uint32_t k = 0; k < 3 && !flipped; k++)
             flipped = flip_if_better(s, 3 * t + k);
         for (uint32_t k = 0; k < 3; k++)
-            for (double part = 1; part > 0.1; part /= 2)
-                if (move_vertex(glyph, s, v[k], part, 1))
-                    break;
+            improve_vertex(glyph, s, v[k]);
     }
     return found;
 }

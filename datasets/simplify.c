@@ -139,7 +139,7 @@ static mote_status collapse_rounds(const mote_glyph *glyph, size_t triangle_coun
 {
     /* The squared edge length of as many equilateral triangles of the same area. */
     const double ideal = 4 / sqrt(3.0) * area(s) / (double)triangle_count;
-    double share = 0.4;
+    double share = 0.6;
     while (s->live_triangles > triangle_count) {
         const size_t before = s->live_triangles;
         r->limit = share * ideal;

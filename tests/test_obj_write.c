@@ -30,7 +30,7 @@ static int set_up(void **state)
     if (!mkdtemp(f->folder) || mote_letter_create('V', 400, &f->mesh) != MOTE_OK)
         return -1;
     (void)snprintf(f->path, sizeof f->path, "%s/v.obj", f->folder);
-    (void)snprintf(f->partial, sizeof f->partial, "%s.partial", f->path);
+    (void)snprintf(f->partial, sizeof f->partial, "%s.%ld.partial", f->path, (long)getpid());
     *state = f;
     return 0;
 }
