@@ -22,6 +22,13 @@ static double basis_between(const mote_field *field, uint32_t i, uint32_t j)
     return mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
 }
 
+/* Below this the matrix cannot be told from a singular one: rounding leaves two equal centres a
+   pivot of some J epsilon instead of 0, and a column of the inverse adds up J terms. */
+static double smallest_reciprocal(const mote_field *field)
+{
+    return (double)field->count * field->count * DBL_EPSILON;
+}
+
 /* gsl_linalg_cholesky_rcond needs a workspace of three times the size. */
 static mote_status factor_matrix(mote_csrbf_fit *fit, const mote_field *field,
                                  double *reciprocal)
@@ -60,7 +67,7 @@ mote_status mote_csrbf_fit_create(const mote_field *field, mote_csrbf_fit **fit,
     gsl_set_error_handler(handler);
     if (status == MOTE_ENOMEM)
         mote_fail(status, "no memory to fit %u centres", field->count);
-    else if (status != MOTE_OK || reciprocal < DBL_EPSILON)
+    else if (status != MOTE_OK || reciprocal < smallest_reciprocal(field))
         status = mote_fail(MOTE_ENUMERIC,
                            "the matrix of %u CSRBF centres is singular to working precision "
                            "(reciprocal condition %.3g); centres must be further apart, or the "

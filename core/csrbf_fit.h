@@ -12,13 +12,16 @@ extern "C" {
 typedef struct mote_csrbf_fit mote_csrbf_fit;
 
 /* Factors the symmetric positive definite matrix phi_j(c_i) of a CSRBF field once (Cholesky,
-   GSL). MOTE_ENUMERIC when it is singular to working precision (two equal centres, for
-   example): the text names the reciprocal condition number. *reciprocal_condition is an
-   estimate, 0 .. 1; it may be NULL. Cost O(J^3). */
+   GSL). MOTE_ENUMERIC when it is singular to working precision, that is, when the reciprocal
+   condition number is below J^2 * DBL_EPSILON (two equal centres, for example): the text names
+   it. *reciprocal_condition is an estimate, 0 .. 1; it may be NULL. Cost O(J^3). GSL's error
+   handler is off meanwhile, for all threads. */
 mote_status mote_csrbf_fit_create(const mote_field *field, mote_csrbf_fit **fit,
                                   double *reciprocal_condition);
 
-/* Solves for weights[J] such that the field displaces centre i by displacements[i]. */
+/* Solves for weights[J] such that the field displaces centre i by displacements[i]; weights may
+   be displacements. MOTE_EINVAL, weights untouched, for one that is not finite. The fit's
+   scratch is used: one thread at a time. Cost O(J^2). */
 mote_status mote_csrbf_fit_solve(const mote_csrbf_fit *fit, const mote_vec3 *displacements,
                                  mote_vec3 *weights);
 
