@@ -60,7 +60,10 @@ static mote_status parse_value(const mote_parameter *p, const char *text, size_t
     if (*end != '\0' || strpbrk(copy, " \t\n\r\v\f") || !(number >= p->minimum) ||
         !(number <= p->maximum))
         return bad_value(p, text, length);
-    if (p->kind == MOTE_PARAMETER_INTEGER && number != floor(number))
+    if (isinf(number) && strcmp(copy, "inf") != 0)
+        return bad_value(p, text, length);
+    if (p->kind == MOTE_PARAMETER_INTEGER &&
+        !(fabs(number) <= 0x1p53 && number == floor(number)))
         return bad_value(p, text, length);
     *value = number;
     return MOTE_OK;
@@ -156,6 +159,10 @@ const char *mote_parameter_text(const mote_parameter *parameter, double value, c
     }
     if (parameter->choices && value == MOTE_AUTO) {
         (void)snprintf(buffer, size, "auto");
+        return buffer;
+    }
+    if (value == floor(value) && fabs(value) < 1e15) { /* 10, where %g says 1e+01 */
+        (void)snprintf(buffer, size, "%.0f", value);
         return buffer;
     }
     for (int digits = 1; digits <= 17; ++digits) {

@@ -14,9 +14,9 @@ extern "C" {
 #endif
 
 typedef enum mote_parameter_kind {
-    MOTE_PARAMETER_INTEGER,
-    MOTE_PARAMETER_REAL,  /* "inf" is accepted where the maximum is infinite */
-    MOTE_PARAMETER_CHOICE /* one of choices; its value is the index */
+    MOTE_PARAMETER_INTEGER, /* up to 2^53 */
+    MOTE_PARAMETER_REAL,    /* "inf", so written, is accepted where the maximum is infinite */
+    MOTE_PARAMETER_CHOICE   /* one of choices; its value is the index */
 } mote_parameter_kind;
 
 /* The value of a number given as "auto", where allowed. */
@@ -44,8 +44,9 @@ void mote_parameters_default(const mote_parameter *table, size_t count, double *
 mote_status mote_parameters_parse(const mote_parameter *table, size_t count, const char *text,
                                   double *values);
 
-/* Writes one value as the text that would be parsed to it: shortest form that reads back the
-   same. buffer holds size bytes. Returns buffer. */
+/* Writes one value as the text that would be parsed to it: a whole number below 1e15 in full,
+   another with the fewest digits that read back the same. buffer holds size bytes. Returns
+   buffer. */
 const char *mote_parameter_text(const mote_parameter *parameter, double value, char *buffer,
                                 size_t size);
 
