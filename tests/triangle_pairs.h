@@ -26,6 +26,7 @@ typedef enum pair_sort {
     PAIR_LATTICE,       /* whole coordinates 0 .. 3: exact touching and coplanar pairs */
     PAIR_PIERCED_FLAT,  /* an edge through a sliver, nearly in its plane */
     PAIR_VERTEX_FLAT,   /* a vertex nearly on a sliver */
+    PAIR_ULPS,          /* touching but for up to eight units in the last place */
     PAIR_SORTS
 } pair_sort;
 
@@ -91,6 +92,18 @@ static inline void pair_degenerate(mote_vec3 s[3], mote_vec3 t[3], uint64_t *sta
         t[1] = t[0];
     if (pair_uniform(state) < 0.3)
         t[2] = t[0];
+}
+
+/* A vertex on the other's face or edge, or a shared edge, but for a few units in the last
+ * place. */
+static inline void pair_ulps(mote_vec3 s[3], mote_vec3 t[3], double u, uint64_t *state)
+{
+    double small = floor(9 * pair_uniform(state)) * 0x1p-53;
+    int which = (int)(3 * pair_uniform(state));
+    if (which == 2)
+        t[1] = pair_near(s[1], small, state);
+    mote_vec3 at = which == 0 ? pair_inside(s, 0.5 * u, 0.4) : pair_inside(s, u, 0);
+    t[0] = pair_near(which == 2 ? s[0] : at, small, state);
 }
 
 static inline void pair_lattice(mote_vec3 t[3], uint64_t *state)
@@ -165,6 +178,9 @@ static inline void pair_place(pair_sort sort, mote_vec3 s[3], mote_vec3 t[3], ui
     case PAIR_LATTICE:
         pair_lattice(s, state);
         pair_lattice(t, state);
+        break;
+    case PAIR_ULPS:
+        pair_ulps(s, t, u, state);
         break;
     case PAIR_PIERCED_FLAT:
         pair_pierce_flat(s, t, small, state);

@@ -72,26 +72,24 @@ static inline wide reference_point_segment(wide3 p, wide3 a, wide3 b)
     return wide_dot(r, r);
 }
 
-/* Squared distance from p to the triangle t: its edges, and its inside by repeated projection,
-   from the corner that is opposite its longest edge. */
-static inline wide reference_point_triangle(wide3 p, const wide3 t[3])
+/* Squared distance from p to the plane of t where it projects inside t, else `best`: by
+   repeated projection, from the corner that is opposite the longest edge. */
+static inline wide reference_point_face(wide3 p, const wide3 t[3], wide best)
 {
-    wide best = -1, longest = -1;
+    wide longest = -1;
     int corner = 0;
     for (int k = 0; k < 3; k++) {
-        wide3 a = t[(k + 1) % 3], b = t[(k + 2) % 3], d = wide_sub(b, a);
-        wide squared = reference_point_segment(p, a, b);
-        best = best < 0 ? squared : wide_min(best, squared);
+        wide3 d = wide_sub(t[(k + 2) % 3], t[(k + 1) % 3]);
         if (wide_dot(d, d) > longest) {
             longest = wide_dot(d, d);
             corner = k;
         }
     }
-    wide3 o = t[corner], e1 = wide_sub(t[(corner + 1) % 3], o),
-          e2 = wide_sub(t[(corner + 2) % 3], o), n = wide_cross(e1, e2), w = wide_sub(p, o),
-          left = w;
+    wide3 o = t[corner], e1 = wide_sub(t[(corner + 1) % 3], o);
+    wide3 e2 = wide_sub(t[(corner + 2) % 3], o), w = wide_sub(p, o), left = w;
+    wide3 n = wide_cross(e1, e2);
     wide nn = wide_dot(n, n), u = 0, v = 0;
-    for (int k = 0; k < 3 && nn > 0; k++) {
+    for (int k = 0; k < 2 && nn > 0; k++) {
         u += wide_dot(wide_cross(left, e2), n) / nn;
         v += wide_dot(wide_cross(e1, left), n) / nn;
         left = wide_along(wide_along(w, -u, e1), -v, e2);
@@ -101,13 +99,19 @@ static inline wide reference_point_triangle(wide3 p, const wide3 t[3])
     return best;
 }
 
-/* Squared distance between the segments a b and c d: ends, and the insides by the normal
- * equations. */
-static inline wide reference_segment_segment(wide3 a, wide3 b, wide3 c, wide3 d)
+/* Squared distance from p to the triangle t. */
+static inline wide reference_point_triangle(wide3 p, const wide3 t[3])
 {
-    wide best =
-        wide_min(wide_min(reference_point_segment(a, c, d), reference_point_segment(b, c, d)),
-                 wide_min(reference_point_segment(c, a, b), reference_point_segment(d, a, b)));
+    wide best = reference_point_segment(p, t[0], t[1]);
+    best = wide_min(best, reference_point_segment(p, t[1], t[2]));
+    best = wide_min(best, reference_point_segment(p, t[2], t[0]));
+    return reference_point_face(p, t, best);
+}
+
+/* Squared distance between the segments a b and c d where the nearest point of the line of the
+   first is inside it, by the normal equations; else `best`. */
+static inline wide reference_segments_inside(wide3 a, wide3 b, wide3 c, wide3 d, wide best)
+{
     wide3 e = wide_sub(b, a), f = wide_sub(d, c), r = wide_sub(a, c);
     wide ee = wide_dot(e, e), ef = wide_dot(e, f), ff = wide_dot(f, f), det = ee * ff - ef * ef;
     if (!(det > 0))
@@ -116,6 +120,16 @@ static inline wide reference_segment_segment(wide3 a, wide3 b, wide3 c, wide3 d)
     if (x < 0 || x > 1)
         return best;
     return wide_min(best, reference_point_segment(wide_along(a, x, e), c, d));
+}
+
+/* Squared distance between the segments a b and c d. */
+static inline wide reference_segment_segment(wide3 a, wide3 b, wide3 c, wide3 d)
+{
+    wide best = reference_point_segment(a, c, d);
+    best = wide_min(best, reference_point_segment(b, c, d));
+    best = wide_min(best, reference_point_segment(c, a, b));
+    best = wide_min(best, reference_point_segment(d, a, b));
+    return reference_segments_inside(a, b, c, d, best);
 }
 
 /* True if the segment a b meets the triangle t, by the signs of volumes. */
@@ -135,25 +149,30 @@ static inline bool reference_pierces(wide3 a, wide3 b, const wide3 t[3])
     return positive == 0 || negative == 0;
 }
 
+/* Squared distance between the triangles s and t, which do not intersect. */
+static inline wide reference_apart(const wide3 s[3], const wide3 t[3])
+{
+    wide best = reference_point_triangle(s[0], t);
+    for (int i = 0; i < 3; i++) {
+        best = wide_min(best, reference_point_triangle(s[i], t));
+        best = wide_min(best, reference_point_triangle(t[i], s));
+        for (int j = 0; j < 3; j++)
+            best = reference_segments_inside(s[i], s[(i + 1) % 3], t[j], t[(j + 1) % 3], best);
+    }
+    return best;
+}
+
 /* Squared distance between the triangles s and t; 0 where they intersect. */
 static inline wide reference_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3])
 {
-    wide3 a[3], b[3];
-    for (int k = 0; k < 3; k++) {
-        a[k] = wide_from(s[k]);
-        b[k] = wide_from(t[k]);
-    }
-    wide best = reference_point_triangle(a[0], b);
+    wide3 a[3] = {wide_from(s[0]), wide_from(s[1]), wide_from(s[2])};
+    wide3 b[3] = {wide_from(t[0]), wide_from(t[1]), wide_from(t[2])};
     for (int i = 0; i < 3; i++) {
-        int i2 = (i + 1) % 3;
-        if (reference_pierces(a[i], a[i2], b) || reference_pierces(b[i], b[i2], a))
+        int next = (i + 1) % 3;
+        if (reference_pierces(a[i], a[next], b) || reference_pierces(b[i], b[next], a))
             return 0;
-        best = wide_min(best, wide_min(reference_point_triangle(a[i], b),
-                                       reference_point_triangle(b[i], a)));
-        for (int j = 0; j < 3; j++)
-            best = wide_min(best, reference_segment_segment(a[i], a[i2], b[j], b[(j + 1) % 3]));
     }
-    return best;
+    return reference_apart(a, b);
 }
 
 #endif
