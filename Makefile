@@ -4,6 +4,7 @@
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
 #   make test                                         release tests, then ASan and UBSan
 #   make figures [OUT=DIR]                            draw again from what is stored
+#   make oracle [PROFILE=quick|full] [OUT=DIR]       triangle distances against exact arithmetic
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -16,7 +17,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures format lint clean
+.PHONY: deps build bench test figures oracle format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -34,6 +35,11 @@ test: build
 
 bench: build
 	@plots/bench.sh $(MOTE) $(PROFILE) $(OUT)
+
+oracle: build
+	@mkdir -p $(OUT)
+	@$(BUILD)/tests/oracle --pairs $(if $(filter quick,$(PROFILE)),190000,11400000) \
+	    --out $(OUT)/oracle.json
 
 figures: build
 	@$(MOTE) figures $(OUT)

@@ -410,7 +410,8 @@ static bool read_options(int argc, char **argv, uint64_t *pairs, uint64_t *seed,
             end && end != argv[i + 1] && *end == 0 && errno == 0 && argv[i + 1][0] != '-';
         if (i + 1 < argc && strcmp(argv[i], "--out") == 0) {
             *out = argv[i + 1];
-        } else if (whole && strcmp(argv[i], "--pairs") == 0 && number > 0 && number <= 1e12) {
+        } else if (whole && strcmp(argv[i], "--pairs") == 0 && number > 0 &&
+                   number <= 1000000000000u) {
             *pairs = number;
         } else if (whole && strcmp(argv[i], "--seed") == 0) {
             *seed = number;
