@@ -52,19 +52,8 @@ static mote_vec3 sum_over_basis(const mote_field *field, const mote_mesh *mesh, 
                                 const mote_weights *weights)
 {
     double phi[MOTE_FIELD_MAX];
-    double x[MOTE_LANES] = {0};
-    double y[MOTE_LANES] = {0};
-    double z[MOTE_LANES] = {0};
     field->kind->basis(field, mesh, vertex, phi);
-    for (size_t j = 0; j < field->padded; j += MOTE_LANES) {
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < MOTE_LANES; ++l) {
-            x[l] += phi[j + l] * weights->x[j + l];
-            y[l] += phi[j + l] * weights->y[j + l];
-            z[l] += phi[j + l] * weights->z[j + l];
-        }
-    }
-    return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
+    return mote_weighted_sum(phi, weights, field->padded);
 }
 
 mote_vec3 mote_field_displacement(const mote_field *field, const mote_mesh *mesh,

@@ -29,4 +29,22 @@ static inline float mote_lane_sum_single(const float lane[MOTE_LANES])
            ((lane[1] + lane[5]) + (lane[3] + lane[7]));
 }
 
+/* sum_j phi_j w_j in MOTE_LANES lanes, added in the order of mote_lane_sum. */
+MOTE_INLINE mote_vec3 mote_weighted_sum(const double *phi, const mote_weights *weights,
+                                        size_t padded)
+{
+    double x[MOTE_LANES] = {0};
+    double y[MOTE_LANES] = {0};
+    double z[MOTE_LANES] = {0};
+    for (size_t j = 0; j < padded; j += MOTE_LANES) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            x[l] += phi[j + l] * weights->x[j + l];
+            y[l] += phi[j + l] * weights->y[j + l];
+            z[l] += phi[j + l] * weights->z[j + l];
+        }
+    }
+    return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
+}
+
 #endif

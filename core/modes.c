@@ -28,19 +28,7 @@ static mote_vec3 modes_displacement(const mote_field *field, const mote_mesh *me
                                     uint32_t vertex, const mote_weights *weights)
 {
     (void)mesh;
-    const double *phi = row_of(field, vertex);
-    double x[MOTE_LANES] = {0};
-    double y[MOTE_LANES] = {0};
-    double z[MOTE_LANES] = {0};
-    for (size_t j = 0; j < field->padded; j += MOTE_LANES) {
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < MOTE_LANES; ++l) {
-            x[l] += phi[j + l] * weights->x[j + l];
-            y[l] += phi[j + l] * weights->y[j + l];
-            z[l] += phi[j + l] * weights->z[j + l];
-        }
-    }
-    return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
+    return mote_weighted_sum(row_of(field, vertex), weights, field->padded);
 }
 
 /* Solves the symmetric system m g = b by Cramer's rule; false when it is singular. */
