@@ -61,6 +61,8 @@ typedef struct mote_answer {
     double lower;         /* a proven lower bound, <= distance */
     mote_vec3 witness[2]; /* world points on body 0 and body 1, distance apart */
     mote_counters counters;
+    bool has_penetration; /* only of methods on convex parts, in contact, when asked to */
+    double penetration;   /* least translation that separates the deepest pair of parts */
 } mote_answer;
 
 /* What a parameterised method needs and keeps. */

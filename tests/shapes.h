@@ -64,13 +64,14 @@ static inline mote_mesh *make_torus(uint32_t across, uint32_t around, double siz
     return mesh;
 }
 
-/* Two tori of about 2 * across * around triangles; deforming ones have six centres each. */
-static inline void scene_init(scene *s, uint32_t across, uint32_t around, double size,
-                              bool deforming)
+/* Two bodies of these meshes, which the scene then owns; deforming ones have six centres. */
+static inline void scene_init_meshes(scene *s, mote_mesh *first, mote_mesh *second,
+                                     bool deforming)
 {
-    *s = (scene){.random = 7};
+    *s = (scene){.mesh = {first, second}, .random = 7};
+    s->length = fmax(first->diagonal, second->diagonal);
+    double size = s->length / 3.2;
     for (int b = 0; b < 2; ++b) {
-        s->mesh[b] = make_torus(across + (uint32_t)b, around, size);
         mote_vec3 centre[6];
         for (int j = 0; j < 6; ++j)
             centre[j] = mote_vec3_make(size * cos(1.0 * j), size * sin(1.0 * j),
@@ -84,7 +85,14 @@ static inline void scene_init(scene *s, uint32_t across, uint32_t around, double
         s->world[b] = malloc(s->mesh[b]->vertex_count * sizeof *s->world[b]);
         need(s->world[b]);
     }
-    s->length = fmax(s->mesh[0]->diagonal, s->mesh[1]->diagonal);
+}
+
+/* Two tori of about 2 * across * around triangles. */
+static inline void scene_init(scene *s, uint32_t across, uint32_t around, double size,
+                              bool deforming)
+{
+    scene_init_meshes(s, make_torus(across, around, size), make_torus(across + 1, around, size),
+                      deforming);
 }
 
 static inline void scene_free(scene *s)
