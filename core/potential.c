@@ -91,8 +91,10 @@ MOTE_INLINE void ratio_of(const product *other, const product *same, mote_potent
         out->minor[l] = low ? ratio * 2 : ratio;
     }
     for (int l = 0; l < MOTE_LANES; ++l) {
-        if (same->exponent[l] < ZERO_EXPONENT / 2)
+        if (same->exponent[l] < ZERO_EXPONENT / 2) {
             out->major[l] = HUGE_VAL;
+            out->minor[l] = 1; /* no occupied place is better than another */
+        }
     }
 }
 
@@ -157,7 +159,8 @@ void mote_potential(const mote_candidates *candidates, const mote_sources *same,
     sum_over(candidates, same, inverse_square_length, HUGE_VAL, potentials->major);
     sum_over(candidates, attracting, inverse_square_length, reach_squared, attraction);
     for (int l = 0; l < MOTE_LANES; ++l) {
-        potentials->major[l] -= attraction[l];
+        if (potentials->major[l] < HUGE_VAL) /* else both may be infinite */
+            potentials->major[l] -= attraction[l];
         potentials->minor[l] = 0;
     }
 }

@@ -45,7 +45,7 @@ typedef struct mote_potentials {
 /* Potentials of a particle at the candidates: repelled by same, attracted by other within
    reach. inverse_square_length: 1 / L^2. reach: R_eff / L squared (paper 3.3); beyond it the
    attraction's potential is constant; 0: no attraction; INFINITY is allowed. A place on a
-   particle of the same type has potential +infinity. */
+   particle of the same type has potential +infinity, whatever else is there. */
 void mote_potential(const mote_candidates *candidates, const mote_sources *same,
                     const mote_sources *other, double inverse_square_length,
                     double reach_squared, mote_potentials *potentials);
