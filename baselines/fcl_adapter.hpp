@@ -113,7 +113,7 @@ struct Bound {
 };
 
 /* One pair of models. Volume names BV, DistanceNode (void when FCL has none), CollisionNode,
-   and the constants described in fcl_aabb.cpp. */
+   and the constants described in fcl_aabb.hpp. */
 template <class Volume> class Pair
 {
   public:
@@ -141,7 +141,11 @@ template <class Volume> class Pair
     /* Makes the trees follow a frame. */
     mote_status update(const mote_frame *frame);
 
-    mote_status query(mote_answer *answer);
+    /* known: an upper bound that the caller has found. Adds to the answer's counters. */
+    mote_status query(mote_answer *answer, const Bound &known = Bound());
+
+    /* A distance between two points of the surfaces, as query takes it. */
+    Bound bound(double distance, const mote_vec3 witness[2]) const;
 
   private:
     bool needs_refit(int b, const mote_body_state &state) const;
@@ -149,7 +153,7 @@ template <class Volume> class Pair
     Bound seed() const;
     void corners(int b, mote_vec3 corner[3]) const;
     void collide(mote_answer *answer);
-    mote_status measure(mote_answer *answer);
+    mote_status measure(mote_answer *answer, const Bound &known);
     void traverse(Result &result, mote_answer *answer);
     template <class Node> void drive(Node &node, Result &result, mote_answer *answer);
     void report(const Result &result, const Bound &bound, mote_answer *answer);
@@ -277,8 +281,8 @@ template <class Volume> void Pair<Volume>::collide(mote_answer *answer)
         else
             initialize(node, model[0], transform[0], model[1], transform[1], request, result);
         fcl::detail::collide(&node);
-        answer->counters.box_tests = static_cast<uint64_t>(node.num_bv_tests);
-        answer->counters.triangle_tests = static_cast<uint64_t>(node.num_leaf_tests);
+        answer->counters.box_tests += static_cast<uint64_t>(node.num_bv_tests);
+        answer->counters.triangle_tests += static_cast<uint64_t>(node.num_leaf_tests);
     }
     answer->has_contact = true;
     answer->contact = result.isCollision();
@@ -298,7 +302,7 @@ void Pair<Volume>::drive(Node &node, Result &result, mote_answer *answer)
     node.enable_statistics = true;
     node.rel_err = node.abs_err = 0;
     fcl::detail::distance(&node, nullptr, options.queue);
-    answer->counters.box_tests = static_cast<uint64_t>(node.num_bv_tests);
+    answer->counters.box_tests += static_cast<uint64_t>(node.num_bv_tests);
     answer->counters.triangle_tests +=
         static_cast<uint64_t>(node.num_leaf_tests) + Volume::first_triangle_tests;
 }
@@ -344,11 +348,14 @@ void Pair<Volume>::report(const Result &result, const Bound &bound, mote_answer 
     }
 }
 
-template <class Volume> mote_status Pair<Volume>::measure(mote_answer *answer)
+template <class Volume>
+mote_status Pair<Volume>::measure(mote_answer *answer, const Bound &known_bound)
 {
     Bound bound = seed();
     if (bound.distance < std::numeric_limits<double>::infinity())
-        answer->counters.triangle_tests = 1;
+        answer->counters.triangle_tests++;
+    if (known_bound.distance < bound.distance)
+        bound = known_bound;
     /* A little above the bound, so that the pair it came from is found again with its points.
      */
     Result result(std::min(bound.distance * (1 + 1e-9), std::numeric_limits<double>::max()));
@@ -367,13 +374,23 @@ template <class Volume> mote_status Pair<Volume>::measure(mote_answer *answer)
     return MOTE_OK;
 }
 
-template <class Volume> mote_status Pair<Volume>::query(mote_answer *answer)
+template <class Volume> mote_status Pair<Volume>::query(mote_answer *answer, const Bound &known)
 {
-    if (ask == MOTE_ASK_CONTACT && tolerance == 0) {
+    if (ask == MOTE_ASK_CONTACT && tolerance == 0 && known.distance > 0) {
         collide(answer);
         return MOTE_OK;
     }
-    return measure(answer);
+    return measure(answer, known);
+}
+
+template <class Volume>
+Bound Pair<Volume>::bound(double distance, const mote_vec3 witness[2]) const
+{
+    Bound result;
+    result.distance = distance * scale;
+    for (int b = 0; b < 2; ++b)
+        result.witness[b] = mote_scale(witness[b], scale);
+    return result;
 }
 
 /* The contract's functions for one volume. */

@@ -82,6 +82,8 @@ static const variant distance_variants[] = {
     {"fcl-kios", ""},
     {"fcl-kios", "queue=64,seed=previous"},
     {"fcl-kios", "call=api"},
+    {"hybrid-fcl", ""},
+    {"hybrid-fcl", "n=3,refine=no,queue=64,positions=given"},
 };
 
 enum { DISTANCE_VARIANTS = sizeof distance_variants / sizeof *distance_variants };
@@ -91,6 +93,7 @@ static const variant contact_variants[] = {
     {"fcl-rss", "call=api"},
     {"fcl-kios", ""},
     {"fcl-kios", "call=api"},
+    {"hybrid-fcl", ""},
     {"fcl-kdop18", ""},
     {"fcl-kdop18", "call=api"},
     {"fcl-kdop18", "update=rebuild"},
@@ -334,7 +337,7 @@ static void create_with_a_bad_mesh_is_refused(void **unused)
     scene s;
     scene_init(&s, 6, 4, 1, true);
     for (const mote_method *const *m = mote_methods; *m; ++m) {
-        if (strncmp((*m)->name, "fcl-", 4) != 0)
+        if (!strstr((*m)->name, "fcl"))
             continue;
         variant v = {(*m)->name, ""};
         for (int fault = 0; fault < 8; ++fault) {
