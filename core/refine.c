@@ -6,6 +6,8 @@
 
 #include "core/triangle.h"
 
+#include <string.h>
+
 /* Comes nearer: by more than this part of the distance. */
 #define MARGIN 1e-12
 
@@ -199,14 +201,24 @@ static void approach(search *s, int side)
     }
 }
 
+static bool same_faces(const mote_refined *a, const mote_refined *b)
+{
+    return memcmp(a->triangle, b->triangle, sizeof a->triangle) == 0;
+}
+
+/* Ends as soon as a round stays on the faces where it began: what is left between two faces is
+   measured in one step, while alternate projection of two that meet would go on halving the
+   distance until it is subnormal. */
 static void alternate(search *s)
 {
     for (int round = 0; round < ROUNDS_MAX && !done(s); ++round) {
-        const double before = s->best->squared;
+        const mote_refined before = *s->best;
         approach(s, 1);
         if (!done(s))
             approach(s, 0);
-        if (!(s->best->squared < before * (1 - WORTHWHILE)))
+        if (!(s->best->squared < before.squared * (1 - WORTHWHILE)))
+            return;
+        if (round > 0 && same_faces(&before, s->best))
             return;
     }
 }
