@@ -447,6 +447,27 @@ static inline bool face_decides(const mote_vec3 s[3], const mote_vec3 t[3], cons
     return pierce(ft, s, ss->h, false, c) || pierce(fs, t, st->h, true, c);
 }
 
+/* True if the line of centres proves that the triangles are at least the bound apart. */
+static inline bool centres_separate(const mote_vec3 s[3], const mote_vec3 t[3],
+                                    double bound_squared)
+{
+    if (!(bound_squared < HUGE_VAL))
+        return false;
+    mote_vec3 a =
+        mote_add(mote_sub(t[0], s[0]), mote_add(mote_sub(t[1], s[1]), mote_sub(t[2], s[2])));
+    double high = 0, low = HUGE_VAL, uu = mote_length_squared(a), ww = 0;
+    for (int k = 0; k < 3; k++) {
+        mote_vec3 v = mote_sub(s[k], s[0]), w = mote_sub(t[k], s[0]);
+        double x = mote_dot(a, v), y = mote_dot(a, w);
+        high = max2(high, x);
+        low = y < low ? y : low;
+        ww = max2(ww, mote_length_squared(w));
+    }
+    double gap = low - high;
+    return gap > 0 && 0.999 * gap * gap >= bound_squared * uu &&
+           gap * gap > 4e6 * HEIGHT_ERROR * HEIGHT_ERROR * uu * ww;
+}
+
 /* Candidates nearer than this times the pair's size are searched carefully: they may be
  * contacts. */
 #define NEAR 1e-10
@@ -462,6 +483,8 @@ double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
     face fs = make_face(s);
     side st = classify(&fs, t, bound_squared);
     if (st.kind == SIDE_CLEAR)
+        return bound_squared;
+    if (centres_separate(s, t, bound_squared))
         return bound_squared;
     bool doubtful = ss.kind == SIDE_DOUBTFUL || st.kind == SIDE_DOUBTFUL;
     candidate c;
