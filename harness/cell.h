@@ -78,6 +78,7 @@ typedef struct mote_cell_result {
     int64_t rss_peak_bytes;
     int core;            /* pinned to, or -1 */
     double load[2];      /* load average before and after */
+    double clock_mhz[2]; /* of the core, before and after; 0: unknown */
     double wall_seconds; /* of the process */
 } mote_cell_result;
 

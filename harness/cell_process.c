@@ -70,6 +70,22 @@ static double load_average(void)
     return getloadavg(&load, 1) == 1 ? load : 0;
 }
 
+/* The core's clock, in MHz; 0 where the kernel does not say. */
+static double core_clock(int core)
+{
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char line[512];
+    double mhz = 0;
+    for (int seen = -1; file && fgets(line, sizeof line, file);) {
+        seen += strncmp(line, "processor", 9) == 0 ? 1 : 0;
+        if ((core < 0 || seen == core) && sscanf(line, "cpu MHz : %lf", &mhz) == 1)
+            break;
+    }
+    if (file)
+        (void)fclose(file);
+    return mhz;
+}
+
 static void child_fail(message *told, mote_status status)
 {
     if (status == MOTE_EUNSUPPORTED)
@@ -102,7 +118,7 @@ static void child_measure(const mote_cell *cell, const mote_process_options *opt
                           message *told)
 {
     mote_cell_result result;
-    double load = load_average();
+    double load = load_average(), clock_mhz = core_clock(options->core);
     uint64_t start = mote_clock_ns();
     mote_status status = mote_measure_cell(cell, 0, &result);
     if (status != MOTE_OK) {
@@ -112,6 +128,8 @@ static void child_measure(const mote_cell *cell, const mote_process_options *opt
     result.core = options->core;
     result.load[0] = load;
     result.load[1] = load_average();
+    result.clock_mhz[0] = clock_mhz;
+    result.clock_mhz[1] = core_clock(options->core);
     result.wall_seconds = (double)(mote_clock_ns() - start) * 1e-9;
     told->status = mote_cell_record(cell, &result, options->program, options->directory);
     if (told->status != MOTE_OK)

@@ -29,7 +29,8 @@ typedef enum mote_exit {
     X(run,                                                                                     \
       "run SCENARIO... [--method NAME[:key=a|b,...]]... [--particles 1,2,4-8]\n"               \
       "           [--replicates K] [--frames A-B] [--out DIR] [--shard I/N] [--seed S]\n"      \
-      "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--dry-run]",      \
+      "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--dry-run]\n"     \
+      "           [--force]",                                                                  \
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \

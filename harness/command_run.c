@@ -19,6 +19,7 @@ static const mote_option options[] = {
     {"cache", "hot|evict"},
     {"stride", "auto|K"},
     {"dry-run", NULL},
+    {"force", NULL},
 };
 enum {
     OPTION_METHOD,
@@ -32,6 +33,7 @@ enum {
     OPTION_CACHE,
     OPTION_STRIDE,
     OPTION_DRY_RUN,
+    OPTION_FORCE,
     OPTION_COUNT
 };
 
@@ -122,6 +124,9 @@ static bool take_option(request *q, int option, const char *value, const char **
         return read_cache(value, &plan->cache);
     case OPTION_STRIDE:
         return read_stride(value, &plan->stride);
+    case OPTION_FORCE:
+        q->run.force = true;
+        return true;
     default:
         q->run.dry_run = true;
         return true;

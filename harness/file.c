@@ -71,6 +71,21 @@ static bool write_all(int descriptor, const char *data, size_t size)
     return true;
 }
 
+/* Makes a rename in the path's directory last: without this, a power cut may undo it. */
+static bool sync_directory(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *directory =
+        slash ? mote_format("%.*s/", (int)(slash - path), path) : mote_format(".");
+    int descriptor = directory ? open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    /* Some file systems have no such thing: EINVAL. */
+    bool synced = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);
+    if (descriptor >= 0)
+        (void)close(descriptor);
+    free(directory);
+    return synced;
+}
+
 mote_status mote_file_write(const char *path, const void *data, size_t size)
 {
     char *beside = mote_format("%s.%ld.part", path, (long)getpid());
@@ -84,7 +99,7 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
         error = errno;
         whole = false;
     }
-    if (whole && rename(beside, path) != 0) {
+    if (whole && (rename(beside, path) != 0 || !sync_directory(path))) {
         error = errno;
         whole = false;
     }

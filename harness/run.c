@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* flock */
+#define _DEFAULT_SOURCE /* flock, getloadavg */
 #include "harness/run.h"
 
 #include "harness/cell_process.h"
@@ -17,6 +17,9 @@
 
 /* What walking 32 MB between frames costs, roughly; only for the estimate. */
 #define EVICT_SECONDS 5e-3
+
+/* A load average before anything is measured that is worth a warning. */
+#define BUSY_LOAD 0.7
 
 /* What is known of a cell of the plan. */
 typedef struct prospect {
@@ -143,7 +146,7 @@ static mote_status look_ahead(run *r)
     r->prospects = calloc(r->plan.count + 1, sizeof *r->prospects);
     if (!r->prospects)
         return mote_fail(MOTE_ENOMEM, "no memory for a plan of %zu cells", r->plan.count);
-    for (size_t i = 0; i < r->plan.count; ++i)
+    for (size_t i = 0; i < r->plan.count && !r->options->force; ++i)
         (void)stored(r, i);
     for (size_t i = 0; i < r->plan.count; ++i) {
         bool first = !r->prospects[i].done;
@@ -263,6 +266,14 @@ static void print_progress(const run *r, size_t index, mote_cell_status status,
                   terminal && ok && index + 1 < r->plan.count ? "" : "\n");
 }
 
+static void warn_of_load(void)
+{
+    double load;
+    if (getloadavg(&load, 1) == 1 && load > BUSY_LOAD)
+        (void)fprintf(stderr, "warning: the machine is busy (load %.1f); times will be noisy\n",
+                      load);
+}
+
 static mote_status measure(run *r, mote_run_outcome *outcome)
 {
     for (size_t i = 0; i < r->plan.count; ++i) {
@@ -335,6 +346,7 @@ mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
             status = load_truth(&r);
         if (status == MOTE_OK) {
             outcome->started = true;
+            warn_of_load();
             status = measure(&r, outcome);
         }
     }

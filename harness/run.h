@@ -13,6 +13,7 @@ typedef struct mote_run_options {
     const char *directory;
     double timeout; /* seconds a cell; 0: none */
     bool dry_run;   /* print the plan, measure and write nothing */
+    bool force;     /* measure also what is there already */
     int argc;       /* the command line, for the manifest */
     char **argv;
 } mote_run_options;
