@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics.h>
@@ -143,4 +144,261 @@ mote_status mote_statistics_median_interval(const mote_replicate *replicates, si
     if (count < MOTE_BOOTSTRAP_REPLICATES)
         return t_of_medians(replicates, count, logarithmic, interval);
     return bootstrap(replicates, count, seed, interval);
+}
+
+double mote_statistics_mad(double *values, size_t count)
+{
+    double median = mote_statistics_median(values, count);
+    for (size_t i = 0; i < count; ++i)
+        values[i] = fabs(values[i] - median);
+    return 1.4826 * mote_statistics_median(values, count);
+}
+
+mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count)
+{
+    mote_confidence interval = {MOTE_NONE, MOTE_NONE};
+    /* The most values that may lie outside on one side. */
+    unsigned outside = 0;
+    while (2 * (outside + 1) < count &&
+           gsl_cdf_binomial_P(outside, 0.5, (unsigned)count) <= 0.025)
+        ++outside;
+    if (outside == 0)
+        return interval;
+    interval.low = sorted[outside - 1];
+    interval.high = sorted[count - outside];
+    return interval;
+}
+
+#define EXACT_VALUES 50
+
+/* Ranks (mean ranks for ties) of sorted values; returns the sum of t^3 - t over ties. */
+static double rank_sorted(const double *sorted, size_t count, double *ranks)
+{
+    double ties = 0;
+    for (size_t i = 0; i < count;) {
+        size_t end = i + 1;
+        while (end < count && !(sorted[end] > sorted[i]))
+            ++end;
+        double tied = (double)(end - i);
+        ties += tied * tied * tied - tied;
+        for (size_t k = i; k < end; ++k)
+            ranks[k] = ((double)i + (double)end + 1) / 2;
+        i = end;
+    }
+    return ties;
+}
+
+static double find_rank(const double *sorted, const double *ranks, size_t count, double value)
+{
+    size_t low = 0, high = count;
+    while (low + 1 < high) {
+        size_t middle = (low + high) / 2;
+        if (sorted[middle] <= value)
+            low = middle;
+        else
+            high = middle;
+    }
+    return ranks[low];
+}
+
+/* Two-sided p from a statistic that is symmetric around its mean, its distribution given as
+   ways to get 0, 1, ..., most. */
+static double exact_p(const double *ways, size_t most, double statistic)
+{
+    double low = fmin(statistic, (double)most - statistic), tail = 0, all = 0;
+    for (size_t k = 0; k <= most; ++k) {
+        all += ways[k];
+        tail += (double)k <= low ? ways[k] : 0;
+    }
+    return fmin(1, 2 * tail / all);
+}
+
+static double normal_p(double statistic, double mean, double variance)
+{
+    double distance = fmax(0, fabs(statistic - mean) - 0.5);
+    return variance > 0 ? 2 * gsl_cdf_ugaussian_Q(distance / sqrt(variance)) : 1;
+}
+
+double mote_statistics_wilcoxon(const double *differences, size_t count, double *work)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (differences[i] < 0 || differences[i] > 0)
+            work[left++] = fabs(differences[i]);
+    }
+    if (left == 0)
+        return MOTE_NONE;
+    double *ranks = work + count;
+    mote_statistics_sort(work, left);
+    double ties = rank_sorted(work, left, ranks), positive = 0, n = (double)left;
+    for (size_t i = 0; i < count; ++i) {
+        if (differences[i] > 0)
+            positive += find_rank(work, ranks, left, differences[i]);
+    }
+    if (left > EXACT_VALUES || ties > 0)
+        return normal_p(positive, n * (n + 1) / 4, n * (n + 1) * (2 * n + 1) / 24 - ties / 48);
+    /* Every set of ranks 1 .. left is equally likely to be the positive one. */
+    double ways[EXACT_VALUES * (EXACT_VALUES + 1) / 2 + 1] = {1};
+    size_t most = left * (left + 1) / 2;
+    for (size_t rank = 1; rank <= left; ++rank) {
+        for (size_t sum = most; sum >= rank; --sum)
+            ways[sum] += ways[sum - rank];
+    }
+    return exact_p(ways, most, positive);
+}
+
+/* Ways to get each value of Mann and Whitney's U: the coefficients of a Gaussian binomial. */
+static void count_u(size_t a_count, size_t b_count, double *ways)
+{
+    size_t most = a_count * b_count;
+    for (size_t k = 1; k <= most; ++k)
+        ways[k] = 0;
+    ways[0] = 1;
+    for (size_t i = 1; i <= a_count; ++i) {
+        for (size_t k = most; k >= b_count + i; --k)
+            ways[k] -= ways[k - b_count - i];
+        for (size_t k = i; k <= most; ++k)
+            ways[k] += ways[k - i];
+    }
+}
+
+double mote_statistics_mann_whitney(const double *a, size_t a_count, const double *b,
+                                    size_t b_count, double *work)
+{
+    size_t count = a_count + b_count;
+    if (a_count == 0 || b_count == 0)
+        return MOTE_NONE;
+    memcpy(work, a, a_count * sizeof *work);
+    memcpy(work + a_count, b, b_count * sizeof *work);
+    mote_statistics_sort(work, count);
+    double *ranks = work + count;
+    double ties = rank_sorted(work, count, ranks), sum = 0;
+    for (size_t i = 0; i < a_count; ++i)
+        sum += find_rank(work, ranks, count, a[i]);
+    double m = (double)a_count, n = (double)b_count, all = (double)count;
+    double u = sum - m * (m + 1) / 2;
+    if (count > EXACT_VALUES || ties > 0)
+        return normal_p(u, m * n / 2, m * n / 12 * (all + 1 - ties / (all * (all - 1))));
+    double ways[EXACT_VALUES * EXACT_VALUES / 4 + 1];
+    count_u(a_count, b_count, ways);
+    return exact_p(ways, a_count * b_count, u);
+}
+
+void mote_statistics_holm(double *p, size_t count, double *work)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (p[i] == p[i])
+            work[known++] = p[i];
+    }
+    mote_statistics_sort(work, known);
+    for (size_t i = 0; i < count; ++i) {
+        double corrected = 0;
+        for (size_t k = 0; k < known && work[k] <= p[i]; ++k)
+            corrected = fmax(corrected, fmin(1, (double)(known - k) * work[k]));
+        p[i] = p[i] == p[i] ? corrected : p[i];
+    }
+}
+
+size_t mote_statistics_outliers(const double *sorted, size_t count)
+{
+    double low = mote_statistics_quantile(sorted, count, 0.25);
+    double high = mote_statistics_quantile(sorted, count, 0.75);
+    double fence = 1.5 * (high - low);
+    size_t outside = 0;
+    for (size_t i = 0; i < count; ++i)
+        outside += sorted[i] < low - fence || sorted[i] > high + fence ? 1 : 0;
+    return outside;
+}
+
+mote_difference mote_statistics_welch(const double *a, size_t a_count, const double *b,
+                                      size_t b_count)
+{
+    mote_difference none = {MOTE_NONE, {MOTE_NONE, MOTE_NONE}, MOTE_NONE};
+    if (a_count == 0 || b_count == 0)
+        return none;
+    mote_difference found = none;
+    found.value = mote_statistics_mean(b, b_count) - mote_statistics_mean(a, a_count);
+    if (a_count < 2 || b_count < 2)
+        return found;
+    double va = gsl_stats_variance(a, 1, a_count) / (double)a_count;
+    double vb = gsl_stats_variance(b, 1, b_count) / (double)b_count;
+    double error = sqrt(va + vb);
+    if (!(error > 0)) {
+        found.interval.low = found.interval.high = found.value;
+        found.p = found.value < 0 || found.value > 0 ? 0 : 1;
+        return found;
+    }
+    double freedom = (va + vb) * (va + vb) /
+                     (va * va / (double)(a_count - 1) + vb * vb / (double)(b_count - 1));
+    double half = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
+    found.interval.low = found.value - half;
+    found.interval.high = found.value + half;
+    found.p = 2 * gsl_cdf_tdist_Q(fabs(found.value) / error, freedom);
+    return found;
+}
+
+/* Bisquare regression of log y on log x with an intercept. */
+static int fit_logarithms(const double *x, const double *y, size_t count, double *slope,
+                          double *error)
+{
+    gsl_matrix *design = gsl_matrix_alloc(count, 2);
+    gsl_vector *values = gsl_vector_alloc(count), *fitted = gsl_vector_alloc(2);
+    gsl_matrix *covariance = gsl_matrix_alloc(2, 2);
+    gsl_multifit_robust_workspace *work =
+        gsl_multifit_robust_alloc(gsl_multifit_robust_bisquare, count, 2);
+    int status = GSL_ENOMEM;
+    if (design && values && fitted && covariance && work) {
+        for (size_t i = 0; i < count; ++i) {
+            gsl_matrix_set(design, i, 0, 1);
+            gsl_matrix_set(design, i, 1, log(x[i]));
+            gsl_vector_set(values, i, log(y[i]));
+        }
+        status = gsl_multifit_robust(design, values, fitted, covariance, work);
+        *slope = gsl_vector_get(fitted, 1);
+        *error = sqrt(gsl_matrix_get(covariance, 1, 1));
+    }
+    gsl_multifit_robust_free(work);
+    gsl_matrix_free(covariance);
+    gsl_vector_free(fitted);
+    gsl_vector_free(values);
+    gsl_matrix_free(design);
+    return status;
+}
+
+mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
+                                     double *exponent, mote_confidence *interval)
+{
+    mote_confidence none = {MOTE_NONE, MOTE_NONE};
+    bool spread = false;
+    for (size_t i = 1; i < count; ++i)
+        spread = spread || x[i] < x[0] || x[i] > x[0];
+    *exponent = MOTE_NONE;
+    *interval = none;
+    if (count < 4 || !spread)
+        return MOTE_OK;
+    (void)gsl_set_error_handler_off();
+    double slope = 0, error = 0;
+    int status = fit_logarithms(x, y, count, &slope, &error);
+    if (status != GSL_SUCCESS)
+        return mote_fail(MOTE_ENUMERIC, "no exponent: %s", gsl_strerror(status));
+    double half = gsl_cdf_tdist_Pinv(0.975, (double)(count - 2)) * error;
+    *exponent = slope;
+    interval->low = slope - half;
+    interval->high = slope + half;
+    return MOTE_OK;
+}
+
+const char *const mote_verdict_names[] = {"same", "faster", "slower", "undecided"};
+
+mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double floor)
+{
+    double most = 1 + floor, least = 1 / most;
+    if (interval.low > 1 && ratio > most)
+        return MOTE_VERDICT_SLOWER;
+    if (interval.high < 1 && ratio < least)
+        return MOTE_VERDICT_FASTER;
+    if (interval.low >= least && interval.high <= most)
+        return MOTE_VERDICT_SAME;
+    return MOTE_VERDICT_UNDECIDED;
 }

@@ -52,4 +52,57 @@ mote_status mote_statistics_median_interval(const mote_replicate *replicates, si
                                             bool logarithmic, uint64_t seed,
                                             mote_confidence *interval);
 
+/* Median of the absolute distances to the median, times 1.4826: a standard deviation for normal
+   values. values are reordered. */
+double mote_statistics_mad(double *values, size_t count);
+
+/* Interval of the median without any assumption but independence: order statistics by the sign
+   test, at least 95 %. sorted ascending; MOTE_NONE below six values. */
+mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count);
+
+/* Two-sided p of Wilcoxon's signed-rank test that differences have median 0. Zeros are left
+   out; exact for at most 50 different sizes, else normal with corrections for ties and
+   continuity. MOTE_NONE when nothing is left; work holds 2 * count doubles. */
+double mote_statistics_wilcoxon(const double *differences, size_t count, double *work);
+
+/* Two-sided p of Mann and Whitney's test that a and b have one distribution. Exact for at most
+   50 values in all, all different, else normal with corrections for ties and continuity. work
+   holds 2 * (a_count + b_count) doubles. */
+double mote_statistics_mann_whitney(const double *a, size_t a_count, const double *b,
+                                    size_t b_count, double *work);
+
+/* Corrects p-values of one table by Holm's method, in place; those that are MOTE_NONE stay and
+   do not count. work holds count doubles. */
+void mote_statistics_holm(double *p, size_t count, double *work);
+
+/* How many values lie outside Tukey's fences: 1.5 quartile distances beyond the quartiles. */
+size_t mote_statistics_outliers(const double *sorted, size_t count);
+
+/* The difference of two means by Welch's unequal variances. Fewer than two values on a side:
+   interval and p are MOTE_NONE. */
+typedef struct mote_difference {
+    double value; /* mean of b minus mean of a */
+    mote_confidence interval;
+    double p; /* two-sided, of no difference */
+} mote_difference;
+mote_difference mote_statistics_welch(const double *a, size_t a_count, const double *b,
+                                      size_t b_count);
+
+/* The exponent e of y ~ x^e, by robust (bisquare) regression of the logarithms, with its 95 %
+   interval. x, y > 0; fewer than four points or one x only: MOTE_NONE. MOTE_ENUMERIC when the
+   fit does not converge. */
+mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
+                                     double *exponent, mote_confidence *interval);
+
+/* What a ratio of times new / old says, given its interval and the smallest effect that counts
+   (floor: 0.02 for 2 %). */
+typedef enum mote_verdict {
+    MOTE_VERDICT_SAME,     /* the interval lies within 1 / (1 + floor) .. 1 + floor */
+    MOTE_VERDICT_FASTER,   /* the interval lies below 1, the ratio below 1 / (1 + floor) */
+    MOTE_VERDICT_SLOWER,   /* likewise above */
+    MOTE_VERDICT_UNDECIDED /* anything else, or no interval */
+} mote_verdict;
+extern const char *const mote_verdict_names[]; /* "same", "faster", "slower", "undecided" */
+mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double floor);
+
 #endif
