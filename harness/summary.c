@@ -9,7 +9,7 @@
 void mote_summary_free(mote_summary *summary)
 {
     for (size_t i = 0; i < summary->count; ++i)
-        free(summary->rows[i].label);
+        mote_summary_row_free(&summary->rows[i]);
     free(summary->rows);
     mote_stored_free(&summary->stored);
     mote_summary none = {0};
@@ -83,6 +83,8 @@ static mote_status take_ratios(mote_summary *summary)
         status = take_ratio(summary, row, reference, MOTE_PART_TOTAL, &row->ratio);
         if (status == MOTE_OK)
             status = take_ratio(summary, row, reference, MOTE_PART_GIVEN, &row->ratio_given);
+        if (status == MOTE_OK && reference != SIZE_MAX)
+            status = mote_summary_process_ratios(row, &summary->rows[reference]);
         if (status == MOTE_OK)
             status = take_ratio(summary, row, find_best_fcl(summary, row), MOTE_PART_TOTAL,
                                 &row->ratio_best);
@@ -120,6 +122,7 @@ mote_status mote_summary_make(const char *directory, mote_summary *summary)
         qsort(made.rows, made.count, sizeof *made.rows, by_place);
     if (status == MOTE_OK)
         status = take_ratios(&made);
+    made.noise_floor = mote_summary_noise_floor(made.rows, made.count);
     if (status == MOTE_OK)
         *summary = made;
     else
@@ -173,6 +176,36 @@ static json_t *counters_json(const mote_summary_row *row)
     return object;
 }
 
+/* What comparisons with another run are made from. */
+static json_t *processes_json(const mote_summary_row *row)
+{
+    json_t *processes = json_array();
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (cell->status != MOTE_CELL_OK)
+            continue;
+        json_t *counts = json_object();
+        for (int k = 0; k < MOTE_STORED_COUNTS; ++k)
+            (void)json_object_set_new(counts, mote_stored_count_names[k],
+                                      json_real(cell->counts[k].sum));
+        (void)json_array_append_new(
+            processes,
+            json_pack("{s:i, s:o, s:o, s:o}", "replicate", (int)cell->replicate, "median_ns",
+                      mote_json_number(row->processes[r].median), "ratio",
+                      mote_json_number(row->processes[r].ratio), "counters", counts));
+    }
+    return processes;
+}
+
+/* Heap over the vertices of both bodies. */
+static json_t *bytes_per_vertex(const mote_summary_row *row)
+{
+    const json_t *vertices = json_object_get(row->first->json, "vertices");
+    double count = json_number_value(json_array_get(vertices, 0)) +
+                   json_number_value(json_array_get(vertices, 1));
+    return count > 0 ? mote_json_number(row->heap_live_bytes / count) : json_null();
+}
+
 static json_t *integer_or_null(double value)
 {
     return value == value ? json_integer((json_int_t)value) : json_null();
@@ -181,14 +214,15 @@ static json_t *integer_or_null(double value)
 static json_t *row_json(const mote_summary *summary, const mote_summary_row *row)
 {
     const json_t *cell = row->first->json;
-    json_t *object = json_pack(
-        "{s:s, s:s, s:s, s:O, s:O, s:O, s:s, s:i, s:O, s:i, s:i, s:s}", "scenario",
-        row->first->scenario, "method", row->first->method, "label", row->label, "parameters",
-        row->first->parameters, "triangles", json_object_get(cell, "triangles"), "vertices",
-        json_object_get(cell, "vertices"), "cache", row->first->cache, "stride",
-        (int)row->first->stride, "seed", json_object_get(cell, "seed"), "frames",
-        (int)row->frames, "replicates", (int)row->finished, "status",
-        mote_cell_status_names[row->status]);
+    json_t *object =
+        json_pack("{s:s, s:s, s:s, s:s, s:O, s:O, s:O, s:s, s:i, s:O, s:i, s:i, s:s}",
+                  "scenario", row->first->scenario, "fingerprint", row->first->fingerprint,
+                  "method", row->first->method, "label", row->label, "parameters",
+                  row->first->parameters, "triangles", json_object_get(cell, "triangles"),
+                  "vertices", json_object_get(cell, "vertices"), "cache", row->first->cache,
+                  "stride", (int)row->first->stride, "seed", json_object_get(cell, "seed"),
+                  "frames", (int)row->frames, "replicates", (int)row->finished, "status",
+                  mote_cell_status_names[row->status]);
     if (!object)
         return NULL;
     json_t *reason = json_object_get(cell, "reason");
@@ -207,7 +241,9 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
     (void)json_object_set_new(object, "heap_live_bytes", integer_or_null(row->heap_live_bytes));
     (void)json_object_set_new(object, "heap_peak_bytes", integer_or_null(row->heap_peak_bytes));
     (void)json_object_set_new(object, "rss_peak_bytes", integer_or_null(row->rss_peak_bytes));
+    (void)json_object_set_new(object, "heap_bytes_per_vertex", bytes_per_vertex(row));
     (void)json_object_set_new(object, "counters", counters_json(row));
+    (void)json_object_set_new(object, "processes", processes_json(row));
     return object;
 }
 
@@ -222,8 +258,9 @@ json_t *mote_summary_json(const mote_summary *summary)
     }
     if (!rows)
         return NULL;
-    return json_pack("{s:i, s:i, s:o}", "schema", 1, "cells_left_out",
-                     (int)summary->stored.left_out, "rows", rows);
+    return json_pack("{s:i, s:i, s:o, s:o}", "schema", 1, "cells_left_out",
+                     (int)summary->stored.left_out, "noise_floor",
+                     mote_json_number(summary->noise_floor), "rows", rows);
 }
 
 mote_status mote_summary_write(const mote_summary *summary, const char *directory)

@@ -19,6 +19,12 @@ typedef struct mote_ratio {
     double value, low, high;
 } mote_ratio;
 
+/* One process of a row, in the order of its cells; MOTE_NONE where it did not end well. */
+typedef struct mote_process {
+    double median; /* of the total, nanoseconds */
+    double ratio;  /* paired median of (reference's total / this total), as in row.ratio */
+} mote_process;
+
 /* Errors are in L; MOTE_NONE where no frame has an answer. */
 typedef struct mote_error_summary {
     double median, p95, p99, max; /* of the absolute error */
@@ -48,6 +54,7 @@ typedef struct mote_summary_row {
     char *label;                   /* "particle-paper:n=5": parameters that are not default */
     double n;                      /* the parameter n, or MOTE_NONE */
     size_t frames;                 /* of one replicate */
+    mote_process *processes;       /* [replicates] */
 #define MOTE_TIME_FIELD(name, key) mote_time name;
     MOTE_TIMES(MOTE_TIME_FIELD)
 #undef MOTE_TIME_FIELD
@@ -63,11 +70,17 @@ typedef struct mote_summary {
     mote_stored stored;
     mote_summary_row *rows; /* by scenario, caches, method, n */
     size_t count;
+    double noise_floor; /* see mote_summary_noise_floor */
 } mote_summary;
 
 /* Reads a run directory and computes its rows. The caller frees *summary. */
 mote_status mote_summary_make(const char *directory, mote_summary *summary);
 void mote_summary_free(mote_summary *summary);
+
+/* How much a row's processes differ from each other when nothing changed: replicates with odd
+   numbers against those with even numbers, as a share (0.03: 3 %), exceeded by one row in ten.
+   MOTE_NONE when no row has two replicates. Part of mote_summary_make. */
+double mote_summary_noise_floor(const mote_summary_row *rows, size_t count);
 
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);

@@ -248,6 +248,34 @@ static char *make_label(const mote_stored_cell *cell)
     return text.data;
 }
 
+static mote_status make_processes(mote_summary_row *row)
+{
+    size_t most = 0;
+    for (size_t r = 0; r < row->replicates; ++r)
+        most = row->cells[r].frames > most ? row->cells[r].frames : most;
+    double *work = malloc((most + 1) * sizeof *work);
+    row->processes = calloc(row->replicates, sizeof *row->processes);
+    if (!work || !row->processes) {
+        free(work);
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", most);
+    }
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (cell->frames > 0)
+            memcpy(work, cell->total_ns, cell->frames * sizeof *work);
+        row->processes[r].median = mote_statistics_median(work, cell->frames);
+        row->processes[r].ratio = MOTE_NONE;
+    }
+    free(work);
+    return MOTE_OK;
+}
+
+void mote_summary_row_free(mote_summary_row *row)
+{
+    free(row->label);
+    free(row->processes);
+}
+
 static const mote_ratio no_ratio = {SIZE_MAX, MOTE_NONE, MOTE_NONE, MOTE_NONE};
 
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
@@ -273,13 +301,15 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
     made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
     count_contacts(&made);
-    mote_status status = make_times(&made);
+    mote_status status = make_processes(&made);
+    if (status == MOTE_OK)
+        status = make_times(&made);
     if (status == MOTE_OK)
         status = make_error(&made, &made.error);
     if (status == MOTE_OK)
         *row = made;
     else
-        free(made.label);
+        mote_summary_row_free(&made);
     return status;
 }
 
@@ -346,4 +376,58 @@ mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_r
     }
     free_slice(&s);
     return status;
+}
+
+mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other)
+{
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *mine = &row->cells[r];
+        const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
+        if (!ran(mine) || !theirs)
+            continue;
+        double *ratios = malloc(mine->frames * sizeof *ratios);
+        if (!ratios)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu ratios", mine->frames);
+        size_t count = pair_frames(mine, theirs, total_of, ratios);
+        row->processes[r].ratio = mote_statistics_median(ratios, count);
+        free(ratios);
+    }
+    return MOTE_OK;
+}
+
+/* The difference of a row's odd and even replicates, as a share; MOTE_NONE with one of them
+ * only.
+ */
+static double halves_differ(const mote_summary_row *row)
+{
+    double sum[2] = {0, 0}, count[2] = {0, 0};
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_process *process = &row->processes[r];
+        double value = process->ratio == process->ratio ? process->ratio : process->median;
+        if (!(value > 0))
+            continue;
+        int half = row->cells[r].replicate % 2 ? 1 : 0;
+        sum[half] += log(value);
+        count[half] += 1;
+    }
+    if (count[0] < 1 || count[1] < 1)
+        return MOTE_NONE;
+    return exp(fabs(sum[0] / count[0] - sum[1] / count[1])) - 1;
+}
+
+double mote_summary_noise_floor(const mote_summary_row *rows, size_t count)
+{
+    double *shares = malloc((count + 1) * sizeof *shares);
+    size_t known = 0;
+    for (size_t i = 0; shares && i < count; ++i) {
+        bool reference = rows[i].ratio.to == i; /* always 1 to itself */
+        double share = reference ? MOTE_NONE : halves_differ(&rows[i]);
+        if (share == share)
+            shares[known++] = share;
+    }
+    if (known > 0)
+        mote_statistics_sort(shares, known);
+    double floor = known > 0 ? mote_statistics_quantile(shares, known, 0.9) : MOTE_NONE;
+    free(shares);
+    return floor;
 }
