@@ -34,6 +34,8 @@ typedef enum mote_exit {
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \
+    X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \
+      "whether a run is worse than another: exit 0 no, 1 yes, 3 undecided")                    \
     X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \

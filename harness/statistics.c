@@ -51,6 +51,17 @@ mote_confidence mote_statistics_t_interval(const double *values, size_t count)
     return interval;
 }
 
+double mote_statistics_t_test(const double *values, size_t count)
+{
+    if (count < 2)
+        return MOTE_NONE;
+    double mean = gsl_stats_mean(values, 1, count);
+    double error = gsl_stats_sd_m(values, 1, count, mean) / sqrt((double)count);
+    if (!(error > 0))
+        return mean < 0 || mean > 0 ? 0 : 1;
+    return 2 * gsl_cdf_tdist_Q(fabs(mean) / error, (double)(count - 1));
+}
+
 static size_t longest(const mote_replicate *replicates, size_t count)
 {
     size_t most = 0;

@@ -34,6 +34,9 @@ double mote_statistics_mean(const double *values, size_t count);
 /* Student's t interval of the mean; MOTE_NONE below two values. */
 mote_confidence mote_statistics_t_interval(const double *values, size_t count);
 
+/* Two-sided p of Student's t test that the mean is 0; MOTE_NONE below two values. */
+double mote_statistics_t_test(const double *values, size_t count);
+
 /* One process's frames. */
 typedef struct mote_replicate {
     const double *values;

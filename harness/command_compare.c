@@ -1,0 +1,117 @@
+/* mote compare BASE NEW: is a run better or worse than another? */
+#include "harness/command.h"
+#include "harness/compare.h"
+#include "harness/record.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define DEFAULT_FLOOR 0.02
+
+static void print_table(const mote_comparison *c)
+{
+    int width = 4;
+    for (size_t i = 0; i < c->count; ++i) {
+        int length = c->changes[i].name ? (int)strlen(c->changes[i].name) : 0;
+        width = length > width ? length : width;
+    }
+    (void)printf("time new / base, 95 %% interval, p corrected over %zu rows; an effect counts "
+                 "from %.1f %% on\n",
+                 c->count, 100 * c->floor);
+    for (size_t i = 0; i < c->count; ++i) {
+        const mote_change *change = &c->changes[i];
+        (void)printf("%-*s ", width, change->name ? change->name : "?");
+        if (change->ratio == change->ratio)
+            (void)printf("%6.3f [%5.3f, %5.3f] p %-7.2g %-9s", change->ratio,
+                         change->interval.low, change->interval.high, change->p,
+                         mote_verdict_names[change->verdict]);
+        else
+            (void)printf("%-41s", change->is_reference ? "what times are compared with" : "-");
+        (void)printf(" %s%s%s\n",
+                     change->worse    ? "WORSE "
+                     : change->better ? "better "
+                                      : "",
+                     change->what.size ? ": " : "", change->what.size ? change->what.data : "");
+    }
+    if (c->only_base || c->only_new)
+        (void)printf("without a partner: %zu rows of BASE, %zu of NEW\n", c->only_base,
+                     c->only_new);
+    (void)printf("%s\n", c->worse ? "worse"
+                         : c->undecided
+                             ? "undecided: times vary too much, replicates or rows are missing"
+                             : "same or better");
+}
+
+static json_t *change_json(const mote_change *change)
+{
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:s, s:b, s:b, s:s}", "name",
+                     change->name ? change->name : "", "ratio", mote_json_number(change->ratio),
+                     "ci_low", mote_json_number(change->interval.low), "ci_high",
+                     mote_json_number(change->interval.high), "p", mote_json_number(change->p),
+                     "verdict", mote_verdict_names[change->verdict], "worse", change->worse,
+                     "better", change->better, "what",
+                     change->what.size ? change->what.data : "");
+}
+
+static int print_json(const mote_comparison *c)
+{
+    json_t *rows = json_array();
+    for (size_t i = 0; rows && i < c->count; ++i)
+        (void)json_array_append_new(rows, change_json(&c->changes[i]));
+    json_t *object = json_pack("{s:i, s:s, s:f, s:i, s:i, s:o}", "schema", 1, "verdict",
+                               c->worse       ? "worse"
+                               : c->undecided ? "undecided"
+                                              : "same-or-better",
+                               "floor", c->floor, "only_base", (int)c->only_base, "only_new",
+                               (int)c->only_new, "rows", rows);
+    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(object);
+    if (!text) {
+        (void)mote_fail(MOTE_ENOMEM, "no memory for the comparison");
+        return mote_command_fail();
+    }
+    (void)printf("%s\n", text);
+    free(text);
+    return MOTE_EXIT_DONE;
+}
+
+int mote_command_compare(int argc, char **argv)
+{
+    static const mote_option options[] = {{"format", "table|json"}, {"floor", "SHARE"}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *runs[2] = {NULL, NULL}, *value;
+    size_t count = 0;
+    bool json = false;
+    double floor = DEFAULT_FLOOR;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == 1 && !mote_read_real(value, 0, 10, &floor))
+            return mote_command_usage(argv[0], "--floor %s: expected a share, 0.05 for 5 %%",
+                                      value);
+        if (option == 0 && strcmp(value, "table") != 0 && strcmp(value, "json") != 0)
+            return mote_command_usage(argv[0], "--format %s: choose table or json", value);
+        if (option == 0)
+            json = strcmp(value, "json") == 0;
+        if (option == MOTE_OPTION_PLAIN && count == 2)
+            return mote_command_usage(argv[0], "%s: two runs at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            runs[count++] = value;
+    }
+    if (count < 2)
+        return mote_command_usage(argv[0],
+                                  "two runs are needed; write `mote compare BASE NEW`");
+    mote_comparison c;
+    if (mote_compare(runs[0], runs[1], floor, &c) != MOTE_OK)
+        return mote_command_fail();
+    int code = c.worse       ? MOTE_EXIT_CHECK_FAILED
+               : c.undecided ? MOTE_EXIT_UNDECIDED
+                             : MOTE_EXIT_DONE;
+    if (json)
+        code = print_json(&c) == MOTE_EXIT_DONE ? code : MOTE_EXIT_BAD_INPUT;
+    else
+        print_table(&c);
+    mote_comparison_free(&c);
+    return mote_command_finish(code);
+}

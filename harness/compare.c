@@ -1,0 +1,313 @@
+#include "harness/compare.h"
+
+#include "harness/record.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Counts, errors and rates are equal when they differ by less than this share. */
+#define EXACT_SHARE 1e-9
+/* Heap may grow by this share: the allocator rounds. */
+#define BYTES_SHARE 0.01
+#define SIGNIFICANT 0.05
+/* At most this many replicates are paired. */
+#define PAIRS_MAX 1000
+
+void mote_comparison_free(mote_comparison *comparison)
+{
+    for (size_t i = 0; i < comparison->count; ++i) {
+        free(comparison->changes[i].name);
+        free(comparison->changes[i].what.data);
+    }
+    free(comparison->changes);
+    mote_comparison none = {0};
+    *comparison = none;
+}
+
+static mote_status read_summary(const char *path, json_t **summary)
+{
+    struct stat info;
+    bool is_file = stat(path, &info) == 0 && S_ISREG(info.st_mode);
+    char *directory = mote_format("%s", path);
+    char *slash = directory ? strrchr(directory, '/') : NULL;
+    const char *name = "summary.json", *where = directory;
+    if (is_file && slash) {
+        *slash = '\0';
+        name = slash + 1;
+    } else if (is_file) {
+        where = ".";
+        name = path;
+    }
+    mote_status status = directory ? mote_record_read_json(where, name, summary)
+                                   : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    free(directory);
+    if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows"))) {
+        json_decref(*summary);
+        status = mote_fail(MOTE_EINVAL, "%s: no rows; name a run, or its summary.json", path);
+    }
+    return status;
+}
+
+static const char *row_text(const json_t *row, const char *key)
+{
+    const char *text = json_string_value(json_object_get(row, key));
+    return text ? text : "";
+}
+
+static double number_at(const json_t *row, const char *group, const char *key)
+{
+    const json_t *value =
+        group ? json_object_get(json_object_get(row, group), key) : json_object_get(row, key);
+    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
+}
+
+/* Rows are of one configuration when all of this is equal. */
+static bool same_configuration(const json_t *a, const json_t *b)
+{
+    static const char *const keys[] = {"scenario", "fingerprint", "method", "parameters",
+                                       "cache",    "stride",      "seed",   "frames"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        if (!json_equal(json_object_get(a, keys[i]), json_object_get(b, keys[i])))
+            return false;
+    }
+    return true;
+}
+
+static const json_t *find_partner(const json_t *rows, const json_t *row)
+{
+    for (size_t i = 0; i < json_array_size(rows); ++i) {
+        const json_t *other = json_array_get(rows, i);
+        if (same_configuration(row, other))
+            return other;
+    }
+    return NULL;
+}
+
+static const json_t *find_process(const json_t *row, const json_t *replicate)
+{
+    const json_t *processes = json_object_get(row, "processes");
+    for (size_t i = 0; i < json_array_size(processes); ++i) {
+        const json_t *process = json_array_get(processes, i);
+        if (json_equal(json_object_get(process, "replicate"), replicate))
+            return process;
+    }
+    return NULL;
+}
+
+static bool is_reference(const json_t *row)
+{
+    const char *to = row_text(json_object_get(row, "ratio"), "to");
+    return to[0] != '\0' && strcmp(to, row_text(row, "label")) == 0;
+}
+
+/* The logarithm of new / base of one pair of processes: of their time relative to fcl-aabb,
+   which takes out most of what differs between two machines or two hours, or else of their
+   time. */
+static double log_change(const json_t *base, const json_t *fresh)
+{
+    double a = number_at(base, NULL, "ratio"), b = number_at(fresh, NULL, "ratio");
+    if (a > 0 && b > 0)
+        return log(a / b);
+    a = number_at(base, NULL, "median_ns");
+    b = number_at(fresh, NULL, "median_ns");
+    return a > 0 && b > 0 ? log(b / a) : MOTE_NONE;
+}
+
+/* Replicates with one number draw the same random numbers: they are compared in pairs. */
+static void compare_times(const json_t *base, const json_t *fresh, mote_change *change)
+{
+    static double logs[PAIRS_MAX];
+    size_t count = 0;
+    const json_t *processes = json_object_get(base, "processes");
+    for (size_t i = 0; i < json_array_size(processes) && count < PAIRS_MAX; ++i) {
+        const json_t *process = json_array_get(processes, i);
+        const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
+        double value = partner ? log_change(process, partner) : MOTE_NONE;
+        if (value == value)
+            logs[count++] = value;
+    }
+    change->ratio = exp(mote_statistics_mean(logs, count));
+    change->interval = mote_statistics_t_interval(logs, count);
+    change->interval.low = exp(change->interval.low);
+    change->interval.high = exp(change->interval.high);
+    change->p = mote_statistics_t_test(logs, count);
+}
+
+static void say(mote_change *change, const char *name, double base, double fresh)
+{
+    const char *separator = change->what.size ? "; " : "";
+    if (base > 0)
+        mote_text_add(&change->what, "%s%s %.6g to %.6g (%+.2g %%)", separator, name, base,
+                      fresh, 100 * (fresh / base - 1));
+    else
+        mote_text_add(&change->what, "%s%s %.6g to %.6g", separator, name, base, fresh);
+}
+
+/* A figure of which more is worse, equal within a share; says so when it is not. */
+static void compare_figure(mote_change *change, const char *name, double base, double fresh,
+                           double share)
+{
+    double slack = share * fmax(fabs(base), fabs(fresh));
+    bool known = base == base && fresh == fresh;
+    if (!known && (base == base) == (fresh == fresh))
+        return;
+    if (known && fabs(fresh - base) <= slack)
+        return;
+    say(change, name, base, fresh);
+    if (!known || fresh > base)
+        change->worse = true;
+    else
+        change->better = true;
+}
+
+/* The sums of a count over the replicates that both have. */
+static void compare_counts(const json_t *base, const json_t *fresh, mote_change *change)
+{
+    const json_t *processes = json_object_get(base, "processes");
+    json_t *counters = json_object_get(json_array_get(processes, 0), "counters");
+    const char *name;
+    json_t *first;
+    json_object_foreach(counters, name, first)
+    {
+        double sums[2] = {0, 0};
+        for (size_t i = 0; i < json_array_size(processes); ++i) {
+            const json_t *process = json_array_get(processes, i);
+            const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
+            if (!partner)
+                continue;
+            sums[0] += number_at(process, "counters", name);
+            sums[1] += number_at(partner, "counters", name);
+        }
+        compare_figure(change, name, sums[0], sums[1], EXACT_SHARE);
+    }
+}
+
+static void compare_accuracy(const json_t *base, const json_t *fresh, mote_change *change)
+{
+    static const char *const errors[] = {"median", "p99", "max"};
+    for (size_t i = 0; i < sizeof errors / sizeof errors[0]; ++i) {
+        double a = number_at(base, "error", errors[i]),
+               b = number_at(fresh, "error", errors[i]);
+        /* Below 1e-12 L an error is rounding. */
+        if (!(fabs(a) <= 1e-12 && fabs(b) <= 1e-12))
+            compare_figure(change, errors[i], a, b, EXACT_SHARE);
+    }
+    compare_figure(change, "inexact rate", 1 - number_at(base, "error", "exact_rate"),
+                   1 - number_at(fresh, "error", "exact_rate"), EXACT_SHARE);
+    compare_figure(change, "missed", number_at(base, NULL, "missed"),
+                   number_at(fresh, NULL, "missed"), EXACT_SHARE);
+    compare_figure(change, "false contacts", number_at(base, NULL, "false_contacts"),
+                   number_at(fresh, NULL, "false_contacts"), EXACT_SHARE);
+}
+
+static void compare_row(const json_t *base, const json_t *fresh, mote_change *change)
+{
+    change->name = mote_format("%s/%s/%s", row_text(base, "scenario"), row_text(base, "label"),
+                               row_text(base, "cache"));
+    change->is_reference = is_reference(base) && is_reference(fresh);
+    change->ratio = change->interval.low = change->interval.high = change->p = MOTE_NONE;
+    const char *was = row_text(base, "status"), *is = row_text(fresh, "status");
+    if (strcmp(was, is) != 0) {
+        mote_text_add(&change->what, "status %s to %s", was, is);
+        change->worse = strcmp(was, "ok") == 0;
+        change->better = strcmp(is, "ok") == 0;
+        return;
+    }
+    if (strcmp(is, "ok") != 0)
+        return;
+    if (!change->is_reference)
+        compare_times(base, fresh, change);
+    compare_counts(base, fresh, change);
+    compare_figure(change, "heap", number_at(base, NULL, "heap_live_bytes"),
+                   number_at(fresh, NULL, "heap_live_bytes"), BYTES_SHARE);
+    compare_figure(change, "heap peak", number_at(base, NULL, "heap_peak_bytes"),
+                   number_at(fresh, NULL, "heap_peak_bytes"), BYTES_SHARE);
+    compare_accuracy(base, fresh, change);
+}
+
+/* Corrects p over all rows, and says of each what its time means. */
+static mote_status judge(mote_comparison *c)
+{
+    double *p = malloc((2 * c->count + 1) * sizeof *p);
+    if (!p)
+        return mote_fail(MOTE_ENOMEM, "no memory for a comparison");
+    for (size_t i = 0; i < c->count; ++i)
+        p[i] = c->changes[i].p;
+    mote_statistics_holm(p, c->count, p + c->count);
+    for (size_t i = 0; i < c->count; ++i) {
+        mote_change *change = &c->changes[i];
+        change->p = p[i];
+        change->verdict = mote_statistics_verdict(change->ratio, change->interval, c->floor);
+        bool moved =
+            change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER;
+        if (moved && !(change->p < SIGNIFICANT))
+            change->verdict = MOTE_VERDICT_UNDECIDED;
+        bool counted = change->what.size > 0;
+        if (change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER)
+            mote_text_add(&change->what, "%s",
+                          counted ? "; the time changed" : "cost per count changed");
+        change->worse = change->worse || change->verdict == MOTE_VERDICT_SLOWER;
+        change->better =
+            !change->worse && (change->better || change->verdict == MOTE_VERDICT_FASTER);
+        bool timed = change->ratio == change->ratio;
+        c->worse = c->worse || change->worse;
+        c->undecided = c->undecided || (timed && change->verdict == MOTE_VERDICT_UNDECIDED);
+    }
+    free(p);
+    return MOTE_OK;
+}
+
+static double raised_floor(double floor, const json_t *base, const json_t *fresh)
+{
+    double noise[2] = {number_at(base, NULL, "noise_floor"),
+                       number_at(fresh, NULL, "noise_floor")};
+    for (int i = 0; i < 2; ++i)
+        floor = noise[i] > floor ? noise[i] : floor;
+    return floor;
+}
+
+static mote_status compare_rows(const json_t *base, const json_t *fresh, mote_comparison *c)
+{
+    const json_t *base_rows = json_object_get(base, "rows");
+    const json_t *new_rows = json_object_get(fresh, "rows");
+    c->changes = calloc(json_array_size(base_rows) + 1, sizeof *c->changes);
+    if (!c->changes)
+        return mote_fail(MOTE_ENOMEM, "no memory for a comparison");
+    for (size_t i = 0; i < json_array_size(base_rows); ++i) {
+        const json_t *row = json_array_get(base_rows, i);
+        const json_t *partner = find_partner(new_rows, row);
+        if (partner)
+            compare_row(row, partner, &c->changes[c->count++]);
+        else
+            ++c->only_base;
+    }
+    c->only_new = json_array_size(new_rows) - c->count;
+    c->undecided = c->only_base > 0; /* nothing says how they fare now */
+    if (c->count == 0)
+        return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
+                                      "runs of the same scenarios, methods, frames and seed");
+    return judge(c);
+}
+
+mote_status mote_compare(const char *base, const char *new_run, double floor,
+                         mote_comparison *comparison)
+{
+    json_t *summaries[2] = {NULL, NULL};
+    mote_comparison c = {0};
+    mote_status status = read_summary(base, &summaries[0]);
+    if (status == MOTE_OK) {
+        status = read_summary(new_run, &summaries[1]);
+        if (status == MOTE_OK) {
+            c.floor = raised_floor(floor, summaries[0], summaries[1]);
+            status = compare_rows(summaries[0], summaries[1], &c);
+            json_decref(summaries[1]);
+        }
+        json_decref(summaries[0]);
+    }
+    if (status == MOTE_OK)
+        *comparison = c;
+    else
+        mote_comparison_free(&c);
+    return status;
+}

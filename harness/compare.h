@@ -1,0 +1,39 @@
+/* Two runs compared, from their summary.json alone: counts, bytes and accuracy as they are,
+   times as ratios with intervals. */
+#ifndef MOTE_HARNESS_COMPARE_H
+#define MOTE_HARNESS_COMPARE_H
+
+#include "harness/file.h"
+#include "harness/statistics.h"
+
+#include <jansson.h>
+
+/* A row that both runs have. */
+typedef struct mote_change {
+    char *name;   /* "ww/particle-paper:n=5/hot" */
+    double ratio; /* time new / base; relative to fcl-aabb within each run where both have it */
+    mote_confidence interval; /* of the ratio: t over pairs of replicates */
+    double p;                 /* of no change, corrected by Holm over all rows */
+    mote_verdict verdict;     /* of the time, at p < 0.05 and an effect above the floor */
+    bool is_reference;        /* fcl-aabb itself: its time says nothing about us */
+    bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
+    bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
+    mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
+} mote_change;
+
+typedef struct mote_comparison {
+    mote_change *changes;
+    size_t count;
+    double floor;               /* the smallest effect on time that counts, a share */
+    size_t only_base, only_new; /* rows without a partner */
+    bool worse, undecided;      /* any row */
+} mote_comparison;
+
+/* Compares directories (or summary.json files). floor: a share, at least; the noise floors of
+   both runs raise it. MOTE_EIO or MOTE_EINVAL when a summary cannot be read; MOTE_EINVAL when
+   they have no row in common. The caller frees *comparison. */
+mote_status mote_compare(const char *base, const char *new_run, double floor,
+                         mote_comparison *comparison);
+void mote_comparison_free(mote_comparison *comparison);
+
+#endif
