@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* phi of one group of MOTE_LANES centres. */
 MOTE_INLINE void evaluate_lanes(const mote_field *field, uint32_t first, mote_vec3 p,
@@ -88,6 +89,70 @@ static void csrbf_displacement_single(const mote_field *field, const mote_mesh *
     displacement[2] = mote_lane_sum_single(z);
 }
 
+/* One lane of the sums of MOTE_LANES vertices: the functions that share j % MOTE_LANES. A
+   function that is left out would have added +0 or -0 to a lane that is never -0, so that the
+   bits are those of csrbf_displacement. Returns how many functions it took. */
+MOTE_INLINE size_t group_lane(const mote_field *field, double p[3][MOTE_LANES],
+                              const uint8_t *functions, size_t count,
+                              const mote_weights *weights, double lane[3][MOTE_LANES])
+{
+    const double inverse = 1 / field->support;
+    const uint8_t first = functions[0];
+    double x[MOTE_LANES] = {0};
+    double y[MOTE_LANES] = {0};
+    double z[MOTE_LANES] = {0};
+    size_t used = 0;
+    for (; used < count && functions[used] % MOTE_LANES == first % MOTE_LANES; ++used) {
+        const size_t j = functions[used];
+        const double cx = field->centre_x[j];
+        const double cy = field->centre_y[j];
+        const double cz = field->centre_z[j];
+        const double wx = weights->x[j];
+        const double wy = weights->y[j];
+        const double wz = weights->z[j];
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v) {
+            const double dx = (p[0][v] - cx) * inverse;
+            const double dy = (p[1][v] - cy) * inverse;
+            const double dz = (p[2][v] - cz) * inverse;
+            const double phi = mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
+            x[v] += phi * wx;
+            y[v] += phi * wy;
+            z[v] += phi * wz;
+        }
+    }
+    memcpy(lane[0], x, sizeof x);
+    memcpy(lane[1], y, sizeof y);
+    memcpy(lane[2], z, sizeof z);
+    return used;
+}
+
+MOTE_CLONES
+static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
+                        const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
+                        size_t count, const mote_weights *weights,
+                        double displacement[3][MOTE_LANES])
+{
+    double p[3][MOTE_LANES];
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        const mote_vec3 x = mesh->positions[vertices[v]];
+        p[0][v] = x.x;
+        p[1][v] = x.y;
+        p[2][v] = x.z;
+    }
+    double lane[MOTE_LANES][3][MOTE_LANES] = {{{0}}};
+    for (size_t used = 0; used < count;)
+        used += group_lane(field, p, functions + used, count - used, weights,
+                           lane[functions[used] % MOTE_LANES]);
+    for (size_t c = 0; c < 3; ++c) {
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            displacement[c][v] =
+                ((lane[0][c][v] + lane[4][c][v]) + (lane[2][c][v] + lane[6][c][v])) +
+                ((lane[1][c][v] + lane[5][c][v]) + (lane[3][c][v] + lane[7][c][v]));
+    }
+}
+
 /* With s = |x - c| / support: d phi / dx = -20 (1 - s)^3 (x - c) / support^2, smooth at s = 0.
  */
 static void csrbf_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
@@ -118,6 +183,7 @@ static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .basis = csrbf_basis,
                                            .displacement = csrbf_displacement,
                                            .displacement_single = csrbf_displacement_single,
+                                           .group = csrbf_group,
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};
 

@@ -50,6 +50,14 @@ typedef struct mote_field_kind {
     void (*displacement_single)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                                 const mote_weights_single *weights, float displacement[3]);
 
+    /* Displacements of MOTE_LANES rest vertices at once, by coordinate, each equal bit for bit
+       to displacement(). functions[count] lists every basis function that is not 0 at all of
+       them, in the order of the lanes of the sum: by j % MOTE_LANES, then by j. NULL: they are
+       evaluated one by one. */
+    void (*group)(const mote_field *field, const mote_mesh *mesh,
+                  const uint32_t vertices[MOTE_LANES], const uint8_t *functions, size_t count,
+                  const mote_weights *weights, double displacement[3][MOTE_LANES]);
+
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
        the padding. For modes: the least-squares gradient over the one-ring. */
     void (*gradient)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
