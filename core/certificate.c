@@ -1,0 +1,279 @@
+#include "core/certificate.h"
+
+#include "core/certificate_state.h"
+#include "core/triangle.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+mote_certificate_options mote_default_certificate_options(double length)
+{
+    return (mote_certificate_options){.length = length,
+                                      .seed = MOTE_CERT_SEED_WITNESS,
+                                      .budget = UINT64_MAX,
+                                      .width = MOTE_CERT_WIDTH,
+                                      .linear_fits = true,
+                                      .plane = true,
+                                      .directions = true,
+                                      .restarts = 6};
+}
+
+static uint32_t at_most(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Memory for count elements that begins on a cache line; count is at least 1. */
+static void *allocate_aligned(size_t count, size_t size)
+{
+    return aligned_alloc(64, (count * size + 63) / 64 * 64);
+}
+
+/* Rooms for what one query deforms: a query that needs more computes it again instead of
+   allocating. They grow with the mesh up to a size that does not. */
+static mote_status side_create(mote_cert_side *side, const mote_body *body,
+                               const mote_cert_tree_options *options)
+{
+    mote_status status = mote_cert_tree_create(body, options, &side->tree);
+    const uint32_t vertices = body->mesh->vertex_count;
+    const uint32_t expected = at_most(128 + vertices / 16, 2048);
+    if (status == MOTE_OK)
+        status = mote_lazy_init(&side->lazy, body, expected);
+    if (status != MOTE_OK)
+        return status;
+    side->node_room = at_most(side->tree->block_count, 4096);
+    side->point_room = at_most(side->tree->leaf_count, at_most(64 + vertices / 16, 8192));
+    side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
+    side->points = allocate_aligned(side->point_room, sizeof *side->points);
+    if (!side->nodes || !side->points)
+        return mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+    return MOTE_OK;
+}
+
+mote_status mote_certificate_create(const mote_body *const body[2],
+                                    const mote_certificate_options *options,
+                                    mote_certificate **certificate)
+{
+    mote_certificate *c = allocate_aligned(1, sizeof *c);
+    if (!c)
+        return mote_fail(MOTE_ENOMEM, "no memory for a certificate");
+    memset(c, 0, sizeof *c);
+    c->options = *options;
+    const mote_cert_tree_options tree = {.length = options->length,
+                                         .width = options->width,
+                                         .linear_fits = options->linear_fits};
+    mote_status status = side_create(&c->side[0], body[0], &tree);
+    if (status == MOTE_OK)
+        status = side_create(&c->side[1], body[1], &tree);
+    if (status == MOTE_OK) {
+        c->scale = c->side[0].tree->scale;
+        c->spare_room = 2 * (c->side[0].tree->depth + c->side[1].tree->depth);
+        c->spare = allocate_aligned(c->spare_room, sizeof *c->spare);
+        if (!c->spare)
+            status = mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+    }
+    if (status != MOTE_OK) {
+        mote_certificate_destroy(c);
+        return status;
+    }
+    *certificate = c;
+    return MOTE_OK;
+}
+
+void mote_certificate_destroy(mote_certificate *certificate)
+{
+    if (!certificate)
+        return;
+    for (int s = 0; s < 2; ++s) {
+        mote_cert_tree_destroy(certificate->side[s].tree);
+        mote_lazy_free(&certificate->side[s].lazy);
+        free(certificate->side[s].nodes);
+        free(certificate->side[s].points);
+    }
+    free(certificate->spare);
+    free(certificate);
+}
+
+size_t mote_certificate_bytes(const mote_certificate *certificate)
+{
+    size_t bytes = sizeof *certificate + certificate->spare_room * sizeof *certificate->spare;
+    for (int s = 0; s < 2; ++s) {
+        const mote_cert_side *side = &certificate->side[s];
+        bytes += mote_cert_tree_bytes(side->tree) +
+                 (side->lazy.mask + (size_t)1) * sizeof(mote_lazy_slot) +
+                 side->node_room * sizeof *side->nodes +
+                 side->point_room * sizeof *side->points;
+    }
+    return bytes;
+}
+
+/* What has to be proven: that nothing is nearer than the limit. Pairs whose bound is at least
+   the limit are left out, so that the distance is proven to 1e-13 of itself. */
+void mote_cert_set_best(mote_certificate *c, double squared)
+{
+    c->best.squared = squared;
+    c->upper = sqrt(squared);
+    double limit = (c->upper - c->slack) * c->scale * (1 - 1e-13);
+    if (c->enough >= 0) {
+        /* just above the tolerance, so that a pair exactly as far is found */
+        const double enough = c->enough * c->scale * (1 + 1e-13) + c->noise;
+        limit = enough < limit ? enough : limit;
+    }
+    /* Where the bodies all but touch, rounding decides no bound: all pairs that might touch are
+       measured, so that contact is found whatever the query started from. */
+    if (limit > 0 && limit < 8 * c->noise)
+        limit = 8 * c->noise;
+    c->limit = limit;
+    c->need = (float)limit * (1 + 0x1p-22F) + 0x1p-60F;
+    if (!(limit > 0) || c->upper <= c->enough)
+        c->done = true;
+}
+
+/* The refined faces' exact distance: descending stops a few roundings above it, at a point that
+   depends on where it began. */
+static void polish(mote_certificate *c, mote_refined *refined)
+{
+    mote_vec3 t[2][3];
+    for (int s = 0; s < 2; ++s) {
+        for (int k = 0; k < 3; ++k)
+            t[s][k] = mote_lazy_position(&c->side[s].lazy, refined->triangle[s][k]);
+    }
+    mote_vec3 p, q;
+    const double squared = mote_triangle_triangle(t[0], t[1], &p, &q);
+    c->counters.triangle_tests += refined->triangle_tests + 1;
+    if (squared < refined->squared) {
+        refined->squared = squared;
+        refined->witness[0] = p;
+        refined->witness[1] = q;
+    }
+}
+
+/* The first upper bound: from faces that may be near, or found in the trees. */
+static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32_t (*first)[3])
+{
+    mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
+    const double enough = c->enough > 0 ? c->enough * c->enough : 0;
+    for (int s = 0; s < 2; ++s)
+        mote_lazy_begin(lazy[s], &frame->body[s], false);
+    if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
+        first = (const uint32_t(*)[3])c->last;
+    if (!first) {
+        uint32_t vertex[2];
+        const mote_vec3 middle = mote_scale(
+            mote_add(frame->body[0].pose.translation, frame->body[1].pose.translation), 0.5);
+        for (int s = 0; s < 2; ++s)
+            mote_cert_side_begin(&c->side[s], &frame->body[s], middle);
+        mote_cert_descend(c, vertex);
+        mote_refine_vertices(lazy, vertex, enough, &c->best);
+        polish(c, &c->best);
+    } else if (c->options.seed == MOTE_CERT_SEED_PAIR) {
+        c->best = (mote_refined){.squared = HUGE_VAL};
+        for (int s = 0; s < 2; ++s)
+            memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
+        polish(c, &c->best);
+    } else {
+        mote_refine_triangles(lazy, first[0], first[1], enough, &c->best);
+        polish(c, &c->best);
+    }
+}
+
+/* The plane across the gap: nothing of body 0 should reach beyond it by more than threshold 0,
+   nothing of body 1 by more than threshold 1; two thresholds are the limit apart. */
+static void set_plane(mote_certificate *c)
+{
+    const mote_vec3 *w = c->best.witness;
+    const mote_vec3 u = mote_scale(mote_sub(w[1], w[0]), 1 / c->upper);
+    const mote_vec3 facing[2] = {u, mote_scale(u, -1)};
+    const double spare = 0.5 * (c->upper * c->scale - c->limit);
+    for (int s = 0; s < 2; ++s) {
+        const double at = mote_dot(mote_sub(w[s], c->origin), facing[s]) * c->scale;
+        mote_cert_side_face(&c->side[s], facing[s], at + spare);
+    }
+    ++c->generation;
+}
+
+/* Descends from the pair that improved, as far as it goes. */
+static void refine_best(mote_certificate *c)
+{
+    mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
+    const double enough = c->enough > 0 ? c->enough * c->enough : 0;
+    mote_refined refined;
+    mote_refine_triangles(lazy, (const uint32_t *)c->best.triangle[0], c->best.triangle[1],
+                          enough, &refined);
+    polish(c, &refined);
+    ++c->counters.refined;
+    if (refined.squared < c->best.squared) {
+        c->best = refined;
+        mote_cert_set_best(c, refined.squared);
+    }
+}
+
+/* Proves the limit, lowering the upper bound whenever something nearer turns up. */
+static void prove(mote_certificate *c)
+{
+    while (!c->done) {
+        c->open = DBL_MAX;
+        c->proven = true;
+        set_plane(c);
+        if (c->options.plane) {
+            const bool clear0 = mote_cert_plane_pass(c, 0);
+            const bool clear1 = mote_cert_plane_pass(c, 1);
+            if (clear0 && clear1)
+                return;
+        }
+        mote_cert_traverse(c);
+        c->proven = !c->done;
+        if (!c->improved)
+            return;
+        c->improved = c->done = false;
+        ++c->restarts;
+        refine_best(c);
+    }
+}
+
+static void begin(mote_certificate *c, double enough)
+{
+    memset(&c->counters, 0, sizeof c->counters);
+    c->enough = enough;
+    c->slack = c->options.slack * c->options.length;
+    c->restarts = 0;
+    c->done = c->improved = c->stopped = c->proven = false;
+    c->direction_count = 0;
+    c->open = DBL_MAX;
+}
+
+static void write_answer(mote_certificate *c, uint64_t evaluated,
+                         mote_certificate_answer *answer)
+{
+    const double aim = (c->upper - c->slack) * c->scale * (1 - 1e-13);
+    double lower = c->open < c->limit ? c->open : c->limit;
+    lower = lower < aim ? lower : aim;
+    lower = (lower - 3 * c->noise) / c->scale;
+    answer->distance = c->upper;
+    answer->lower = c->proven && lower > 0 ? lower : 0;
+    answer->witness[0] = c->best.witness[0];
+    answer->witness[1] = c->best.witness[1];
+    answer->stopped = c->stopped;
+    answer->counters = c->counters;
+    answer->counters.positions +=
+        c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
+    memcpy(c->last, c->best.triangle, sizeof c->last);
+    c->has_last = true;
+}
+
+void mote_certificate_query(mote_certificate *c, const mote_frame *frame,
+                            const uint32_t (*first)[3], double enough,
+                            mote_certificate_answer *answer)
+{
+    const uint64_t evaluated = c->side[0].lazy.evaluated + c->side[1].lazy.evaluated;
+    begin(c, enough);
+    find_seed(c, frame, first);
+    c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
+    for (int s = 0; s < 2; ++s)
+        mote_cert_side_begin(&c->side[s], &frame->body[s], c->origin);
+    c->noise = 0x1p-48 * (c->side[0].bound + c->side[1].bound);
+    mote_cert_set_best(c, c->best.squared);
+    prove(c);
+    write_answer(c, evaluated, answer);
+}

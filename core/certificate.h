@@ -1,0 +1,73 @@
+/* Certified mode: the exact distance of two deforming bodies, and a proof of it, from two rest
+   trees that are deformed node by node (DESIGN section 5).
+
+   A query keeps an upper bound, the nearest pair of points found, and shows that nothing is
+   nearer: first by a plane across the gap (whatever of A is below it and of B above it is far
+   enough), then by a traversal of both trees for what is not clear of the plane. Everything
+   that decides the answer is computed in double precision from the positions that
+   mote_body_position gives; floats only rule out what is far, by margins that hold. */
+#ifndef MOTE_CORE_CERTIFICATE_H
+#define MOTE_CORE_CERTIFICATE_H
+
+#include "core/method.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mote_certificate mote_certificate;
+
+/* Where a query's first upper bound comes from. */
+typedef enum mote_cert_seed {
+    MOTE_CERT_SEED_NONE,   /* found anew: no state is kept between queries */
+    MOTE_CERT_SEED_PAIR,   /* the last query's pair of faces as it is now */
+    MOTE_CERT_SEED_WITNESS /* the same, refined downhill over the faces around */
+} mote_cert_seed;
+
+typedef struct mote_certificate_options {
+    double length; /* > 0: L of the pair */
+    mote_cert_seed seed;
+    double slack;    /* >= 0: a query stops when upper - lower <= slack * length */
+    uint64_t budget; /* pairs of boxes after which a query stops and returns its bracket */
+    /* What a single step brings is measured by leaving it out: */
+    uint32_t width;    /* children a block: 2, 4 or 8 */
+    bool linear_fits;  /* boxes follow the gradient of the field, not only its mean */
+    bool plane;        /* the plane pass */
+    bool directions;   /* leaf pairs are tested along directions before their triangles */
+    uint32_t restarts; /* at most this many, each after the upper bound improved */
+} mote_certificate_options;
+
+mote_certificate_options mote_default_certificate_options(double length);
+
+/* Builds both trees: O(t log t), about 1 s a million triangles. The bodies are borrowed; a
+   change of their fields or rest meshes needs a new certificate. */
+mote_status mote_certificate_create(const mote_body *const body[2],
+                                    const mote_certificate_options *options,
+                                    mote_certificate **certificate);
+
+/* NULL is allowed. */
+void mote_certificate_destroy(mote_certificate *certificate);
+
+/* Bytes of heap held. */
+size_t mote_certificate_bytes(const mote_certificate *certificate);
+
+typedef struct mote_certificate_answer {
+    double distance;      /* of the witnesses: an upper bound, exact unless stopped early */
+    double lower;         /* proven: 0 <= lower <= distance */
+    mote_vec3 witness[2]; /* world points on the surfaces */
+    bool stopped;         /* by the budget */
+    mote_counters counters;
+} mote_certificate_answer;
+
+/* Answers one frame. first (may be NULL): vertices of a pair of faces to start from, where the
+   caller knows a good one; it changes the time only. enough: a contact question's tolerance, so
+   that the query ends when distance <= enough or lower > enough; negative for the distance. No
+   allocation. */
+void mote_certificate_query(mote_certificate *certificate, const mote_frame *frame,
+                            const uint32_t (*first)[3], double enough,
+                            mote_certificate_answer *answer);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,395 @@
+/* Deforming blocks and leaves on demand.
+
+   Margins. Let u = 2^-24, the relative error of one float operation, and let B (side->bound)
+   bound |t| + |c| + sum |h_k| + sum_j reach_j |w_j| in each coordinate, t being the translation
+   relative to the query's origin: a bound of the sum of the absolute values of all terms of a
+   box's centre, half axes and half width together.
+   - Each of these is a sum of at most n + 4 terms, n the functions that reach the block; a term
+     is a product of two factors, of which one was rounded to float. So every coordinate of a
+     point of the box is wrong by at most (n + 6) u B.
+   - A projection onto a direction of length <= 1 + 6 u adds up at most 9 roundings of terms
+   whose absolute values sum up to at most sqrt(3) B: 16 u B; the difference of two projections
+     rounds once more: 2 u B for each box.
+   - Dividing a gap, at most 2 sqrt(3) B, by a length of 1 + 6 u changes it by 21 u B, half of
+   it for each box. A direction rounded to float shifts a projection by sqrt(3) u B, and so does
+   a threshold. The sum is below (n + 40) u B. To it are added tree->leak, by which rest
+   vertices stick out of boxes whose axes are rounded, and the rounding of the double precision
+   positions themselves, at most 2^-50 of the coordinates' size in the world for each function.
+   The half width grows by this in every coordinate, and so the projection on any direction by
+   at least as much. */
+#include "core/certificate_state.h"
+#include "core/clones.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define WIDTH MOTE_CERT_WIDTH
+#define FLOAT_ROUNDING 0x1p-24
+
+static double largest(mote_vec3 v)
+{
+    const double a = fabs(v.x) > fabs(v.y) ? fabs(v.x) : fabs(v.y);
+    return a > fabs(v.z) ? a : fabs(v.z);
+}
+
+static float rounded_up(double x)
+{
+    return (float)(x * (1 + 0x1p-22));
+}
+
+void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mote_vec3 origin)
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_pose *pose = &state->pose;
+    side->state = state;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+            side->rotation[r][c] = (float)pose->rotation.m[r][c];
+    }
+    const mote_vec3 moved = mote_rotate(&pose->rotation, tree->origin);
+    const mote_vec3 t =
+        mote_scale(mote_add(moved, mote_sub(pose->translation, origin)), tree->scale);
+    side->translation[0] = (float)t.x;
+    side->translation[1] = (float)t.y;
+    side->translation[2] = (float)t.z;
+    mote_vec3 field = {0, 0, 0};
+    const uint32_t functions = tree->body->field->count;
+    for (uint32_t j = 0; j < functions; ++j) {
+        const double scale = tree->scale / tree->basis_scale[j];
+        const mote_vec3 w = {state->weights.x[j] * scale, state->weights.y[j] * scale,
+                             state->weights.z[j] * scale};
+        side->weight[0][j] = (float)w.x;
+        side->weight[1][j] = (float)w.y;
+        side->weight[2][j] = (float)w.z;
+        field.x += fabs(w.x) * tree->reach[j];
+        field.y += fabs(w.y) * tree->reach[j];
+        field.z += fabs(w.z) * tree->reach[j];
+    }
+    side->bound = largest(t) + tree->radius + largest(field);
+    const double world = (largest(pose->translation) + largest(moved)) * tree->scale;
+    const double exact = 0x1p-50 * (functions + 4) * (world + side->bound);
+    side->margin_unit = rounded_up(FLOAT_ROUNDING * side->bound);
+    side->margin_base = rounded_up(40 * FLOAT_ROUNDING * side->bound + tree->leak + exact);
+    side->reach_margin = rounded_up(4 * FLOAT_ROUNDING * side->bound);
+    side->node_count = 0;
+    side->point_count = 0;
+    side->spare.leaf = UINT32_MAX;
+}
+
+void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshold)
+{
+    side->facing = facing;
+    side->facing_f[0] = (float)facing.x;
+    side->facing_f[1] = (float)facing.y;
+    side->facing_f[2] = (float)facing.z;
+    side->threshold = threshold;
+    side->threshold_f = (float)threshold;
+}
+
+MOTE_INLINE uint32_t bits_at_most(const float x[WIDTH], float limit)
+{
+    uint32_t bits = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        bits |= x[l] <= limit ? 1u << l : 0;
+    return bits;
+}
+
+/* Coordinates of all boxes of a node towards the other body. */
+MOTE_INLINE void project(mote_cert_node *restrict node, const float facing[3], float threshold)
+{
+    const float x = facing[0];
+    const float y = facing[1];
+    const float z = facing[2];
+    const float ax = fabsf(x);
+    const float ay = fabsf(y);
+    const float az = fabsf(z);
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const float middle =
+            node->centre[0][l] * x + node->centre[1][l] * y + node->centre[2][l] * z;
+        const float half =
+            fabsf(node->axis[0][0][l] * x + node->axis[0][1][l] * y + node->axis[0][2][l] * z) +
+            fabsf(node->axis[1][0][l] * x + node->axis[1][1][l] * y + node->axis[1][2][l] * z) +
+            fabsf(node->axis[2][0][l] * x + node->axis[2][1][l] * y + node->axis[2][2][l] * z) +
+            (node->width[0][l] * ax + node->width[1][l] * ay + node->width[2][l] * az);
+        node->reach[l] = middle + half;
+        node->extent[l] = 2 * half;
+    }
+    node->clear = bits_at_most(node->reach, threshold);
+}
+
+MOTE_CLONES
+static void project_node(mote_cert_node *restrict node, const float facing[3], float threshold)
+{
+    project(node, facing, threshold);
+}
+
+/* The rigid motion of a block's boxes. */
+MOTE_INLINE void move(const mote_cert_side *restrict side,
+                      const mote_cert_block *restrict block, mote_cert_node *restrict node)
+{
+    const float margin = side->margin_base + side->margin_unit * (float)block->active_count;
+    for (size_t r = 0; r < 3; ++r) {
+        const float a = side->rotation[r][0];
+        const float b = side->rotation[r][1];
+        const float c = side->rotation[r][2];
+        const float t = side->translation[r];
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            node->centre[r][l] =
+                t + a * block->centre[0][l] + b * block->centre[1][l] + c * block->centre[2][l];
+            for (size_t k = 0; k < 3; ++k)
+                node->axis[k][r][l] = a * block->half[k][0][l] + b * block->half[k][1][l] +
+                                      c * block->half[k][2][l];
+            node->width[r][l] = margin;
+        }
+    }
+}
+
+/* Adds what the field does to coordinate r of a block's boxes. */
+MOTE_INLINE void add_field(const mote_cert_row *restrict rows, const uint8_t *restrict active,
+                           size_t count, const float *restrict weight, size_t r,
+                           mote_cert_node *restrict node)
+{
+    float centre[WIDTH], axis0[WIDTH], axis1[WIDTH], axis2[WIDTH], width[WIDTH];
+    memcpy(centre, node->centre[r], sizeof centre);
+    memcpy(axis0, node->axis[0][r], sizeof axis0);
+    memcpy(axis1, node->axis[1][r], sizeof axis1);
+    memcpy(axis2, node->axis[2][r], sizeof axis2);
+    memcpy(width, node->width[r], sizeof width);
+    for (size_t i = 0; i < count; ++i) {
+        const mote_cert_row *row = &rows[i];
+        const float w = weight[active[i]];
+        const float size = fabsf(w);
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            centre[l] += row->offset[l] * w;
+            axis0[l] += row->slope[0][l] * w;
+            axis1[l] += row->slope[1][l] * w;
+            axis2[l] += row->slope[2][l] * w;
+            width[l] += row->rest[l] * size;
+        }
+    }
+    memcpy(node->centre[r], centre, sizeof centre);
+    memcpy(node->axis[0][r], axis0, sizeof axis0);
+    memcpy(node->axis[1][r], axis1, sizeof axis1);
+    memcpy(node->axis[2][r], axis2, sizeof axis2);
+    memcpy(node->width[r], width, sizeof width);
+}
+
+/* Normals of the two longest axes, thickness along them, and sizes. */
+MOTE_INLINE void measure(mote_cert_node *restrict node)
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const float ax = node->axis[0][0][l];
+        const float ay = node->axis[0][1][l];
+        const float az = node->axis[0][2][l];
+        const float bx = node->axis[1][0][l];
+        const float by = node->axis[1][1][l];
+        const float bz = node->axis[1][2][l];
+        float x = ay * bz - az * by;
+        float y = az * bx - ax * bz;
+        float z = ax * by - ay * bx;
+        const float inverse = 1 / sqrtf(x * x + y * y + z * z + 0x1p-100F);
+        x *= inverse;
+        y *= inverse;
+        z *= inverse;
+        node->normal[0][l] = x;
+        node->normal[1][l] = y;
+        node->normal[2][l] = z;
+        node->thickness[l] =
+            fabsf(ax * x + ay * y + az * z) + fabsf(bx * x + by * y + bz * z) +
+            fabsf(node->axis[2][0][l] * x + node->axis[2][1][l] * y + node->axis[2][2][l] * z) +
+            (node->width[0][l] * fabsf(x) + node->width[1][l] * fabsf(y) +
+             node->width[2][l] * fabsf(z));
+        node->size[l] = (ax * ax + ay * ay + az * az) + (bx * bx + by * by + bz * bz);
+    }
+}
+
+MOTE_CLONES
+static void deform_block(const mote_cert_side *restrict side,
+                         const mote_cert_block *restrict block, mote_cert_node *restrict node)
+{
+    const mote_cert_row *rows = side->tree->rows + block->first_row;
+    const uint8_t *active = side->tree->active + block->first_active;
+    move(side, block, node);
+    for (size_t r = 0; r < 3; ++r)
+        add_field(rows, active, block->active_count, side->weight[r], r, node);
+    measure(node);
+    project(node, side->facing_f, side->threshold_f);
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        node->child[l] = -1;
+}
+
+/* World positions of one group of MOTE_LANES places of a leaf, as mote_body_position gives. */
+MOTE_CLONES
+static void place_group(const mote_body *body, const mote_body_state *state,
+                        const uint32_t vertices[MOTE_LANES], const uint8_t *active,
+                        size_t active_count, double *restrict x, double *restrict y,
+                        double *restrict z)
+{
+    double p[3][MOTE_LANES];
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        const mote_vec3 rest = body->mesh->positions[vertices[v]];
+        p[0][v] = rest.x;
+        p[1][v] = rest.y;
+        p[2][v] = rest.z;
+    }
+    double moved[3][MOTE_LANES] = {{0}};
+    if (active_count > 0)
+        body->field->kind->group(body->field, body->mesh, vertices, active, active_count,
+                                 &state->weights, moved);
+    const double(*m)[3] = state->pose.rotation.m;
+    const mote_vec3 t = state->pose.translation;
+    MOTE_LANE_LOOP
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        x[v] = m[0][0] * p[0][v] + m[0][1] * p[1][v] + m[0][2] * p[2][v] + t.x + moved[0][v];
+        y[v] = m[1][0] * p[0][v] + m[1][1] * p[1][v] + m[1][2] * p[2][v] + t.y + moved[1][v];
+        z[v] = m[2][0] * p[0][v] + m[2][1] * p[1][v] + m[2][2] * p[2][v] + t.z + moved[2][v];
+    }
+}
+
+static void place_leaf(const mote_cert_side *side, uint32_t id, mote_cert_points *points)
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_body *body = tree->body;
+    const mote_cert_leaf *leaf = &tree->leaves[id];
+    const mote_cert_block *block = &tree->blocks[leaf->block];
+    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
+    points->leaf = id;
+    points->generation = 0;
+    points->padded = (leaf->vertex_count + 7u) & ~7u;
+    const bool groups = body->field->count == 0 || body->field->kind->group;
+    for (uint32_t first = 0; first < points->padded; first += MOTE_LANES) {
+        uint32_t v[MOTE_LANES];
+        for (uint32_t i = 0; i < MOTE_LANES; ++i) {
+            const uint32_t k = first + i;
+            v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
+        }
+        if (groups) {
+            place_group(body, side->state, v, tree->active + block->first_active,
+                        block->active_count, points->x[0] + first, points->x[1] + first,
+                        points->x[2] + first);
+            continue;
+        }
+        for (uint32_t i = 0; i < MOTE_LANES; ++i) {
+            const mote_vec3 p = mote_body_position(body, side->state, v[i]);
+            points->x[0][first + i] = p.x;
+            points->x[1][first + i] = p.y;
+            points->x[2][first + i] = p.z;
+        }
+    }
+}
+
+/* Least and largest of a group's coordinates. */
+MOTE_INLINE void range_of_group(const double *restrict x, const double *restrict y,
+                                const double *restrict z, mote_vec3 d, mote_vec3 o,
+                                double range[2])
+{
+    double p[8], low[4], high[4];
+    MOTE_LANE_LOOP
+    for (size_t v = 0; v < 8; ++v)
+        p[v] = (x[v] - o.x) * d.x + (y[v] - o.y) * d.y + (z[v] - o.z) * d.z;
+    MOTE_LANE_LOOP
+    for (size_t v = 0; v < 4; ++v) {
+        low[v] = p[v] < p[v + 4] ? p[v] : p[v + 4];
+        high[v] = p[v] > p[v + 4] ? p[v] : p[v + 4];
+    }
+    const double low0 = low[0] < low[2] ? low[0] : low[2];
+    const double low1 = low[1] < low[3] ? low[1] : low[3];
+    const double high0 = high[0] > high[2] ? high[0] : high[2];
+    const double high1 = high[1] > high[3] ? high[1] : high[3];
+    range[0] = low0 < low1 ? low0 : low1;
+    range[1] = high0 > high1 ? high0 : high1;
+}
+
+MOTE_CLONES
+void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_vec3 origin,
+                     double range[2])
+{
+    range_of_group(points->x[0], points->x[1], points->x[2], direction, origin, range);
+    if (points->padded > MOTE_LANES) {
+        double more[2];
+        range_of_group(points->x[0] + 8, points->x[1] + 8, points->x[2] + 8, direction, origin,
+                       more);
+        range[0] = more[0] < range[0] ? more[0] : range[0];
+        range[1] = more[1] > range[1] ? more[1] : range[1];
+    }
+}
+
+static mote_cert_node *new_node(mote_certificate *c, int s, const mote_cert_block *block,
+                                mote_cert_node *node)
+{
+    const mote_cert_side *side = &c->side[s];
+    node->block = block;
+    node->generation = c->generation;
+    deform_block(side, block, node);
+    node->clear &= block->mask;
+    ++c->counters.blocks;
+    return node;
+}
+
+/* Brings a node that is known up to date with the plane. */
+static mote_cert_node *known_node(mote_certificate *c, int s, mote_cert_node *node)
+{
+    const mote_cert_side *side = &c->side[s];
+    if (node->generation != c->generation) {
+        project_node(node, side->facing_f, side->threshold_f);
+        node->clear &= node->block->mask;
+        node->generation = c->generation;
+    }
+    return node;
+}
+
+mote_cert_node *mote_cert_root(mote_certificate *c, int s)
+{
+    mote_cert_side *side = &c->side[s];
+    if (side->node_count > 0)
+        return known_node(c, s, &side->nodes[0]);
+    side->node_count = 1;
+    return new_node(c, s, &side->tree->blocks[0], &side->nodes[0]);
+}
+
+mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                                uint32_t depth)
+{
+    mote_cert_side *side = &c->side[s];
+    if (node->child[lane] >= 0)
+        return known_node(c, s, &side->nodes[node->child[lane]]);
+    const mote_cert_block *block = &side->tree->blocks[node->block->child[lane]];
+    if (side->node_count >= side->node_room)
+        return new_node(c, s, block, &c->spare[depth]);
+    node->child[lane] = (int32_t)side->node_count;
+    return new_node(c, s, block, &side->nodes[side->node_count++]);
+}
+
+mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_node *node,
+                                       size_t lane)
+{
+    mote_cert_side *side = &c->side[s];
+    const uint32_t id = (uint32_t)~node->block->child[lane];
+    mote_cert_points *points;
+    if (node->child[lane] >= 0) {
+        points = &side->points[node->child[lane]];
+    } else if (side->point_count < side->point_room) {
+        node->child[lane] = (int32_t)side->point_count;
+        points = &side->points[side->point_count++];
+        points->leaf = UINT32_MAX;
+    } else {
+        points = &side->spare;
+    }
+    if (points->leaf != id) {
+        place_leaf(side, id, points);
+        c->counters.positions += side->tree->leaves[id].vertex_count;
+    }
+    if (points->generation != c->generation) {
+        double range[2];
+        mote_cert_range(points, side->facing, c->origin, range);
+        points->reach = range[1] * c->scale;
+        points->generation = c->generation;
+    }
+    return points;
+}

@@ -1,0 +1,324 @@
+#include "core/certificate_fit.h"
+
+#include <float.h>
+#include <string.h>
+
+/* One Jacobi rotation that makes a[p][q] zero; v gathers the rotations. */
+static void jacobi_rotate(double a[3][3], double v[3][3], int p, int q)
+{
+    if (!(fabs(a[p][q]) > 0))
+        return;
+    const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+    const double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1));
+    const double c = 1 / sqrt(t * t + 1);
+    const double s = t * c;
+    for (int k = 0; k < 3; ++k) {
+        const double akp = a[k][p];
+        const double akq = a[k][q];
+        a[k][p] = c * akp - s * akq;
+        a[k][q] = s * akp + c * akq;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double apk = a[p][k];
+        const double aqk = a[q][k];
+        a[p][k] = c * apk - s * aqk;
+        a[q][k] = s * apk + c * aqk;
+        const double vkp = v[k][p];
+        const double vkq = v[k][q];
+        v[k][p] = c * vkp - s * vkq;
+        v[k][q] = s * vkp + c * vkq;
+    }
+}
+
+void mote_cert_principal_axes(double matrix[3][3], mote_vec3 axes[3])
+{
+    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int sweep = 0; sweep < 12; ++sweep) {
+        const double off = fabs(matrix[0][1]) + fabs(matrix[0][2]) + fabs(matrix[1][2]);
+        if (off <= DBL_EPSILON * (matrix[0][0] + matrix[1][1] + matrix[2][2]))
+            break;
+        jacobi_rotate(matrix, v, 0, 1);
+        jacobi_rotate(matrix, v, 0, 2);
+        jacobi_rotate(matrix, v, 1, 2);
+    }
+    int order[3] = {0, 1, 2};
+    for (int i = 1; i < 3; ++i) {
+        for (int k = i;
+             k > 0 && matrix[order[k]][order[k]] > matrix[order[k - 1]][order[k - 1]]; --k) {
+            const int swap = order[k];
+            order[k] = order[k - 1];
+            order[k - 1] = swap;
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        axes[i] = mote_vec3_make(v[0][order[i]], v[1][order[i]], v[2][order[i]]);
+}
+
+static mote_vec3 as_floats(mote_vec3 v)
+{
+    return mote_vec3_make((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
+}
+
+/* Moments of the vertices about one of them. */
+static void spread(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                   double matrix[3][3])
+{
+    const mote_vec3 base = mote_cert_tree_position(tree, vertices[0]);
+    mote_vec3 mean = {0, 0, 0};
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const mote_vec3 d = mote_sub(mote_cert_tree_position(tree, vertices[i]), base);
+        mean = mote_add(mean, d);
+        xx += d.x * d.x;
+        xy += d.x * d.y;
+        xz += d.x * d.z;
+        yy += d.y * d.y;
+        yz += d.y * d.z;
+        zz += d.z * d.z;
+    }
+    const double n = 1 / (double)count;
+    mean = mote_scale(mean, n);
+    matrix[0][0] = xx * n - mean.x * mean.x;
+    matrix[1][1] = yy * n - mean.y * mean.y;
+    matrix[2][2] = zz * n - mean.z * mean.z;
+    matrix[0][1] = matrix[1][0] = xy * n - mean.x * mean.y;
+    matrix[0][2] = matrix[2][0] = xz * n - mean.x * mean.z;
+    matrix[1][2] = matrix[2][1] = yz * n - mean.y * mean.z;
+}
+
+/* z of a vertex, held within the box. */
+static inline void box_coordinates(const mote_cert_box *box, const double inverse[3],
+                                   mote_vec3 x, double z[3])
+{
+    const mote_vec3 d = mote_sub(x, box->centre);
+    for (int k = 0; k < 3; ++k) {
+        const double value = mote_dot(d, box->half[k]) * inverse[k];
+        z[k] = value < -1 ? -1 : value > 1 ? 1 : value;
+    }
+}
+
+static inline void inverse_squares(const mote_cert_box *box, double inverse[3])
+{
+    for (int k = 0; k < 3; ++k)
+        inverse[k] = 1 / mote_length_squared(box->half[k]);
+}
+
+/* What the rounding of the box's centre and axes leaves outside: measured, not estimated. */
+static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                         const mote_cert_box *box)
+{
+    double inverse[3];
+    inverse_squares(box, inverse);
+    double worst = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
+        double z[3];
+        box_coordinates(box, inverse, x, z);
+        mote_vec3 inside = box->centre;
+        for (int k = 0; k < 3; ++k)
+            inside = mote_add_scaled(inside, z[k], box->half[k]);
+        const double out = mote_distance_squared(inside, x);
+        worst = out > worst ? out : worst;
+    }
+    worst = sqrt(worst);
+    tree->leak = worst > tree->leak ? worst : tree->leak;
+}
+
+mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, size_t count)
+{
+    double matrix[3][3];
+    mote_vec3 axes[3];
+    spread(tree, vertices, count, matrix);
+    mote_cert_principal_axes(matrix, axes);
+    double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX};
+    double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
+    for (size_t i = 0; i < count; ++i) {
+        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
+        for (int k = 0; k < 3; ++k) {
+            const double p = mote_dot(x, axes[k]);
+            low[k] = p < low[k] ? p : low[k];
+            high[k] = p > high[k] ? p : high[k];
+        }
+    }
+    int order[3] = {0, 1, 2};
+    for (int i = 1; i < 3; ++i) {
+        for (int k = i;
+             k > 0 && high[order[k]] - low[order[k]] > high[order[k - 1]] - low[order[k - 1]];
+             --k) {
+            const int swap = order[k];
+            order[k] = order[k - 1];
+            order[k - 1] = swap;
+        }
+    }
+    mote_cert_box box = {.centre = {0, 0, 0}};
+    double reach = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int k = order[i];
+        const double pad = 0x1p-23; /* so that no axis is 0 and little sticks out */
+        const double length = 0.5 * (high[k] - low[k]) + pad;
+        box.centre = mote_add_scaled(box.centre, 0.5 * (high[k] + low[k]), axes[k]);
+        box.half[i] = as_floats(mote_scale(axes[k], length));
+        reach += length;
+    }
+    box.centre = as_floats(box.centre);
+    reach += mote_length(box.centre);
+    reach *= 1 + 0x1p-20;
+    tree->radius = reach > tree->radius ? reach : tree->radius;
+    measure_leak(tree, vertices, count, &box);
+    return box;
+}
+
+/* Normal equations of the fit: z z' and z phi', z = (1, z_1, z_2, z_3). */
+typedef struct normal_equations {
+    double a[4][4];
+    double b[4][MOTE_FIELD_MAX];
+} normal_equations;
+
+/* Cholesky factor in the lower half of a, then every right side. */
+static void solve(normal_equations *e, size_t functions)
+{
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            double s = e->a[i][j];
+            for (int k = 0; k < j; ++k)
+                s -= e->a[i][k] * e->a[j][k];
+            e->a[i][j] = i == j ? sqrt(s) : s / e->a[j][j];
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < i; ++k) {
+            for (size_t j = 0; j < functions; ++j)
+                e->b[i][j] -= e->a[i][k] * e->b[k][j];
+        }
+        for (size_t j = 0; j < functions; ++j)
+            e->b[i][j] /= e->a[i][i];
+    }
+    for (int i = 3; i >= 0; --i) {
+        for (int k = i + 1; k < 4; ++k) {
+            for (size_t j = 0; j < functions; ++j)
+                e->b[i][j] -= e->a[k][i] * e->b[k][j];
+        }
+        for (size_t j = 0; j < functions; ++j)
+            e->b[i][j] /= e->a[i][i];
+    }
+}
+
+/* The basis at a vertex in the tree's scale. */
+static void scaled_basis(const mote_cert_tree *tree, uint32_t vertex, double *phi)
+{
+    const mote_field *field = tree->body->field;
+    field->kind->basis(field, tree->body->mesh, vertex, phi);
+    for (size_t j = 0; j < field->count; ++j)
+        phi[j] *= tree->basis_scale[j];
+}
+
+static void accumulate(normal_equations *e, const double z3[3], const double *phi,
+                       size_t functions)
+{
+    const double z[4] = {1, z3[0], z3[1], z3[2]};
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k <= i; ++k)
+            e->a[i][k] += z[i] * z[k];
+        for (size_t j = 0; j < functions; ++j)
+            e->b[i][j] += z[i] * phi[j];
+    }
+}
+
+/* The least-squares fit over the vertices, or over a sample of them where they are many: a fit
+   need only be good, its residuals are taken over all vertices. */
+static void fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                       const mote_cert_box *box, double *phi, mote_cert_fit *fit)
+{
+    const size_t functions = tree->body->field->count;
+    const size_t padded = tree->body->field->padded;
+    const size_t stride = (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
+    normal_equations e = {{{0}}, {{0}}};
+    double inverse[3];
+    inverse_squares(box, inverse);
+    size_t used = 0;
+    for (size_t i = 0; i < count; i += stride, ++used) {
+        double z[3];
+        box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
+        double *here = stride == 1 ? phi + i * padded : phi;
+        if (stride > 1)
+            scaled_basis(tree, vertices[i], here);
+        accumulate(&e, z, here, functions);
+    }
+    for (int i = 0; i < 4; ++i)
+        e.a[i][i] += 1e-6 * (double)used; /* directions in which the vertices do not spread */
+    solve(&e, functions);
+    for (size_t j = 0; j < functions; ++j) {
+        for (int k = 0; k < 3; ++k)
+            fit->slope[k][j] = (float)e.b[k + 1][j];
+    }
+}
+
+/* The least and the largest of phi - sum_k g_k z_k over all vertices. */
+typedef struct residuals {
+    double low[MOTE_FIELD_MAX], high[MOTE_FIELD_MAX];
+} residuals;
+
+static void measure_residuals(const mote_cert_tree *tree, const uint32_t *vertices,
+                              size_t count, const mote_cert_box *box, bool held, double *phi,
+                              mote_cert_fit *fit, residuals *r)
+{
+    const size_t functions = tree->body->field->count;
+    const size_t padded = tree->body->field->padded;
+    double inverse[3];
+    inverse_squares(box, inverse);
+    for (size_t j = 0; j < functions; ++j) {
+        r->low[j] = DBL_MAX;
+        r->high[j] = -DBL_MAX;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        double z[3];
+        box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
+        double *here = held ? phi + i * padded : phi;
+        if (!held)
+            scaled_basis(tree, vertices[i], here);
+        for (size_t j = 0; j < functions; ++j) {
+            const double value = here[j] - (double)fit->slope[0][j] * z[0] -
+                                 (double)fit->slope[1][j] * z[1] -
+                                 (double)fit->slope[2][j] * z[2];
+            r->low[j] = value < r->low[j] ? value : r->low[j];
+            r->high[j] = value > r->high[j] ? value : r->high[j];
+            fit->active[j] = fit->active[j] || fabs(here[j]) > 0;
+        }
+    }
+}
+
+static float rounded_up(double x)
+{
+    return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
+}
+
+void mote_cert_fit_box(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                       const mote_cert_box *box, bool linear, double *phi, mote_cert_fit *fit)
+{
+    const size_t functions = tree->body->field->count;
+    const size_t padded = tree->body->field->padded;
+    const bool held = count <= MOTE_CERT_FIT_CHUNK;
+    memset(fit, 0, sizeof *fit);
+    for (size_t i = 0; held && i < count; ++i)
+        scaled_basis(tree, vertices[i], phi + i * padded);
+    if (linear)
+        fit_slopes(tree, vertices, count, box, phi, fit);
+    residuals r;
+    measure_residuals(tree, vertices, count, box, held, phi, fit, &r);
+    for (size_t j = 0; j < functions; ++j) {
+        if (!fit->active[j]) {
+            for (int k = 0; k < 3; ++k)
+                fit->slope[k][j] = 0;
+            continue;
+        }
+        fit->offset[j] = (float)(0.5 * (r.low[j] + r.high[j]));
+        const double middle = (double)fit->offset[j];
+        const double above = r.high[j] - middle;
+        const double below = middle - r.low[j];
+        fit->rest[j] = rounded_up(above > below ? above : below);
+        const double reach = fabs(middle) + (double)fabsf(fit->slope[0][j]) +
+                             (double)fabsf(fit->slope[1][j]) + (double)fabsf(fit->slope[2][j]) +
+                             (double)fit->rest[j];
+        tree->reach[j] = reach > tree->reach[j] ? reach : tree->reach[j];
+    }
+}

@@ -1,0 +1,234 @@
+/* Two leaves: directions that keep them apart, then their triangles. */
+#include "core/certificate_state.h"
+#include "core/triangle.h"
+
+#include <float.h>
+#include <string.h>
+
+/* Whether the gap along a unit direction, or one a little shorter, is at least the limit. */
+static bool separates(const mote_certificate *c, const mote_cert_points *const points[2],
+                      mote_vec3 direction)
+{
+    double range[2][2];
+    mote_cert_range(points[0], direction, c->origin, range[0]);
+    mote_cert_range(points[1], direction, c->origin, range[1]);
+    return (range[1][0] - range[0][1]) * c->scale >= c->limit;
+}
+
+/* Puts a direction that separated first, and those before `place` behind it. */
+static void remember(mote_certificate *c, mote_vec3 direction, uint32_t place)
+{
+    for (uint32_t i = place; i > 0; --i)
+        c->direction[i] = c->direction[i - 1];
+    c->direction[0] = direction;
+}
+
+static void remember_new(mote_certificate *c, mote_vec3 direction)
+{
+    if (c->direction_count < MOTE_CERT_DIRECTIONS)
+        ++c->direction_count;
+    remember(c, direction, c->direction_count - 1);
+}
+
+/* One box in double precision. */
+typedef struct box {
+    mote_vec3 centre, axis[3];
+    double inverse[3]; /* 1 / |axis|^2 */
+} box;
+
+static mote_vec3 lane_vector(const float v[3][MOTE_CERT_WIDTH], size_t lane)
+{
+    return mote_vec3_make((double)v[0][lane], (double)v[1][lane], (double)v[2][lane]);
+}
+
+static void take_box(const mote_cert_node *node, size_t lane, box *b)
+{
+    b->centre = lane_vector(node->centre, lane);
+    for (int k = 0; k < 3; ++k) {
+        b->axis[k] = lane_vector(node->axis[k], lane);
+        b->inverse[k] = 1 / (mote_length_squared(b->axis[k]) + 1e-60);
+    }
+}
+
+/* A point of the box near x: the nearest where the axes are orthogonal. */
+static mote_vec3 clamp_to(const box *b, mote_vec3 x)
+{
+    const mote_vec3 d = mote_sub(x, b->centre);
+    mote_vec3 p = b->centre;
+    for (int k = 0; k < 3; ++k) {
+        const double z = mote_dot(d, b->axis[k]) * b->inverse[k];
+        p = mote_add_scaled(p, z < -1 ? -1 : z > 1 ? 1 : z, b->axis[k]);
+    }
+    return p;
+}
+
+/* The direction between near points of two boxes. */
+static bool box_direction(const box *a, const box *b, mote_vec3 *direction)
+{
+    mote_vec3 q = clamp_to(b, a->centre);
+    mote_vec3 p = clamp_to(a, q);
+    q = clamp_to(b, p);
+    p = clamp_to(a, q);
+    const mote_vec3 d = mote_sub(q, p);
+    const double length = mote_length(d);
+    if (!(length > 0))
+        return false;
+    *direction = mote_scale(d, 1 / length);
+    return true;
+}
+
+/* The thin direction of box `lane`, from body 0 to body 1. */
+static bool normal_direction(const mote_cert_node *node, size_t lane, mote_vec3 towards,
+                             mote_vec3 *direction)
+{
+    const mote_vec3 n = lane_vector(node->normal, lane);
+    const double length = mote_length(n);
+    if (!(length > 0))
+        return false;
+    *direction = mote_scale(n, (mote_dot(n, towards) < 0 ? -1 : 1) / length);
+    return true;
+}
+
+static bool separated(mote_certificate *c, const mote_cert_points *const points[2],
+                      const mote_cert_node *const nodes[2], const size_t lanes[2])
+{
+    for (uint32_t i = 0; i < c->direction_count; ++i) {
+        if (separates(c, points, c->direction[i])) {
+            if (i > 0)
+                remember(c, c->direction[i], i);
+            return true;
+        }
+    }
+    box a, b;
+    take_box(nodes[0], lanes[0], &a);
+    take_box(nodes[1], lanes[1], &b);
+    mote_vec3 direction;
+    if (box_direction(&a, &b, &direction) && separates(c, points, direction)) {
+        remember_new(c, direction);
+        return true;
+    }
+    const mote_vec3 towards = mote_sub(b.centre, a.centre);
+    for (int s = 0; s < 2; ++s) {
+        if (normal_direction(nodes[s], lanes[s], towards, &direction) &&
+            separates(c, points, direction)) {
+            remember_new(c, direction);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* A leaf's triangle with what rules it out cheaply. */
+typedef struct face {
+    mote_vec3 corner[3];
+    mote_vec3 low, high; /* bounding box */
+    double reach;        /* towards the other body, in the trees' units */
+} face;
+
+static void take_face(const mote_certificate *c, const mote_cert_side *side,
+                      const mote_cert_points *points, const uint8_t corner[3], face *f)
+{
+    f->reach = -DBL_MAX;
+    for (int k = 0; k < 3; ++k) {
+        const mote_vec3 x = mote_cert_point(points, corner[k]);
+        f->corner[k] = x;
+        const double reach = mote_dot(mote_sub(x, c->origin), side->facing) * c->scale;
+        f->reach = reach > f->reach ? reach : f->reach;
+    }
+    const mote_vec3 *x = f->corner;
+    f->low =
+        mote_vec3_make(fmin(x[0].x, fmin(x[1].x, x[2].x)), fmin(x[0].y, fmin(x[1].y, x[2].y)),
+                       fmin(x[0].z, fmin(x[1].z, x[2].z)));
+    f->high =
+        mote_vec3_make(fmax(x[0].x, fmax(x[1].x, x[2].x)), fmax(x[0].y, fmax(x[1].y, x[2].y)),
+                       fmax(x[0].z, fmax(x[1].z, x[2].z)));
+}
+
+static inline double gap(double low_a, double high_a, double low_b, double high_b)
+{
+    const double g = low_b - high_a > low_a - high_b ? low_b - high_a : low_a - high_b;
+    return g > 0 ? g : 0;
+}
+
+/* Squared distance of the bounding boxes. */
+static double box_gap_squared(const face *s, const face *t)
+{
+    const double x = gap(s->low.x, s->high.x, t->low.x, t->high.x);
+    const double y = gap(s->low.y, s->high.y, t->low.y, t->high.y);
+    const double z = gap(s->low.z, s->high.z, t->low.z, t->high.z);
+    return x * x + y * y + z * z;
+}
+
+/* Measures two triangles unless they are far; true when they are nearer than any before. */
+static bool measure(mote_certificate *c, const face *s, const face *t, const uint32_t vs[3],
+                    const uint32_t vt[3])
+{
+    if (-(s->reach + t->reach) >= c->limit)
+        return false;
+    const double limit = c->limit / c->scale;
+    const double squared_limit = limit * limit;
+    if (box_gap_squared(s, t) >= squared_limit)
+        return false;
+    mote_vec3 p, q;
+    ++c->counters.triangle_tests;
+    const double squared =
+        mote_triangle_triangle_below(s->corner, t->corner, squared_limit, &p, &q);
+    if (!(squared < squared_limit && squared < c->best.squared))
+        return false;
+    c->best.witness[0] = p;
+    c->best.witness[1] = q;
+    memcpy(c->best.triangle[0], vs, sizeof c->best.triangle[0]);
+    memcpy(c->best.triangle[1], vt, sizeof c->best.triangle[1]);
+    mote_cert_set_best(c, squared);
+    return true;
+}
+
+static void corners_of(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
+                       const uint8_t corner[3], uint32_t vertices[3])
+{
+    for (int k = 0; k < 3; ++k)
+        vertices[k] = tree->leaf_vertices[leaf->first_vertex + corner[k]];
+}
+
+/* Measures all pairs of triangles of two leaves; true when the upper bound improved. */
+static bool measure_all(mote_certificate *c, const mote_cert_points *const points[2])
+{
+    const mote_cert_tree *tree[2] = {c->side[0].tree, c->side[1].tree};
+    const mote_cert_leaf *leaf[2];
+    face others[MOTE_CERT_LEAF_TRIANGLES];
+    bool improved = false;
+    for (int s = 0; s < 2; ++s)
+        leaf[s] = &tree[s]->leaves[points[s]->leaf];
+    for (uint32_t k = 0; k < leaf[1]->triangle_count; ++k)
+        take_face(c, &c->side[1], points[1], tree[1]->corners[leaf[1]->first_corner + k],
+                  &others[k]);
+    for (uint32_t i = 0; i < leaf[0]->triangle_count; ++i) {
+        const uint8_t *corner = tree[0]->corners[leaf[0]->first_corner + i];
+        uint32_t vs[3];
+        face f;
+        take_face(c, &c->side[0], points[0], corner, &f);
+        if (-(f.reach + points[1]->reach) >= c->limit)
+            continue;
+        corners_of(tree[0], leaf[0], corner, vs);
+        for (uint32_t k = 0; k < leaf[1]->triangle_count && !c->done; ++k) {
+            uint32_t vt[3];
+            corners_of(tree[1], leaf[1], tree[1]->corners[leaf[1]->first_corner + k], vt);
+            improved = measure(c, &f, &others[k], vs, vt) || improved;
+        }
+    }
+    return improved;
+}
+
+void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_points *points[2],
+                         const mote_cert_node *const nodes[2], const size_t lanes[2])
+{
+    ++c->counters.leaf_pairs;
+    if (-(points[0]->reach + points[1]->reach) >= c->limit)
+        return;
+    if (c->options.directions && separated(c, points, nodes, lanes))
+        return;
+    if (measure_all(c, points) && c->restarts < c->options.restarts) {
+        c->improved = true;
+        c->done = true;
+    }
+}

@@ -1,0 +1,200 @@
+/* The plane pass and the traversal of both trees. */
+#include "core/certificate_state.h"
+
+#include <float.h>
+
+#define WIDTH MOTE_CERT_WIDTH
+
+/* A box that crosses the plane by more than this part of its extent is not worth opening: most
+   of what is inside crosses it too. */
+#define CROSSING 0.35F
+
+static inline size_t lowest_bit(uint32_t bits)
+{
+    size_t l = 0;
+    while (!(bits >> l & 1))
+        ++l;
+    return l;
+}
+
+static inline uint32_t count_bits(uint32_t bits)
+{
+    uint32_t count = 0;
+    for (; bits; bits &= bits - 1)
+        ++count;
+    return count;
+}
+
+static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
+                       float *reach);
+
+/* Opens child `lane` of a node; its reach becomes that of what is inside. */
+static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                       uint32_t depth)
+{
+    const mote_cert_side *side = &c->side[s];
+    float reach;
+    bool clear;
+    if (node->block->child[lane] < 0) {
+        const mote_cert_points *points = mote_cert_leaf_child(c, s, node, lane);
+        reach = (float)points->reach + side->reach_margin;
+        clear = points->reach <= side->threshold + c->noise;
+    } else {
+        mote_cert_node *child = mote_cert_child(c, s, node, lane, depth);
+        clear = clear_node(c, s, child, depth + 1, &reach);
+    }
+    if (clear)
+        node->clear |= 1u << lane;
+    if (reach < node->reach[lane])
+        node->reach[lane] = reach;
+}
+
+/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. */
+static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
+                       float *reach)
+{
+    const uint32_t mask = node->block->mask;
+    const float threshold = c->side[s].threshold_f;
+    float most = -FLT_MAX;
+    for (size_t l = 0; l < WIDTH && mask >> l; ++l) {
+        const bool open = !(node->clear >> l & 1);
+        if (open && node->reach[l] - threshold <= CROSSING * node->extent[l])
+            open_child(c, s, node, l, depth);
+        most = node->reach[l] > most ? node->reach[l] : most;
+    }
+    *reach = most;
+    return node->clear == mask;
+}
+
+bool mote_cert_plane_pass(mote_certificate *c, int s)
+{
+    float reach;
+    return clear_node(c, s, mote_cert_root(c, s), 0, &reach);
+}
+
+/* One box of side s (child `lane` of a node) against all of a node of the other side. */
+typedef struct row {
+    int s;
+    mote_cert_node *node;
+    size_t lane;
+    mote_cert_node *other;
+} row;
+
+static void visit_row(mote_certificate *c, row r, uint32_t depth);
+
+/* Opens the larger of the boxes, or measures two leaves. */
+static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
+{
+    const bool leaf = r.node->block->child[r.lane] < 0;
+    const bool other_leaf = r.other->block->child[k] < 0;
+    if (leaf && other_leaf) {
+        const mote_cert_points *points[2];
+        const mote_cert_node *nodes[2];
+        size_t lanes[2];
+        points[r.s] = mote_cert_leaf_child(c, r.s, r.node, r.lane);
+        points[1 - r.s] = mote_cert_leaf_child(c, 1 - r.s, r.other, k);
+        nodes[r.s] = r.node;
+        nodes[1 - r.s] = r.other;
+        lanes[r.s] = r.lane;
+        lanes[1 - r.s] = k;
+        mote_cert_leaf_pair(c, points, nodes, lanes);
+    } else if (other_leaf || (!leaf && r.node->size[r.lane] > r.other->size[k])) {
+        mote_cert_node *child = mote_cert_child(c, r.s, r.node, r.lane, depth);
+        visit_row(c, (row){1 - r.s, r.other, k, child}, depth + 1);
+    } else {
+        mote_cert_node *child = mote_cert_child(c, 1 - r.s, r.other, k, depth);
+        visit_row(c, (row){r.s, r.node, r.lane, child}, depth + 1);
+    }
+}
+
+static size_t least_bound(const float bound[WIDTH], uint32_t open)
+{
+    size_t best = lowest_bit(open);
+    for (size_t l = best + 1; l < WIDTH; ++l) {
+        if (open >> l & 1 && bound[l] < bound[best])
+            best = l;
+    }
+    return best;
+}
+
+/* Pairs that the budget leaves unvisited bound the distance from below. */
+static void leave_open(mote_certificate *c, const float bound[WIDTH], uint32_t open)
+{
+    for (size_t l = 0; l < WIDTH; ++l) {
+        if (open >> l & 1 && (double)bound[l] < c->open)
+            c->open = (double)bound[l];
+    }
+}
+
+static void visit_row(mote_certificate *c, row r, uint32_t depth)
+{
+    float bound[WIDTH];
+    uint32_t open = mote_cert_row_test(r.node, r.lane, r.other, c->need, bound);
+    ++c->counters.rows;
+    c->counters.box_tests += count_bits(r.other->block->mask);
+    while (open && !c->done) {
+        if (c->counters.box_tests >= c->options.budget) {
+            c->stopped = true;
+            leave_open(c, bound, open);
+            return;
+        }
+        const size_t k = least_bound(bound, open);
+        open &= ~(1u << k);
+        if (bound[k] < c->need)
+            visit_pair(c, r, k, depth);
+    }
+}
+
+void mote_cert_traverse(mote_certificate *c)
+{
+    mote_cert_node *a = mote_cert_root(c, 0);
+    mote_cert_node *b = mote_cert_root(c, 1);
+    for (size_t l = 0; l < WIDTH && !c->done; ++l) {
+        if (a->block->mask >> l & 1)
+            visit_row(c, (row){0, a, l, b}, 0);
+    }
+}
+
+/* The pair of lanes whose centres are nearest to each other. */
+static void nearest_centres(const mote_cert_node *a, const mote_cert_node *b, size_t lane[2])
+{
+    float best = FLT_MAX;
+    for (size_t i = 0; i < WIDTH; ++i) {
+        if (!(a->block->mask >> i & 1))
+            continue;
+        for (size_t k = 0; k < WIDTH; ++k) {
+            const float x = a->centre[0][i] - b->centre[0][k];
+            const float y = a->centre[1][i] - b->centre[1][k];
+            const float z = a->centre[2][i] - b->centre[2][k];
+            const float squared = x * x + y * y + z * z;
+            if (squared < best && b->block->mask >> k & 1) {
+                best = squared;
+                lane[0] = i;
+                lane[1] = k;
+            }
+        }
+    }
+}
+
+void mote_cert_descend(mote_certificate *c, uint32_t vertex[2])
+{
+    mote_cert_node *node[2] = {mote_cert_root(c, 0), mote_cert_root(c, 1)};
+    size_t lane[2] = {0, 0};
+    for (uint32_t depth = 0;; depth += 2) {
+        nearest_centres(node[0], node[1], lane);
+        bool ended = true;
+        for (int s = 0; s < 2; ++s) {
+            if (node[s]->block->child[lane[s]] < 0)
+                continue;
+            node[s] = mote_cert_child(c, s, node[s], lane[s], depth + (uint32_t)s);
+            ended = false;
+        }
+        if (ended)
+            break;
+    }
+    for (int s = 0; s < 2; ++s) {
+        const mote_cert_tree *tree = c->side[s].tree;
+        const mote_cert_leaf *leaf = &tree->leaves[(uint32_t)~node[s]->block->child[lane[s]]];
+        vertex[s] = tree->leaf_vertices[leaf->first_vertex];
+    }
+}

@@ -1,0 +1,148 @@
+/* The state of a certified query: what certificate*.c share. */
+#ifndef MOTE_CORE_CERTIFICATE_STATE_H
+#define MOTE_CORE_CERTIFICATE_STATE_H
+
+#include "core/certificate.h"
+#include "core/certificate_tree.h"
+#include "core/lazy.h"
+#include "core/refine.h"
+
+/* A block deformed for this frame, relative to the query's origin, in the trees' units. */
+typedef struct mote_cert_node {
+    float centre[3][MOTE_CERT_WIDTH];
+    float axis[3][3][MOTE_CERT_WIDTH]; /* half axes [axis][coordinate][child] */
+    float width[3][MOTE_CERT_WIDTH];   /* half widths of the box to be added, margin included */
+    float normal[3][MOTE_CERT_WIDTH];  /* of the two longest axes; unit, or shorter */
+    float thickness[MOTE_CERT_WIDTH];  /* half extent along it */
+    float size[MOTE_CERT_WIDTH];       /* squares of the two longest half axes, added up */
+    float reach[MOTE_CERT_WIDTH];      /* largest coordinate towards the other body */
+    float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
+    int32_t child[MOTE_CERT_WIDTH];    /* place of the deformed child; -1: not deformed yet */
+    const mote_cert_block *block;
+    uint32_t clear;      /* bit l: child l is wholly on its side of the plane */
+    uint32_t generation; /* the plane that reach, extent and clear belong to */
+} mote_cert_node;
+
+/* A leaf's vertices at this frame: world positions, padded with copies of the last. */
+typedef struct mote_cert_points {
+    double x[3][MOTE_CERT_LEAF_VERTICES];
+    double reach; /* largest coordinate towards the other body, in the trees' units */
+    uint32_t leaf;
+    uint32_t generation;
+    uint32_t padded; /* 8 or 16 of the places are used */
+} mote_cert_points;
+
+/* One body of a query. Its coordinate "towards the other body" is along u on body 0 and along
+   -u on body 1, where u points from witness 0 to witness 1: the two bodies are then treated
+   alike, and the gap between two boxes along u is -(reach + reach). */
+typedef struct mote_cert_side {
+    mote_cert_tree *tree;
+    mote_lazy lazy;
+    const mote_body_state *state;
+    float rotation[3][3];
+    float translation[3];
+    float weight[3][MOTE_FIELD_MAX];
+    double bound;      /* bound of every coordinate that occurs */
+    float margin_unit; /* margin of a box: margin_base + margin_unit * its functions */
+    float margin_base;
+    float reach_margin; /* for a reach that was computed in double precision */
+    mote_vec3 facing;   /* u or -u */
+    float facing_f[3];
+    double threshold; /* the plane, as a coordinate towards the other body */
+    float threshold_f;
+    mote_cert_node *nodes; /* [node_room]; the root is the first */
+    uint32_t node_room, node_count;
+    mote_cert_points *points; /* [point_room] */
+    uint32_t point_room, point_count;
+    mote_cert_points spare; /* used when point_room is not enough */
+} mote_cert_side;
+
+/* Directions that separated leaf pairs, the latest first. */
+#define MOTE_CERT_DIRECTIONS 4
+
+struct mote_certificate {
+    mote_certificate_options options;
+    double scale; /* of both trees */
+    mote_cert_side side[2];
+    mote_cert_node *spare; /* [spare_room] by depth, used when node_room is not enough */
+    uint32_t spare_room;
+    mote_vec3 origin; /* world; the middle of the first witnesses */
+    mote_refined best;
+    double upper;  /* distance of best */
+    double enough; /* a contact question's tolerance, or negative */
+    double slack;  /* absolute */
+    double limit;  /* what has to be proven, in the trees' units: pairs as far are left out */
+    double noise;  /* rounding of double precision coordinates, in the trees' units */
+    float need;    /* limit, rounded up */
+    double open;   /* least bound of what was left when the budget was spent */
+    uint32_t generation;
+    uint32_t restarts;
+    bool done;     /* the traversal ends */
+    bool improved; /* ... because the upper bound improved */
+    bool stopped;  /* the budget is spent */
+    bool proven;   /* all pairs were ruled out or measured, or are in `open` */
+    bool has_last;
+    uint32_t last[2][3]; /* faces of the last query's witnesses */
+    mote_vec3 direction[MOTE_CERT_DIRECTIONS];
+    uint32_t direction_count;
+    mote_counters counters;
+};
+
+/* certificate_deform.c */
+
+/* Takes over the frame's pose and weights, relative to the query's origin. */
+void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mote_vec3 origin);
+
+/* Sets the plane of a side: facing, and threshold as a coordinate along it. */
+void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshold);
+
+/* The root of a side. */
+mote_cert_node *mote_cert_root(mote_certificate *c, int s);
+
+/* The deformed block or leaf that is child `lane` of a node. depth: of the recursion, for the
+   place of a node that has to be forgotten again. */
+mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                                uint32_t depth);
+mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_node *node,
+                                       size_t lane);
+
+/* Least and largest coordinate of points, relative to origin, along a direction. */
+void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_vec3 origin,
+                     double range[2]);
+
+static inline mote_vec3 mote_cert_point(const mote_cert_points *points, size_t i)
+{
+    return mote_vec3_make(points->x[0][i], points->x[1][i], points->x[2][i]);
+}
+
+/* certificate_row.c */
+
+/* Bounds from below of the distances of box `lane` of node d to the boxes of node e. Returns
+   which of them are not proven to be at least `need`. */
+uint32_t mote_cert_row_test(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
+                            float need, float bound[MOTE_CERT_WIDTH]);
+
+/* certificate_pair.c */
+
+/* Measures what two leaves leave open; lowers the upper bound where they are nearer. a, b:
+   their boxes, for the direction of the closest points. */
+void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_points *points[2],
+                         const mote_cert_node *const nodes[2], const size_t lanes[2]);
+
+/* certificate_search.c */
+
+/* True when a side is wholly clear of the plane. */
+bool mote_cert_plane_pass(mote_certificate *c, int s);
+
+/* Traverses both trees for pairs nearer than the limit. */
+void mote_cert_traverse(mote_certificate *c);
+
+/* A pair of vertices that are near each other, by the trees alone. */
+void mote_cert_descend(mote_certificate *c, uint32_t vertex[2]);
+
+/* certificate.c */
+
+/* Takes over an upper bound that improved. */
+void mote_cert_set_best(mote_certificate *c, double squared);
+
+#endif

@@ -1,0 +1,508 @@
+/* Balanced binary splits at the median along the main axis, collapsed to blocks of eight from
+   the leaves up, so that only the root is underfull. */
+#include "core/certificate_tree.h"
+
+#include "core/certificate_fit.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct item {
+    float key;
+    uint32_t triangle;
+} item;
+
+typedef struct builder {
+    mote_cert_tree *tree;
+    mote_cert_tree_options options;
+    item *items;         /* [triangle_count], in the order of the tree */
+    float (*centres)[3]; /* [triangle_count] */
+    uint32_t *seen;      /* [vertex_count] stamp of the last list a vertex was put in */
+    uint32_t *place;     /* [vertex_count] where in that list */
+    uint32_t *list;      /* [vertex_count] the vertices of one range */
+    uint32_t stamp;
+    double *phi;
+    mote_cert_fit fit;
+    size_t block_room, leaf_room, row_room, vertex_room;
+    uint32_t corner_count;
+    uint32_t bits; /* binary levels a block */
+    mote_status status;
+} builder;
+
+typedef struct range {
+    uint32_t begin, end;
+    uint32_t levels; /* binary levels below it */
+} range;
+
+static void swap_items(item *a, item *b)
+{
+    const item c = *a;
+    *a = *b;
+    *b = c;
+}
+
+static float middle_key(const item *items, size_t low, size_t high)
+{
+    const float a = items[low].key;
+    const float b = items[low + (high - low) / 2].key;
+    const float c = items[high].key;
+    const float least = a < b ? a : b;
+    const float most = a < b ? b : a;
+    return c < least ? least : c > most ? most : c;
+}
+
+/* Moves the k least keys of items[0 .. count - 1] to the front (Hoare's selection). */
+static void select_least(item *items, size_t count, size_t k)
+{
+    size_t low = 0;
+    size_t high = count - 1;
+    while (low < high) {
+        const float pivot = middle_key(items, low, high);
+        size_t i = low;
+        size_t end = high + 1; /* one past the last that may be below the pivot */
+        while (i < end) {
+            while (items[i].key < pivot)
+                ++i;
+            while (pivot < items[end - 1].key)
+                --end;
+            if (i < end)
+                swap_items(&items[i++], &items[--end]);
+        }
+        if (k < end)
+            high = end - 1;
+        else if (k >= i)
+            low = i;
+        else
+            break;
+    }
+}
+
+/* The main axis of the centres of a range of triangles. */
+static mote_vec3 main_axis(const builder *b, range r)
+{
+    double mean[3] = {0};
+    double m[6] = {0};
+    const float *base = b->centres[b->items[r.begin].triangle];
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+        const float *c = b->centres[b->items[i].triangle];
+        const double x = (double)(c[0] - base[0]);
+        const double y = (double)(c[1] - base[1]);
+        const double z = (double)(c[2] - base[2]);
+        mean[0] += x;
+        mean[1] += y;
+        mean[2] += z;
+        m[0] += x * x;
+        m[1] += x * y;
+        m[2] += x * z;
+        m[3] += y * y;
+        m[4] += y * z;
+        m[5] += z * z;
+    }
+    const double n = 1 / (double)(r.end - r.begin);
+    double a[3][3];
+    a[0][0] = m[0] - mean[0] * mean[0] * n;
+    a[0][1] = a[1][0] = m[1] - mean[0] * mean[1] * n;
+    a[0][2] = a[2][0] = m[2] - mean[0] * mean[2] * n;
+    a[1][1] = m[3] - mean[1] * mean[1] * n;
+    a[1][2] = a[2][1] = m[4] - mean[1] * mean[2] * n;
+    a[2][2] = m[5] - mean[2] * mean[2] * n;
+    mote_vec3 axes[3];
+    mote_cert_principal_axes(a, axes);
+    return axes[0];
+}
+
+/* Sorts a range into halves and returns where the second begins. */
+static uint32_t split(builder *b, range r)
+{
+    const mote_vec3 axis = main_axis(b, r);
+    const float x = (float)axis.x;
+    const float y = (float)axis.y;
+    const float z = (float)axis.z;
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+        const float *c = b->centres[b->items[i].triangle];
+        b->items[i].key = c[0] * x + c[1] * y + c[2] * z;
+    }
+    const uint32_t half = (r.end - r.begin) / 2;
+    select_least(b->items + r.begin, r.end - r.begin, half);
+    return r.begin + half;
+}
+
+/* Lists the vertices of a range once each in b->list. */
+static uint32_t list_vertices(builder *b, range r)
+{
+    const mote_mesh *mesh = b->tree->body->mesh;
+    uint32_t count = 0;
+    ++b->stamp;
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+        const uint32_t *t = mesh->triangles[b->items[i].triangle];
+        for (int k = 0; k < 3; ++k) {
+            if (b->seen[t[k]] == b->stamp)
+                continue;
+            b->seen[t[k]] = b->stamp;
+            b->place[t[k]] = count;
+            b->list[count++] = t[k];
+        }
+    }
+    return count;
+}
+
+/* Makes room for more elements of an array; returns it, or NULL and sets the status. */
+static void *make_room(builder *b, void *array, size_t *room, size_t used, size_t more,
+                       size_t size)
+{
+    if (used + more <= *room)
+        return array;
+    const size_t wanted = 2 * (used + more);
+    void *moved = realloc(array, wanted * size);
+    if (!moved) {
+        b->status = mote_fail(MOTE_ENOMEM, "no memory for a tree of %u triangles",
+                              b->tree->body->mesh->triangle_count);
+        return NULL;
+    }
+    *room = wanted;
+    return moved;
+}
+
+/* Appends a leaf for a range whose vertices are in b->list. */
+static int32_t add_leaf(builder *b, range r, uint32_t vertex_count, uint32_t block)
+{
+    mote_cert_tree *tree = b->tree;
+    void *leaves =
+        make_room(b, tree->leaves, &b->leaf_room, tree->leaf_count, 1, sizeof *tree->leaves);
+    if (!leaves)
+        return -1;
+    tree->leaves = leaves;
+    void *vertices = make_room(b, tree->leaf_vertices, &b->vertex_room, tree->leaf_vertex_count,
+                               vertex_count, sizeof(uint32_t));
+    if (!vertices)
+        return -1;
+    tree->leaf_vertices = vertices;
+    tree->leaves[tree->leaf_count] =
+        (mote_cert_leaf){.first_vertex = tree->leaf_vertex_count,
+                         .first_corner = b->corner_count,
+                         .block = block,
+                         .vertex_count = (uint8_t)vertex_count,
+                         .triangle_count = (uint8_t)(r.end - r.begin)};
+    memcpy(tree->leaf_vertices + tree->leaf_vertex_count, b->list,
+           vertex_count * sizeof(uint32_t));
+    tree->leaf_vertex_count += vertex_count;
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+        const uint32_t *t = tree->body->mesh->triangles[b->items[i].triangle];
+        for (int k = 0; k < 3; ++k)
+            tree->corners[b->corner_count][k] = (uint8_t)b->place[t[k]];
+        ++b->corner_count;
+    }
+    return ~(int32_t)tree->leaf_count++;
+}
+
+/* Splits a range by at most `levels` binary levels into parts. */
+static uint32_t split_levels(builder *b, range whole, uint32_t levels,
+                             range parts[MOTE_CERT_WIDTH])
+{
+    uint32_t count = 1;
+    parts[0] = whole;
+    for (uint32_t level = 0; level < levels; ++level) {
+        range next[MOTE_CERT_WIDTH];
+        uint32_t made = 0;
+        for (uint32_t i = 0; i < count; ++i) {
+            const range r = parts[i];
+            const uint32_t below = r.levels > 0 ? r.levels - 1 : 0;
+            const uint32_t middle = split(b, r);
+            next[made++] = (range){r.begin, middle, below};
+            next[made++] = (range){middle, r.end, below};
+        }
+        count = made;
+        memcpy(parts, next, made * sizeof *parts);
+    }
+    return count;
+}
+
+typedef struct part {
+    range r;
+    uint32_t vertex_count;
+    mote_cert_box box;
+} part;
+
+static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box *box)
+{
+    block->centre[0][lane] = (float)box->centre.x;
+    block->centre[1][lane] = (float)box->centre.y;
+    block->centre[2][lane] = (float)box->centre.z;
+    for (int k = 0; k < 3; ++k) {
+        block->half[k][0][lane] = (float)box->half[k].x;
+        block->half[k][1][lane] = (float)box->half[k].y;
+        block->half[k][2][lane] = (float)box->half[k].z;
+    }
+}
+
+/* Rows of one block while its children are fitted; those of functions that reach it are
+   appended to the tree. */
+typedef struct block_rows {
+    bool active[MOTE_FIELD_MAX];
+    mote_cert_row row[MOTE_FIELD_MAX];
+} block_rows;
+
+static void store_fit(block_rows *rows, uint32_t lane, const mote_cert_fit *fit,
+                      uint32_t functions)
+{
+    for (uint32_t j = 0; j < functions; ++j) {
+        if (!fit->active[j])
+            continue;
+        rows->active[j] = true;
+        rows->row[j].offset[lane] = fit->offset[j];
+        for (int k = 0; k < 3; ++k)
+            rows->row[j].slope[k][lane] = fit->slope[k][j];
+        rows->row[j].rest[lane] = fit->rest[j];
+    }
+}
+
+/* Appends the rows in the order of the lanes of sums over basis functions (see
+   mote_field_kind.group). */
+static void append_rows(builder *b, const block_rows *rows, mote_cert_block *block)
+{
+    mote_cert_tree *tree = b->tree;
+    const uint32_t functions = tree->body->field->count;
+    uint32_t count = 0;
+    for (uint32_t j = 0; j < functions; ++j)
+        count += rows->active[j];
+    block->first_row = block->first_active = tree->row_count;
+    block->active_count = count;
+    size_t room = b->row_room;
+    void *moved = make_room(b, tree->rows, &room, tree->row_count, count, sizeof *tree->rows);
+    if (!moved && b->status != MOTE_OK)
+        return;
+    tree->rows = moved;
+    if (room != b->row_room) {
+        void *active = realloc(tree->active, room);
+        if (!active) {
+            b->status = mote_fail(MOTE_ENOMEM, "no memory for %zu rows of a tree", room);
+            return;
+        }
+        tree->active = active;
+        b->row_room = room;
+    }
+    for (uint32_t lane = 0; lane < MOTE_LANES; ++lane) {
+        for (uint32_t j = lane; j < functions; j += MOTE_LANES) {
+            if (!rows->active[j])
+                continue;
+            tree->rows[tree->row_count] = rows->row[j];
+            tree->active[tree->row_count] = (uint8_t)j;
+            ++tree->row_count;
+        }
+    }
+}
+
+static int32_t build_block(builder *b, range whole, uint32_t depth);
+
+/* Fills boxes, rows and leaves of a block; parts that need a block of their own are left. */
+static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count,
+                       block_rows *rows)
+{
+    mote_cert_tree *tree = b->tree;
+    const uint32_t functions = tree->body->field->count;
+    mote_cert_block block = {.mask = (1u << count) - 1};
+    memset(rows->active, 0, functions);
+    memset(rows->row, 0, functions * sizeof *rows->row);
+    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
+        const range r = parts[lane];
+        const uint32_t vertices = list_vertices(b, r);
+        const mote_cert_box box = mote_cert_box_of(tree, b->list, vertices);
+        store_box(&block, lane, &box);
+        if (functions > 0) {
+            mote_cert_fit_box(tree, b->list, vertices, &box, b->options.linear_fits, b->phi,
+                              &b->fit);
+            store_fit(rows, lane, &b->fit, functions);
+        }
+        if (r.levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
+            block.child[lane] = add_leaf(b, r, vertices, id);
+    }
+    for (uint32_t lane = count; lane < MOTE_CERT_WIDTH; ++lane) {
+        for (int k = 0; k < 3; ++k) /* an empty lane's axes are not 0 either */
+            block.half[k][k][lane] = 0x1p-23F;
+    }
+    if (b->status == MOTE_OK)
+        append_rows(b, rows, &block);
+    tree->blocks[id] = block;
+}
+
+static int32_t build_block(builder *b, range whole, uint32_t depth)
+{
+    mote_cert_tree *tree = b->tree;
+    void *blocks =
+        make_room(b, tree->blocks, &b->block_room, tree->block_count, 1, sizeof *tree->blocks);
+    if (!blocks)
+        return -1;
+    tree->blocks = blocks;
+    const uint32_t id = tree->block_count++;
+    tree->depth = depth > tree->depth ? depth : tree->depth;
+    uint32_t levels = whole.levels % b->bits;
+    if (levels == 0 && whole.levels > 0)
+        levels = b->bits;
+    else if (whole.levels == 0 && depth > 1)
+        levels = 1; /* what would be a leaf has too many vertices */
+    range parts[MOTE_CERT_WIDTH];
+    const uint32_t count = split_levels(b, whole, levels, parts);
+    block_rows *rows = malloc(sizeof *rows);
+    if (!rows) {
+        b->status = mote_fail(MOTE_ENOMEM, "no memory for the rows of a block");
+        return -1;
+    }
+    fill_block(b, id, parts, count, rows);
+    free(rows);
+    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
+        if (tree->blocks[id].child[lane] < 0)
+            continue;
+        const int32_t child = build_block(b, parts[lane], depth + 1);
+        tree->blocks[id].child[lane] = child;
+    }
+    return (int32_t)id;
+}
+
+/* The power of two near 1 / x. */
+static double inverse_power(double x)
+{
+    return ldexp(1, -ilogb(x));
+}
+
+/* Powers of two that bring the largest value of every basis function near 1. */
+static void scale_basis(builder *b)
+{
+    const mote_body *body = b->tree->body;
+    double most[MOTE_FIELD_MAX] = {0};
+    for (uint32_t v = 0; v < body->mesh->vertex_count; ++v) {
+        body->field->kind->basis(body->field, body->mesh, v, b->phi);
+        for (uint32_t j = 0; j < body->field->count; ++j)
+            most[j] = fabs(b->phi[j]) > most[j] ? fabs(b->phi[j]) : most[j];
+    }
+    for (uint32_t j = 0; j < body->field->count; ++j)
+        b->tree->basis_scale[j] = most[j] > 0 ? inverse_power(most[j]) : 1;
+}
+
+static mote_status allocate(builder *b)
+{
+    const mote_mesh *mesh = b->tree->body->mesh;
+    const size_t padded = b->tree->body->field->padded;
+    b->items = malloc(mesh->triangle_count * sizeof *b->items);
+    b->centres = malloc(mesh->triangle_count * sizeof *b->centres);
+    b->seen = calloc(mesh->vertex_count, sizeof *b->seen);
+    b->place = malloc(mesh->vertex_count * sizeof *b->place);
+    b->list = malloc(mesh->vertex_count * sizeof *b->list);
+    b->phi = malloc((MOTE_CERT_FIT_CHUNK * padded + 1) * sizeof *b->phi);
+    b->tree->corners = malloc(mesh->triangle_count * sizeof *b->tree->corners);
+    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->phi ||
+        !b->tree->corners)
+        return mote_fail(MOTE_ENOMEM, "no memory to build a tree of %u triangles",
+                         mesh->triangle_count);
+    return MOTE_OK;
+}
+
+static void place_triangles(builder *b)
+{
+    const mote_mesh *mesh = b->tree->body->mesh;
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
+        const uint32_t *v = mesh->triangles[t];
+        const mote_vec3 sum = mote_add(mote_add(mote_cert_tree_position(b->tree, v[0]),
+                                                mote_cert_tree_position(b->tree, v[1])),
+                                       mote_cert_tree_position(b->tree, v[2]));
+        b->items[t].triangle = t;
+        b->centres[t][0] = (float)(sum.x / 3);
+        b->centres[t][1] = (float)(sum.y / 3);
+        b->centres[t][2] = (float)(sum.z / 3);
+    }
+}
+
+static uint32_t levels_of(uint32_t triangles)
+{
+    uint32_t levels = 0;
+    for (; triangles > MOTE_CERT_LEAF_TRIANGLES; ++levels)
+        triangles = (triangles + 1) / 2;
+    return levels;
+}
+
+/* Gives back what growing left over; a failure to shrink does no harm. */
+static void shrink(mote_cert_tree *tree)
+{
+    void *blocks = realloc(tree->blocks, tree->block_count * sizeof *tree->blocks);
+    tree->blocks = blocks ? blocks : tree->blocks;
+    void *leaves = realloc(tree->leaves, tree->leaf_count * sizeof *tree->leaves);
+    tree->leaves = leaves ? leaves : tree->leaves;
+    void *vertices = realloc(tree->leaf_vertices, tree->leaf_vertex_count * sizeof(uint32_t));
+    tree->leaf_vertices = vertices ? vertices : tree->leaf_vertices;
+    if (tree->row_count == 0)
+        return;
+    void *rows = realloc(tree->rows, tree->row_count * sizeof *tree->rows);
+    tree->rows = rows ? rows : tree->rows;
+    void *active = realloc(tree->active, tree->row_count);
+    tree->active = active ? active : tree->active;
+}
+
+static mote_status build(builder *b)
+{
+    const mote_mesh *mesh = b->tree->body->mesh;
+    b->status = allocate(b);
+    if (b->status != MOTE_OK)
+        return b->status;
+    scale_basis(b);
+    place_triangles(b);
+    const range whole = {0, mesh->triangle_count, levels_of(mesh->triangle_count)};
+    build_block(b, whole, 1);
+    if (b->status == MOTE_OK)
+        shrink(b->tree);
+    return b->status;
+}
+
+mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_options *options,
+                                  mote_cert_tree **tree)
+{
+    const mote_mesh *mesh = body->mesh;
+    builder *b = calloc(1, sizeof *b);
+    mote_cert_tree *made = calloc(1, sizeof *made);
+    mote_status status = MOTE_OK;
+    if (!b || !made) {
+        status = mote_fail(MOTE_ENOMEM, "no memory for a tree");
+    } else {
+        made->body = body;
+        made->scale = inverse_power(options->length);
+        made->origin = mote_scale(mote_add(mesh->low, mesh->high), 0.5);
+        b->tree = made;
+        b->options = *options;
+        b->bits = options->width == 8 ? 3 : options->width == 4 ? 2 : 1;
+        status = build(b);
+        free(b->items);
+        free(b->centres);
+        free(b->seen);
+        free(b->place);
+        free(b->list);
+        free(b->phi);
+    }
+    free(b);
+    if (status != MOTE_OK) {
+        mote_cert_tree_destroy(made);
+        return status;
+    }
+    *tree = made;
+    return MOTE_OK;
+}
+
+void mote_cert_tree_destroy(mote_cert_tree *tree)
+{
+    if (!tree)
+        return;
+    free(tree->blocks);
+    free(tree->rows);
+    free(tree->active);
+    free(tree->leaves);
+    free(tree->leaf_vertices);
+    free(tree->corners);
+    free(tree);
+}
+
+size_t mote_cert_tree_bytes(const mote_cert_tree *tree)
+{
+    return sizeof *tree + tree->block_count * sizeof *tree->blocks +
+           tree->row_count * (sizeof *tree->rows + 1) +
+           tree->leaf_count * sizeof *tree->leaves +
+           tree->leaf_vertex_count * sizeof(uint32_t) +
+           (size_t)tree->body->mesh->triangle_count * sizeof *tree->corners;
+}

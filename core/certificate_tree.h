@@ -1,0 +1,93 @@
+/* The rest tree of certified mode: boxes that are deformed node by node, on demand, without
+   evaluating the field (DESIGN section 5; James and Pai's BD-tree with boxes for spheres).
+
+   For a child box with centre c and half axes h_k let z_k = h_k.(x - c) / |h_k|^2, so that
+   every rest vertex of the box is x = c + sum_k z_k h_k with |z_k| <= 1. Each basis function is
+   fitted by phi_j(x) = f_j + sum_k g_jk z_k + r, |r| <= m_j, over the box's vertices. With
+   weights w_j the deformed vertices are then inside the sum of
+       the centre R c + t + sum_j f_j w_j,
+       three half axes R h_k + sum_j g_jk w_j, and
+       an axis-aligned half width sum_j m_j |w_j|,
+   whatever the field is. A triangle is convex, so a box of its vertices encloses it.
+
+   Lengths are relative to origin and multiplied by scale, a power of two near 1 / L; basis
+   functions are multiplied by a power of two that brings the largest value near 1. */
+#ifndef MOTE_CORE_CERTIFICATE_TREE_H
+#define MOTE_CORE_CERTIFICATE_TREE_H
+
+#include "core/body.h"
+
+/* Children of a block: the lanes of every test of boxes. */
+#define MOTE_CERT_WIDTH 8
+
+/* A leaf's triangles and vertices, at most. */
+#define MOTE_CERT_LEAF_TRIANGLES 8
+#define MOTE_CERT_LEAF_VERTICES 16
+
+/* What one basis function that reaches a block does to its children. */
+typedef struct mote_cert_row {
+    float offset[MOTE_CERT_WIDTH];   /* f */
+    float slope[3][MOTE_CERT_WIDTH]; /* g, by axis */
+    float rest[MOTE_CERT_WIDTH];     /* m >= 0 */
+} mote_cert_row;
+
+typedef struct mote_cert_block {
+    float centre[3][MOTE_CERT_WIDTH];
+    float half[3][3][MOTE_CERT_WIDTH]; /* [axis, longest first][coordinate][child] */
+    int32_t child[MOTE_CERT_WIDTH];    /* >= 0: a block; < 0: the leaf ~child */
+    uint32_t first_row;                /* its rows, one for each of its basis functions */
+    uint32_t first_active;             /* which these are: see mote_field_kind.group */
+    uint32_t active_count;
+    uint32_t mask; /* bit l: lane l has a child */
+} mote_cert_block;
+
+typedef struct mote_cert_leaf {
+    uint32_t first_vertex; /* in leaf_vertices */
+    uint32_t first_corner; /* in corners */
+    uint32_t block;        /* whose child it is */
+    uint8_t vertex_count;
+    uint8_t triangle_count;
+} mote_cert_leaf;
+
+typedef struct mote_cert_tree {
+    const mote_body *body;
+    double scale;
+    mote_vec3 origin;
+    mote_cert_block *blocks; /* [block_count]; the root is the first */
+    mote_cert_row *rows;     /* [row_count] */
+    uint8_t *active;         /* [row_count] basis functions */
+    mote_cert_leaf *leaves;  /* [leaf_count] */
+    uint32_t *leaf_vertices; /* [leaf_vertex_count] */
+    uint8_t (*corners)[3];   /* [triangle_count], places in the leaf's vertices */
+    uint32_t block_count, leaf_count, leaf_vertex_count;
+    uint32_t row_count;
+    uint32_t depth;                     /* blocks on the longest way down */
+    double basis_scale[MOTE_FIELD_MAX]; /* powers of two */
+    double reach[MOTE_FIELD_MAX]; /* bound of |f| + |g_1| + |g_2| + |g_3| + m in any row */
+    double radius;                /* bound of |c| + |h_1| + |h_2| + |h_3| of any box */
+    double leak; /* how far a vertex sticks out of its box by the rounding of boxes */
+} mote_cert_tree;
+
+typedef struct mote_cert_tree_options {
+    double length;    /* > 0: L of the pair, fixes the scale */
+    uint32_t width;   /* children a block: 2, 4 or 8 */
+    bool linear_fits; /* false: g = 0 (to measure what the fits bring) */
+} mote_cert_tree_options;
+
+/* Builds the tree of a body, which is borrowed. MOTE_ENOMEM. Cost O(t log t + v J log t). */
+mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_options *options,
+                                  mote_cert_tree **tree);
+
+/* NULL is allowed. */
+void mote_cert_tree_destroy(mote_cert_tree *tree);
+
+/* Bytes of heap that a tree holds. */
+size_t mote_cert_tree_bytes(const mote_cert_tree *tree);
+
+/* A rest vertex in the tree's units. */
+static inline mote_vec3 mote_cert_tree_position(const mote_cert_tree *tree, uint32_t vertex)
+{
+    return mote_scale(mote_sub(tree->body->mesh->positions[vertex], tree->origin), tree->scale);
+}
+
+#endif
