@@ -117,7 +117,7 @@ void mote_cert_set_best(mote_certificate *c, double squared)
     double limit = (c->upper - c->slack) * c->scale * (1 - 1e-13);
     if (c->enough >= 0) {
         /* just above the tolerance, so that a pair exactly as far is found */
-        const double enough = c->enough * c->scale * (1 + 1e-13) + c->noise;
+        const double enough = c->enough * c->scale * (1 + 1e-13) + 4 * c->noise;
         limit = enough < limit ? enough : limit;
     }
     /* Where the bodies all but touch, rounding decides no bound: all pairs that might touch are

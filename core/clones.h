@@ -4,7 +4,10 @@
 #ifndef MOTE_CORE_CLONES_H
 #define MOTE_CORE_CLONES_H
 
-#if defined(MOTE_HAVE_CLONES_V4)
+/* clang before 18 gives the name of a cloned function only to callers in the same file. */
+#if defined(__clang__) && __clang_major__ < 18
+#define MOTE_CLONES
+#elif defined(MOTE_HAVE_CLONES_V4)
 #define MOTE_CLONES                                                                            \
     __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #elif defined(MOTE_HAVE_CLONES)

@@ -57,6 +57,7 @@ typedef struct certified_state {
     mote_certificate *certificate;
     mote_ask ask;
     double tolerance;
+    bool exact; /* no slack */
 } certified_state;
 
 static mote_traits traits(const double *values)
@@ -106,6 +107,7 @@ static mote_status create(const mote_setup *setup, void **state)
     }
     made->ask = setup->ask;
     made->tolerance = setup->tolerance;
+    made->exact = !(options.slack > 0);
     *state = made;
     return MOTE_OK;
 }
@@ -126,7 +128,9 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     answer->has_distance = !contact_only;
     answer->has_witness = !contact_only || answer->contact;
     answer->has_lower = true;
-    answer->has_contact = true;
+    /* A bracket around the tolerance leaves the contact open. */
+    answer->has_contact =
+        answer->contact || found.lower > s->tolerance || (s->exact && !found.stopped);
     answer->counters = found.counters;
     return MOTE_OK;
 }
