@@ -167,14 +167,25 @@ static void sort_pairs(ccd_state *s, const mote_frame *frame)
     qsort(s->pairs, s->pair_count, sizeof *s->pairs, compare_pairs);
 }
 
-/* Remembers the deepest penetration and a point in the middle of it. */
-static void measure_penetration(const convex both[2], const ccd_t *ccd, mote_answer *answer)
+/* For boxes that meet face to face, EPA fails with a direction of NaN when it starts along an
+   axis, as it does by default. */
+static void skew_direction(const void *first, const void *second, ccd_vec3_t *direction)
 {
+    (void)first;
+    (void)second;
+    ccdVec3Set(direction, 0.8, 0.5, 0.3);
+}
+
+/* Remembers the deepest penetration and a point in the middle of it. */
+static void measure_penetration(const convex both[2], const ccd_t *settings,
+                                mote_answer *answer)
+{
+    ccd_t ccd = *settings;
+    ccd.first_dir = skew_direction;
     ccd_real_t depth;
     ccd_vec3_t direction, position;
-    if (ccdGJKPenetration(&both[0], &both[1], ccd, &depth, &direction, &position) != 0)
+    if (ccdGJKPenetration(&both[0], &both[1], &ccd, &depth, &direction, &position) != 0)
         return;
-    /* EPA may fail where cubes touch face to face, with a direction of NaN. */
     if (!isfinite(depth) || !isfinite(direction.v[0]) || !isfinite(position.v[0]))
         return;
     depth /= both[0].scale;

@@ -1,0 +1,35 @@
+/* Known defects of FCL 0.7.0, each as the smallest sequence of calls that shows it
+   (datasets/defects.md). Used by tests only. */
+#ifndef MOTE_BASELINES_FCL_DEFECTS_H
+#define MOTE_BASELINES_FCL_DEFECTS_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Joins two rectangle swept spheres with operator+, as a bottom-up refit does, and returns the
+   largest cosine between two axes of the sum; they should be orthogonal: 0. */
+double mote_fcl_rss_sum_cosine(void);
+
+/* fcl::distance of two triangles, one above the other at distance 1, as models of oriented
+   boxes; the right answer is 1. The warning that FCL writes to its error stream is discarded.
+ */
+double mote_fcl_obb_distance(void);
+
+/* memUsage of a model of one triangle; a size in bytes is expected. */
+int mote_fcl_memory_usage(void);
+
+/* What beginReplaceModel says after an update by beginUpdateModel .. endUpdateModel; 0 is
+ * success.
+ */
+int mote_fcl_replace_after_update(void);
+
+/* Whether a model with a NaN among its vertices is built without complaint. */
+bool mote_fcl_builds_with_nan(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
