@@ -111,11 +111,13 @@ static mote_parts *checked_parts(const mote_mesh *mesh, const mote_vec3 *positio
 static void parts_create_of_letters_finds_their_strokes(void **unused)
 {
     (void)unused;
+    /* At least one part a stroke; HACD splits a stroke where the rounded joints make it concave,
+       up to three times in what was measured. */
     static const struct {
         char letter;
         size_t triangles;
         uint32_t low, high;
-    } cases[] = {{'T', 1380, 2, 4}, {'V', 1764, 2, 4}, {'M', 2968, 5, 9}, {'W', 11920, 5, 9}};
+    } cases[] = {{'T', 1380, 2, 6}, {'V', 1764, 2, 6}, {'M', 2968, 4, 12}, {'W', 11920, 4, 12}};
     for (int i = 0; i < 4; ++i) {
         mote_mesh *mesh = make_letter(cases[i].letter, cases[i].triangles);
         mote_parts *parts = checked_parts(mesh, NULL);
