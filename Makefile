@@ -4,7 +4,7 @@
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
 #   make test                                         release tests, then ASan and UBSan
 #   make figures [OUT=DIR]                            draw again from what is stored
-#   make oracle [PROFILE=quick|full] [OUT=DIR]       triangle distances against exact arithmetic
+#   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -38,8 +38,8 @@ bench: build
 
 oracle: build
 	@mkdir -p $(OUT)
-	@$(BUILD)/tests/oracle --pairs $(if $(filter quick,$(PROFILE)),190000,11400000) \
-	    --out $(OUT)/oracle.json
+	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
+	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
 
 figures: build
 	@$(MOTE) figures $(OUT)

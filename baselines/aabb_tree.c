@@ -3,17 +3,21 @@
    the last frame's closest pair of triangles as the first bound. */
 #include "baselines/box_tree.h"
 #include "baselines/input.h"
+#include "baselines/wide_triangle.h"
 #include "core/clones.h"
 #include "core/method.h"
 #include "core/triangle.h"
 
 #include <stdlib.h>
 
-enum { SEED, POSITIONS, PARAMETER_COUNT };
+enum { SEED, ARITHMETIC, POSITIONS, PARAMETER_COUNT };
 
 static const mote_parameter parameters[PARAMETER_COUNT] = {
     [SEED] = {"seed", MOTE_PARAMETER_CHOICE, 0, 0, "none|previous", "previous",
               "first upper bound: none, or from the last query's triangle pair"},
+    [ARITHMETIC] =
+        {"arithmetic", MOTE_PARAMETER_CHOICE, 0, 0, "double|wide", "double",
+         "of triangle distances: double, or 113 bits, 100 times slower, for disputes"},
     [POSITIONS] = {"positions", MOTE_PARAMETER_CHOICE, 0, 0, "deform|given", "deform",
                    "deform: pay for deforming all vertices; given: they come free of charge"},
 };
@@ -26,7 +30,7 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
 
 typedef struct tree_state {
     mote_setup setup;
-    bool seeded;
+    bool seeded, wide;
     double scale; /* brings L near 1: a power of two */
     mote_vec3 origin;
     float reach; /* largest coordinate of both trees */
@@ -98,6 +102,7 @@ static mote_status create(const mote_setup *setup, void **state)
         return mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
     s->setup = *setup;
     s->seeded = setup->values[SEED] > 0;
+    s->wide = setup->values[ARITHMETIC] > 0;
     s->scale = ldexp(1, -ilogb(setup->length));
     for (int b = 0; b < 2 && status == MOTE_OK; b++)
         status = mote_box_tree_init(&s->tree[b], setup->body[b]->mesh);
@@ -200,13 +205,26 @@ static void set_limits(search *q)
     q->direction[2] = (float)(u.z * inverse);
 }
 
+/* As mote_triangle_triangle_below, but for pairs that are about as near as the bound in 113
+ * bits. */
+static double measure_wide(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared,
+                           mote_vec3 *p, mote_vec3 *q)
+{
+    double squared = mote_triangle_triangle(s, t, p, q);
+    if (squared > 2 * bound_squared)
+        return squared;
+    return (double)reference_triangle_triangle(s, t);
+}
+
 static void measure(search *q, uint32_t a, uint32_t b)
 {
     mote_vec3 s[3], t[3], p_s, p_t;
     corners(q, 0, a, s);
     corners(q, 1, b, t);
     q->counters->triangle_tests++;
-    double squared = mote_triangle_triangle_below(s, t, q->squared, &p_s, &p_t);
+    double squared = q->state->wide
+                         ? measure_wide(s, t, q->squared, &p_s, &p_t)
+                         : mote_triangle_triangle_below(s, t, q->squared, &p_s, &p_t);
     if (!(squared < q->squared))
         return;
     q->squared = squared;

@@ -2,19 +2,24 @@
    exact arithmetic for contact and 113 bits for distance, on random pairs of which most are
    hard.
 
-       oracle [--pairs N] [--seed S] [--out FILE.json]
+       oracle [--pairs N] [--seed S] [--stride K] [--agreement A] [--out FILE.json]
 
-   Prints a table; exit 1 when a requirement is not met: no wrong contact of ours in the strict
-   band, no error of ours above 1e-15 of the pair's extent. Verdicts are counted in three bands:
-   strict (apart, or overlapping, by more than 1e-15 of the extent), touching (overlapping by
-   less), near (apart by less). The same pairs for any number of threads. */
+   and, with a stride, whether two methods agree to A L (1e-12) on every K-th frame of the
+   built-in scenarios.
+
+   Prints tables; exit 1 when a requirement is not met: no wrong contact of ours in the strict
+   band, no error of ours above 1e-15 of the pair's extent, aabb-tree right in every frame.
+   Verdicts are counted in three bands: strict (apart, or overlapping, by more than 1e-15 of the
+   extent), touching (overlapping by less), near (apart by less). The same pairs for any number
+   of threads. */
 #include "baselines/ccd_triangle.h"
 #include "baselines/fcl_triangle.h"
 #include "core/triangle.h"
 #include "harness/json_print.h"
 #include "tests/oracle_exact.h"
+#include "tests/oracle_frames.h"
 #include "tests/triangle_pairs.h"
-#include "tests/triangle_reference.h"
+#include "baselines/wide_triangle.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -338,10 +343,9 @@ static json_t *engine_json(const tally *total, int e)
                      "general_ns", time_engine(&engines[e], PAIR_GENERAL), "bands", bands);
 }
 
-static json_t *to_json(const tally *total, uint64_t pairs, uint64_t seed,
-                       const requirement *list)
+static json_t *to_json(const tally *total, uint64_t pairs, uint64_t seed)
 {
-    json_t *rows = json_array(), *sorts = json_array(), *requirements = json_array();
+    json_t *rows = json_array(), *sorts = json_array();
     for (int e = 0; e < ENGINES; e++)
         json_array_append_new(rows, engine_json(total, e));
     for (int k = 0; k < PAIR_SORTS; k++)
@@ -349,12 +353,8 @@ static json_t *to_json(const tally *total, uint64_t pairs, uint64_t seed,
                                                "pairs", (json_int_t)total->sort_pairs[k],
                                                "contacts", (json_int_t)total->sort_contacts[k],
                                                "error_max", total->sort_worst[k]));
-    for (int k = 0; k < REQUIREMENTS; k++)
-        json_array_append_new(requirements, json_pack("{s:s, s:b}", "requirement", list[k].text,
-                                                      "met", (int)list[k].met));
-    return json_pack("{s:i, s:I, s:I, s:f, s:o, s:o, s:o}", "schema", 1, "pairs",
-                     (json_int_t)pairs, "seed", (json_int_t)seed, "band", BAND, "engines", rows,
-                     "sorts", sorts, "requirements", requirements);
+    return json_pack("{s:i, s:I, s:I, s:f, s:o, s:o}", "schema", 1, "pairs", (json_int_t)pairs,
+                     "seed", (json_int_t)seed, "band", BAND, "engines", rows, "sorts", sorts);
 }
 
 static void print_table(const json_t *study)
@@ -389,7 +389,7 @@ static void print_table(const json_t *study)
 static int store(const json_t *study, const char *path)
 {
     mote_text text = {0};
-    mote_json_print(study, 6, &text);
+    mote_json_print(study, 16, &text);
     mote_status status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for %s", path)
                                      : mote_file_write(path, text.data, text.size);
     free(text.data);
@@ -398,9 +398,21 @@ static int store(const json_t *study, const char *path)
     return status == MOTE_OK ? 0 : 4;
 }
 
-/* Reads --pairs, --seed, --out; false with a line on stderr for anything else. */
-static bool read_options(int argc, char **argv, uint64_t *pairs, uint64_t *seed,
-                         const char **out)
+typedef struct options {
+    uint64_t pairs, seed, stride; /* stride 0: no frames */
+    double agreement;             /* over L */
+    const char *out;              /* NULL: not stored */
+} options;
+
+static bool read_real(const char *text, double *value)
+{
+    char *end = NULL;
+    *value = strtod(text, &end);
+    return end != text && *end == 0 && *value >= 0 && isfinite(*value);
+}
+
+/* Reads the options; false with a line on stderr for anything else. */
+static bool read_options(int argc, char **argv, options *o)
 {
     for (int i = 1; i < argc; i += 2) {
         char *end = NULL;
@@ -409,16 +421,22 @@ static bool read_options(int argc, char **argv, uint64_t *pairs, uint64_t *seed,
         bool whole =
             end && end != argv[i + 1] && *end == 0 && errno == 0 && argv[i + 1][0] != '-';
         if (i + 1 < argc && strcmp(argv[i], "--out") == 0) {
-            *out = argv[i + 1];
+            o->out = argv[i + 1];
+        } else if (i + 1 < argc && strcmp(argv[i], "--agreement") == 0 &&
+                   read_real(argv[i + 1], &o->agreement)) {
+            continue;
         } else if (whole && strcmp(argv[i], "--pairs") == 0 && number > 0 &&
-                   number <= 1000000000000u) {
-            *pairs = number;
+                   number >> 40 == 0) {
+            o->pairs = number;
+        } else if (whole && strcmp(argv[i], "--stride") == 0 && number > 0 &&
+                   number >> 30 == 0) {
+            o->stride = number;
         } else if (whole && strcmp(argv[i], "--seed") == 0) {
-            *seed = number;
+            o->seed = number;
         } else {
             fprintf(stderr,
-                    "oracle: bad option %s; usage: oracle [--pairs N] [--seed S] [--out "
-                    "FILE.json]\n",
+                    "oracle: bad option %s; usage: oracle [--pairs N] [--seed S] [--stride K] "
+                    "[--agreement A] [--out FILE.json]\n",
                     argv[i]);
             return false;
         }
@@ -426,26 +444,73 @@ static bool read_options(int argc, char **argv, uint64_t *pairs, uint64_t *seed,
     return true;
 }
 
+/* Adds the frames of all scenarios to the study and prints a line for each. */
+static mote_status add_frames(json_t *study, const options *o, bool *right)
+{
+    static const char *const scenarios[] = {"ww", "tt", "mv"};
+    json_t *list = json_array();
+    json_object_set_new(study, "frames", list);
+    *right = true;
+    for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++) {
+        json_t *row;
+        bool here;
+        mote_status status =
+            oracle_frames(scenarios[i], (uint32_t)o->stride, o->agreement, &row, &here);
+        if (status != MOTE_OK)
+            return status;
+        printf("%s: %" JSON_INTEGER_FORMAT
+               " frames, aabb-tree and fcl-aabb differ by %.1e L at "
+               "most, %zu disputed\n",
+               scenarios[i], json_integer_value(json_object_get(row, "frames")),
+               json_number_value(json_object_get(row, "difference_max")),
+               json_array_size(json_object_get(row, "disputed")));
+        json_array_append_new(list, row);
+        *right = *right && here;
+    }
+    return MOTE_OK;
+}
+
+/* Prints whether each requirement is met and adds them to the study; true if all are. */
+static bool report(json_t *study, const requirement *list, int count)
+{
+    json_t *rows = json_array();
+    bool all = true;
+    for (int k = 0; k < count; k++) {
+        printf("%-8s %s\n", list[k].met ? "met" : "NOT MET", list[k].text);
+        json_array_append_new(rows, json_pack("{s:s, s:b}", "requirement", list[k].text, "met",
+                                              (int)list[k].met));
+        all = all && list[k].met;
+    }
+    json_object_set_new(study, "requirements", rows);
+    return all;
+}
+
 int main(int argc, char **argv)
 {
-    uint64_t pairs = 100000, seed = 1;
-    const char *out = NULL;
-    if (!read_options(argc, argv, &pairs, &seed, &out))
+    options o = {.pairs = 100000, .seed = 1, .agreement = 1e-12};
+    if (!read_options(argc, argv, &o))
         return 2;
     static tally total;
-    if (!run(pairs, seed, &total)) {
+    if (!run(o.pairs, o.seed, &total)) {
         fprintf(stderr, "oracle: no memory\n");
         return 5;
     }
-    requirement list[REQUIREMENTS];
-    check(&total, list);
-    json_t *study = to_json(&total, pairs, seed, list);
+    json_t *study = to_json(&total, o.pairs, o.seed);
     print_table(study);
-    int code = out ? store(study, out) : 0;
-    json_decref(study);
-    for (int k = 0; k < REQUIREMENTS; k++) {
-        printf("%-12s %s\n", list[k].met ? "met" : "NOT MET", list[k].text);
-        code = !list[k].met && code == 0 ? 1 : code;
+    requirement list[REQUIREMENTS + 1];
+    int count = REQUIREMENTS;
+    check(&total, list);
+    bool right;
+    if (o.stride > 0 && add_frames(study, &o, &right) != MOTE_OK) {
+        fprintf(stderr, "oracle: %s\n", mote_error_text());
+        json_decref(study);
+        return 5;
     }
+    if (o.stride > 0)
+        list[count++] = (requirement){"aabb-tree: right in every frame", right};
+    int code = report(study, list, count) ? 0 : 1;
+    if (o.out && store(study, o.out) != 0)
+        code = 4;
+    json_decref(study);
     return code;
 }

@@ -16,6 +16,7 @@ static const variant variants[] = {
     {"aabb-tree", ""},
     {"aabb-tree", "seed=none"},
     {"aabb-tree", "positions=given"},
+    {"aabb-tree", "arithmetic=wide"},
 };
 
 enum { VARIANTS = sizeof variants / sizeof *variants };

@@ -2,7 +2,7 @@
 #include "core/triangle.h"
 
 #include "tests/triangle_pairs.h"
-#include "tests/triangle_reference.h"
+#include "baselines/wide_triangle.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,8 @@
-/* An independent, slow triangle distance for tests: every feature pair by its textbook formula,
-   in 113 bits where the compiler has them, without any of the shortcuts of core/triangle.c. */
-#ifndef MOTE_TESTS_TRIANGLE_REFERENCE_H
-#define MOTE_TESTS_TRIANGLE_REFERENCE_H
+/* An independent, slow triangle distance, to settle disputes: every feature pair by its
+   textbook formula, in 113 bits where the compiler has them, without any of the shortcuts of
+   core/triangle.c. */
+#ifndef MOTE_BASELINES_WIDE_TRIANGLE_H
+#define MOTE_BASELINES_WIDE_TRIANGLE_H
 
 #include "core/vec3.h"
 
