@@ -11,8 +11,12 @@
 /* Comes nearer: by more than this part of the distance. */
 #define MARGIN 1e-12
 
+/* A reach may be wrong by this part of the witnesses' coordinates: faces that touch are not
+   rejected by it. */
+#define ROUNDING 0x1p-50
+
 /* Alternate projection goes on while it takes this part off the squared distance. */
-#define WORTHWHILE 1e-3
+#define WORTHWHILE 0.5
 
 /* Far above what a search from anywhere on a mesh of millions needs; rounding cannot exceed it.
  */
@@ -28,6 +32,7 @@ typedef struct search {
     /* Set by aim: */
     double distance;
     mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
+    double rounding;                /* of a reach */
     double slack; /* faces with reaches that sum up to no more than this are not nearer */
 } search;
 
@@ -67,6 +72,11 @@ static double min2(double x, double y)
     return x < y ? x : y;
 }
 
+static double largest_coordinate(mote_vec3 p)
+{
+    return max2(fabs(p.x), max2(fabs(p.y), fabs(p.z)));
+}
+
 static bool done(const search *s)
 {
     return s->best->squared <= s->enough_squared;
@@ -82,13 +92,15 @@ static void aim(search *s)
     s->origin[1] = best->witness[1];
     s->toward[0] = u;
     s->toward[1] = mote_scale(u, -1);
-    s->slack = MARGIN * s->distance;
+    s->rounding =
+        ROUNDING * (largest_coordinate(s->origin[0]) + largest_coordinate(s->origin[1]));
+    s->slack = MARGIN * s->distance - s->rounding;
 }
 
 /* After an improvement, with the aim kept. */
 static void tighten(search *s)
 {
-    s->slack = s->distance - (1 - MARGIN) * sqrt(s->best->squared);
+    s->slack = s->distance - (1 - MARGIN) * sqrt(s->best->squared) - s->rounding;
 }
 
 static double reach_of(const search *s, int side, mote_vec3 p)

@@ -348,6 +348,24 @@ static void vertices_intersecting_zero_at_one_point(void **context)
     scene_free(s);
 }
 
+/* Alternate projection may end on a line where faces cross, some rounding apart. */
+static void vertices_crossing_exactly_zero(void **context)
+{
+    (void)context;
+    scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 14);
+    int contacts = 0;
+    for (int frame = 0; frame < 300; ++frame) {
+        scene_move(s, 0.4, false);
+        for (int trial = 0; trial < 20; ++trial) {
+            const mote_refined r = refine(s, draw_vertex(s, 0), draw_vertex(s, 1));
+            contacts += r.squared == 0;
+            assert_true(r.squared == 0 || sqrt(r.squared) > 1e-12);
+        }
+    }
+    assert_true(contacts > 500);
+    scene_free(s);
+}
+
 static void vertices_enough_stops_early(void **context)
 {
     (void)context;
@@ -475,6 +493,7 @@ int main(void)
         cmocka_unit_test(vertices_several_fans_global_minimum),
         cmocka_unit_test(vertices_ring_of_thousands_local_minimum),
         cmocka_unit_test(vertices_intersecting_zero_at_one_point),
+        cmocka_unit_test(vertices_crossing_exactly_zero),
         cmocka_unit_test(vertices_enough_stops_early),
         cmocka_unit_test(vertices_positions_given_same_bits),
         cmocka_unit_test(vertices_scaled_by_powers_of_two_same_bits),
