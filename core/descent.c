@@ -1,0 +1,120 @@
+#include "core/descent.h"
+
+#include <stddef.h>
+
+mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels)
+{
+    const bool given = lazy->given != NULL;
+    return (mote_ground){.lazy = lazy,
+                         .levels = levels,
+                         .shape = given ? lazy->given : lazy->body->mesh->positions,
+                         .rotation = given ? NULL : &lazy->state->pose.rotation};
+}
+
+mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node)
+{
+    const uint32_t vertex = level == MOTE_MESH_LEVEL ? node : ground->levels->vertex[node];
+    return (mote_place){node, vertex, mote_lazy_position(ground->lazy, vertex)};
+}
+
+/* The target as seen from the shape, if the surroundings of the place moved rigidly. */
+static mote_vec3 carry_back(const mote_ground *ground, const mote_place *at, mote_vec3 target)
+{
+    if (!ground->rotation)
+        return target;
+    return mote_add(ground->shape[at->vertex],
+                    mote_rotate_back(ground->rotation, mote_sub(target, at->world)));
+}
+
+/* The neighbour of a node whose shape is nearest to the target, if below *squared; else the
+   node itself. */
+static uint32_t nearest_node(const mote_ground *ground, int level, uint32_t node,
+                             mote_vec3 target, double *squared)
+{
+    const mote_level *graph = &ground->levels->level[level];
+    const uint32_t *vertex = ground->levels->vertex;
+    const uint32_t end = graph->start[node + 1];
+    uint32_t best = node;
+    for (uint32_t k = graph->start[node]; k < end; ++k) {
+        const uint32_t u = graph->neighbour[k];
+        const double s = mote_distance_squared(ground->shape[vertex[u]], target);
+        if (s < *squared) {
+            *squared = s;
+            best = u;
+        }
+    }
+    return best;
+}
+
+static uint32_t nearest_vertex(const mote_ground *ground, uint32_t node, mote_vec3 target,
+                               double *squared)
+{
+    const mote_mesh *mesh = ground->lazy->body->mesh;
+    const uint32_t end = mesh->ring_start[node + 1];
+    uint32_t best = node;
+    for (uint32_t k = mesh->ring_start[node]; k < end; ++k) {
+        const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
+        const double s = mote_distance_squared(ground->shape[u], target);
+        if (s < *squared) {
+            *squared = s;
+            best = u;
+        }
+    }
+    return best;
+}
+
+/* Moves one place towards the target, by the shape as far as that leads; false if it does not
+   come nearer. */
+static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3 target,
+                 double *squared)
+{
+    const mote_vec3 goal = carry_back(ground, at, target);
+    double left = mote_distance_squared(ground->shape[at->vertex], goal);
+    uint32_t node = at->node;
+    for (;;) {
+        const uint32_t next = level == MOTE_MESH_LEVEL
+                                  ? nearest_vertex(ground, node, goal, &left)
+                                  : nearest_node(ground, level, node, goal, &left);
+        if (next == node)
+            break;
+        node = next;
+    }
+    if (node == at->node)
+        return false;
+    const mote_place there = mote_place_at(ground, level, node);
+    const double reached = mote_distance_squared(there.world, target);
+    if (!(reached < *squared))
+        return false;
+    *at = there;
+    *squared = reached;
+    return true;
+}
+
+double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
+                 uint64_t *moves)
+{
+    double squared = mote_distance_squared(at[0].world, at[1].world);
+    int side = 0;
+    for (int still = 0; still < 2; side = 1 - side) {
+        const bool moved =
+            move(&ground[side], level[side], &at[side], at[1 - side].world, &squared);
+        still = moved ? 0 : still + 1;
+        *moves += moved;
+    }
+    return squared;
+}
+
+double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
+                    uint64_t *moves)
+{
+    int on[2] = {level[0], level[1]};
+    for (;;) {
+        const double squared = mote_walk(ground, on, at, moves);
+        if (on[0] == MOTE_MESH_LEVEL && on[1] == MOTE_MESH_LEVEL)
+            return squared;
+        for (int side = 0; side < 2; ++side) {
+            if (on[side] != MOTE_MESH_LEVEL && --on[side] == MOTE_MESH_LEVEL)
+                at[side].node = at[side].vertex;
+        }
+    }
+}

@@ -1,0 +1,53 @@
+/* Walking a pair of vertices, one on each body, to where neither can come nearer to the other:
+   on one level of the graph, or coarse to fine down to the mesh. */
+#ifndef MOTE_CORE_DESCENT_H
+#define MOTE_CORE_DESCENT_H
+
+#include "core/lazy.h"
+#include "core/levels.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The level below the finest one: the vertices of the mesh. */
+#define MOTE_MESH_LEVEL (-1)
+
+/* One body at a frame. Steps are chosen by shape, to which targets are carried back by the
+   rigid motion of the vertex walked from; a step is taken if the positions of the frame say
+   that it leads nearer. So a walk evaluates about one position a step, not one a neighbour. */
+typedef struct mote_ground {
+    mote_lazy *lazy;
+    const mote_levels *levels;
+    const mote_vec3 *shape;    /* [vertex_count], at rest, or the frame's when all are given */
+    const mote_mat3 *rotation; /* of the body; NULL when shape is the frame's */
+} mote_ground;
+
+/* Where a walk is on one body. */
+typedef struct mote_place {
+    uint32_t node; /* on the level walked; on MOTE_MESH_LEVEL the vertex */
+    uint32_t vertex;
+    mote_vec3 world;
+} mote_place;
+
+/* A body whose lazy positions have begun a frame. levels may be NULL when only MOTE_MESH_LEVEL
+   is walked. */
+mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels);
+
+/* The place of a node of a level, or of a vertex of the mesh. */
+mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node);
+
+/* Walks both places in turn, each to neighbours nearer to the other, until neither has one (as
+   far as shape tells). level: of each body's walk. Returns the squared distance; *moves grows
+   by the moves made. Ends, since each move comes nearer. */
+double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
+                 uint64_t *moves);
+
+/* Walks on the levels given, then on each finer one, last on the mesh. */
+double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
+                    uint64_t *moves);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
