@@ -23,6 +23,9 @@ typedef enum mote_exit {
       "fingerprint; whether the active interval is what it says")                              \
     X(export, "export SCENARIO --frame K --out DIR [--method NAME[:key=value,...]]...",        \
       "writes a frame's deformed meshes and what methods say of them")                         \
+    X(mesh, "mesh FILE [--json]", "what a mesh is: counts, edges, parts, L")                   \
+    X(distance, "distance A.obj B.obj [--method NAME[:key=value,...]]... [--json]",            \
+      "one query on two files")                                                                \
     X(approach,                                                                                \
       "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
       "writes the scenario with body 1 placed so that the gaps are as wished")                 \

@@ -1,6 +1,7 @@
 /* mote export SCENARIO --frame K --out DIR [--method ...]: a frame for others to look at. */
 #include "core/deform.h"
 #include "datasets/obj_write.h"
+#include "harness/answer_json.h"
 #include "harness/command.h"
 #include "harness/file.h"
 #include "harness/json_print.h"
@@ -20,23 +21,6 @@ typedef struct request {
     mote_method_choice *choices; /* [count] */
     size_t count;
 } request;
-
-/* {"distance", "lower", "a", "b"}: what a method cannot say is left out. */
-static json_t *answer_json(const mote_answer *answer)
-{
-    json_t *row = json_object();
-    if (answer->has_distance)
-        (void)json_object_set_new(row, "distance", json_real(answer->distance));
-    if (answer->has_lower)
-        (void)json_object_set_new(row, "lower", json_real(answer->lower));
-    if (answer->has_contact)
-        (void)json_object_set_new(row, "contact", json_boolean(answer->contact));
-    for (int i = 0; i < 2 && answer->has_witness; ++i) {
-        const mote_vec3 p = answer->witness[i];
-        (void)json_object_set_new(row, i ? "b" : "a", json_pack("[f,f,f]", p.x, p.y, p.z));
-    }
-    return row;
-}
 
 /* A method that keeps state sees the frames before, as in a run; the others only this one. */
 static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe,
@@ -80,7 +64,7 @@ static mote_status add_answer(const mote_scenario *scenario, const mote_method_c
         status = ask_method(scenario, choice, MOTE_ASK_CONTACT, frame, &answer);
     json_t *row = NULL;
     if (status == MOTE_OK)
-        row = answer_json(&answer);
+        row = mote_answer_json(&answer);
     else if (status == MOTE_EUNSUPPORTED)
         row = json_pack("{s:s}", "unsupported", mote_error_text());
     else

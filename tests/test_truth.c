@@ -24,6 +24,15 @@ static const char small_text[] =
     "\"motion\": [{\"frame\": 1, \"position\": [1.5, 0, 0]},\n"
     "{\"frame\": 30, \"position\": [0, 0, 0]}]}]}\n";
 
+/* Without the sync of mote_file_write, of which a thousand take minutes. */
+static void write_plain(const char *path, const char *text, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
 static char *truth_path(const mote_scenario *scenario)
 {
     uint64_t fingerprint;
@@ -108,11 +117,11 @@ static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
     for (size_t i = 0; i < size; i += 7) {
         char kept = text[i];
         text[i] = kept == '1' ? '2' : '1';
-        assert_int_equal(mote_file_write(path, text, size), MOTE_OK);
+        write_plain(path, text, size);
         text[i] = kept;
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
-        assert_int_equal(mote_file_write(path, text, i), MOTE_OK);
+        write_plain(path, text, i);
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
     }

@@ -1,0 +1,12 @@
+/* An answer as JSON. */
+#ifndef MOTE_HARNESS_ANSWER_JSON_H
+#define MOTE_HARNESS_ANSWER_JSON_H
+
+#include "core/method.h"
+
+#include <jansson.h>
+
+/* {"distance", "lower", "contact", "a", "b"}: what a method cannot say is left out. */
+json_t *mote_answer_json(const mote_answer *answer);
+
+#endif

@@ -1,0 +1,168 @@
+/* mote distance A.obj B.obj [--method ...] [--json]: one query on two files, as they lie. */
+#include "harness/answer_json.h"
+#include "harness/command.h"
+#include "harness/mesh_import.h"
+#include "harness/probe.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define METHODS_MAX 64
+
+typedef struct request {
+    const char *path[2];
+    mote_method_choice *choices; /* [count] */
+    size_t count;
+    bool json;
+} request;
+
+typedef struct pair {
+    mote_mesh *mesh[2];
+    mote_import import[2];
+    mote_field *still;
+    mote_body body[2];
+} pair;
+
+static mote_status ask(const pair *bodies, const mote_method_choice *choice,
+                       mote_answer *answer)
+{
+    static const mote_mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    mote_body_state state = {
+        .pose = {identity, {0, 0, 0}}, .shape_changed = true, .pose_changed = true};
+    const mote_frame frame = {1, {state, state}};
+    mote_probe *probe = NULL;
+    mote_status status = mote_probe_create(&bodies->body[0], &bodies->body[1], choice,
+                                           MOTE_ASK_DISTANCE, 0, 1, &probe);
+    if (status == MOTE_EUNSUPPORTED)
+        status = mote_probe_create(&bodies->body[0], &bodies->body[1], choice, MOTE_ASK_CONTACT,
+                                   0, 1, &probe);
+    if (status == MOTE_OK)
+        status = mote_probe_answer(probe, &frame, answer);
+    mote_probe_destroy(probe);
+    return status;
+}
+
+static void print_answer(const mote_method_choice *choice, const mote_answer *answer)
+{
+    (void)printf("%s:", choice->text);
+    if (answer->has_distance)
+        (void)printf(" distance %.17g", answer->distance);
+    if (answer->has_lower)
+        (void)printf(", at least %.17g", answer->lower);
+    if (answer->has_contact)
+        (void)printf("%s%s", answer->has_distance ? ", " : " ",
+                     answer->contact ? "contact" : "no contact");
+    if (answer->has_witness)
+        (void)printf(", at (%.9g, %.9g, %.9g) and (%.9g, %.9g, %.9g)", answer->witness[0].x,
+                     answer->witness[0].y, answer->witness[0].z, answer->witness[1].x,
+                     answer->witness[1].y, answer->witness[1].z);
+    (void)printf("\n");
+}
+
+static mote_status answer_all(const request *wish, const pair *bodies, json_t *answers)
+{
+    for (size_t i = 0; i < wish->count; ++i) {
+        const mote_method_choice *choice = &wish->choices[i];
+        mote_answer answer = {0};
+        mote_status status = ask(bodies, choice, &answer);
+        if (status == MOTE_EUNSUPPORTED) {
+            if (wish->json)
+                (void)json_object_set_new(answers, choice->text,
+                                          json_pack("{s:s}", "unsupported", mote_error_text()));
+            else
+                (void)printf("%s: unsupported: %s\n", choice->text, mote_error_text());
+            continue;
+        }
+        if (status != MOTE_OK)
+            return mote_fail(status, "%s: %s", choice->text, mote_error_text());
+        if (wish->json)
+            (void)json_object_set_new(answers, choice->text, mote_answer_json(&answer));
+        else
+            print_answer(choice, &answer);
+    }
+    return MOTE_OK;
+}
+
+static mote_status read_pair(const request *wish, pair *bodies)
+{
+    mote_status status = mote_field_create_static(&bodies->still);
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        status = mote_mesh_import(wish->path[i], &bodies->mesh[i], &bodies->import[i]);
+        bodies->body[i] = (mote_body){bodies->mesh[i], bodies->still};
+    }
+    return status;
+}
+
+static int distance(const request *wish)
+{
+    pair bodies = {0};
+    json_t *answers = json_object();
+    mote_status status = read_pair(wish, &bodies);
+    if (status == MOTE_OK)
+        status = answer_all(wish, &bodies, answers);
+    if (status == MOTE_OK && wish->json) {
+        (void)json_object_set_new(
+            answers, "coordinates",
+            json_string(bodies.import[0].single_precision || bodies.import[1].single_precision
+                            ? "float"
+                            : "double"));
+        (void)json_dumpf(answers, stdout,
+                         JSON_INDENT(2) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17));
+        (void)fputc('\n', stdout);
+    } else if (status == MOTE_OK) {
+        for (int i = 0; i < 2; ++i) {
+            if (bodies.import[i].single_precision)
+                (void)printf("%s was read in 32-bit floats\n", wish->path[i]);
+        }
+    }
+    json_decref(answers);
+    mote_mesh_destroy(bodies.mesh[0]);
+    mote_mesh_destroy(bodies.mesh[1]);
+    mote_field_destroy(bodies.still);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}
+
+static int read_request(int argc, char **argv, request *wish)
+{
+    static const mote_option options[] = {{"method", "NAME[:key=value,...]"}, {"json", NULL}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == 1)
+            wish->json = true;
+        else if (option == 0 && wish->count == METHODS_MAX)
+            return mote_command_usage("distance", "at most %d methods", METHODS_MAX);
+        else if (option == 0) {
+            if (mote_method_choice_read(value, &wish->choices[wish->count++]) != MOTE_OK)
+                return mote_command_fail();
+        } else if (wish->path[1])
+            return mote_command_usage("distance", "%s: two files at a time", value);
+        else
+            wish->path[wish->path[0] ? 1 : 0] = value;
+    }
+    if (!wish->path[1])
+        return mote_command_usage("distance",
+                                  "two files are needed; write `mote distance A.obj "
+                                  "B.obj`");
+    if (wish->count == 0 && mote_method_choice_read("fcl-aabb", wish->choices) == MOTE_OK)
+        wish->count = 1;
+    return MOTE_EXIT_DONE;
+}
+
+int mote_command_distance(int argc, char **argv)
+{
+    request wish = {0};
+    wish.choices = calloc(METHODS_MAX, sizeof *wish.choices);
+    if (!wish.choices) {
+        (void)mote_fail(MOTE_ENOMEM, "distance: no memory");
+        return mote_command_fail();
+    }
+    int code = read_request(argc, argv, &wish);
+    if (code == MOTE_EXIT_DONE)
+        code = distance(&wish);
+    free(wish.choices);
+    return code;
+}

@@ -1,0 +1,117 @@
+/* mote mesh FILE [--json]: what a mesh is. */
+#include "core/parts.h"
+#include "harness/command.h"
+#include "harness/mesh_import.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct edge_facts {
+    double shortest, mean, longest;
+} edge_facts;
+
+static edge_facts measure_edges(const mote_mesh *mesh)
+{
+    edge_facts facts = {HUGE_VAL, mesh->mean_edge, 0};
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const mote_vec3 a = mesh->positions[mesh->triangles[t][k]];
+            const mote_vec3 b = mesh->positions[mesh->triangles[t][(k + 1) % 3]];
+            const double length = sqrt(mote_distance_squared(a, b));
+            facts.shortest = fmin(facts.shortest, length);
+            facts.longest = fmax(facts.longest, length);
+        }
+    }
+    return facts;
+}
+
+static void print_lines(const char *path, const mote_mesh *mesh, const mote_import *import,
+                        const mote_parts *parts)
+{
+    const edge_facts edges = measure_edges(mesh);
+    (void)printf("%s\n", path);
+    (void)printf("vertices            %" PRIu32 "\n", mesh->vertex_count);
+    (void)printf("triangles           %" PRIu32 "\n", mesh->triangle_count);
+    (void)printf("edges               %" PRIu32 "\n", mesh->edge_count);
+    (void)printf("open edges          %" PRIu32 "\n", mesh->open_edge_count);
+    (void)printf("non-manifold edges  0\n"); /* or it would not have been made */
+    (void)printf("components          %" PRIu32 "\n", mesh->component_count);
+    (void)printf("Euler               %" PRId64 "\n", mote_mesh_euler(mesh));
+    (void)printf("smallest angle      %.4g degrees\n", mote_mesh_smallest_angle(mesh));
+    (void)printf("L                   %.9g\n", mesh->diagonal);
+    (void)printf("edge lengths        %.4g / %.4g / %.4g L (shortest / mean / longest)\n",
+                 edges.shortest / mesh->diagonal, edges.mean / mesh->diagonal,
+                 edges.longest / mesh->diagonal);
+    (void)printf("convex parts        %" PRIu32 "\n", parts->count);
+    (void)printf("coordinates         %s\n",
+                 import->single_precision ? "32-bit floats (assimp's)" : "64-bit floats");
+    if (import->welded + import->collapsed + import->unused > 0)
+        (void)printf("cleaned             %zu vertices welded, %zu faces collapsed by it, %zu "
+                     "vertices in no face\n",
+                     import->welded, import->collapsed, import->unused);
+}
+
+static int print_json(const char *path, const mote_mesh *mesh, const mote_import *import,
+                      const mote_parts *parts)
+{
+    const edge_facts edges = measure_edges(mesh);
+    json_t *root = json_pack(
+        "{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:f, s:f, s:[f,f,f], s:i, s:s, s:I, s:I, "
+        "s:I}",
+        "file", path, "vertices", mesh->vertex_count, "triangles", mesh->triangle_count,
+        "edges", mesh->edge_count, "open_edges", mesh->open_edge_count, "non_manifold_edges", 0,
+        "components", mesh->component_count, "euler", (json_int_t)mote_mesh_euler(mesh),
+        "smallest_angle", mote_mesh_smallest_angle(mesh), "length", mesh->diagonal,
+        "edge_lengths", edges.shortest, edges.mean, edges.longest, "parts", parts->count,
+        "coordinates", import->single_precision ? "float" : "double", "welded",
+        (json_int_t)import->welded, "collapsed", (json_int_t)import->collapsed, "unused",
+        (json_int_t)import->unused);
+    if (!root) {
+        (void)mote_fail(MOTE_EINVAL, "%s: cannot be told in JSON; rename it in UTF-8", path);
+        return mote_command_fail();
+    }
+    (void)json_dumpf(root, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
+    (void)fputc('\n', stdout);
+    json_decref(root);
+    return MOTE_EXIT_DONE;
+}
+
+int mote_command_mesh(int argc, char **argv)
+{
+    static const mote_option options[] = {{"json", NULL}};
+    mote_option_reader reader = {options, 1, argc, argv, 0};
+    const char *path = NULL, *value;
+    bool json = false;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN && path)
+            return mote_command_usage("mesh", "%s: one file at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            path = value;
+        else
+            json = true;
+    }
+    if (!path)
+        return mote_command_usage("mesh", "no file; write `mote mesh FILE`");
+    mote_mesh *mesh;
+    mote_import import;
+    if (mote_mesh_import(path, &mesh, &import) != MOTE_OK)
+        return mote_command_fail();
+    mote_parts *parts;
+    int code = MOTE_EXIT_DONE;
+    if (mote_parts_create(mesh, NULL, &parts) != MOTE_OK) {
+        code = mote_command_fail();
+    } else {
+        if (json)
+            code = print_json(path, mesh, &import, parts);
+        else
+            print_lines(path, mesh, &import, parts);
+        mote_parts_destroy(parts);
+    }
+    mote_mesh_destroy(mesh);
+    return mote_command_finish(code);
+}

@@ -1,0 +1,108 @@
+/* Meshes by assimp: PLY, STL, OFF, glTF and what else it knows. The only file that includes it.
+ */
+#include "harness/mesh_soup.h"
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <math.h>
+
+/* parent * child, in double precision. */
+static void multiply(const double parent[12], const struct aiMatrix4x4 *m, double out[12])
+{
+    const double child[12] = {(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4,
+                              (double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4,
+                              (double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4};
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) {
+            out[4 * r + c] = parent[4 * r] * child[c] + parent[4 * r + 1] * child[4 + c] +
+                             parent[4 * r + 2] * child[8 + c] +
+                             (c == 3 ? parent[4 * r + 3] : 0);
+        }
+    }
+}
+
+static mote_status add_vertices(const char *path, const struct aiMesh *mesh, const double m[12],
+                                mote_soup *soup)
+{
+    mote_status status = MOTE_OK;
+    for (unsigned v = 0; v < mesh->mNumVertices && status == MOTE_OK; ++v) {
+        const double x = (double)mesh->mVertices[v].x;
+        const double y = (double)mesh->mVertices[v].y;
+        const double z = (double)mesh->mVertices[v].z;
+        const double wx = m[0] * x + m[1] * y + m[2] * z + m[3];
+        const double wy = m[4] * x + m[5] * y + m[6] * z + m[7];
+        const double wz = m[8] * x + m[9] * y + m[10] * z + m[11];
+        if (!isfinite(wx) || !isfinite(wy) || !isfinite(wz))
+            return mote_fail(MOTE_EINVAL,
+                             "%s: vertex %u of mesh %.60s is not finite; give finite numbers",
+                             path, v, mesh->mName.data);
+        status = mote_soup_add_vertex(soup, wx, wy, wz);
+    }
+    return status;
+}
+
+static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32_t base,
+                             mote_soup *soup)
+{
+    mote_status status = MOTE_OK;
+    for (unsigned f = 0; f < mesh->mNumFaces && status == MOTE_OK; ++f) {
+        const struct aiFace *face = &mesh->mFaces[f];
+        if (face->mNumIndices != 3)
+            continue; /* points and lines */
+        for (int i = 0; i < 3; ++i) {
+            if (face->mIndices[i] >= mesh->mNumVertices)
+                return mote_fail(MOTE_EINVAL, "%s: face %u has vertex %u of %u; use 0 to %u",
+                                 path, f, face->mIndices[i], mesh->mNumVertices,
+                                 mesh->mNumVertices - 1);
+        }
+        status = mote_soup_add_triangle(soup, base + face->mIndices[0],
+                                        base + face->mIndices[1], base + face->mIndices[2]);
+    }
+    return status;
+}
+
+/* A file may nest nodes without end; real ones do not go this deep. */
+#define DEPTH_MAX 256
+
+static mote_status add_node(const char *path, const struct aiScene *scene,
+                            const struct aiNode *node, const double parent[12], int depth,
+                            mote_soup *soup)
+{
+    double m[12];
+    multiply(parent, &node->mTransformation, m);
+    mote_status status = MOTE_OK;
+    if (depth > DEPTH_MAX)
+        return mote_fail(MOTE_EINVAL, "%s: nodes nested deeper than %d; flatten them", path,
+                         DEPTH_MAX);
+    for (unsigned i = 0; i < node->mNumMeshes && status == MOTE_OK; ++i) {
+        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
+        const uint32_t base = (uint32_t)soup->vertex_count;
+        status = add_vertices(path, mesh, m, soup);
+        if (status == MOTE_OK)
+            status = add_faces(path, mesh, base, soup);
+    }
+    for (unsigned i = 0; i < node->mNumChildren && status == MOTE_OK; ++i)
+        status = add_node(path, scene, node->mChildren[i], m, depth + 1, soup);
+    return status;
+}
+
+mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
+{
+    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    /* Vertices are joined by ourselves, after they were found finite. */
+    const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate);
+    if (!scene)
+        return mote_fail(MOTE_EINVAL, "%s: %.200s; give a mesh in OBJ, PLY, STL, OFF or glTF",
+                         path, aiGetErrorString());
+    mote_status status = MOTE_OK;
+    soup->single_precision = true;
+    if (!scene->mRootNode || scene->mNumMeshes == 0)
+        status = mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
+    else
+        status = add_node(path, scene, scene->mRootNode, identity, 0, soup);
+    if (status == MOTE_OK && soup->triangle_count == 0)
+        status = mote_fail(MOTE_EINVAL, "%s: no face in it; give triangles", path);
+    aiReleaseImport(scene);
+    return status;
+}

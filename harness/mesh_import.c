@@ -1,0 +1,149 @@
+#include "harness/mesh_import.h"
+
+#include "harness/child.h"
+#include "harness/file.h"
+#include "harness/mesh_soup.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)4 << 30)
+#define MEMORY_BYTES ((size_t)128 << 20) /* and sixty times the file */
+#define SECONDS 4.0                      /* and one for every 8 MB of the file */
+
+typedef struct header {
+    uint64_t vertex_count, triangle_count;
+    mote_import import;
+} header;
+
+static bool has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path);
+    const size_t end = strlen(ending);
+    return length > end && strcasecmp(path + length - end, ending) == 0;
+}
+
+static mote_status read_soup(const char *path, mote_soup *soup)
+{
+    const bool is_obj = has_ending(path, ".obj");
+    char *text;
+    size_t size;
+    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
+    if (status != MOTE_OK)
+        return status;
+    if (is_obj && strlen(text) != size)
+        status =
+            mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
+    else if (is_obj)
+        status = mote_soup_read_obj(path, text, soup);
+    else
+        status = mote_soup_check_counts(path, text, size);
+    free(text);
+    if (status == MOTE_OK && !is_obj)
+        status = mote_soup_read_assimp(path, soup);
+    if (status != MOTE_OK)
+        return status;
+    return is_obj ? mote_soup_compact(soup) : mote_soup_weld(soup);
+}
+
+/* assimp prints its failed assertions; what is wrong is told by our own text. */
+static void silence(void)
+{
+    int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0)
+        return;
+    (void)dup2(nowhere, STDOUT_FILENO);
+    (void)dup2(nowhere, STDERR_FILENO);
+    (void)close(nowhere);
+}
+
+static mote_status import_in_child(void *context, int output)
+{
+    silence();
+    mote_soup soup = {0};
+    mote_status status = read_soup(context, &soup);
+    header head;
+    memset(&head, 0, sizeof head);
+    head.vertex_count = soup.vertex_count;
+    head.triangle_count = soup.triangle_count;
+    head.import.single_precision = soup.single_precision;
+    head.import.welded = soup.welded;
+    head.import.collapsed = soup.collapsed;
+    head.import.unused = soup.unused;
+    if (status == MOTE_OK)
+        status = mote_child_put(output, &head, sizeof head);
+    if (status == MOTE_OK)
+        status = mote_child_put(output, soup.xyz, 3 * soup.vertex_count * sizeof *soup.xyz);
+    if (status == MOTE_OK)
+        status = mote_child_put(output, soup.indices,
+                                3 * soup.triangle_count * sizeof *soup.indices);
+    mote_soup_free(&soup);
+    return status;
+}
+
+/* A mesh of what the child put. The counts are checked against the size that came. */
+static mote_status make_mesh(const char *path, const char *data, size_t size, mote_mesh **mesh,
+                             mote_import *import)
+{
+    header head;
+    if (size < sizeof head)
+        return mote_fail(MOTE_EIO, "%s: nothing came of reading it", path);
+    memcpy(&head, data, sizeof head);
+    const uint64_t vertex_bytes = 3 * sizeof(double);
+    const uint64_t triangle_bytes = 3 * sizeof(uint32_t);
+    if (head.vertex_count > size / vertex_bytes ||
+        head.triangle_count > size / triangle_bytes ||
+        size != sizeof head + head.vertex_count * vertex_bytes +
+                    head.triangle_count * triangle_bytes)
+        return mote_fail(MOTE_EIO, "%s: reading it ended early", path);
+    double *xyz = malloc(head.vertex_count * vertex_bytes + 1);
+    uint32_t *indices = malloc(head.triangle_count * triangle_bytes + 1);
+    mote_status status = MOTE_OK;
+    if (!xyz || !indices) {
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its mesh", path);
+    } else {
+        data += sizeof head;
+        memcpy(xyz, data, head.vertex_count * vertex_bytes);
+        memcpy(indices, data + head.vertex_count * vertex_bytes,
+               head.triangle_count * triangle_bytes);
+        status = mote_mesh_create(xyz, head.vertex_count, indices, head.triangle_count, mesh);
+        if (status != MOTE_OK)
+            status = mote_fail(status, "%s: %s", path, mote_error_text());
+    }
+    free(xyz);
+    free(indices);
+    if (status == MOTE_OK && import)
+        *import = head.import;
+    return status;
+}
+
+mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return mote_fail(MOTE_EIO, "%s: %s; name a mesh file", path, strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a mesh file", path);
+    const size_t size = (size_t)info.st_size;
+    if (size > FILE_LIMIT)
+        return mote_fail(MOTE_EINVAL, "%s: %zu bytes; at most %zu are read", path, size,
+                         FILE_LIMIT);
+    const mote_child_limits limits = {.seconds = SECONDS + (double)size / 8e6,
+                                      .memory_bytes = MEMORY_BYTES + 60 * size,
+                                      .output_bytes = MEMORY_BYTES + 60 * size};
+    char *output = NULL;
+    size_t got = 0;
+    /* The child only reads the name. */
+    mote_status status =
+        mote_child_run(path, import_in_child, (void *)(uintptr_t)path, limits, &output, &got);
+    if (status == MOTE_OK)
+        status = make_mesh(path, output, got, mesh, import);
+    free(output);
+    return status;
+}

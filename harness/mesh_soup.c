@@ -1,0 +1,163 @@
+#include "harness/mesh_soup.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define VERTICES_MAX ((size_t)1 << 31)
+
+static mote_status no_memory(void)
+{
+    return mote_fail(MOTE_ENOMEM, "no memory for so many triangles");
+}
+
+/* Makes room for one more element of `size` bytes. */
+static void *grow(void *data, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return data;
+    const size_t wanted = *capacity ? 2 * *capacity : 1024;
+    void *grown = realloc(data, wanted * size);
+    if (grown)
+        *capacity = wanted;
+    return grown;
+}
+
+mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z)
+{
+    if (soup->vertex_count + 1 >= VERTICES_MAX)
+        return mote_fail(MOTE_EINVAL, "2^31 vertices or more; give fewer");
+    double *xyz =
+        grow(soup->xyz, soup->vertex_count, &soup->vertex_capacity, 3 * sizeof *soup->xyz);
+    if (!xyz)
+        return no_memory();
+    soup->xyz = xyz;
+    double *at = xyz + 3 * soup->vertex_count++;
+    at[0] = x;
+    at[1] = y;
+    at[2] = z;
+    return MOTE_OK;
+}
+
+mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t *indices = grow(soup->indices, soup->triangle_count, &soup->triangle_capacity,
+                             3 * sizeof *soup->indices);
+    if (!indices)
+        return no_memory();
+    soup->indices = indices;
+    uint32_t *at = indices + 3 * soup->triangle_count++;
+    at[0] = a;
+    at[1] = b;
+    at[2] = c;
+    return MOTE_OK;
+}
+
+void mote_soup_free(mote_soup *soup)
+{
+    free(soup->xyz);
+    free(soup->indices);
+    *soup = (mote_soup){0};
+}
+
+static uint64_t hash_place(const double xyz[3])
+{
+    uint64_t hash = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double value = xyz[i] + 0.0; /* -0 becomes 0 */
+        uint64_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+static bool same_place(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* map[v]: the first vertex at the place of v. slots: a power of two, all UINT32_MAX. */
+static void find_first(const mote_soup *soup, uint32_t *slots, size_t slot_count, uint32_t *map)
+{
+    for (uint32_t v = 0; v < soup->vertex_count; ++v) {
+        const double *place = soup->xyz + (size_t)3 * v;
+        size_t slot = hash_place(place) & (slot_count - 1);
+        while (slots[slot] != UINT32_MAX &&
+               !same_place(soup->xyz + (size_t)3 * slots[slot], place))
+            slot = (slot + 1) & (slot_count - 1);
+        if (slots[slot] == UINT32_MAX)
+            slots[slot] = v;
+        map[v] = slots[slot];
+    }
+}
+
+static void apply_map(mote_soup *soup, const uint32_t *map)
+{
+    size_t kept = 0;
+    for (uint32_t v = 0; v < soup->vertex_count; ++v)
+        soup->welded += map[v] != v;
+    for (size_t t = 0; t < soup->triangle_count; ++t) {
+        uint32_t *from = soup->indices + 3 * t;
+        const uint32_t a = map[from[0]];
+        const uint32_t b = map[from[1]];
+        const uint32_t c = map[from[2]];
+        if (a == b || b == c || c == a) {
+            ++soup->collapsed;
+            continue;
+        }
+        uint32_t *to = soup->indices + 3 * kept++;
+        to[0] = a;
+        to[1] = b;
+        to[2] = c;
+    }
+    soup->triangle_count = kept;
+}
+
+mote_status mote_soup_weld(mote_soup *soup)
+{
+    size_t slot_count = 64;
+    while (slot_count < 2 * soup->vertex_count)
+        slot_count *= 2;
+    uint32_t *slots = malloc(slot_count * sizeof *slots);
+    uint32_t *map = malloc((soup->vertex_count + 1) * sizeof *map);
+    if (!slots || !map) {
+        free(slots);
+        free(map);
+        return no_memory();
+    }
+    memset(slots, 0xff, slot_count * sizeof *slots);
+    find_first(soup, slots, slot_count, map);
+    const size_t welded_before = soup->welded;
+    apply_map(soup, map);
+    free(slots);
+    free(map);
+    mote_status status = mote_soup_compact(soup);
+    /* Welded vertices are in no face any more, and are told as welded only. */
+    if (status == MOTE_OK)
+        soup->unused -= soup->welded - welded_before;
+    return status;
+}
+
+mote_status mote_soup_compact(mote_soup *soup)
+{
+    uint32_t *place = malloc((soup->vertex_count + 1) * sizeof *place);
+    if (!place)
+        return no_memory();
+    memset(place, 0xff, (soup->vertex_count + 1) * sizeof *place);
+    for (size_t i = 0; i < 3 * soup->triangle_count; ++i)
+        place[soup->indices[i]] = 0;
+    uint32_t kept = 0;
+    for (size_t v = 0; v < soup->vertex_count; ++v) {
+        if (place[v] == UINT32_MAX)
+            continue;
+        memmove(soup->xyz + (size_t)3 * kept, soup->xyz + 3 * v, 3 * sizeof *soup->xyz);
+        place[v] = kept++;
+    }
+    for (size_t i = 0; i < 3 * soup->triangle_count; ++i)
+        soup->indices[i] = place[soup->indices[i]];
+    soup->unused += soup->vertex_count - kept;
+    soup->vertex_count = kept;
+    free(place);
+    return MOTE_OK;
+}

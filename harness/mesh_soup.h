@@ -1,0 +1,48 @@
+/* Triangles as they stand in a file, before they become a mesh. */
+#ifndef MOTE_HARNESS_MESH_SOUP_H
+#define MOTE_HARNESS_MESH_SOUP_H
+
+#include "core/status.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct mote_soup {
+    double *xyz;       /* [3 * vertex_count] */
+    uint32_t *indices; /* [3 * triangle_count] */
+    size_t vertex_count, triangle_count;
+    size_t vertex_capacity, triangle_capacity;
+    bool single_precision; /* coordinates went through 32-bit floats */
+    size_t welded;         /* vertices that stood at the place of another one */
+    size_t collapsed;      /* faces that had two equal vertices after welding, left out */
+    size_t unused;         /* vertices in no face, left out */
+} mote_soup;
+
+/* Adding to a zero-initialised soup; MOTE_ENOMEM. Free with mote_soup_free. */
+mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
+mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
+void mote_soup_free(mote_soup *soup);
+
+/* Makes one vertex of all that have equal coordinates, and leaves out the faces that collapse.
+   Expected cost O(v + t). */
+mote_status mote_soup_weld(mote_soup *soup);
+
+/* Leaves out the vertices that are in no face, keeping the order of the others. Indices must be
+   in range. */
+mote_status mote_soup_compact(mote_soup *soup);
+
+/* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, polygons
+   as fans, indices from 1 or from the end; other lines are passed over. path is for messages:
+   MOTE_EINVAL with "FILE:LINE: what". */
+mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *soup);
+
+/* Whether an OFF or PLY text declares no more vertices and faces than it can hold. MOTE_EINVAL
+   otherwise. Other formats, by the path's ending, pass. */
+mote_status mote_soup_check_counts(const char *path, const char *text, size_t size);
+
+/* Reads any format that assimp knows; coordinates go through 32-bit floats. To be called in a
+   child process with limits: assimp may crash, hang or ask for any amount of memory. */
+mote_status mote_soup_read_assimp(const char *path, mote_soup *soup);
+
+#endif
