@@ -5,6 +5,7 @@
 #   make test                                         release tests, then ASan and UBSan
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
+#   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -17,7 +18,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures oracle format lint clean
+.PHONY: deps build bench test figures oracle tune format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -40,6 +41,9 @@ oracle: build
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
+
+tune: build
+	@harness/tune.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/tune,$(OUT))
 
 figures: build
 	@$(MOTE) figures $(OUT)

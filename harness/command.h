@@ -39,6 +39,7 @@ typedef enum mote_exit {
       "the rows of a run, computed from its cells")                                            \
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \
       "whether a run is worse than another: exit 0 no, 1 yes, 3 undecided")                    \
+    X(tune, "tune DIR", "the best configuration of each method on each scenario of a run")     \
     X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \

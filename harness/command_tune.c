@@ -1,0 +1,39 @@
+/* mote tune DIR: the best configuration of each method on each scenario of a run. */
+#include "harness/command.h"
+#include "harness/record.h"
+#include "harness/tune.h"
+
+#include <stdlib.h>
+
+static int tune(const char *directory)
+{
+    mote_summary summary;
+    if (mote_summary_make(directory, &summary) != MOTE_OK)
+        return mote_command_fail();
+    mote_tuned *tuned = NULL;
+    size_t count = 0;
+    mote_status status = mote_tune_make(&summary, &tuned, &count);
+    if (status == MOTE_OK)
+        status = mote_record_json(directory, "tune.json", mote_tune_json(tuned, count));
+    if (status == MOTE_OK)
+        mote_tune_print(tuned, count, stdout);
+    free(tuned);
+    mote_summary_free(&summary);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}
+
+int mote_command_tune(int argc, char **argv)
+{
+    mote_option_reader reader = {NULL, 0, argc, argv, 0};
+    const char *directory = NULL, *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (directory)
+            return mote_command_usage(argv[0], "%s: one directory at a time", value);
+        directory = value;
+    }
+    if (!directory)
+        return mote_command_usage(argv[0], "no directory; write `mote tune results/tune`");
+    return tune(directory);
+}

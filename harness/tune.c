@@ -1,0 +1,101 @@
+#include "harness/tune.h"
+
+#include "harness/record.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
+           strcmp(a->first->cache, b->first->cache) == 0 &&
+           strcmp(a->first->method, b->first->method) == 0;
+}
+
+static bool is_right(const mote_summary_row *row)
+{
+    return row->missed == 0 && row->false_contacts == 0 && !(row->error.max > MOTE_EXACT_ERROR);
+}
+
+static void compare(const mote_summary_row *row, mote_tuned *group)
+{
+    if (row->status != MOTE_CELL_OK)
+        return;
+    group->configurations++;
+    bool right = is_right(row);
+    if (group->right && !right)
+        return;
+    /* The first right one starts anew. */
+    bool first = !group->best || (right && !group->right);
+    if (first || row->total.median < group->best->total.median)
+        group->best = row;
+    if (first || row->total.median > group->worst->total.median)
+        group->worst = row;
+    group->right = right;
+}
+
+mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size_t *count)
+{
+    mote_tuned *groups = calloc(summary->count + 1, sizeof *groups);
+    if (!groups)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu configurations", summary->count);
+    size_t found = 0;
+    for (size_t i = 0; i < summary->count; ++i) {
+        if (i > 0 && !same_group(&summary->rows[i - 1], &summary->rows[i]) &&
+            groups[found].best)
+            ++found;
+        compare(&summary->rows[i], &groups[found]);
+    }
+    *count = summary->count > 0 && groups[found].best ? found + 1 : found;
+    *tuned = groups;
+    return MOTE_OK;
+}
+
+static json_t *row_json(const mote_tuned *group)
+{
+    const mote_summary_row *best = group->best;
+    return json_pack(
+        "{s:s, s:s, s:s, s:s, s:O, s:b, s:i, s:i, s:o, s:o, s:o, s:o, s:{s:s, s:o}}",
+        "scenario", best->first->scenario, "cache", best->first->cache, "method",
+        best->first->method, "configuration", best->label, "parameters",
+        best->first->parameters, "right", (int)group->right, "configurations",
+        (int)group->configurations, "stride", (int)best->first->stride, "total_ns",
+        mote_json_number(best->total.median), "deform_ns",
+        mote_json_number(best->deform.median), "update_ns",
+        mote_json_number(best->update.median), "query_ns", mote_json_number(best->query.median),
+        "worst", "configuration", group->worst->label, "total_ns",
+        mote_json_number(group->worst->total.median));
+}
+
+json_t *mote_tune_json(const mote_tuned *tuned, size_t count)
+{
+    json_t *rows = json_array();
+    for (size_t i = 0; rows && i < count; ++i) {
+        if (json_array_append_new(rows, row_json(&tuned[i])) != 0) {
+            json_decref(rows);
+            return NULL;
+        }
+    }
+    return rows ? json_pack("{s:i, s:o}", "schema", 1, "rows", rows) : NULL;
+}
+
+void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out)
+{
+    const char *last = "", *cache = "";
+    for (size_t i = 0; i < count; ++i) {
+        const mote_summary_row *best = tuned[i].best;
+        if (strcmp(best->first->scenario, last) != 0 ||
+            strcmp(best->first->cache, cache) != 0) {
+            last = best->first->scenario;
+            cache = best->first->cache;
+            (void)fprintf(out, "%s%s, caches %s\n%-52s %11s %11s %11s %11s %9s\n",
+                          i ? "\n" : "", last, cache, "best configuration", "total us",
+                          "deform", "update", "query", "worst");
+        }
+        (void)fprintf(out, "%-52s %11.2f %11.2f %11.2f %11.2f %8.2fx  of %zu%s\n", best->label,
+                      best->total.median * 1e-3, best->deform.median * 1e-3,
+                      best->update.median * 1e-3, best->query.median * 1e-3,
+                      tuned[i].worst->total.median / best->total.median,
+                      tuned[i].configurations, tuned[i].right ? "" : ", none of them right");
+    }
+}

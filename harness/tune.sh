@@ -1,0 +1,69 @@
+#!/bin/sh
+# tune.sh MOTE PROFILE OUT: every useful configuration of every baseline on every scenario of the
+# paper, into one run directory; ends with the best of each. A run that was stopped goes on where
+# it stopped. quick: 100 frames of each scenario, once; full: all frames, three times.
+set -eu
+mote=$1
+profile=$2
+out=$3
+failed=0
+
+# A cell that failed (5) is a row, not the end.
+measure() {
+    status=0
+    "$mote" run "$@" --out "$out" >/dev/null || status=$?
+    case $status in
+    0) ;;
+    5) failed=5 ;;
+    *) exit "$status" ;;
+    esac
+}
+
+case $profile in
+quick) replicates=1 ;;
+paper | full) replicates=3 ;;
+*)
+    echo "tune.sh: unknown profile '$profile'; choose quick, paper or full" >&2
+    exit 2
+    ;;
+esac
+
+# frames SCENARIO: where it is near and far in turn.
+frames() {
+    [ "$profile" = quick ] || return 0
+    case $1 in
+    ww) echo --frames 1201-1300 ;;
+    *) echo --frames 201-300 ;;
+    esac
+}
+
+for scenario in ww tt mv; do
+    # Words of frames are options. shellcheck disable=SC2046
+    set -- "$scenario" --replicates $replicates $(frames $scenario)
+    measure "$@" --method 'fcl-aabb:queue=2|64,seed=none|previous' \
+        --method 'fcl-aabb:update=refit-top-down|rebuild' \
+        --method 'fcl-aabb:call=api,seed=none|previous' \
+        --method 'fcl-kdop18:update=refit-bottom-up|refit-top-down|rebuild' \
+        --method 'hybrid-fcl:n=3|8|16,refine=no|always,queue=2|64' \
+        --method 'aabb-tree:seed=none|previous' \
+        --method 'ccd-convex:support=climb|scan' \
+        --method 'particle-paper:refine=no|near|always,start=random|fps' --particles 3,5,8,16
+    for volume in obb rss obbrss kios; do
+        measure "$@" --method "fcl-$volume:queue=2|64" --method "fcl-$volume:update=rebuild"
+        if [ $volume != obb ]; then
+            measure "$@" --method "fcl-$volume:call=api"
+        fi
+        # Seeds make answers depend on the last frame, so that none can be left out.
+        if [ "$profile" != quick ] || [ $volume = obbrss ]; then
+            measure "$@" --method "fcl-$volume:seed=previous,queue=2|64"
+        fi
+    done
+    if [ $scenario = tt ]; then
+        measure "$@" --method 'fcl-obb:update=none,call=node|api' \
+            --method 'fcl-rss:update=none' --method 'fcl-obbrss:update=none,call=node|api' \
+            --method 'fcl-kios:update=none,call=node|api'
+    fi
+done
+
+"$mote" tune "$out"
+exit $failed
