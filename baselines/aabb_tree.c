@@ -281,8 +281,8 @@ MOTE_CLONES
 static void measure_leaves(search *q, uint32_t leaf_a, uint32_t leaf_b)
 {
     const leaf_view *a = view_leaf(q, 0, leaf_a), *b = view_leaf(q, 1, leaf_b);
-    const uint32_t *a_order = q->state->tree[0].order + leaf_a * MOTE_BOX_LEAF;
-    const uint32_t *b_order = q->state->tree[1].order + leaf_b * MOTE_BOX_LEAF;
+    const uint32_t *a_order = q->state->tree[0].order + (size_t)leaf_a * MOTE_BOX_LEAF;
+    const uint32_t *b_order = q->state->tree[1].order + (size_t)leaf_b * MOTE_BOX_LEAF;
     for (uint32_t i = 0; i < a->count; i++) {
         if (!(b->farthest - a->extent[i] < q->distance))
             continue;

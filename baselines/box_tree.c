@@ -134,7 +134,7 @@ static void list_vertices(mote_box_tree *tree)
         }
     }
     tree->leaf_start[tree->leaves] = end;
-    uint32_t *cut = realloc(tree->leaf_vertex, end * sizeof *cut);
+    uint32_t *cut = realloc(tree->leaf_vertex, (end > 0 ? end : 1) * sizeof *cut);
     tree->leaf_vertex = cut ? cut : tree->leaf_vertex;
 }
 
@@ -156,7 +156,7 @@ static bool allocate(mote_box_tree *tree)
 {
     size_t triangles = tree->mesh->triangle_count;
     tree->blocks = aligned_alloc(64, tree->first_block[tree->height] * sizeof *tree->blocks);
-    tree->order = malloc(triangles * sizeof *tree->order);
+    tree->order = calloc(triangles, sizeof *tree->order);
     tree->leaf_start = malloc(((size_t)tree->leaves + 1) * sizeof *tree->leaf_start);
     tree->leaf_vertex = malloc(3 * triangles * sizeof *tree->leaf_vertex);
     tree->position = malloc(tree->mesh->vertex_count * sizeof *tree->position);
