@@ -6,6 +6,9 @@
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
+#   make perf-check                                 measure again, compare with results/reference
+#   make test-perf                                  plant changes: are they caught, and nothing else?
+#   make perf-accept WHY="..."                        make what is measured the reference
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -18,7 +21,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures oracle tune format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf oracle tune format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -35,7 +38,7 @@ test: build
 	cd build-asan && $(SANITIZER) ctest --output-on-failure -j $(JOBS)
 
 bench: build
-	@plots/bench.sh $(MOTE) $(PROFILE) $(OUT)
+	@harness/bench.sh $(MOTE) $(PROFILE) $(OUT)
 
 oracle: build
 	@mkdir -p $(OUT)
@@ -44,6 +47,17 @@ oracle: build
 
 tune: build
 	@harness/tune.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/tune,$(OUT))
+
+perf-check: build
+	@harness/perf.sh check $(MOTE) results/perf-check
+
+test-perf: build
+	@cmake --build $(BUILD) -j $(JOBS) --target perf_planted
+	@$(BUILD)/tests/perf_planted results/test-perf
+
+perf-accept: build
+	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }
+	@harness/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
 
 figures: build
 	@$(MOTE) figures $(OUT)

@@ -1,6 +1,7 @@
 #include "harness/compare.h"
 
 #include "harness/record.h"
+#include "harness/summary.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -101,32 +102,61 @@ static bool is_reference(const json_t *row)
     return to[0] != '\0' && strcmp(to, row_text(row, "label")) == 0;
 }
 
-/* The logarithm of new / base of one pair of processes: of their time relative to fcl-aabb,
-   which takes out most of what differs between two machines or two hours, or else of their
-   time. */
-static double log_change(const json_t *base, const json_t *fresh)
+/* The logarithm of new / base of a time: relative to fcl-aabb, which takes out most of what
+   differs between two machines, or else as it is. */
+static double log_change(double base_ratio, double new_ratio, double base_ns, double new_ns)
 {
-    double a = number_at(base, NULL, "ratio"), b = number_at(fresh, NULL, "ratio");
-    if (a > 0 && b > 0)
-        return log(a / b);
-    a = number_at(base, NULL, "median_ns");
-    b = number_at(fresh, NULL, "median_ns");
-    return a > 0 && b > 0 ? log(b / a) : MOTE_NONE;
+    if (base_ratio > 0 && new_ratio > 0)
+        return log(base_ratio / new_ratio);
+    return base_ns > 0 && new_ns > 0 ? log(new_ns / base_ns) : MOTE_NONE;
 }
 
-/* Replicates with one number draw the same random numbers: they are compared in pairs. */
-static void compare_times(const json_t *base, const json_t *fresh, mote_change *change)
+static double element(const json_t *row, const char *key, size_t index)
 {
-    static double logs[PAIRS_MAX];
+    const json_t *value =
+        json_array_get(json_object_get(json_object_get(row, "quiet"), key), index);
+    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
+}
+
+/* The changes of the quiet times, group by group; returns how many. */
+static size_t quiet_changes(const json_t *base, const json_t *fresh, double *logs)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
+        double value = log_change(element(base, "ratio", k), element(fresh, "ratio", k),
+                                  element(base, "total_ns", k), element(fresh, "total_ns", k));
+        if (value == value)
+            logs[count++] = value;
+    }
+    return count;
+}
+
+/* The changes of the processes' medians. Replicates with one number draw the same random
+   numbers: they are compared in pairs. */
+static size_t process_changes(const json_t *base, const json_t *fresh, double *logs)
+{
     size_t count = 0;
     const json_t *processes = json_object_get(base, "processes");
     for (size_t i = 0; i < json_array_size(processes) && count < PAIRS_MAX; ++i) {
         const json_t *process = json_array_get(processes, i);
         const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
-        double value = partner ? log_change(process, partner) : MOTE_NONE;
+        double value = MOTE_NONE;
+        if (partner)
+            value = log_change(
+                number_at(process, NULL, "ratio"), number_at(partner, NULL, "ratio"),
+                number_at(process, NULL, "median_ns"), number_at(partner, NULL, "median_ns"));
         if (value == value)
             logs[count++] = value;
     }
+    return count;
+}
+
+static void compare_times(const json_t *base, const json_t *fresh, mote_change *change)
+{
+    static double logs[PAIRS_MAX];
+    size_t count = quiet_changes(base, fresh, logs);
+    if (count < MOTE_QUIET_GROUPS)
+        count = process_changes(base, fresh, logs);
     change->ratio = exp(mote_statistics_mean(logs, count));
     change->interval = mote_statistics_t_interval(logs, count);
     change->interval.low = exp(change->interval.low);

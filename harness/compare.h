@@ -12,10 +12,11 @@
 typedef struct mote_change {
     char *name;   /* "ww/particle-paper:n=5/hot" */
     double ratio; /* time new / base; relative to fcl-aabb within each run where both have it */
-    mote_confidence interval; /* of the ratio: t over pairs of replicates */
-    double p;                 /* of no change, corrected by Holm over all rows */
-    mote_verdict verdict;     /* of the time, at p < 0.05 and an effect above the floor */
-    bool is_reference;        /* fcl-aabb itself: its time says nothing about us */
+    mote_confidence
+        interval;         /* of the ratio: t over groups of quiet times, or over replicates */
+    double p;             /* of no change, corrected by Holm over all rows */
+    mote_verdict verdict; /* of the time, at p < 0.05 and an effect above the floor */
+    bool is_reference;    /* fcl-aabb itself: its time says nothing about us */
     bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */

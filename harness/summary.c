@@ -1,6 +1,7 @@
 #include "harness/summary.h"
 
 #include "harness/record.h"
+#include "harness/summary_quiet.h"
 #include "harness/summary_row.h"
 
 #include <stdlib.h>
@@ -86,6 +87,9 @@ static mote_status take_ratios(mote_summary *summary)
         if (status == MOTE_OK && reference != SIZE_MAX)
             status = mote_summary_process_ratios(row, &summary->rows[reference]);
         if (status == MOTE_OK)
+            status = mote_summary_quiet(row, reference == SIZE_MAX ? NULL
+                                                                   : &summary->rows[reference]);
+        if (status == MOTE_OK)
             status = take_ratio(summary, row, find_best_fcl(summary, row), MOTE_PART_TOTAL,
                                 &row->ratio_best);
     }
@@ -122,7 +126,8 @@ mote_status mote_summary_make(const char *directory, mote_summary *summary)
         qsort(made.rows, made.count, sizeof *made.rows, by_place);
     if (status == MOTE_OK)
         status = take_ratios(&made);
-    made.noise_floor = mote_summary_noise_floor(made.rows, made.count);
+    if (status == MOTE_OK)
+        status = mote_summary_noise_floor(made.rows, made.count, &made.noise_floor);
     if (status == MOTE_OK)
         *summary = made;
     else
@@ -197,6 +202,16 @@ static json_t *processes_json(const mote_summary_row *row)
     return processes;
 }
 
+static json_t *quiet_json(const mote_quiet *quiet)
+{
+    json_t *totals = json_array(), *ratios = json_array();
+    for (int k = 0; k < MOTE_QUIET_GROUPS; ++k) {
+        (void)json_array_append_new(totals, mote_json_number(quiet->total[k]));
+        (void)json_array_append_new(ratios, mote_json_number(quiet->ratio[k]));
+    }
+    return json_pack("{s:o, s:o}", "total_ns", totals, "ratio", ratios);
+}
+
 /* Heap over the vertices of both bodies. */
 static json_t *bytes_per_vertex(const mote_summary_row *row)
 {
@@ -244,6 +259,7 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
     (void)json_object_set_new(object, "heap_bytes_per_vertex", bytes_per_vertex(row));
     (void)json_object_set_new(object, "counters", counters_json(row));
     (void)json_object_set_new(object, "processes", processes_json(row));
+    (void)json_object_set_new(object, "quiet", quiet_json(&row->quiet));
     return object;
 }
 

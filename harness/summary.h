@@ -25,6 +25,18 @@ typedef struct mote_process {
     double ratio;  /* paired median of (reference's total / this total), as in row.ratio */
 } mote_process;
 
+/* Times with the disturbances of a shared machine taken out as far as replicates allow: of each
+   frame the fastest of a group of replicates, then the median over frames. Replicates with
+   number mod MOTE_QUIET_GROUPS = k make group k; with fewer than MOTE_QUIET_REPLICATES all is
+   MOTE_NONE. */
+#define MOTE_QUIET_GROUPS 3
+#define MOTE_QUIET_REPLICATES 6
+typedef struct mote_quiet {
+    double total[MOTE_QUIET_GROUPS]; /* nanoseconds */
+    double
+        ratio[MOTE_QUIET_GROUPS]; /* median over frames of (reference's / this), or MOTE_NONE */
+} mote_quiet;
+
 /* Errors are in L; MOTE_NONE where no frame has an answer. */
 typedef struct mote_error_summary {
     double median, p95, p99, max; /* of the absolute error */
@@ -55,6 +67,7 @@ typedef struct mote_summary_row {
     double n;                      /* the parameter n, or MOTE_NONE */
     size_t frames;                 /* of one replicate */
     mote_process *processes;       /* [replicates] */
+    mote_quiet quiet;
 #define MOTE_TIME_FIELD(name, key) mote_time name;
     MOTE_TIMES(MOTE_TIME_FIELD)
 #undef MOTE_TIME_FIELD
@@ -77,10 +90,11 @@ typedef struct mote_summary {
 mote_status mote_summary_make(const char *directory, mote_summary *summary);
 void mote_summary_free(mote_summary *summary);
 
-/* How much a row's processes differ from each other when nothing changed: replicates with odd
-   numbers against those with even numbers, as a share (0.03: 3 %), exceeded by one row in ten.
-   MOTE_NONE when no row has two replicates. Part of mote_summary_make. */
-double mote_summary_noise_floor(const mote_summary_row *rows, size_t count);
+/* How much rows differ from themselves when nothing changed, as a share (0.03: 3 %), exceeded
+   by one row in ten: replicates with odd numbers against those with even numbers, quiet times
+   where there are enough replicates, else medians. MOTE_NONE when no row has two replicates.
+   Part of mote_summary_make. */
+mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor);
 
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);

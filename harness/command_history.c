@@ -1,0 +1,25 @@
+/* mote history: the accepted references, drawn; --add makes a run one of them. */
+#include "harness/command.h"
+#include "harness/history.h"
+
+int mote_command_history(int argc, char **argv)
+{
+    static const mote_option options[] = {{"add", "DIR"}, {"why", "TEXT"}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *file = "results/history.csv", *value, *directory = NULL, *why = NULL;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN)
+            file = value;
+        else if (option == 0)
+            directory = value;
+        else
+            why = value;
+    }
+    if ((directory == NULL) != (why == NULL))
+        return mote_command_usage(argv[0], "--add DIR and --why TEXT go together");
+    mote_status status =
+        directory ? mote_history_add(file, directory, why) : mote_history_draw(file);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}

@@ -1,0 +1,274 @@
+#include "harness/history.h"
+
+#include "harness/command.h"
+#include "harness/record.h"
+#include "harness/spawn.h"
+#include "harness/summary.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)1 << 28)
+#define HEADER                                                                                 \
+    "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
+    "error_p99\n"
+#define FIELDS 11
+enum { FIELD_DATE, FIELD_COMMIT, FIELD_WHY, FIELD_ROW, FIELD_TOTAL, FIELD_RATIO };
+
+/* A change of less than this share is none. */
+#define CHANGE_SHARE 0.05
+#define CHANGE_TIMES_USUAL 3
+
+/* A field without what would end it. */
+static void add_plain(mote_text *text, const char *value)
+{
+    for (; *value; ++value)
+        mote_text_add(text, "%c", strchr(",\"\n\r", *value) ? ';' : *value);
+}
+
+static void add_number(mote_text *text, double value)
+{
+    if (value == value)
+        mote_text_add(text, ",%.10g", value);
+    else
+        mote_text_add(text, ",");
+}
+
+static double mean_count(const mote_summary_row *row, const char *name)
+{
+    double sum = 0, frames = 0;
+    for (int k = 0; k < MOTE_STORED_COUNTS; ++k) {
+        for (size_t r = 0; strcmp(mote_stored_count_names[k], name) == 0 && r < row->replicates;
+             ++r) {
+            sum += row->cells[r].counts[k].sum;
+            frames += (double)row->cells[r].frames;
+        }
+    }
+    return frames > 0 ? sum / frames : MOTE_NONE;
+}
+
+static void add_row(mote_text *text, const char *date, const char *commit, const char *why,
+                    const mote_summary_row *row)
+{
+    add_plain(text, date);
+    mote_text_add(text, ",");
+    add_plain(text, commit);
+    mote_text_add(text, ",");
+    add_plain(text, why);
+    mote_text_add(text, ",%s/", row->first->scenario);
+    add_plain(text, row->label);
+    mote_text_add(text, "/%s", row->first->cache);
+    add_number(text, row->total.median);
+    add_number(text, row->ratio.value);
+    add_number(text, mean_count(row, "positions"));
+    add_number(text, mean_count(row, "box_tests"));
+    add_number(text, mean_count(row, "triangle_tests"));
+    add_number(text, row->heap_live_bytes);
+    add_number(text, row->error.p99);
+    mote_text_add(text, "\n");
+}
+
+/* What there is so far, or the header. */
+static mote_status begin_text(const char *file, mote_text *text)
+{
+    if (access(file, F_OK) != 0) {
+        mote_text_add(text, "%s", HEADER);
+        return MOTE_OK;
+    }
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = mote_file_read(file, FILE_LIMIT, &data, &size);
+    if (status == MOTE_OK)
+        mote_text_add(text, "%s", data);
+    free(data);
+    return status;
+}
+
+mote_status mote_history_add(const char *file, const char *directory, const char *why)
+{
+    mote_summary summary;
+    json_t *manifest = NULL;
+    if (why[0] == '\0')
+        return mote_fail(MOTE_EINVAL, "no reason; say why the reference changes");
+    mote_status status = mote_record_read_json(directory, "manifest.json", &manifest);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_summary_make(directory, &summary);
+    if (status == MOTE_OK) {
+        const json_t *sessions = json_object_get(manifest, "sessions");
+        const char *date =
+            json_string_value(json_object_get(json_array_get(sessions, 0), "started"));
+        const char *commit = json_string_value(json_object_get(manifest, "commit"));
+        mote_text text = {0};
+        status = begin_text(file, &text);
+        for (size_t i = 0; i < summary.count; ++i) {
+            if (summary.rows[i].status == MOTE_CELL_OK)
+                add_row(&text, date ? date : "", commit ? commit : "", why, &summary.rows[i]);
+        }
+        if (status == MOTE_OK && text.failed)
+            status = mote_fail(MOTE_ENOMEM, "%s: no memory", file);
+        if (status == MOTE_OK)
+            status = mote_file_write(file, text.data, text.size);
+        free(text.data);
+        mote_summary_free(&summary);
+    }
+    json_decref(manifest);
+    return status;
+}
+
+/* A line of the file: where its row and its time begin. time is relative to fcl-aabb where the
+   run had it (1 / ratio), so that references of different machines can stand in one series. */
+typedef struct point {
+    const char *row, *commit;
+    double time;
+    unsigned reference; /* counted from 0 by dates */
+} point;
+
+typedef struct points {
+    point *items;
+    size_t count;
+    unsigned references;
+} points;
+
+/* Splits a line in place; false unless it has FIELDS fields. */
+static bool split(char *line, char *fields[FIELDS])
+{
+    size_t count = 0;
+    for (char *field = line; field; ++count) {
+        char *comma = strchr(field, ',');
+        if (comma)
+            *comma = '\0';
+        if (count < FIELDS)
+            fields[count] = field;
+        field = comma ? comma + 1 : NULL;
+    }
+    return count == FIELDS;
+}
+
+static mote_status read_points(const char *file, char *text, points *p)
+{
+    const char *last_date = "";
+    size_t number = 1;
+    char *line = strchr(text, '\n');
+    if (strncmp(text, HEADER, strlen(HEADER)) != 0)
+        return mote_fail(MOTE_EINVAL, "%s:1: not the header of a history", file);
+    size_t lines = 0;
+    for (const char *c = text; *c; ++c)
+        lines += *c == '\n' ? 1 : 0;
+    p->items = calloc(lines + 1, sizeof *p->items);
+    if (!p->items)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory", file);
+    while (line && line[1] != '\0') {
+        char *start = line + 1, *fields[FIELDS];
+        ++number;
+        line = strchr(start, '\n');
+        if (line)
+            *line = '\0';
+        if (!split(start, fields))
+            return mote_fail(MOTE_EINVAL, "%s:%zu: not a line of a history; expected %d fields",
+                             file, number, FIELDS);
+        if (strcmp(fields[FIELD_DATE], last_date) != 0)
+            ++p->references;
+        last_date = fields[FIELD_DATE];
+        double total, ratio;
+        bool has_total = mote_read_real(fields[FIELD_TOTAL], 1e-9, 1e18, &total);
+        bool has_ratio = mote_read_real(fields[FIELD_RATIO], 1e-12, 1e12, &ratio);
+        if (!has_total && !has_ratio)
+            continue;
+        point here = {fields[FIELD_ROW], fields[FIELD_COMMIT], has_ratio ? 1 / ratio : total,
+                      p->references - 1};
+        p->items[p->count++] = here;
+    }
+    return MOTE_OK;
+}
+
+static bool first_of_row(const points *p, size_t index)
+{
+    for (size_t i = 0; i < index; ++i) {
+        if (strcmp(p->items[i].row, p->items[index].row) == 0)
+            return false;
+    }
+    return true;
+}
+
+/* The series of one row as a block "reference relative-time changed commit". */
+static mote_status add_series(const points *p, const char *row, mote_text *text)
+{
+    double *moves = malloc((p->count + 1) * sizeof *moves);
+    if (!moves)
+        return mote_fail(MOTE_ENOMEM, "no memory for a history");
+    double first = MOTE_NONE, before = MOTE_NONE;
+    size_t count = 0;
+    for (size_t i = 0; i < p->count; ++i) {
+        if (strcmp(p->items[i].row, row) != 0)
+            continue;
+        if (before == before)
+            moves[count++] = fabs(log(p->items[i].time / before));
+        before = p->items[i].time;
+    }
+    double usual = count > 0 ? mote_statistics_median(moves, count) : 0;
+    free(moves);
+    mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", row);
+    before = MOTE_NONE;
+    for (size_t i = 0; i < p->count; ++i) {
+        const point *here = &p->items[i];
+        if (strcmp(here->row, row) != 0)
+            continue;
+        first = first == first ? first : here->time;
+        double move = before == before ? fabs(log(here->time / before)) : 0;
+        /* Of one move, its own size is what is usual. */
+        bool changed =
+            move > log(1 + CHANGE_SHARE) && (count < 3 || move > CHANGE_TIMES_USUAL * usual);
+        mote_text_add(text, "%u %.10g %d %.10s\n", here->reference + 1, here->time / first,
+                      changed ? 1 : 0, here->commit[0] ? here->commit : "-");
+        before = here->time;
+    }
+    return MOTE_OK;
+}
+
+static mote_status plot(const char *base)
+{
+    const char *const argv[] = {
+        "gnuplot", "-c", MOTE_SOURCE_DIR "/plots/history.gp", MOTE_SOURCE_DIR "/plots",
+        base,      NULL};
+    mote_status status = mote_spawn(argv, NULL, NULL, 0);
+    if (status == MOTE_OK)
+        (void)printf("%s.svg\n%s.png\n", base, base);
+    return status;
+}
+
+mote_status mote_history_draw(const char *file)
+{
+    char *text = NULL;
+    size_t size = 0;
+    points p = {0};
+    mote_text series = {0};
+    mote_status status = mote_file_read(file, FILE_LIMIT, &text, &size);
+    if (status == MOTE_OK)
+        status = read_points(file, text, &p);
+    for (size_t i = 0; status == MOTE_OK && i < p.count; ++i) {
+        if (first_of_row(&p, i))
+            status = add_series(&p, p.items[i].row, &series);
+    }
+    size_t length = strlen(file) > 4 && strcmp(file + strlen(file) - 4, ".csv") == 0
+                        ? strlen(file) - 4
+                        : strlen(file);
+    char *base = mote_format("%.*s", (int)length, file);
+    char *data = mote_format("%.*s.dat", (int)length, file);
+    if (status == MOTE_OK && (!base || !data || series.failed))
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory", file);
+    if (status == MOTE_OK && series.size == 0)
+        status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; accept a reference first", file);
+    if (status == MOTE_OK)
+        status = mote_file_write(data, series.data, series.size);
+    if (status == MOTE_OK)
+        status = plot(base);
+    free(base);
+    free(data);
+    free(series.data);
+    free(p.items);
+    free(text);
+    return status;
+}

@@ -1,0 +1,128 @@
+#include "harness/summary_quiet.h"
+
+#include <stdlib.h>
+
+static bool ran(const mote_stored_cell *cell)
+{
+    return cell->status == MOTE_CELL_OK && cell->frames > 0;
+}
+
+/* Of each frame the fastest of the replicates whose number mod groups is group; returns how
+   many replicates there were. times holds row->frames. */
+static size_t fastest(const mote_summary_row *row, uint32_t groups, uint32_t group,
+                      double *times)
+{
+    size_t count = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (!ran(cell) || cell->replicate % groups != group || cell->frames != row->frames)
+            continue;
+        for (size_t k = 0; k < row->frames; ++k) {
+            if (count == 0 || cell->total_ns[k] < times[k])
+                times[k] = cell->total_ns[k];
+        }
+        ++count;
+    }
+    return count;
+}
+
+/* The quiet total of a group, and its ratio to the reference's; MOTE_NONE without replicates.
+ */
+static mote_status quiet_group(const mote_summary_row *row, const mote_summary_row *reference,
+                               uint32_t groups, uint32_t group, double *total, double *ratio)
+{
+    size_t frames = row->frames, others = reference ? reference->frames : 0;
+    double *mine = malloc((2 * frames + others + 1) * sizeof *mine);
+    *total = *ratio = MOTE_NONE;
+    if (!mine)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    double *ratios = mine + frames, *theirs = ratios + frames;
+    bool measured = fastest(row, groups, group, mine) > 0;
+    if (measured && reference && fastest(reference, groups, group, theirs) > 0) {
+        const uint32_t *a = row->first->frame, *b = reference->first->frame;
+        size_t count = 0;
+        for (size_t i = 0, k = 0; i < frames && k < others;) {
+            if (a[i] == b[k] && mine[i] > 0)
+                ratios[count++] = theirs[k] / mine[i];
+            bool step = a[i] <= b[k];
+            k += b[k] <= a[i] ? 1 : 0;
+            i += step ? 1 : 0;
+        }
+        *ratio = mote_statistics_median(ratios, count);
+    }
+    if (measured)
+        *total = mote_statistics_median(mine, frames);
+    free(mine);
+    return MOTE_OK;
+}
+
+mote_status mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference)
+{
+    mote_status status = MOTE_OK;
+    for (uint32_t k = 0; k < MOTE_QUIET_GROUPS && status == MOTE_OK; ++k) {
+        row->quiet.total[k] = row->quiet.ratio[k] = MOTE_NONE;
+        if (row->finished >= MOTE_QUIET_REPLICATES)
+            status = quiet_group(row, reference, MOTE_QUIET_GROUPS, k, &row->quiet.total[k],
+                                 &row->quiet.ratio[k]);
+    }
+    return status;
+}
+
+static double better_of(double ratio, double total)
+{
+    return ratio == ratio ? ratio : total;
+}
+
+/* The medians of a row's odd or even processes, their logarithms averaged. */
+static double half_of_processes(const mote_summary_row *row, uint32_t half)
+{
+    double sum = 0, count = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        double value = better_of(row->processes[r].ratio, row->processes[r].median);
+        if (row->cells[r].replicate % 2 != half || !(value > 0))
+            continue;
+        sum += log(value);
+        count += 1;
+    }
+    return count > 0 ? exp(sum / count) : MOTE_NONE;
+}
+
+static mote_status halves_differ(const mote_summary_row *row, const mote_summary_row *reference,
+                                 double *share)
+{
+    double halves[2];
+    for (uint32_t half = 0; half < 2; ++half) {
+        halves[half] = half_of_processes(row, half);
+        if (row->finished < MOTE_QUIET_REPLICATES)
+            continue;
+        double total, ratio;
+        mote_status status = quiet_group(row, reference, 2, half, &total, &ratio);
+        if (status != MOTE_OK)
+            return status;
+        halves[half] = better_of(ratio, total);
+    }
+    *share = exp(fabs(log(halves[0] / halves[1]))) - 1;
+    return MOTE_OK;
+}
+
+mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor)
+{
+    double *shares = malloc((count + 1) * sizeof *shares);
+    mote_status status =
+        shares ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for %zu rows", count);
+    size_t known = 0;
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        if (rows[i].ratio.to == i || rows[i].finished == 0)
+            continue; /* the reference is always 1 to itself */
+        double share = MOTE_NONE;
+        status = halves_differ(
+            &rows[i], rows[i].ratio.to == SIZE_MAX ? NULL : &rows[rows[i].ratio.to], &share);
+        if (share == share)
+            shares[known++] = share;
+    }
+    if (known > 0)
+        mote_statistics_sort(shares, known);
+    *floor = known > 0 ? mote_statistics_quantile(shares, known, 0.9) : MOTE_NONE;
+    free(shares);
+    return status;
+}
