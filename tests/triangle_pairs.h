@@ -68,6 +68,13 @@ static inline void pair_move(mote_vec3 t[3], mote_vec3 by)
         t[k] = mote_add(t[k], by);
 }
 
+/* Presses a triangle towards the plane z = 0. */
+static inline void pair_press(mote_vec3 t[3], double factor)
+{
+    for (int k = 0; k < 3; k++)
+        t[k].z *= factor;
+}
+
 static inline void pair_flatten(mote_vec3 t[3], uint64_t *state)
 {
     double u = pair_uniform(state), small = pair_small(state);
@@ -139,10 +146,8 @@ static inline void pair_place(pair_sort sort, mote_vec3 s[3], mote_vec3 t[3], ui
         t[1] = pair_near(mote_add_scaled(t[0], 2 * u - 1, mote_sub(s[1], s[0])), small, state);
         break;
     case PAIR_COPLANAR:
-        for (int k = 0; k < 3; k++) {
-            s[k].z *= small;
-            t[k].z *= small;
-        }
+        pair_press(s, small);
+        pair_press(t, small);
         break;
     case PAIR_VERTEX_FLAT:
         pair_flatten(s, state);
