@@ -8,6 +8,7 @@
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
+#   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make lint, make deps, make build, make clean
 
@@ -21,7 +22,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf oracle tune format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -54,6 +55,10 @@ perf-check: build
 test-perf: build
 	@cmake --build $(BUILD) -j $(JOBS) --target perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf
+
+test-statistics: build
+	@cmake --build $(BUILD) -j $(JOBS) --target coverage
+	@$(BUILD)/tests/coverage
 
 perf-accept: build
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }

@@ -11,7 +11,6 @@
 #define EXACT_SHARE 1e-9
 /* Heap may grow by this share: the allocator rounds. */
 #define BYTES_SHARE 0.01
-#define SIGNIFICANT 0.05
 /* At most this many replicates are paired. */
 #define PAIRS_MAX 1000
 
@@ -268,11 +267,8 @@ static mote_status judge(mote_comparison *c)
     for (size_t i = 0; i < c->count; ++i) {
         mote_change *change = &c->changes[i];
         change->p = p[i];
-        change->verdict = mote_statistics_verdict(change->ratio, change->interval, c->floor);
-        bool moved =
-            change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER;
-        if (moved && !(change->p < SIGNIFICANT))
-            change->verdict = MOTE_VERDICT_UNDECIDED;
+        change->verdict =
+            mote_statistics_verdict(change->ratio, change->interval, change->p, c->floor);
         bool counted = change->what.size > 0;
         if (change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER)
             mote_text_add(&change->what, "%s",

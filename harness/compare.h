@@ -15,7 +15,7 @@ typedef struct mote_change {
     mote_confidence
         interval;         /* of the ratio: t over groups of quiet times, or over replicates */
     double p;             /* of no change, corrected by Holm over all rows */
-    mote_verdict verdict; /* of the time, at p < 0.05 and an effect above the floor */
+    mote_verdict verdict; /* of the time */
     bool is_reference;    /* fcl-aabb itself: its time says nothing about us */
     bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */

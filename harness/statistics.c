@@ -98,46 +98,80 @@ static mote_status t_of_medians(const mote_replicate *replicates, size_t count,
     return MOTE_OK;
 }
 
-/* Draws as many frames of one process as it has, in blocks of consecutive frames (around the
-   end), so that the dependence of neighbouring frames stays in the resample. */
-static size_t draw_blocks(gsl_rng *random, const mote_replicate *from, double *to)
+/* What the resampling works on: all processes ran the same frames, so the frames are no sample,
+   and only what processes add to them is drawn again. */
+typedef struct resample {
+    size_t count, frames;
+    bool logarithmic;
+    double *profile;   /* [frames], the median over the processes */
+    double *residuals; /* [count][frames], a value over (or less) its frame's profile */
+    double *drawn;     /* [count * frames] */
+    double *medians;   /* [RESAMPLES] */
+} resample;
+
+static mote_status make_resample(const mote_replicate *replicates, size_t count,
+                                 bool logarithmic, resample *s)
 {
-    size_t block = (size_t)ceil(sqrt((double)from->count));
-    for (size_t drawn = 0; drawn < from->count;) {
-        size_t start = gsl_rng_uniform_int(random, from->count);
-        for (size_t k = 0; k < block && drawn < from->count; ++k)
-            to[drawn++] = from->values[(start + k) % from->count];
+    size_t frames = replicates[0].count, all = count * frames;
+    s->count = count;
+    s->frames = frames;
+    s->logarithmic = logarithmic;
+    s->profile = malloc((frames + 2 * all + RESAMPLES) * sizeof *s->profile);
+    if (!s->profile)
+        return mote_fail(MOTE_ENOMEM, "no memory for a bootstrap of %zu values", all);
+    s->residuals = s->profile + frames;
+    s->drawn = s->residuals + all;
+    s->medians = s->drawn + all;
+    for (size_t k = 0; k < frames; ++k) {
+        for (size_t r = 0; r < count; ++r)
+            s->drawn[r] = replicates[r].values[k];
+        s->profile[k] = mote_statistics_median(s->drawn, count);
+        for (size_t r = 0; r < count; ++r) {
+            double value = replicates[r].values[k];
+            s->residuals[r * frames + k] =
+                logarithmic ? value / s->profile[k] : value - s->profile[k];
+        }
     }
-    return from->count;
+    return MOTE_OK;
 }
 
-static mote_status bootstrap(const mote_replicate *replicates, size_t count, uint64_t seed,
-                             mote_confidence *interval)
+/* Draws one process: blocks of consecutive residuals (around the end), so that the dependence
+   of neighbouring frames stays in the resample, on the profile of the frames. */
+static void draw_process(gsl_rng *random, const resample *s, double *to)
 {
-    size_t most = longest(replicates, count) * count;
-    double *work = malloc((most + RESAMPLES) * sizeof *work);
+    const double *from = s->residuals + gsl_rng_uniform_int(random, s->count) * s->frames;
+    size_t block = (size_t)ceil(sqrt((double)s->frames));
+    for (size_t k = 0; k < s->frames;) {
+        size_t start = gsl_rng_uniform_int(random, s->frames);
+        for (size_t i = 0; i < block && k < s->frames; ++i, ++k) {
+            double residual = from[(start + i) % s->frames];
+            to[k] = s->logarithmic ? s->profile[k] * residual : s->profile[k] + residual;
+        }
+    }
+}
+
+static mote_status bootstrap(const mote_replicate *replicates, size_t count, bool logarithmic,
+                             uint64_t seed, mote_confidence *interval)
+{
     (void)gsl_set_error_handler_off(); /* NULL, not the end of the program */
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    if (!work || !random) {
-        free(work);
-        gsl_rng_free(random);
-        return mote_fail(MOTE_ENOMEM, "no memory for a bootstrap of %zu values", most);
+    resample s = {0};
+    mote_status status = random ? make_resample(replicates, count, logarithmic, &s)
+                                : mote_fail(MOTE_ENOMEM, "no memory for a random generator");
+    if (status == MOTE_OK) {
+        gsl_rng_set(random, seed);
+        for (size_t k = 0; k < RESAMPLES; ++k) {
+            for (size_t r = 0; r < count; ++r)
+                draw_process(random, &s, s.drawn + r * s.frames);
+            s.medians[k] = mote_statistics_median(s.drawn, count * s.frames);
+        }
+        mote_statistics_sort(s.medians, RESAMPLES);
+        interval->low = mote_statistics_quantile(s.medians, RESAMPLES, 0.025);
+        interval->high = mote_statistics_quantile(s.medians, RESAMPLES, 0.975);
     }
-    gsl_rng_set(random, seed);
-    double *medians = work + most;
-    for (size_t k = 0; k < RESAMPLES; ++k) {
-        size_t drawn = 0;
-        for (size_t r = 0; r < count; ++r)
-            drawn += draw_blocks(random, &replicates[gsl_rng_uniform_int(random, count)],
-                                 work + drawn);
-        medians[k] = mote_statistics_median(work, drawn);
-    }
-    mote_statistics_sort(medians, RESAMPLES);
-    interval->low = mote_statistics_quantile(medians, RESAMPLES, 0.025);
-    interval->high = mote_statistics_quantile(medians, RESAMPLES, 0.975);
-    free(work);
+    free(s.profile);
     gsl_rng_free(random);
-    return MOTE_OK;
+    return status;
 }
 
 mote_status mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
@@ -150,11 +184,14 @@ mote_status mote_statistics_median_interval(const mote_replicate *replicates, si
         if (replicates[r].count == 0)
             return MOTE_OK;
     }
+    bool same_frames = true;
+    for (size_t r = 1; r < count; ++r)
+        same_frames = same_frames && replicates[r].count == replicates[0].count;
     if (count < 2)
         return MOTE_OK;
-    if (count < MOTE_BOOTSTRAP_REPLICATES)
+    if (count < MOTE_BOOTSTRAP_REPLICATES || !same_frames)
         return t_of_medians(replicates, count, logarithmic, interval);
-    return bootstrap(replicates, count, seed, interval);
+    return bootstrap(replicates, count, logarithmic, seed, interval);
 }
 
 double mote_statistics_mad(double *values, size_t count)
@@ -402,12 +439,14 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
 
 const char *const mote_verdict_names[] = {"same", "faster", "slower", "undecided"};
 
-mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double floor)
+mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double p,
+                                     double floor)
 {
     double most = 1 + floor, least = 1 / most;
-    if (interval.low > 1 && ratio > most)
+    bool significant = p < MOTE_SIGNIFICANT;
+    if (significant && interval.low > 1 && ratio > most)
         return MOTE_VERDICT_SLOWER;
-    if (interval.high < 1 && ratio < least)
+    if (significant && interval.high < 1 && ratio < least)
         return MOTE_VERDICT_FASTER;
     if (interval.low >= least && interval.high <= most)
         return MOTE_VERDICT_SAME;

@@ -48,9 +48,11 @@ typedef struct mote_replicate {
 #define MOTE_BOOTSTRAP_REPLICATES 10
 
 /* Interval of the median over all frames of processes that ran the same frames. values are
-   positive when logarithmic. Below MOTE_BOOTSTRAP_REPLICATES: t interval of the process medians
-   (of their logarithms when logarithmic). From there on: percentiles of 1,000 hierarchical
-   resamples, replicates first, then blocks of frames, drawn from seed. */
+   positive when logarithmic. Below MOTE_BOOTSTRAP_REPLICATES, or where frames are missing: t
+   interval of the process medians (of their logarithms when logarithmic). From there on:
+   percentiles of 1,000 hierarchical resamples, replicates first, then blocks of frames, drawn
+   from seed. The frames themselves are no sample: what is drawn is how processes differ from
+   the median over processes at each frame. */
 mote_status mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
                                             bool logarithmic, uint64_t seed,
                                             mote_confidence *interval);
@@ -97,15 +99,21 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 
-/* What a ratio of times new / old says, given its interval and the smallest effect that counts
-   (floor: 0.02 for 2 %). */
+/* A change is called one below this p: half of the usual 0.05, so that a method compared with
+   itself is called faster or slower in clearly fewer than 5 % of comparisons. */
+#define MOTE_SIGNIFICANT 0.025
+
+/* What a ratio of times new / old says, given its interval, its p (corrected when it is one of
+   many) and the smallest effect that counts (floor: 0.02 for 2 %). */
 typedef enum mote_verdict {
     MOTE_VERDICT_SAME,     /* the interval lies within 1 / (1 + floor) .. 1 + floor */
-    MOTE_VERDICT_FASTER,   /* the interval lies below 1, the ratio below 1 / (1 + floor) */
+    MOTE_VERDICT_FASTER,   /* significant, the interval below 1, the ratio below 1 / (1 + floor)
+                            */
     MOTE_VERDICT_SLOWER,   /* likewise above */
     MOTE_VERDICT_UNDECIDED /* anything else, or no interval */
 } mote_verdict;
 extern const char *const mote_verdict_names[]; /* "same", "faster", "slower", "undecided" */
-mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double floor);
+mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double p,
+                                     double floor);
 
 #endif

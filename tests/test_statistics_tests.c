@@ -132,7 +132,7 @@ static void exponent_of_a_power_with_an_outlier_is_the_power(void **state)
 static mote_verdict verdict(double ratio, double low, double high)
 {
     mote_confidence interval = {low, high};
-    return mote_statistics_verdict(ratio, interval, 0.02);
+    return mote_statistics_verdict(ratio, interval, 0.01, 0.02);
 }
 
 static void verdict_needs_interval_and_effect(void **state)
@@ -144,6 +144,9 @@ static void verdict_needs_interval_and_effect(void **state)
     assert_int_equal(verdict(1.10, 0.95, 1.25), MOTE_VERDICT_UNDECIDED);
     assert_int_equal(verdict(1.01, 1.00, 1.03), MOTE_VERDICT_UNDECIDED);
     assert_int_equal(verdict(1.10, MOTE_NONE, MOTE_NONE), MOTE_VERDICT_UNDECIDED);
+    mote_confidence interval = {1.05, 1.15};
+    assert_int_equal(mote_statistics_verdict(1.1, interval, 0.04, 0.02),
+                     MOTE_VERDICT_UNDECIDED);
 }
 
 int main(void)

@@ -1,0 +1,112 @@
+/* make test-statistics: how often intervals of the median cover it, and how often a comparison
+   of a method with itself says faster or slower, on simulated processes whose frames depend on
+   each other as real ones do: every process has a level of its own, all run the same frames,
+   and neighbouring frames share their disturbance. */
+#include "harness/statistics.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRAMES = 150, MOST_REPLICATES = 20 };
+
+#define LEVEL_SD 0.03    /* of a process, as the logarithm of time */
+#define FRAME_SWING 0.40 /* of the scenario: some frames are harder */
+#define NOISE_SD 0.05    /* of a frame */
+#define NOISE_MEMORY 0.9 /* what a frame keeps of the disturbance of the one before */
+#define MEDIAN_NS 4000.0
+
+/* Symmetric around MEDIAN_NS in the logarithm, so that this is the true median. */
+static void simulate(gsl_rng *random, double *values)
+{
+    double level = gsl_ran_gaussian(random, LEVEL_SD);
+    double noise = gsl_ran_gaussian(random, NOISE_SD);
+    for (int k = 0; k < FRAMES; ++k) {
+        noise = NOISE_MEMORY * noise +
+                gsl_ran_gaussian(random, NOISE_SD * sqrt(1 - NOISE_MEMORY * NOISE_MEMORY));
+        double swing = FRAME_SWING * sin(6.283185307179586 * k / FRAMES);
+        values[k] = MEDIAN_NS * exp(level + swing + noise);
+    }
+}
+
+/* The share of data sets whose interval covers the true median. */
+static mote_status cover(gsl_rng *random, size_t replicates, int sets, double *share)
+{
+    static double values[MOST_REPLICATES][FRAMES];
+    int covered = 0;
+    for (int set = 0; set < sets; ++set) {
+        mote_replicate data[MOST_REPLICATES];
+        for (size_t r = 0; r < replicates; ++r) {
+            simulate(random, values[r]);
+            data[r].values = values[r];
+            data[r].count = FRAMES;
+        }
+        mote_confidence interval;
+        mote_status status =
+            mote_statistics_median_interval(data, replicates, true, (uint64_t)set, &interval);
+        if (status != MOTE_OK)
+            return status;
+        covered += interval.low <= MEDIAN_NS && MEDIAN_NS <= interval.high ? 1 : 0;
+    }
+    *share = (double)covered / sets;
+    return MOTE_OK;
+}
+
+/* The logarithm of the median of one simulated process. */
+static double log_median(gsl_rng *random)
+{
+    double values[FRAMES];
+    simulate(random, values);
+    return log(mote_statistics_median(values, FRAMES));
+}
+
+/* The share of comparisons of a method with itself, of 10 replicates each, that say faster or
+   slower at a floor of 2 %. */
+static double false_alarms(gsl_rng *random, int comparisons)
+{
+    int alarms = 0;
+    for (int c = 0; c < comparisons; ++c) {
+        double logs[10];
+        for (int r = 0; r < 10; ++r)
+            logs[r] = log_median(random) - log_median(random);
+        mote_confidence interval = mote_statistics_t_interval(logs, 10);
+        interval.low = exp(interval.low);
+        interval.high = exp(interval.high);
+        mote_verdict verdict =
+            mote_statistics_verdict(exp(mote_statistics_mean(logs, 10)), interval,
+                                    mote_statistics_t_test(logs, 10), 0.02);
+        alarms += verdict == MOTE_VERDICT_FASTER || verdict == MOTE_VERDICT_SLOWER ? 1 : 0;
+    }
+    return (double)alarms / comparisons;
+}
+
+static int judge(const char *what, double share, double least, double most)
+{
+    int failed = share < least || share > most;
+    (void)printf("%-52s %5.1f %%, required %.0f-%.0f %%: %s\n", what, 100 * share, 100 * least,
+                 100 * most, failed ? "FAILED" : "ok");
+    return failed;
+}
+
+int main(int argc, char **argv)
+{
+    int sets = argc > 1 ? atoi(argv[1]) : 1000;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    double five, twenty;
+    if (!random || sets < 1)
+        return 2;
+    gsl_rng_set(random, 20030901);
+    if (cover(random, 5, sets, &five) != MOTE_OK ||
+        cover(random, 20, sets, &twenty) != MOTE_OK) {
+        (void)fprintf(stderr, "coverage: %s\n", mote_error_text());
+        return 1;
+    }
+    int failed = judge("t intervals of 5 processes cover the median", five, 0.93, 0.97);
+    failed += judge("bootstrap intervals of 20 processes cover it", twenty, 0.93, 0.97);
+    failed += judge("comparisons of a method with itself that alarm", false_alarms(random, 200),
+                    0, 0.05);
+    gsl_rng_free(random);
+    return failed ? 1 : 0;
+}
