@@ -72,6 +72,12 @@ static mote_status replace_positions(json_t *root, const mote_scenario *scenario
                                      uint32_t count)
 {
     json_t *body = json_array_get(json_object_get(root, "bodies"), 1);
+    if (!body || json_object_get(root, "pace") || json_object_get(root, "start") ||
+        json_object_get(root, "like"))
+        return mote_fail(MOTE_EINVAL,
+                         "%s: its path is not its own; name a scenario with bodies, "
+                         "without like, start and pace",
+                         scenario->path);
     json_t *keys = json_array();
     size_t index;
     json_t *key;

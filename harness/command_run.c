@@ -1,5 +1,7 @@
 #include "harness/command.h"
+#include "harness/file.h"
 #include "harness/run.h"
+#include "harness/scenario.h"
 #include "harness/summary.h"
 #include "harness/table.h"
 
@@ -20,6 +22,7 @@ static const mote_option options[] = {
     {"stride", "auto|K"},
     {"dry-run", NULL},
     {"force", NULL},
+    {"pair", "A.obj B.obj"},
 };
 enum {
     OPTION_METHOD,
@@ -34,6 +37,7 @@ enum {
     OPTION_STRIDE,
     OPTION_DRY_RUN,
     OPTION_FORCE,
+    OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
     OPTION_COUNT
 };
 
@@ -47,6 +51,7 @@ typedef struct request {
     const char **methods;   /* [argc] */
     size_t method_count;
     const char *particles, *frames;
+    char *pair; /* the name of the scenario that two meshes make, or NULL */
     mote_choices choices;
 } request;
 
@@ -142,6 +147,17 @@ static void add_scenario(request *q, const char *name)
     q->scenarios[q->run.scenario_count++] = name;
 }
 
+/* --pair A.obj B.obj: a scenario of its own name. */
+static bool add_pair(request *q, mote_option_reader *reader, const char *first)
+{
+    if (q->pair || reader->next >= reader->argc)
+        return false;
+    q->pair = mote_format(MOTE_PAIR_PREFIX "%s:%s", first, reader->argv[reader->next++]);
+    if (q->pair)
+        add_scenario(q, q->pair);
+    return q->pair != NULL;
+}
+
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
@@ -155,7 +171,11 @@ static int read_arguments(int argc, char **argv, request *q)
             return MOTE_EXIT_USAGE;
         if (option == MOTE_OPTION_PLAIN)
             add_scenario(q, value);
-        else if (!take_option(q, option, value, &expected))
+        else if (option == OPTION_PAIR) {
+            if (!add_pair(q, &reader, value))
+                return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
+                                          value);
+        } else if (!take_option(q, option, value, &expected))
             return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
                                       value, expected);
     }
@@ -243,5 +263,6 @@ int mote_command_run(int argc, char **argv)
     mote_choices_free(&q.choices);
     free(q.scenarios);
     free(q.methods);
+    free(q.pair);
     return code;
 }

@@ -39,6 +39,7 @@ typedef struct mote_body_motion {
 
 typedef struct mote_motion {
     mote_body_motion body[2];
+    double start, pace; /* frame k shows the path at start + (k - 1) * pace */
 } mote_motion;
 
 /* Waves that displace each of control_count points by at most amplitude (absolute): `terms`

@@ -69,9 +69,15 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
     free(buffer);
 }
 
+/* Where on the path a frame is. */
+static double path_place(const mote_scenario *scenario, uint32_t number)
+{
+    return scenario->motion->start + (number - 1.0) * scenario->motion->pace;
+}
+
 /* Weights that displace the control points as the motion says, rotated with the body. */
 static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,
-                        double number)
+                        double place)
 {
     const mote_field *field = scenario->body[i].field;
     const mote_body_motion *motion = &scenario->motion->body[i];
@@ -79,7 +85,7 @@ static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer
     state->weights = (mote_weights){NULL, NULL, NULL, field->count, field->padded};
     if (field->count == 0)
         return;
-    mote_motion_displacements(motion, number, buffer->displacement[i]);
+    mote_motion_displacements(motion, place, buffer->displacement[i]);
     mote_status status =
         mote_csrbf_fit_solve(motion->fit, buffer->displacement[i], buffer->solution[i]);
     assert(status == MOTE_OK); /* every number of a scenario was range-checked */
@@ -107,11 +113,12 @@ static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer
     state->pose_changed = true;
     if (previous == 0)
         return;
-    const mote_pose pose = mote_motion_pose(motion, previous);
+    const double before = path_place(scenario, previous);
+    const mote_pose pose = mote_motion_pose(motion, before);
     state->pose_changed = memcmp(&pose, &state->pose, sizeof pose) != 0;
     const uint32_t count = scenario->body[i].field->count;
     if (count > 0)
-        mote_motion_displacements(motion, previous, buffer->before[i]);
+        mote_motion_displacements(motion, before, buffer->before[i]);
     state->shape_changed = count > 0 && memcmp(buffer->before[i], buffer->displacement[i],
                                                count * sizeof(mote_vec3)) != 0;
 }
@@ -119,12 +126,13 @@ static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer
 const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                       uint32_t number, uint32_t previous)
 {
+    const double place = path_place(scenario, number);
     buffer->frame.number = number;
     for (int i = 0; i < 2; ++i) {
         mote_body_state *state = &buffer->frame.body[i];
-        state->pose = mote_motion_pose(&scenario->motion->body[i], number);
+        state->pose = mote_motion_pose(&scenario->motion->body[i], place);
         state->vertices = NULL;
-        set_weights(scenario, buffer, i, number);
+        set_weights(scenario, buffer, i, place);
         set_changes(scenario, buffer, i, previous);
     }
     return &buffer->frame;

@@ -21,10 +21,14 @@ typedef struct mote_scenario {
     struct mote_motion *motion; /* poses and weights over frames; opaque */
 } mote_scenario;
 
+/* A scenario that is made of two mesh files: "pair:A.obj:B.obj" is 1,000 frames of approach,
+   touches from between frames 100 and 200 on, and parting, both deforming. */
+#define MOTE_PAIR_PREFIX "pair:"
+
 /* Loads a built-in scenario by name (datasets/scenarios/NAME.json) or a file by path (when it
-   contains '/' or ends in ".json"). Generates or reads its meshes. Errors (MOTE_EINVAL,
-   MOTE_EIO) carry "FILE:LINE:COLUMN: what is wrong; what would be right". The caller destroys
-   *scenario. */
+   contains '/' or ends in ".json"), or makes one of two meshes (MOTE_PAIR_PREFIX). Generates or
+   reads its meshes. Errors (MOTE_EINVAL, MOTE_EIO) carry "FILE:LINE:COLUMN: what is wrong; what
+   would be right". The caller destroys *scenario. */
 mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario);
 void mote_scenario_destroy(mote_scenario *scenario); /* NULL is allowed */
 

@@ -56,14 +56,13 @@ static mote_status read_rotation(const mote_json *node, bool *present, mote_quat
     return status;
 }
 
-static mote_status read_key(const mote_json *node, double length, uint32_t frames,
-                            key_list *keys)
+static mote_status read_key(const mote_json *node, double length, key_list *keys)
 {
     int64_t number = 0;
     mote_status status = mote_json_object(node, "frame|position|axis|degrees|quaternion");
     mote_json key = mote_json_member(node, "frame");
     if (status == MOTE_OK)
-        status = mote_json_integer(&key, 1, frames, &number);
+        status = mote_json_integer(&key, 1, MOTE_FRAMES_MAX, &number);
     mote_json position = mote_json_member(node, "position");
     if (status == MOTE_OK && position.value) {
         mote_vec3 *at = &keys->positions[keys->position_count];
@@ -122,7 +121,7 @@ mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *me
     if (!node.value)
         return MOTE_OK;
     size_t count;
-    mote_status status = mote_json_array(&node, 1, frames, &count);
+    mote_status status = mote_json_array(&node, 1, MOTE_FRAMES_MAX, &count);
     if (status != MOTE_OK)
         return status;
     key_list keys = {malloc(count * sizeof *keys.position_frames),
@@ -135,7 +134,7 @@ mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *me
         status = mote_fail(MOTE_ENOMEM, "no memory for %zu key poses", count);
     for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         mote_json element = mote_json_element(&node, k);
-        status = read_key(&element, length, frames, &keys);
+        status = read_key(&element, length, &keys);
     }
     if (status == MOTE_OK)
         status = make_curves(&node, &keys, motion);

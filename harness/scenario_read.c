@@ -1,37 +1,12 @@
 /* A scenario file: bodies, frames, intervals, what is asked. */
 #include "harness/scenario_read.h"
 
-#include "datasets/letter.h"
 #include "harness/catalog.h"
 #include "harness/file.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static mote_status read_letter(const mote_json *letter, const mote_json *body, mote_mesh **mesh)
-{
-    const char *name;
-    int64_t triangles = 0;
-    mote_status status = mote_json_string(letter, &name);
-    if (status == MOTE_OK && name[1] != '\0')
-        status = mote_json_fail(letter, "%s is not one letter; give one capital", name);
-    mote_json key = mote_json_member(body, "triangles");
-    if (status == MOTE_OK)
-        status = mote_json_integer(&key, 1, 100000000, &triangles);
-    if (status != MOTE_OK)
-        return status;
-    status = mote_letter_create(name[0], (size_t)triangles, mesh);
-    if (status == MOTE_EINVAL)
-        status = mote_json_fail(letter, "%s", mote_error_text());
-    return status;
-}
-
-mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh)
-{
-    mote_json letter = mote_json_member(body, "letter");
-    return read_letter(&letter, body, mesh);
-}
 
 static mote_status read_interval(const mote_json *root, const char *name, uint32_t frames,
                                  mote_interval *interval)
@@ -87,6 +62,13 @@ static mote_status read_frame_facts(const mote_json *root, mote_scenario *scenar
     key = mote_json_member(root, "tolerance");
     if (status == MOTE_OK && key.value)
         status = mote_json_real(&key, 0, 1e3, &scenario->tolerance);
+    key = mote_json_member(root, "start");
+    scenario->motion->start = scenario->motion->pace = 1;
+    if (status == MOTE_OK && key.value)
+        status = mote_json_real(&key, 1, MOTE_FRAMES_MAX, &scenario->motion->start);
+    key = mote_json_member(root, "pace");
+    if (status == MOTE_OK && key.value)
+        status = mote_json_real(&key, 1e-6, 1e6, &scenario->motion->pace);
     key = mote_json_member(root, "purpose");
     const char *purpose;
     if (status == MOTE_OK)
@@ -99,7 +81,7 @@ static mote_status read_frame_facts(const mote_json *root, mote_scenario *scenar
 /* Whether two bodies of a file name the same mesh, which is then made once. */
 static bool same_mesh(const mote_json *a, const mote_json *b)
 {
-    static const char *const keys[] = {"letter", "triangles"};
+    static const char *const keys[] = {"letter", "triangles", "file", "scale"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         json_t *x = json_object_get(a->value, keys[i]);
         json_t *y = json_object_get(b->value, keys[i]);
@@ -117,7 +99,7 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     mote_status status = mote_json_array(&bodies, 2, 2, &size);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         body[i] = mote_json_element(&bodies, i);
-        status = mote_json_object(&body[i], "letter|triangles|field|motion");
+        status = mote_json_object(&body[i], "letter|triangles|file|scale|field|motion");
     }
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         mote_mesh *mesh = NULL;
@@ -131,6 +113,9 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     if (status != MOTE_OK)
         return status;
     scenario->length = fmax(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
+    const double place =
+        ceil(scenario->motion->start + (scenario->frames - 1.0) * scenario->motion->pace);
+    const uint32_t last = place < MOTE_FRAMES_MAX ? (uint32_t)place : MOTE_FRAMES_MAX;
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         const mote_mesh *mesh = scenario->body[i].mesh;
         mote_body_motion *motion = &scenario->motion->body[i];
@@ -138,8 +123,7 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
         status = mote_scenario_read_field(&body[i], mesh, &field, motion);
         scenario->body[i].field = field;
         if (status == MOTE_OK)
-            status = mote_scenario_read_motion(&body[i], mesh, scenario->length,
-                                               scenario->frames, motion);
+            status = mote_scenario_read_motion(&body[i], mesh, scenario->length, last, motion);
     }
     return status;
 }
@@ -163,7 +147,7 @@ static mote_status read_scenario(const mote_json_file *file, mote_scenario *scen
     if (!scenario->motion || !scenario->path || !scenario->name)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
     mote_status status =
-        mote_json_object(&root, "purpose|bodies|frames|warmup|active|ask|tolerance");
+        mote_json_object(&root, "purpose|bodies|frames|start|pace|warmup|active|ask|tolerance");
     if (status == MOTE_OK)
         status = read_frame_facts(&root, scenario);
     if (status == MOTE_OK)
@@ -207,8 +191,23 @@ static bool is_listed(const char *name)
     return found;
 }
 
+mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario)
+{
+    mote_scenario *made = calloc(1, sizeof *made);
+    mote_status status =
+        made ? read_scenario(file, made)
+             : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    if (status == MOTE_OK)
+        *scenario = made;
+    else
+        mote_scenario_destroy(made);
+    return status;
+}
+
 mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario)
 {
+    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0)
+        return mote_scenario_make_pair(name_or_path, scenario);
     char *path;
     if (is_path(name_or_path))
         path = mote_format("%s", name_or_path);
@@ -223,13 +222,9 @@ mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenari
     free(path);
     if (status != MOTE_OK)
         return status;
-    mote_scenario *made = calloc(1, sizeof *made);
-    status = made ? read_scenario(&file, made)
-                  : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file.path);
-    mote_json_close(&file);
+    status = mote_scenario_merge_like(&file);
     if (status == MOTE_OK)
-        *scenario = made;
-    else
-        mote_scenario_destroy(made);
+        status = mote_scenario_read(&file, scenario);
+    mote_json_close(&file);
     return status;
 }

@@ -1,4 +1,4 @@
-/* The parts of a scenario file, one reader each; used by scenario_read.c only. */
+/* The parts of a scenario file, one reader each; used by the loader only. */
 #ifndef MOTE_HARNESS_SCENARIO_READ_H
 #define MOTE_HARNESS_SCENARIO_READ_H
 
@@ -9,7 +9,17 @@
 /* A scenario's frames at most. */
 #define MOTE_FRAMES_MAX 1000000
 
-/* Reads a body's mesh: {"letter", "triangles"}. */
+/* Replaces the file's root by what it says over what the scenario named by its "like" says;
+   does nothing without that key. */
+mote_status mote_scenario_merge_like(mote_json_file *file);
+
+/* Makes a scenario of a file's root; its name comes from the file's path. */
+mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario);
+
+/* Makes the default scenario of two mesh files, named "pair:FILE:FILE". */
+mote_status mote_scenario_make_pair(const char *name, mote_scenario **scenario);
+
+/* Reads a body's mesh: {"letter", "triangles"} or {"file"}, and "scale". */
 mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh);
 
 /* Reads "field" (absent: static) of a body whose mesh is known: the field, and the displacement
@@ -18,7 +28,8 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh);
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,
                                      mote_field **field, mote_body_motion *motion);
 
-/* Reads "motion" (absent: at rest at the origin). length: L of the pair. */
+/* Reads "motion" (absent: at rest at the origin). length: L of the pair; frames: the last place
+   of the path that is shown. */
 mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *mesh,
                                       double length, uint32_t frames, mote_body_motion *motion);
 

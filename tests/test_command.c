@@ -106,6 +106,16 @@ static const bad_line bad_lines[] = {
     {"run tt --method particle-paper:n=0 --out x", 4, "n"},
     {"run tt --method fcl-aabb --frames 9-3 --out x", 4, "9-3"},
     {"run tt --method fcl-aabb --out /proc/x", 4, "/proc/x"},
+    {"run --pair a.obj", 2, "two mesh files"},
+    {"run --pair a.obj b.obj --method fcl-aabb --out x", 4, "a.obj"},
+    {"check pair:a.obj", 4, "not two files"},
+    {"mesh", 2, "no file"},
+    {"mesh nothing.obj", 4, "nothing.obj"},
+    {"mesh broken.json", 4, "broken.json"},
+    {"mesh .", 4, "not a regular file"},
+    {"distance a.obj", 2, "two files"},
+    {"distance a.obj b.obj", 4, "a.obj"},
+    {"distance a.obj b.obj --method magic", 4, "magic"},
 };
 
 static void main_bad_line_one_line_and_its_exit_status(void **state)

@@ -214,7 +214,7 @@ static const bad_case bad_cases[] = {
     {"\"axis\": [0, 0, 1], \"degrees\": 0", "\"degrees\": 0",
      ":13: bodies[0].motion[0].axis: ", "missing"},
     {"{\"frame\": 40, \"axis\"", "{\"frame\": 1, \"axis\"", ":13: bodies[0].motion: ", "rise"},
-    {"\"frame\": 20, ", "\"frame\": 41, ", ":17: bodies[1].motion[1].frame: ", "1 to 40"},
+    {"\"frame\": 20, ", "\"frame\": 0, ", ":17: bodies[1].motion[1].frame: ", "out of range"},
     {"[1, 0, 0]", "[1, 0]", ":17: bodies[1].motion[1].position: ", "array of 3"},
     {"[1, 0, 0]", "[1, 0, \"x\"]", ":17: bodies[1].motion[1].position[2]: ", "not a number"},
     {"\"position\": [1, 0, 0]", "\"quaternion\": [1, 1, 0, 0]",
@@ -305,6 +305,79 @@ static void mote_spread_points_are_far_apart(void **state)
     mote_scenario_destroy(s);
 }
 
+static void write_like(const char *text)
+{
+    FILE *file = fopen(FOLDER "/like.json", "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Frame k of the one is frame 1 + 3 (k - 1) + 4 of the other; the second body's path is its
+ * own.
+ */
+static void mote_scenario_load_like_takes_what_it_does_not_name(void **state)
+{
+    (void)state;
+    mote_scenario *base = load_good();
+    write_like("{\"purpose\": \"other\", \"like\": \"s.json\", \"frames\": 9, \"start\": 5,"
+               " \"pace\": 3, \"warmup\": null, \"active\": [2, 3], \"bodies\": [{},"
+               " {\"triangles\": 402, \"scale\": [1, 2, 0.5], \"motion\": null}]}");
+    mote_scenario *like;
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_string_equal(like->purpose, "other");
+    assert_int_equal(like->warmup.last, 0);
+    assert_int_equal(like->active.last, 3);
+    assert_int_equal(like->body[0].mesh->triangle_count, 600);
+    assert_int_equal(like->body[1].mesh->triangle_count, 402);
+    assert_null(like->motion->body[1].position);
+    mote_frame_buffer *one, *other;
+    assert_int_equal(mote_frame_buffer_create(base, &one), MOTE_OK);
+    assert_int_equal(mote_frame_buffer_create(like, &other), MOTE_OK);
+    for (uint32_t k = 1; k <= 9; ++k) {
+        const mote_frame *a = mote_scenario_frame(base, one, 5 + 3 * (k - 1), 0);
+        const mote_frame *b = mote_scenario_frame(like, other, k, 0);
+        assert_memory_equal(&a->body[0].pose.rotation, &b->body[0].pose.rotation,
+                            sizeof(mote_mat3));
+        const mote_vec3 p = mote_body_position(&base->body[0], &a->body[0], 77);
+        const mote_vec3 q = mote_body_position(&like->body[0], &b->body[0], 77);
+        assert_true(mote_length(mote_sub(p, q)) < 1e-14);
+    }
+    mote_frame_buffer_destroy(one);
+    mote_frame_buffer_destroy(other);
+    mote_scenario_destroy(base);
+    mote_scenario_destroy(like);
+    assert_int_equal(unlink(FOLDER "/like.json"), 0);
+}
+
+static void mote_scenario_load_like_in_a_circle_or_missing_is_refused(void **state)
+{
+    (void)state;
+    mote_scenario *scenario = NULL;
+    write_like("{\"purpose\": \"x\",\n\"like\": \"like.json\"}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "like.json:2: like: "));
+    write_like("{\"purpose\": \"x\",\n\"like\": \"nothing\"}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "nothing.json"));
+    assert_null(scenario);
+    assert_int_equal(unlink(FOLDER "/like.json"), 0);
+}
+
+static void mote_scenario_load_missing_mesh_file_is_refused(void **state)
+{
+    (void)state;
+    write_changed("\"letter\": \"M\", \"triangles\": 600", "\"file\": \"none.obj\"");
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
+    assert_non_null(
+        strstr(mote_error_text(), "s.json:9: bodies[0].file: " FOLDER "/none.obj: "));
+    write_changed("\"letter\": \"M\",", "\"letter\": \"M\", \"scale\": 0,");
+    assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "bodies[0].scale: "));
+    assert_null(scenario);
+}
+
 /* The paper's scenarios are what the paper says. */
 static void mote_scenario_load_paper_scenarios_have_the_paper_s_sizes(void **state)
 {
@@ -345,6 +418,9 @@ int main(void)
         cmocka_unit_test(mote_scenario_load_bad_file_names_line_and_path),
         cmocka_unit_test(mote_scenario_load_truncated_anywhere_is_refused),
         cmocka_unit_test(mote_scenario_load_not_a_file_is_refused),
+        cmocka_unit_test(mote_scenario_load_like_takes_what_it_does_not_name),
+        cmocka_unit_test(mote_scenario_load_like_in_a_circle_or_missing_is_refused),
+        cmocka_unit_test(mote_scenario_load_missing_mesh_file_is_refused),
         cmocka_unit_test(mote_json_line_nested_path_is_found),
         cmocka_unit_test(mote_spread_points_are_far_apart),
         cmocka_unit_test(mote_scenario_load_paper_scenarios_have_the_paper_s_sizes),

@@ -1,0 +1,82 @@
+/* A scenario that is like another one: what it names replaces, key by key and body by body,
+   what the other one says; null takes a key away (as RFC 7396, but bodies are merged one by
+   one). */
+#include "harness/scenario_read.h"
+
+#include "harness/catalog.h"
+#include "harness/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static json_t *merge(const json_t *base, const json_t *over, bool element_wise);
+
+static json_t *merge_objects(const json_t *base, const json_t *over)
+{
+    json_t *result = json_is_object(base) ? json_deep_copy(base) : json_object();
+    void *walk = json_object_iter((json_t *)(uintptr_t)over);
+    for (; walk; walk = json_object_iter_next((json_t *)(uintptr_t)over, walk)) {
+        const char *key = json_object_iter_key(walk);
+        const json_t *value = json_object_iter_value(walk);
+        if (json_is_null(value))
+            (void)json_object_del(result, key);
+        else
+            (void)json_object_set_new(
+                result, key,
+                merge(json_object_get(result, key), value, strcmp(key, "bodies") == 0));
+    }
+    return result;
+}
+
+static json_t *merge(const json_t *base, const json_t *over, bool element_wise)
+{
+    if (json_is_object(over))
+        return merge_objects(base, over);
+    if (!element_wise || !json_is_array(over) || json_array_size(base) != json_array_size(over))
+        return json_deep_copy(over);
+    json_t *result = json_array();
+    for (size_t i = 0; i < json_array_size(over); ++i)
+        (void)json_array_append_new(
+            result, merge(json_array_get(base, i), json_array_get(over, i), false));
+    return result;
+}
+
+static char *base_path(const char *path, const char *name)
+{
+    const size_t length = strlen(name);
+    if (length <= 5 || strcmp(name + length - 5, ".json") != 0)
+        return mote_catalog_path(name);
+    const char *slash = name[0] == '/' ? NULL : strrchr(path, '/');
+    return mote_format("%.*s%s", slash ? (int)(slash - path) + 1 : 0, path, name);
+}
+
+mote_status mote_scenario_merge_like(mote_json_file *file)
+{
+    mote_json root = mote_json_root(file);
+    mote_json like = mote_json_member(&root, "like");
+    if (!like.value)
+        return MOTE_OK;
+    const char *name;
+    mote_status status = mote_json_string(&like, &name);
+    if (status != MOTE_OK)
+        return status;
+    char *path = base_path(file->path, name);
+    mote_json_file base;
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
+    status = mote_json_open(path, &base);
+    free(path);
+    if (status != MOTE_OK)
+        return mote_json_fail(&like, "%s", mote_error_text());
+    if (json_object_get(base.root, "like")) {
+        status =
+            mote_json_fail(&like, "%s is like another one itself; name one that is not", name);
+    } else {
+        json_t *merged = merge_objects(base.root, file->root);
+        (void)json_object_del(merged, "like");
+        json_decref(file->root);
+        file->root = merged;
+    }
+    mote_json_close(&base);
+    return status;
+}

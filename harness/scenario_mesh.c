@@ -1,0 +1,95 @@
+/* The mesh of a body: a letter or a file, possibly scaled. */
+#include "harness/scenario_read.h"
+
+#include "datasets/letter.h"
+#include "harness/file.h"
+#include "harness/mesh_import.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static mote_status read_letter(const mote_json *letter, const mote_json *body, mote_mesh **mesh)
+{
+    const char *name;
+    int64_t triangles = 0;
+    mote_status status = mote_json_string(letter, &name);
+    if (status == MOTE_OK && name[1] != '\0')
+        status = mote_json_fail(letter, "%s is not one letter; give one capital", name);
+    mote_json key = mote_json_member(body, "triangles");
+    if (status == MOTE_OK)
+        status = mote_json_integer(&key, 1, 100000000, &triangles);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_letter_create(name[0], (size_t)triangles, mesh);
+    return status == MOTE_EINVAL ? mote_json_fail(letter, "%s", mote_error_text()) : status;
+}
+
+/* A path that is not absolute starts from the scenario's folder. */
+static mote_status read_file(const mote_json *file, mote_mesh **mesh)
+{
+    const char *name;
+    mote_status status = mote_json_string(file, &name);
+    if (status != MOTE_OK)
+        return status;
+    const char *slash = name[0] == '/' ? NULL : strrchr(file->file->path, '/');
+    const int length = slash ? (int)(slash - file->file->path) + 1 : 0;
+    char *path = mote_format("%.*s%s", length, file->file->path, name);
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
+    status = mote_mesh_import(path, mesh, NULL);
+    free(path);
+    return status == MOTE_OK ? MOTE_OK : mote_json_fail(file, "%s", mote_error_text());
+}
+
+/* Replaces *mesh by itself with each coordinate multiplied. */
+static mote_status scale_mesh(const mote_json *scale, mote_mesh **mesh)
+{
+    mote_vec3 factor = {1, 1, 1};
+    mote_status status;
+    if (json_is_number(scale->value)) {
+        status = mote_json_real(scale, 1e-15, 1e15, &factor.x);
+        factor.y = factor.z = factor.x;
+    } else {
+        status = mote_json_vec3(scale, 1e-15, 1e15, &factor);
+    }
+    if (status != MOTE_OK)
+        return status;
+    const mote_mesh *old = *mesh;
+    double *xyz = malloc((size_t)3 * old->vertex_count * sizeof *xyz);
+    if (!xyz)
+        return mote_fail(MOTE_ENOMEM, "no memory to scale a mesh");
+    for (uint32_t v = 0; v < old->vertex_count; ++v) {
+        xyz[3 * (size_t)v] = old->positions[v].x * factor.x;
+        xyz[3 * (size_t)v + 1] = old->positions[v].y * factor.y;
+        xyz[3 * (size_t)v + 2] = old->positions[v].z * factor.z;
+    }
+    mote_mesh *scaled;
+    status = mote_mesh_create(xyz, old->vertex_count, &old->triangles[0][0],
+                              old->triangle_count, &scaled);
+    free(xyz);
+    if (status != MOTE_OK)
+        return mote_json_fail(scale, "%s", mote_error_text());
+    mote_mesh_destroy(*mesh);
+    *mesh = scaled;
+    return MOTE_OK;
+}
+
+mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh)
+{
+    mote_json letter = mote_json_member(body, "letter");
+    mote_json file = mote_json_member(body, "file");
+    mote_json scale = mote_json_member(body, "scale");
+    mote_mesh *made = NULL;
+    if (!letter.value == !file.value)
+        return mote_json_fail(body, "needs either letter or file, not %s",
+                              letter.value ? "both" : "neither");
+    mote_status status =
+        file.value ? read_file(&file, &made) : read_letter(&letter, body, &made);
+    if (status == MOTE_OK && scale.value)
+        status = scale_mesh(&scale, &made);
+    if (status == MOTE_OK)
+        *mesh = made;
+    else
+        mote_mesh_destroy(made);
+    return status;
+}
