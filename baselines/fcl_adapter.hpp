@@ -14,9 +14,10 @@
 #ifndef MOTE_BASELINES_FCL_ADAPTER_HPP
 #define MOTE_BASELINES_FCL_ADAPTER_HPP
 
-/* Debian's library is built for plain x86-64; with wider vectors Eigen would align its types
-   differently from what the library expects. */
+/* Debian's library is built for plain x86-64 in C++14; with wider vectors or in C++17 Eigen
+   would align and allocate its types differently from what the library expects. */
 #define EIGEN_MAX_ALIGN_BYTES 16
+#define EIGEN_HAS_CXX17_OVERALIGN 0
 
 #include "baselines/fcl_parameters.hpp"
 #include "baselines/input.h"

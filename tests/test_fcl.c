@@ -1,4 +1,5 @@
 /* The FCL adapters against brute force with our own triangle distance. */
+#include "harness/heap_count.h"
 #include "tests/shapes.h"
 
 #include <stdarg.h>
@@ -396,6 +397,33 @@ static void update_with_a_bad_frame_is_refused_and_the_next_good(void **unused)
     scene_free(&s);
 }
 
+/* Bytes a triangle by the sizes of FCL's structures: 2 nodes, 2 indices of nodes, 1 triangle of
+   3 indices, half a vertex. */
+static void create_takes_the_memory_that_fcl_needs(void **unused)
+{
+    (void)unused;
+    if (!mote_heap_read().counted)
+        skip();
+    static const struct {
+        const char *name;
+        double bytes;
+    } cases[] = {{"fcl-aabb", 172},   {"fcl-obb", 316},  {"fcl-rss", 316},
+                 {"fcl-obbrss", 556}, {"fcl-kios", 652}, {"fcl-kdop18", 364}};
+    scene s;
+    scene_init(&s, 60, 40, 1, true);
+    double triangles = s.mesh[0]->triangle_count + s.mesh[1]->triangle_count;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        const variant v = {cases[i].name, ""};
+        int64_t before = mote_heap_read().live_bytes;
+        void *state = create(&v, &s, MOTE_ASK_CONTACT, 0);
+        double bytes = (double)(mote_heap_read().live_bytes - before) / triangles;
+        if (!(fabs(bytes - cases[i].bytes) <= 0.02 * cases[i].bytes))
+            fail_msg("%s: %.1f bytes a triangle, expected %g", v.method, bytes, cases[i].bytes);
+        mote_method_find(v.method)->destroy(state);
+    }
+    scene_free(&s);
+}
+
 static void traits_follow_the_parameters(void **unused)
 {
     (void)unused;
@@ -442,6 +470,7 @@ int main(void)
         cmocka_unit_test(create_of_what_fcl_lacks_is_unsupported),
         cmocka_unit_test(create_with_a_bad_mesh_is_refused),
         cmocka_unit_test(update_with_a_bad_frame_is_refused_and_the_next_good),
+        cmocka_unit_test(create_takes_the_memory_that_fcl_needs),
         cmocka_unit_test(traits_follow_the_parameters),
         cmocka_unit_test(destroy_of_nothing_does_nothing),
     };
