@@ -12,7 +12,7 @@ struct KdopVolume {
     static constexpr bool oriented = false;
     static constexpr bool bottom_up_encloses = true;
     static constexpr bool public_distance = false;
-    static constexpr unsigned first_triangle_tests = 0;
+    [[maybe_unused]] static constexpr unsigned first_triangle_tests = 0;
 };
 
 constexpr mote_parameter parameters[] = {

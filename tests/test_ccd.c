@@ -144,11 +144,11 @@ static void query_on_letters_is_near_and_misses_no_contact(void **unused)
 /* The least overlap of the two vertex sets over many directions: not below the penetration. */
 static double least_overlap(scene *s)
 {
-    double least = INFINITY;
+    double least = HUGE_VAL;
     for (int k = 0; k < 20000; ++k) {
         mote_vec3 n = mote_vec3_make(scene_random(s, -1, 1), scene_random(s, -1, 1),
                                      scene_random(s, -1, 1));
-        double high = -INFINITY, low = INFINITY;
+        double high = -HUGE_VAL, low = HUGE_VAL;
         for (uint32_t v = 0; v < s->mesh[0]->vertex_count; ++v)
             high = fmax(high, mote_dot(n, s->world[0][v]));
         for (uint32_t v = 0; v < s->mesh[1]->vertex_count; ++v)
@@ -200,7 +200,7 @@ static void create_and_update_refuse_bad_input(void **unused)
     assert_null(state);
     state = create("", &s, MOTE_ASK_DISTANCE, 0);
     mote_frame frame = *scene_next(&s, 1, false);
-    s.world[1][3].y = NAN;
+    s.world[1][3].y = (double)NAN;
     assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
     frame.body[1].vertices = NULL;
     assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
@@ -232,7 +232,7 @@ static void gjk_distance_of_segments_equals_the_kernel(void **unused)
         double expected = sqrt(mote_segment_segment(ends[0], ends[1], NULL, NULL));
         mote_gjk_result r =
             mote_gjk_distance(segment_support, ends,
-                              mote_vec3_make(scene_random(&s, -1, 1), 1, 0), INFINITY, 100);
+                              mote_vec3_make(scene_random(&s, -1, 1), 1, 0), HUGE_VAL, 100);
         assert_true(fabs(r.distance - expected) <= 1e-12);
         assert_true(r.lower <= r.distance);
         mote_gjk_result early =

@@ -60,7 +60,7 @@ static void create_asked_for_distance_is_unsupported(void **unused)
     void *state = NULL;
     assert_int_equal(m->create(&setup, &state), MOTE_EUNSUPPORTED);
     setup.ask = MOTE_ASK_CONTACT;
-    s.mesh[0]->positions[2].x = NAN;
+    s.mesh[0]->positions[2].x = (double)NAN;
     assert_int_equal(m->create(&setup, &state), MOTE_EINVAL);
     assert_null(state);
     scene_free(&s);
@@ -77,7 +77,7 @@ static void update_with_a_bad_frame_is_refused(void **unused)
     void *state = NULL;
     assert_int_equal(m->create(&setup, &state), MOTE_OK);
     mote_frame frame = *scene_next(&s, 1, false);
-    s.world[1][3].y = INFINITY;
+    s.world[1][3].y = HUGE_VAL;
     assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
     frame.body[0].vertices = NULL;
     assert_int_equal(m->update(state, &frame), MOTE_EINVAL);

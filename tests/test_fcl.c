@@ -357,11 +357,11 @@ static void create_with_a_bad_mesh_is_refused(void **unused)
             else if (fault == 3)
                 mesh.triangles[3][1] = mesh.triangles[3][0];
             else if (fault == 4)
-                mesh.positions[5].y = NAN;
+                mesh.positions[5].y = (double)NAN;
             else if (fault == 5)
-                mesh.positions[5].z = INFINITY;
+                mesh.positions[5].z = HUGE_VAL;
             else if (fault == 6)
-                setup.length = NAN;
+                setup.length = (double)NAN;
             else
                 setup.tolerance = -1;
             assert_int_equal(try_create(&v, &setup), MOTE_EINVAL);
@@ -385,10 +385,10 @@ static void update_with_a_bad_frame_is_refused_and_the_next_good(void **unused)
         bad.body[1].vertices = NULL;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
         bad = *scene_next(&s, 1.3, false);
-        s.world[0][7].x = -INFINITY;
+        s.world[0][7].x = -HUGE_VAL;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
         bad = *scene_next(&s, 1.3, false);
-        bad.body[0].pose.translation.y = NAN;
+        bad.body[0].pose.translation.y = (double)NAN;
         assert_int_equal(method->update(state, &bad), MOTE_EINVAL);
         mote_answer a = answer(v, state, scene_next(&s, 1.3, false));
         check_distance(v, &s, &a, scene_distance(&s));

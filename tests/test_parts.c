@@ -111,8 +111,8 @@ static mote_parts *checked_parts(const mote_mesh *mesh, const mote_vec3 *positio
 static void parts_create_of_letters_finds_their_strokes(void **unused)
 {
     (void)unused;
-    /* At least one part a stroke; HACD splits a stroke where the rounded joints make it concave,
-       up to three times in what was measured. */
+    /* At least one part a stroke; HACD splits a stroke where the rounded joints make it
+       concave, up to three times in what was measured. */
     static const struct {
         char letter;
         size_t triangles;
@@ -237,7 +237,7 @@ static void parts_create_with_a_position_not_finite_is_refused(void **unused)
 {
     (void)unused;
     mote_mesh *mesh = make_letter('T', 400);
-    mesh->positions[17].z = NAN;
+    mesh->positions[17].z = (double)NAN;
     mote_parts *parts = NULL;
     assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_EINVAL);
     assert_null(parts);

@@ -60,7 +60,7 @@ static size_t extremes(const json_t *rows, const char *method, bool right, doubl
 {
     size_t count = 0, k;
     json_t *row;
-    range[0] = INFINITY;
+    range[0] = HUGE_VAL;
     range[1] = 0;
     json_array_foreach((json_t *)(uintptr_t)rows, k, row)
     {
