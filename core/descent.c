@@ -109,9 +109,11 @@ double mote_descend(const mote_ground ground[2], const int level[2], mote_place 
 {
     int on[2] = {level[0], level[1]};
     for (;;) {
-        const double squared = mote_walk(ground, on, at, moves);
         if (on[0] == MOTE_MESH_LEVEL && on[1] == MOTE_MESH_LEVEL)
-            return squared;
+            return mote_walk(ground, on, at, moves);
+        double squared = mote_distance_squared(at[0].world, at[1].world);
+        for (int side = 0; side < 2; ++side)
+            *moves += move(&ground[side], on[side], &at[side], at[1 - side].world, &squared);
         for (int side = 0; side < 2; ++side) {
             if (on[side] != MOTE_MESH_LEVEL && --on[side] == MOTE_MESH_LEVEL)
                 at[side].node = at[side].vertex;

@@ -43,7 +43,7 @@ mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node);
 double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
                  uint64_t *moves);
 
-/* Walks on the levels given, then on each finer one, last on the mesh. */
+/* Moves both places once on the levels given and on each finer one, then walks on the mesh. */
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
                     uint64_t *moves);
 

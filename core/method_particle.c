@@ -29,7 +29,7 @@ static const mote_parameter parameters[] = {
              "pair is followed; auto: twice the convex parts, at least 8 (paper 3.5)"},
     [P_LAUNCH] = {"launch", MOTE_PARAMETER_INTEGER, 0, 1e6, "auto", "auto",
                   "seeds of each body that a warm query descends from, in turn; auto: n/4"},
-    [P_TRACK] = {"track", MOTE_PARAMETER_INTEGER, 0, MOTE_TRACK_MAX, NULL, "16",
+    [P_TRACK] = {"track", MOTE_PARAMETER_INTEGER, 0, MOTE_TRACK_MAX, NULL, "8",
                  "local minima followed from query to query"},
     [P_REFINE] = {"refine", MOTE_PARAMETER_INTEGER, 1, MOTE_TRACK_MAX, NULL, "4",
                   "most exact checks a query (paper 3.5)"},

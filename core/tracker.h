@@ -29,7 +29,7 @@ typedef struct mote_tracker_options {
     uint64_t seed;
 } mote_tracker_options;
 
-/* n = 8, launch 2, track 16, refine 4, farthest, descend, reseed, no forces, seed 1. */
+/* n = 8, launch 2, track 8, refine 4, farthest, descend, reseed, no forces, seed 1. */
 mote_tracker_options mote_default_tracker_options(void);
 
 typedef struct mote_tracker mote_tracker;
