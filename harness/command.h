@@ -40,6 +40,7 @@ typedef enum mote_exit {
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \
       "whether a run is worse than another: exit 0 no, 1 yes, 3 undecided")                    \
     X(tune, "tune DIR", "the best configuration of each method on each scenario of a run")     \
+    X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
       "draws the accepted references, or adds one")                                            \
     X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")

@@ -1,0 +1,93 @@
+#include "harness/merge.h"
+
+#include "harness/record.h"
+#include "harness/stored.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)1 << 30)
+
+static mote_status copy_file(const char *from, const char *to, const char *name)
+{
+    char *source = mote_format("%s/%s", from, name), *target = mote_format("%s/%s", to, name);
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = source && target ? mote_file_read(source, FILE_LIMIT, &data, &size)
+                                          : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    if (status == MOTE_OK)
+        status = mote_file_write(target, data, size);
+    free(data);
+    free(source);
+    free(target);
+    return status;
+}
+
+static bool exists(const char *directory, const char *name)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    bool found = path && access(path, F_OK) == 0;
+    free(path);
+    return found;
+}
+
+/* The CSV first, as when it was measured: a cell is there when its JSON is. */
+static mote_status copy_cell(const mote_stored_cell *cell, const char *from, const char *to,
+                             mote_merged *merged)
+{
+    char *json = mote_format("cells/%s.json", cell->id);
+    char *csv = mote_format("cells/%s.csv", cell->id);
+    mote_status status = json && csv ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    if (status == MOTE_OK && exists(to, json)) {
+        ++merged->present;
+    } else if (status == MOTE_OK) {
+        if (cell->status == MOTE_CELL_OK)
+            status = copy_file(from, to, csv);
+        if (status == MOTE_OK)
+            status = copy_file(from, to, json);
+        merged->copied += status == MOTE_OK ? 1 : 0;
+    }
+    free(json);
+    free(csv);
+    return status;
+}
+
+/* The manifest of the first run is the directory's; the others must be of the same program. */
+static mote_status merge_manifest(const char *directory, const char *run)
+{
+    json_t *here = NULL, *there = NULL;
+    mote_status status = mote_record_read_json(run, "manifest.json", &there);
+    if (status != MOTE_OK)
+        return status;
+    if (!exists(directory, "manifest.json")) {
+        status = copy_file(run, directory, "manifest.json");
+    } else {
+        status = mote_record_read_json(directory, "manifest.json", &here);
+        if (status == MOTE_OK &&
+            !json_equal(json_object_get(here, "program"), json_object_get(there, "program")))
+            status = mote_fail(
+                MOTE_EINVAL, "%s: measured by another build than %s; merge runs of one program",
+                run, directory);
+    }
+    json_decref(here);
+    json_decref(there);
+    return status;
+}
+
+mote_status mote_merge(const char *directory, const char *run, mote_merged *merged)
+{
+    mote_stored stored;
+    mote_status status = mote_stored_read(run, &stored);
+    if (status != MOTE_OK)
+        return status;
+    char *cells = mote_format("%s/cells", directory);
+    status = cells ? mote_directory_make(cells) : mote_fail(MOTE_ENOMEM, "no memory");
+    if (status == MOTE_OK)
+        status = merge_manifest(directory, run);
+    for (size_t i = 0; i < stored.count && status == MOTE_OK; ++i)
+        status = copy_cell(&stored.cells[i], run, directory, merged);
+    free(cells);
+    mote_stored_free(&stored);
+    return status;
+}
