@@ -17,6 +17,9 @@ target_compile_options(mote_flags INTERFACE
   -ffp-contract=off -fvisibility=hidden -fno-math-errno -fno-trapping-math
   $<$<COMPILE_LANGUAGE:C>:${mote_c_warnings}>
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra>)
+# gcc 12 would fuse the lanes of two terms of a sum and then add them up in pairs.
+target_compile_options(mote_flags INTERFACE
+  $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-loop-unroll-and-jam>)
 target_compile_definitions(mote_flags INTERFACE _POSIX_C_SOURCE=200809L)
 if(MOTE_WERROR)
   target_compile_options(mote_flags INTERFACE $<$<COMPILE_LANGUAGE:C>:-Werror>)

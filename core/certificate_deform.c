@@ -49,6 +49,7 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     const mote_vec3 moved = mote_rotate(&pose->rotation, tree->origin);
     const mote_vec3 t =
         mote_scale(mote_add(moved, mote_sub(pose->translation, origin)), tree->scale);
+    side->exact_translation = t;
     side->translation[0] = (float)t.x;
     side->translation[1] = (float)t.y;
     side->translation[2] = (float)t.z;
@@ -67,9 +68,10 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     }
     side->bound = largest(t) + tree->radius + largest(field);
     const double world = (largest(pose->translation) + largest(moved)) * tree->scale;
-    const double exact = 0x1p-50 * (functions + 4) * (world + side->bound);
-    side->margin_unit = rounded_up(FLOAT_ROUNDING * side->bound);
-    side->margin_base = rounded_up(40 * FLOAT_ROUNDING * side->bound + tree->leak + exact);
+    side->exact = 0x1p-50 * (functions + 4) * (world + side->bound);
+    side->margin_unit = rounded_up(2 * FLOAT_ROUNDING * side->bound);
+    side->margin_base =
+        rounded_up(40 * FLOAT_ROUNDING * side->bound + tree->leak + side->exact);
     side->reach_margin = rounded_up(4 * FLOAT_ROUNDING * side->bound);
     side->node_count = 0;
     side->point_count = 0;
@@ -78,10 +80,23 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
 
 void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshold)
 {
+    const mote_cert_tree *tree = side->tree;
+    const mote_weights *w = &side->state->weights;
+    const mote_vec3 rest = mote_rotate_back(&side->state->pose.rotation, facing);
     side->facing = facing;
-    side->facing_f[0] = (float)facing.x;
-    side->facing_f[1] = (float)facing.y;
-    side->facing_f[2] = (float)facing.z;
+    side->facing_rest = rest;
+    side->facing_f[0] = (float)rest.x;
+    side->facing_f[1] = (float)rest.y;
+    side->facing_f[2] = (float)rest.z;
+    side->shift = (float)mote_dot(side->exact_translation, facing);
+    side->pushed_sum = 0;
+    for (uint32_t j = 0; j < tree->body->field->count; ++j) {
+        const double push =
+            tree->scale * (w->x[j] * facing.x + w->y[j] * facing.y + w->z[j] * facing.z);
+        side->along[j] = (float)(push / tree->basis_scale[j]);
+        side->pushed[j] = (float)push;
+        side->pushed_sum += fabs(push);
+    }
     side->threshold = threshold;
     side->threshold_f = (float)threshold;
 }
@@ -95,34 +110,52 @@ MOTE_INLINE uint32_t bits_at_most(const float x[WIDTH], float limit)
     return bits;
 }
 
-/* Coordinates of all boxes of a node towards the other body. */
-MOTE_INLINE void project(mote_cert_node *restrict node, const float facing[3], float threshold)
+/* Coordinates of a block's boxes towards the other body. */
+MOTE_CLONES
+static void project_block(const mote_cert_side *restrict side,
+                          const mote_cert_block *restrict block, mote_cert_node *restrict node)
 {
-    const float x = facing[0];
-    const float y = facing[1];
-    const float z = facing[2];
-    const float ax = fabsf(x);
-    const float ay = fabsf(y);
-    const float az = fabsf(z);
+    const mote_cert_row *rows = side->tree->rows + block->first_row;
+    const uint8_t *active = side->tree->active + block->first_active;
+    const float x = side->facing_f[0];
+    const float y = side->facing_f[1];
+    const float z = side->facing_f[2];
+    float middle[WIDTH] = {0};
+    float axis0[WIDTH] = {0};
+    float axis1[WIDTH] = {0};
+    float axis2[WIDTH] = {0};
+    float width[WIDTH] = {0};
+    for (size_t i = 0; i < block->active_count; ++i) {
+        const mote_cert_row *row = &rows[i];
+        const float w = side->along[active[i]];
+        const float size = fabsf(w);
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            middle[l] += row->offset[l] * w;
+            axis0[l] += row->slope[0][l] * w;
+            axis1[l] += row->slope[1][l] * w;
+            axis2[l] += row->slope[2][l] * w;
+            width[l] += row->rest[l] * size;
+        }
+    }
+    const float shift = side->shift;
+    const float margin = side->margin_base + side->margin_unit * (float)block->active_count;
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l) {
-        const float middle =
-            node->centre[0][l] * x + node->centre[1][l] * y + node->centre[2][l] * z;
+        middle[l] += shift + (block->centre[0][l] * x + block->centre[1][l] * y +
+                              block->centre[2][l] * z);
+        axis0[l] +=
+            block->half[0][0][l] * x + block->half[0][1][l] * y + block->half[0][2][l] * z;
+        axis1[l] +=
+            block->half[1][0][l] * x + block->half[1][1][l] * y + block->half[1][2][l] * z;
+        axis2[l] +=
+            block->half[2][0][l] * x + block->half[2][1][l] * y + block->half[2][2][l] * z;
         const float half =
-            fabsf(node->axis[0][0][l] * x + node->axis[0][1][l] * y + node->axis[0][2][l] * z) +
-            fabsf(node->axis[1][0][l] * x + node->axis[1][1][l] * y + node->axis[1][2][l] * z) +
-            fabsf(node->axis[2][0][l] * x + node->axis[2][1][l] * y + node->axis[2][2][l] * z) +
-            (node->width[0][l] * ax + node->width[1][l] * ay + node->width[2][l] * az);
-        node->reach[l] = middle + half;
+            fabsf(axis0[l]) + fabsf(axis1[l]) + fabsf(axis2[l]) + width[l] + margin;
+        node->reach[l] = middle[l] + half;
         node->extent[l] = 2 * half;
     }
-    node->clear = bits_at_most(node->reach, threshold);
-}
-
-MOTE_CLONES
-static void project_node(mote_cert_node *restrict node, const float facing[3], float threshold)
-{
-    project(node, facing, threshold);
+    node->clear = bits_at_most(node->reach, side->threshold_f) & block->mask;
 }
 
 /* The rigid motion of a block's boxes. */
@@ -152,12 +185,11 @@ MOTE_INLINE void add_field(const mote_cert_row *restrict rows, const uint8_t *re
                            size_t count, const float *restrict weight, size_t r,
                            mote_cert_node *restrict node)
 {
-    float centre[WIDTH], axis0[WIDTH], axis1[WIDTH], axis2[WIDTH], width[WIDTH];
-    memcpy(centre, node->centre[r], sizeof centre);
-    memcpy(axis0, node->axis[0][r], sizeof axis0);
-    memcpy(axis1, node->axis[1][r], sizeof axis1);
-    memcpy(axis2, node->axis[2][r], sizeof axis2);
-    memcpy(width, node->width[r], sizeof width);
+    float centre[WIDTH] = {0};
+    float axis0[WIDTH] = {0};
+    float axis1[WIDTH] = {0};
+    float axis2[WIDTH] = {0};
+    float width[WIDTH] = {0};
     for (size_t i = 0; i < count; ++i) {
         const mote_cert_row *row = &rows[i];
         const float w = weight[active[i]];
@@ -171,11 +203,14 @@ MOTE_INLINE void add_field(const mote_cert_row *restrict rows, const uint8_t *re
             width[l] += row->rest[l] * size;
         }
     }
-    memcpy(node->centre[r], centre, sizeof centre);
-    memcpy(node->axis[0][r], axis0, sizeof axis0);
-    memcpy(node->axis[1][r], axis1, sizeof axis1);
-    memcpy(node->axis[2][r], axis2, sizeof axis2);
-    memcpy(node->width[r], width, sizeof width);
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        node->centre[r][l] += centre[l];
+        node->axis[0][r][l] += axis0[l];
+        node->axis[1][r][l] += axis1[l];
+        node->axis[2][r][l] += axis2[l];
+        node->width[r][l] += width[l];
+    }
 }
 
 /* Normals of the two longest axes, thickness along them, and sizes. */
@@ -218,10 +253,6 @@ static void deform_block(const mote_cert_side *restrict side,
     for (size_t r = 0; r < 3; ++r)
         add_field(rows, active, block->active_count, side->weight[r], r, node);
     measure(node);
-    project(node, side->facing_f, side->threshold_f);
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < WIDTH; ++l)
-        node->child[l] = -1;
 }
 
 /* World positions of one group of MOTE_LANES places of a leaf, as mote_body_position gives. */
@@ -252,23 +283,78 @@ static void place_group(const mote_body *body, const mote_body_state *state,
     }
 }
 
+/* MOTE_LANES of a leaf's vertices from place `first` on, padded with copies of the last. */
+static inline void take_vertices(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
+                                 uint32_t first, uint32_t v[MOTE_LANES])
+{
+    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
+    for (uint32_t i = 0; i < MOTE_LANES; ++i) {
+        const uint32_t k = first + i;
+        v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
+    }
+}
+
+/* The largest of MOTE_LANES rigidly moved vertices plus what the field adds, along facing. */
+MOTE_CLONES
+static double reach_of_group(const mote_cert_side *side, const uint32_t v[MOTE_LANES],
+                             const float field[MOTE_LANES])
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_vec3 *rest = tree->body->mesh->positions;
+    const mote_vec3 u = side->facing_rest;
+    const double shift = mote_dot(side->exact_translation, side->facing);
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < MOTE_LANES; ++i) {
+        const double at = mote_dot(mote_sub(rest[v[i]], tree->origin), u) * tree->scale +
+                          shift + (double)field[i];
+        most = at > most ? at : most;
+    }
+    return most;
+}
+
+bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double range[2])
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_body *body = tree->body;
+    const mote_cert_leaf *l = &tree->leaves[leaf];
+    const mote_cert_block *block = &tree->blocks[l->block];
+    if (body->field->count > 0 && !body->field->kind->estimate)
+        return false;
+    double most = -HUGE_VAL;
+    float factor = 0;
+    for (uint32_t first = 0; first < l->vertex_count; first += MOTE_LANES) {
+        uint32_t v[MOTE_LANES];
+        float moved[MOTE_LANES] = {0};
+        take_vertices(tree, l, first, v);
+        if (block->active_count > 0) {
+            const float f = body->field->kind->estimate(
+                body->field, body->mesh, v, tree->active + block->first_active,
+                block->active_count, side->pushed, moved);
+            factor = f > factor ? f : factor;
+        }
+        const double reach = reach_of_group(side, v, moved);
+        most = reach > most ? reach : most;
+    }
+    const double error =
+        ((double)factor + 0x1p-23) * side->pushed_sum + 0x1p-44 * side->bound + side->exact;
+    range[0] = most - error;
+    range[1] = most + error;
+    return true;
+}
+
 static void place_leaf(const mote_cert_side *side, uint32_t id, mote_cert_points *points)
 {
     const mote_cert_tree *tree = side->tree;
     const mote_body *body = tree->body;
     const mote_cert_leaf *leaf = &tree->leaves[id];
     const mote_cert_block *block = &tree->blocks[leaf->block];
-    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
     points->leaf = id;
     points->generation = 0;
     points->padded = (leaf->vertex_count + 7u) & ~7u;
     const bool groups = body->field->count == 0 || body->field->kind->group;
     for (uint32_t first = 0; first < points->padded; first += MOTE_LANES) {
         uint32_t v[MOTE_LANES];
-        for (uint32_t i = 0; i < MOTE_LANES; ++i) {
-            const uint32_t k = first + i;
-            v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
-        }
+        take_vertices(tree, leaf, first, v);
         if (groups) {
             place_group(body, side->state, v, tree->active + block->first_active,
                         block->active_count, points->x[0] + first, points->x[1] + first,
@@ -320,28 +406,37 @@ void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_v
     }
 }
 
+/* Projects a node onto the plane's normal. */
+static mote_cert_node *face_node(mote_certificate *c, int s, mote_cert_node *node)
+{
+    project_block(&c->side[s], node->block, node);
+    node->generation = c->generation;
+    return node;
+}
+
 static mote_cert_node *new_node(mote_certificate *c, int s, const mote_cert_block *block,
                                 mote_cert_node *node)
 {
-    const mote_cert_side *side = &c->side[s];
     node->block = block;
-    node->generation = c->generation;
-    deform_block(side, block, node);
-    node->clear &= block->mask;
+    node->boxes = false;
+    for (size_t l = 0; l < WIDTH; ++l)
+        node->child[l] = -1;
     ++c->counters.blocks;
-    return node;
+    return face_node(c, s, node);
 }
 
 /* Brings a node that is known up to date with the plane. */
 static mote_cert_node *known_node(mote_certificate *c, int s, mote_cert_node *node)
 {
-    const mote_cert_side *side = &c->side[s];
-    if (node->generation != c->generation) {
-        project_node(node, side->facing_f, side->threshold_f);
-        node->clear &= node->block->mask;
-        node->generation = c->generation;
-    }
-    return node;
+    return node->generation == c->generation ? node : face_node(c, s, node);
+}
+
+void mote_cert_make_boxes(mote_certificate *c, int s, mote_cert_node *node)
+{
+    if (node->boxes)
+        return;
+    deform_block(&c->side[s], node->block, node);
+    node->boxes = true;
 }
 
 mote_cert_node *mote_cert_root(mote_certificate *c, int s)

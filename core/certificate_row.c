@@ -113,17 +113,22 @@ MOTE_INLINE void along_their_normals(const single *restrict d, const mote_cert_n
 }
 
 MOTE_CLONES
-uint32_t mote_cert_row_test(const mote_cert_node *restrict d, size_t lane,
-                            const mote_cert_node *restrict e, float need,
-                            float bound[MOTE_CERT_WIDTH])
+uint32_t mote_cert_row_plane(const mote_cert_node *restrict d, size_t lane,
+                             const mote_cert_node *restrict e, float need,
+                             float bound[MOTE_CERT_WIDTH])
 {
     uint32_t open = e->block->mask;
     if (d->clear >> lane & 1)
         open &= ~e->clear;
     along_plane(d->reach[lane], e, bound);
-    open &= bits_below(bound, need);
-    if (open == 0)
-        return 0;
+    return open & bits_below(bound, need);
+}
+
+MOTE_CLONES
+uint32_t mote_cert_row_boxes(const mote_cert_node *restrict d, size_t lane,
+                             const mote_cert_node *restrict e, float need, uint32_t open,
+                             float bound[MOTE_CERT_WIDTH])
+{
     single one;
     take(d, lane, &one);
     along_centres(&one, e, bound);

@@ -28,17 +28,34 @@ static inline uint32_t count_bits(uint32_t bits)
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
+/* Whether a leaf is clear of the plane, by an estimate if that decides; its reach. */
+static bool clear_leaf(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                       double *reach)
+{
+    const mote_cert_side *side = &c->side[s];
+    double range[2];
+    if (mote_cert_leaf_estimate(side, (uint32_t)~node->block->child[lane], range)) {
+        *reach = range[1];
+        if (range[1] <= side->threshold)
+            return true;
+        if (range[0] > side->threshold)
+            return false;
+    }
+    const mote_cert_points *points = mote_cert_leaf_child(c, s, node, lane);
+    *reach = points->reach;
+    return points->reach <= side->threshold + c->noise;
+}
+
 /* Opens child `lane` of a node; its reach becomes that of what is inside. */
 static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                        uint32_t depth)
 {
-    const mote_cert_side *side = &c->side[s];
     float reach;
     bool clear;
     if (node->block->child[lane] < 0) {
-        const mote_cert_points *points = mote_cert_leaf_child(c, s, node, lane);
-        reach = (float)points->reach + side->reach_margin;
-        clear = points->reach <= side->threshold + c->noise;
+        double exact;
+        clear = clear_leaf(c, s, node, lane, &exact);
+        reach = (float)exact + c->side[s].reach_margin;
     } else {
         mote_cert_node *child = mote_cert_child(c, s, node, lane, depth);
         clear = clear_node(c, s, child, depth + 1, &reach);
@@ -129,7 +146,12 @@ static void leave_open(mote_certificate *c, const float bound[WIDTH], uint32_t o
 static void visit_row(mote_certificate *c, row r, uint32_t depth)
 {
     float bound[WIDTH];
-    uint32_t open = mote_cert_row_test(r.node, r.lane, r.other, c->need, bound);
+    uint32_t open = mote_cert_row_plane(r.node, r.lane, r.other, c->need, bound);
+    if (open) {
+        mote_cert_make_boxes(c, r.s, r.node);
+        mote_cert_make_boxes(c, 1 - r.s, r.other);
+        open = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, open, bound);
+    }
     ++c->counters.rows;
     c->counters.box_tests += count_bits(r.other->block->mask);
     while (open && !c->done) {
@@ -181,6 +203,8 @@ void mote_cert_descend(mote_certificate *c, uint32_t vertex[2])
     mote_cert_node *node[2] = {mote_cert_root(c, 0), mote_cert_root(c, 1)};
     size_t lane[2] = {0, 0};
     for (uint32_t depth = 0;; depth += 2) {
+        mote_cert_make_boxes(c, 0, node[0]);
+        mote_cert_make_boxes(c, 1, node[1]);
         nearest_centres(node[0], node[1], lane);
         bool ended = true;
         for (int s = 0; s < 2; ++s) {

@@ -7,7 +7,8 @@
 #include "core/lazy.h"
 #include "core/refine.h"
 
-/* A block deformed for this frame, relative to the query's origin, in the trees' units. */
+/* A block deformed for this frame, relative to the query's origin, in the trees' units. The
+   plane needs reach, extent and clear only, which take a fifth of the time of the boxes. */
 typedef struct mote_cert_node {
     float centre[3][MOTE_CERT_WIDTH];
     float axis[3][3][MOTE_CERT_WIDTH]; /* half axes [axis][coordinate][child] */
@@ -19,6 +20,7 @@ typedef struct mote_cert_node {
     float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
     int32_t child[MOTE_CERT_WIDTH];    /* place of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
+    bool boxes;          /* centre .. size are known */
     uint32_t clear;      /* bit l: child l is wholly on its side of the plane */
     uint32_t generation; /* the plane that reach, extent and clear belong to */
 } mote_cert_node;
@@ -42,13 +44,20 @@ typedef struct mote_cert_side {
     float rotation[3][3];
     float translation[3];
     float weight[3][MOTE_FIELD_MAX];
-    double bound;      /* bound of every coordinate that occurs */
+    mote_vec3 exact_translation; /* relative to the origin, in the trees' units */
+    double exact;                /* rounding of positions in double precision */
+    double bound;                /* bound of every coordinate that occurs */
     float margin_unit; /* margin of a box: margin_base + margin_unit * its functions */
     float margin_base;
-    float reach_margin; /* for a reach that was computed in double precision */
-    mote_vec3 facing;   /* u or -u */
-    float facing_f[3];
-    double threshold; /* the plane, as a coordinate towards the other body */
+    float reach_margin;           /* for a reach that was computed in double precision */
+    mote_vec3 facing;             /* u or -u */
+    mote_vec3 facing_rest;        /* the same in the rest mesh's axes */
+    float facing_f[3];            /* the latter as floats */
+    float shift;                  /* translation along facing */
+    float along[MOTE_FIELD_MAX];  /* weight along facing, in the trees' units */
+    float pushed[MOTE_FIELD_MAX]; /* the same for basis functions that are not scaled */
+    double pushed_sum;            /* of absolute values */
+    double threshold;             /* the plane, as a coordinate towards the other body */
     float threshold_f;
     mote_cert_node *nodes; /* [node_room]; the root is the first */
     uint32_t node_room, node_count;
@@ -106,6 +115,13 @@ mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node
 mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_node *node,
                                        size_t lane);
 
+/* Makes the boxes of a node known. */
+void mote_cert_make_boxes(mote_certificate *c, int s, mote_cert_node *node);
+
+/* Estimates how far a leaf reaches towards the other body: range[0] <= reach <= range[1]. False
+   when its field offers no estimate. */
+bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double range[2]);
+
 /* Least and largest coordinate of points, relative to origin, along a direction. */
 void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_vec3 origin,
                      double range[2]);
@@ -117,10 +133,14 @@ static inline mote_vec3 mote_cert_point(const mote_cert_points *points, size_t i
 
 /* certificate_row.c */
 
-/* Bounds from below of the distances of box `lane` of node d to the boxes of node e. Returns
-   which of them are not proven to be at least `need`. */
-uint32_t mote_cert_row_test(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
-                            float need, float bound[MOTE_CERT_WIDTH]);
+/* The gaps between box `lane` of node d and the boxes of node e along the plane's normal.
+   Returns which of them are not proven to be at least `need`. */
+uint32_t mote_cert_row_plane(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
+                             float need, float bound[MOTE_CERT_WIDTH]);
+
+/* The same for those in `open` by the boxes of both nodes; raises the bounds. */
+uint32_t mote_cert_row_boxes(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
+                             float need, uint32_t open, float bound[MOTE_CERT_WIDTH]);
 
 /* certificate_pair.c */
 

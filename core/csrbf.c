@@ -153,6 +153,66 @@ static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
     }
 }
 
+/* Rest positions relative to the first, in units of the support: small where a function reaches
+   all vertices, so that floats lose little. Returns the largest coordinate's size. */
+MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *mesh,
+                                     const uint32_t vertices[MOTE_LANES],
+                                     float p[3][MOTE_LANES])
+{
+    const double inverse = 1 / field->support;
+    const mote_vec3 base = mesh->positions[vertices[0]];
+    double d[3][MOTE_LANES];
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        const mote_vec3 x = mesh->positions[vertices[v]];
+        d[0][v] = x.x - base.x;
+        d[1][v] = x.y - base.y;
+        d[2][v] = x.z - base.z;
+    }
+    float size[MOTE_LANES] = {0};
+    for (size_t c = 0; c < 3; ++c) {
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v) {
+            p[c][v] = (float)(d[c][v] * inverse);
+            size[v] += fabsf(p[c][v]);
+        }
+    }
+    float most = 0;
+    for (size_t v = 0; v < MOTE_LANES; ++v)
+        most = size[v] > most ? size[v] : most;
+    return most;
+}
+
+/* With u = 2^-24 and |p| <= E: a coordinate of p - c is wrong by u (2 E + 2), since the centre
+   of a function that is not 0 is at most E + 1 away; so r is wrong by u (3.5 E + 6.5), and phi,
+   whose slope is at most 2.11, by u (8 E + 24), evaluation included; the sum adds u a term. */
+MOTE_CLONES
+static float csrbf_estimate(const mote_field *field, const mote_mesh *mesh,
+                            const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
+                            size_t count, const float *weights, float sum[MOTE_LANES])
+{
+    const double inverse = 1 / field->support;
+    const mote_vec3 base = mesh->positions[vertices[0]];
+    float p[3][MOTE_LANES];
+    const float extent = relative_positions(field, mesh, vertices, p);
+    float total[MOTE_LANES] = {0};
+    for (size_t i = 0; i < count; ++i) {
+        const size_t j = functions[i];
+        const float cx = (float)((field->centre_x[j] - base.x) * inverse);
+        const float cy = (float)((field->centre_y[j] - base.y) * inverse);
+        const float cz = (float)((field->centre_z[j] - base.z) * inverse);
+        const float w = weights[j];
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v) {
+            const float dx = p[0][v] - cx;
+            const float dy = p[1][v] - cy;
+            const float dz = p[2][v] - cz;
+            total[v] += mote_wendland_c2_single(sqrtf(dx * dx + dy * dy + dz * dz)) * w;
+        }
+    }
+    memcpy(sum, total, sizeof total);
+    return 0x1p-24F * (8 * extent + 24 + (float)count);
+}
+
 /* With s = |x - c| / support: d phi / dx = -20 (1 - s)^3 (x - c) / support^2, smooth at s = 0.
  */
 static void csrbf_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
@@ -184,6 +244,7 @@ static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .displacement = csrbf_displacement,
                                            .displacement_single = csrbf_displacement_single,
                                            .group = csrbf_group,
+                                           .estimate = csrbf_estimate,
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};
 

@@ -58,6 +58,13 @@ typedef struct mote_field_kind {
                   const uint32_t vertices[MOTE_LANES], const uint8_t *functions, size_t count,
                   const mote_weights *weights, double displacement[3][MOTE_LANES]);
 
+    /* In single precision: sum[v] = sum over functions[count] (as above) of phi_j weights[j] at
+       MOTE_LANES rest vertices. Returns a factor: a sum is wrong by at most this times
+       sum |weights[j]|. NULL: not offered. */
+    float (*estimate)(const mote_field *field, const mote_mesh *mesh,
+                      const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
+                      size_t count, const float *weights, float sum[MOTE_LANES]);
+
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
        the padding. For modes: the least-squares gradient over the one-ring. */
     void (*gradient)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
