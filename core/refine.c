@@ -22,6 +22,8 @@
  */
 #define ROUNDS_MAX 10000
 
+#define NONE UINT32_MAX
+
 /* Faces kept at a time; longer lists are taken piece by piece. */
 #define LIST_MAX 32
 
@@ -33,6 +35,8 @@ typedef struct search {
     double distance;
     mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
     double rounding;                /* of a reach */
+    uint32_t checked[2]; /* the rings of these vertices were measured against each other and no
+                            pair was nearer; NONE: no such */
     double slack; /* faces with reaches that sum up to no more than this are not nearer */
 } search;
 
@@ -54,6 +58,7 @@ typedef struct listed_face {
     mote_vec3 corner[3];
     uint32_t vertex[3];
     double reach;
+    bool measured; /* with those of the other side that are marked too */
     mote_vec3 low, high;
 } listed_face;
 
@@ -253,12 +258,13 @@ static double rings_reach(search *s, int side, const uint32_t *centres, uint32_t
     return reach;
 }
 
-static void list_face(face_list *list, const face_cursor *c)
+static void list_face(face_list *list, const face_cursor *c, uint32_t checked)
 {
     listed_face *f = &list->face[list->count++];
     mote_vec3 low = c->corner[0];
     mote_vec3 high = low;
     f->reach = face_reach(c);
+    f->measured = c->vertex[0] == checked || c->vertex[1] == checked || c->vertex[2] == checked;
     for (int i = 0; i < 3; ++i) {
         const mote_vec3 p = c->corner[i];
         f->corner[i] = p;
@@ -278,7 +284,7 @@ static bool fill_list(const search *s, int side, face_cursor *c, double partner,
     list->count = 0;
     while (list->count < LIST_MAX && next_face(s, side, c)) {
         if (face_reach(c) + partner > s->slack)
-            list_face(list, c);
+            list_face(list, c, s->checked[side]);
     }
     return list->count > 0;
 }
@@ -294,7 +300,7 @@ static double box_gap_squared(const listed_face *a, const listed_face *b)
 static void measure_pair(search *s, const listed_face *a, const listed_face *b)
 {
     mote_refined *best = s->best;
-    if (a->reach + b->reach <= s->slack)
+    if (a->reach + b->reach <= s->slack || (a->measured && b->measured))
         return;
     const double bound = best->squared * (1 - MARGIN);
     if (box_gap_squared(a, b) >= bound)
@@ -346,8 +352,11 @@ static void descend(search *s)
         if (done(s))
             return;
         const uint32_t at[2] = {s->best->vertex[0], s->best->vertex[1]};
+        s->checked[0] = s->checked[1] = NONE;
         if (check_rings(s, &at[0], &at[1], 1))
             continue;
+        s->checked[0] = at[0];
+        s->checked[1] = at[1];
         uint32_t around[2][3];
         for (int i = 0; i < 3; ++i) {
             around[0][i] = s->best->triangle[0][i];
