@@ -30,6 +30,7 @@
 typedef struct search {
     mote_lazy *const *lazy;
     mote_refined *best;
+    double worth_squared; /* pairs of faces that are not nearer than this are left alone */
     double enough_squared;
     /* Set by aim: */
     double distance;
@@ -102,10 +103,10 @@ static void aim(search *s)
     s->slack = MARGIN * s->distance - s->rounding;
 }
 
-/* After an improvement, with the aim kept. */
-static void tighten(search *s)
+/* With the aim kept: only faces that could come below a squared distance are looked at. */
+static void tighten(search *s, double squared)
 {
-    s->slack = s->distance - (1 - MARGIN) * sqrt(s->best->squared) - s->rounding;
+    s->slack = s->distance - (1 - MARGIN) * sqrt(squared) - s->rounding;
 }
 
 static double reach_of(const search *s, int side, mote_vec3 p)
@@ -213,7 +214,7 @@ static void approach(search *s, int side)
             best->squared = squared;
             best->witness[side] = closest;
             keep_face(best, side, c.vertex, c.corner);
-            tighten(s);
+            tighten(s, squared);
         }
     }
 }
@@ -302,7 +303,7 @@ static void measure_pair(search *s, const listed_face *a, const listed_face *b)
     mote_refined *best = s->best;
     if (a->reach + b->reach <= s->slack || (a->measured && b->measured))
         return;
-    const double bound = best->squared * (1 - MARGIN);
+    const double bound = min2(best->squared, s->worth_squared) * (1 - MARGIN);
     if (box_gap_squared(a, b) >= bound)
         return;
     mote_vec3 p, q;
@@ -315,7 +316,7 @@ static void measure_pair(search *s, const listed_face *a, const listed_face *b)
     best->witness[1] = q;
     keep_face(best, 0, a->vertex, a->corner);
     keep_face(best, 1, b->vertex, b->corner);
-    tighten(s);
+    tighten(s, squared);
 }
 
 /* Measures the faces around the first centres against those around the second; true if a pair
@@ -325,6 +326,8 @@ static bool check_rings(search *s, const uint32_t *centres0, const uint32_t *cen
 {
     const double before = s->best->squared;
     aim(s);
+    if (s->worth_squared < before)
+        tighten(s, s->worth_squared);
     const double reach0 = rings_reach(s, 0, centres0, count);
     const double reach1 = rings_reach(s, 1, centres1, count);
     if (reach0 + reach1 <= s->slack)
@@ -370,6 +373,12 @@ static void descend(search *s)
 void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
                           double enough_squared, mote_refined *result)
 {
+    mote_refine_below(lazy, vertex, HUGE_VAL, enough_squared, result);
+}
+
+void mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
+                       double enough_squared, mote_refined *result)
+{
     *result = (mote_refined){.vertex = {vertex[0], vertex[1]}};
     for (int side = 0; side < 2; ++side) {
         /* The first two entries of a ring are always joined: no fan is without a face. */
@@ -381,7 +390,10 @@ void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
         result->triangle[side][2] = MOTE_RING_VERTEX(ring[1]);
     }
     result->squared = mote_distance_squared(result->witness[0], result->witness[1]);
-    search s = {.lazy = lazy, .best = result, .enough_squared = enough_squared};
+    search s = {.lazy = lazy,
+                .best = result,
+                .worth_squared = worth_squared,
+                .enough_squared = enough_squared};
     descend(&s);
 }
 
@@ -398,6 +410,9 @@ void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3]
     result->squared = mote_triangle_triangle(s0, s1, &result->witness[0], &result->witness[1]);
     keep_face(result, 0, triangle0, s0);
     keep_face(result, 1, triangle1, s1);
-    search s = {.lazy = lazy, .best = result, .enough_squared = enough_squared};
+    search s = {.lazy = lazy,
+                .best = result,
+                .worth_squared = HUGE_VAL,
+                .enough_squared = enough_squared};
     descend(&s);
 }

@@ -32,9 +32,15 @@ typedef struct mote_refined {
 void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
                           double enough_squared, mote_refined *result);
 
-/* The same from one face of each body (three vertices of a face of the mesh, any order):
-   result->squared is at most the squared distance of the two faces. The cheapest start when the
-   faces are the last frame's. */
+/* The same, but pairs of faces are only looked for that are nearer than worth_squared (>= 0,
+   may be infinite): a search that cannot come below it ends early, at a pair of points that is
+   then no minimum. For one of several starts, where a nearer pair is known already. */
+void mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
+                       double enough_squared, mote_refined *result);
+
+/* The same as mote_refine_vertices from one face of each body (three vertices of a face of the
+   mesh, any order): result->squared is at most the squared distance of the two faces. The
+   cheapest start when the faces are the last frame's. */
 void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3],
                            const uint32_t triangle1[3], double enough_squared,
                            mote_refined *result);

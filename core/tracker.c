@@ -445,7 +445,8 @@ static void refine_candidates(request *r)
         if (c->refined || !worth_refining(r, c))
             continue;
         mote_refined result;
-        mote_refine_vertices(r->lazy, c->vertex, r->enough_squared, &result);
+        mote_refine_below(r->lazy, c->vertex, fmin(r->best->squared, r->worth_squared),
+                          r->enough_squared, &result);
         take_result(r, &result);
         const candidate end = result_candidate(r, &result);
         for (int b = 0; b < 2; ++b)

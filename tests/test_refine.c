@@ -387,6 +387,35 @@ static void vertices_enough_stops_early(void **context)
     scene_free(s);
 }
 
+/* Above worth the search may end early; below it, it finds what the full one does. */
+static void below_finds_what_is_worth_finding(void **context)
+{
+    (void)context;
+    scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 15);
+    mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
+    uint32_t tests[2] = {0};
+    int found = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+        scene_move(s, 0.9, false);
+        const uint32_t start[2] = {draw_vertex(s, 0), draw_vertex(s, 1)};
+        const mote_refined full = refine(s, start[0], start[1]);
+        mote_refined r;
+        mote_refine_below(lazy, start, HUGE_VAL, 0, &r);
+        assert_memory_equal(&r, &full, sizeof r);
+        mote_refine_below(lazy, full.vertex, 0.25 * full.squared, 0, &r);
+        assert_true(r.squared >= 0.25 * full.squared);
+        assert_true(fabs(mote_length(mote_sub(r.witness[1], r.witness[0])) - sqrt(r.squared)) <=
+                    1e-13);
+        tests[0] += refine(s, full.vertex[0], full.vertex[1]).triangle_tests;
+        tests[1] += r.triangle_tests;
+        mote_refine_below(lazy, full.vertex, 1.1 * full.squared, 0, &r);
+        found += r.squared <= full.squared * (1 + 1e-9);
+    }
+    assert_true(found >= 190);
+    assert_true(2 * tests[1] < tests[0]);
+    scene_free(s);
+}
+
 static void vertices_positions_given_same_bits(void **context)
 {
     (void)context;
@@ -495,6 +524,7 @@ int main(void)
         cmocka_unit_test(vertices_intersecting_zero_at_one_point),
         cmocka_unit_test(vertices_crossing_exactly_zero),
         cmocka_unit_test(vertices_enough_stops_early),
+        cmocka_unit_test(below_finds_what_is_worth_finding),
         cmocka_unit_test(vertices_positions_given_same_bits),
         cmocka_unit_test(vertices_scaled_by_powers_of_two_same_bits),
         cmocka_unit_test(triangles_random_starts_local_minimum),
