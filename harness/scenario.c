@@ -4,6 +4,7 @@
 #include "harness/motion.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,6 +137,35 @@ const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_
         set_changes(scenario, buffer, i, previous);
     }
     return &buffer->frame;
+}
+
+/* The rotation vector of to * from^-1. */
+static mote_vec3 rotation_between(const mote_mat3 *from, const mote_mat3 *to)
+{
+    double m[3][3];
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+            m[r][c] = to->m[r][0] * from->m[c][0] + to->m[r][1] * from->m[c][1] +
+                      to->m[r][2] * from->m[c][2];
+    }
+    const mote_vec3 twice_sine =
+        mote_vec3_make(m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]);
+    const double sine = mote_length(twice_sine) / 2;
+    const double cosine = (m[0][0] + m[1][1] + m[2][2] - 1) / 2;
+    return sine > 0 ? mote_scale(twice_sine, atan2(sine, cosine) / (2 * sine)) : twice_sine;
+}
+
+void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *velocity,
+                            mote_vec3 *spin)
+{
+    const mote_body_motion *motion = &scenario->motion->body[i];
+    const uint32_t next = scenario->frames > 1 ? 2 : 1;
+    const mote_pose from = mote_motion_pose(motion, path_place(scenario, 1));
+    const mote_pose to = mote_motion_pose(motion, path_place(scenario, next));
+    *velocity = motion->has_velocity ? motion->velocity
+                                     : mote_sub(mote_pose_apply(&to, motion->centre),
+                                                mote_pose_apply(&from, motion->centre));
+    *spin = motion->has_spin ? motion->spin : rotation_between(&from.rotation, &to.rotation);
 }
 
 /* FNV-1a, 64 bits, over the bytes of a number from the lowest. */

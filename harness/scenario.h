@@ -43,6 +43,12 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
 const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                       uint32_t number, uint32_t previous);
 
+/* Velocity of the middle of body i's box (absolute, a frame) and its angular velocity (radians
+   a frame, world axes) at frame 1: as the file says ("velocity", "spin"), or what leads from
+   frame 1 to frame 2 where it says nothing; zero where there is no frame 2. */
+void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *velocity,
+                            mote_vec3 *spin);
+
 /* 64-bit FNV-1a hash over the bits of every frame's deformed vertices of both bodies, frame by
    frame, body by body, x y z, in little-endian order. */
 mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint);

@@ -113,15 +113,35 @@ static mote_status check_rotation(const mote_json *node, uint32_t frames,
     return MOTE_OK;
 }
 
+/* "velocity": of L a frame; "spin": degrees a frame about x, y, z. */
+static mote_status read_velocities(const mote_json *body, double length,
+                                   mote_body_motion *motion)
+{
+    const double pi = 3.14159265358979323846;
+    mote_json velocity = mote_json_member(body, "velocity");
+    mote_json spin = mote_json_member(body, "spin");
+    mote_status status = MOTE_OK;
+    motion->has_velocity = velocity.value != NULL;
+    motion->has_spin = spin.value != NULL;
+    if (motion->has_velocity)
+        status = mote_json_vec3(&velocity, -1e3, 1e3, &motion->velocity);
+    if (status == MOTE_OK && motion->has_spin)
+        status = mote_json_vec3(&spin, -180, 180, &motion->spin);
+    motion->velocity = mote_scale(motion->velocity, length);
+    motion->spin = mote_scale(motion->spin, pi / 180);
+    return status;
+}
+
 mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *mesh,
                                       double length, uint32_t frames, mote_body_motion *motion)
 {
     motion->centre = mote_mesh_centre(mesh);
     mote_json node = mote_json_member(body, "motion");
-    if (!node.value)
-        return MOTE_OK;
+    mote_status status = read_velocities(body, length, motion);
+    if (status != MOTE_OK || !node.value)
+        return status;
     size_t count;
-    mote_status status = mote_json_array(&node, 1, MOTE_FRAMES_MAX, &count);
+    status = mote_json_array(&node, 1, MOTE_FRAMES_MAX, &count);
     if (status != MOTE_OK)
         return status;
     key_list keys = {malloc(count * sizeof *keys.position_frames),

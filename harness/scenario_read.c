@@ -99,7 +99,8 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     mote_status status = mote_json_array(&bodies, 2, 2, &size);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         body[i] = mote_json_element(&bodies, i);
-        status = mote_json_object(&body[i], "letter|triangles|file|scale|field|motion");
+        status = mote_json_object(&body[i],
+                                  "letter|triangles|file|scale|field|motion|velocity|spin");
     }
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         mote_mesh *mesh = NULL;

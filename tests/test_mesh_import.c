@@ -47,6 +47,18 @@ static void write_plain(const char *path, const void *data, size_t size)
     assert_int_equal(fclose(file), 0);
 }
 
+static const char gltf_text[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}]"
+    ", \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\""
+    "POSITION\": 0}, \"indices\": 1}]}], \"accessors\": [{\"bufferView\": 0, \"compon"
+    "entType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [0, 0, 0], \"max\": "
+    "[1, 1, 0.1]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 12, \"type"
+    "\": \"SCALAR\"}], \"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLen"
+    "gth\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 24}], \"buffers\""
+    ": [{\"byteLength\": 72, \"uri\": \"data:application/octet-stream;base64,AAAAAAAA"
+    "AAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAADNzMw9AAACAAEAAAABAAMAAAADAAIA"
+    "AQACAAMA\"}]}";
+
 static mote_status import_text(const char *name, const void *text, size_t size,
                                mote_mesh **mesh, mote_import *import)
 {
@@ -94,6 +106,7 @@ static void mote_mesh_import_formats_give_the_same_tetrahedron(void **state)
     check_tetrahedron("t.off", off_text, true);
     check_tetrahedron("t.ply", ply_text, true);
     check_tetrahedron("t.stl", stl_text, true);
+    check_tetrahedron("t.gltf", gltf_text, true);
 }
 
 /* 80 bytes that say solid, a count, and 50 bytes a triangle. */

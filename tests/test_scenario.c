@@ -154,6 +154,33 @@ static void mote_scenario_frame_changes_are_told_against_the_previous(void **sta
     mote_scenario_destroy(s);
 }
 
+/* 60 degrees in 39 frames, eased in by the curve: the same from two frames' matrices. */
+static void mote_scenario_velocity_absent_follows_from_frames_1_and_2(void **state)
+{
+    (void)state;
+    mote_scenario *s = load_good();
+    mote_frame_buffer *buffer;
+    assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
+    mote_vec3 velocity, spin;
+    mote_scenario_velocity(s, 0, &velocity, &spin);
+    const mote_mat3 one = mote_scenario_frame(s, buffer, 1, 0)->body[0].pose.rotation;
+    const mote_mat3 two = mote_scenario_frame(s, buffer, 2, 0)->body[0].pose.rotation;
+    const mote_vec3 x = {1, 0, 0};
+    const double angle = acos(mote_dot(mote_rotate(&one, x), mote_rotate(&two, x)));
+    assert_true(angle > 0 && fabs(spin.z - angle) < 1e-8);
+    assert_true(spin.x == 0 && spin.y == 0 && mote_length(velocity) < 1e-15);
+    mote_scenario_velocity(s, 1, &velocity, &spin);
+    assert_true(velocity.x < 0 && mote_length(spin) == 0);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(s);
+    write_changed("\"triangles\": 500,",
+                  "\"triangles\": 500, \"velocity\": [0, 0.5, 0], \"spin\": [0, 0, 90],");
+    assert_int_equal(mote_scenario_load(FILE_NAME, &s), MOTE_OK);
+    mote_scenario_velocity(s, 1, &velocity, &spin);
+    assert_true(velocity.y == 0.5 * s->length && fabs(spin.z - acos(0.0)) < 1e-15);
+    mote_scenario_destroy(s);
+}
+
 /* An FNV-1a of our own, over bytes written out. */
 static void mote_scenario_fingerprint_matches_a_hash_of_written_bytes(void **state)
 {
@@ -414,6 +441,7 @@ int main(void)
         cmocka_unit_test(mote_scenario_load_good_file_reads_every_part),
         cmocka_unit_test(mote_scenario_frame_control_points_are_displaced_exactly),
         cmocka_unit_test(mote_scenario_frame_changes_are_told_against_the_previous),
+        cmocka_unit_test(mote_scenario_velocity_absent_follows_from_frames_1_and_2),
         cmocka_unit_test(mote_scenario_fingerprint_matches_a_hash_of_written_bytes),
         cmocka_unit_test(mote_scenario_load_bad_file_names_line_and_path),
         cmocka_unit_test(mote_scenario_load_truncated_anywhere_is_refused),
