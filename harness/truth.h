@@ -1,5 +1,6 @@
-/* The truth: the exact distance of every frame of a scenario, from FCL's AABB trees, checked by
-   brute force, kept in a file and verified when read. */
+/* The truth: the exact distance of every frame of a scenario, from two independent sources,
+   FCL's AABB trees and our own, checked by brute force, kept in a file and verified when read.
+ */
 #ifndef MOTE_HARNESS_TRUTH_H
 #define MOTE_HARNESS_TRUTH_H
 
@@ -13,13 +14,16 @@ typedef struct mote_truth {
     bool *contact;        /* distance <= scenario->tolerance */
     mote_vec3 *witness_a; /* points on body 0 and body 1, distance apart; NaN where FCL gives */
     mote_vec3 *witness_b; /* none, as where the surfaces intersect */
-    uint32_t checked;     /* frames that brute force agreed with, to 1e-12 L: 24, or fewer where
-                             meshes are so large (above 35,000 triangles) that it takes too long */
+    double *overruled; /* FCL's distance where our tree disagreed by more than 1e-12 L and the
+                          tree with triangle distances in 113 bits settled it; else NaN */
+    uint32_t checked;  /* frames that brute force agreed with, to 1e-12 L: 24, or fewer where
+                          meshes are so large (above 35,000 triangles) that it takes too long */
 } mote_truth;
 
 /* Exact distances of all frames, computed in a child process (the caller's memory stays as it
-   was), without any file. MOTE_ENUMERIC, the text naming the frame, when FCL and brute force
-   disagree by more than 1e-12 L. The caller destroys *truth. */
+   was), without any file. Each frame that was settled is named on stderr. MOTE_ENUMERIC, the
+   text naming the frame, when brute force disagrees by more than 1e-12 L. The caller destroys
+   *truth. */
 mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth);
 
 /* Reads DIR/truth/NAME-FINGERPRINT.csv when it is there, whole, and belongs to the scenario;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COLUMNS "frame,distance,ax,ay,az,bx,by,bz\n"
+#define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
 
 static uint64_t hash_text(const char *text, size_t size)
 {
@@ -33,10 +33,14 @@ static void add_row(mote_text *text, const mote_truth *truth, uint32_t k)
     const mote_vec3 b = truth->witness_b[k];
     mote_text_add(text, "%u,%.17g,", k + 1, truth->distance[k]);
     if (isnan(a.x))
-        mote_text_add(text, ",,,,,\n");
+        mote_text_add(text, ",,,,,");
     else
-        mote_text_add(text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", a.x, a.y, a.z, b.x, b.y,
+        mote_text_add(text, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", a.x, a.y, a.z, b.x, b.y,
                       b.z);
+    if (isnan(truth->overruled[k]))
+        mote_text_add(text, ",\n");
+    else
+        mote_text_add(text, ",%.17g\n", truth->overruled[k]);
 }
 
 mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,
@@ -62,7 +66,25 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
     return status;
 }
 
-/* Reads "K,d,ax,ay,az,bx,by,bz\n" with an empty witness allowed; NULL when it is not that. */
+/* Reads "ax,ay,az,bx,by,bz," where all six may be empty; NULL when it is not that. */
+static const char *read_witness(const char *at, mote_truth *truth, uint32_t k)
+{
+    if (strncmp(at, ",,,,,,", 6) == 0)
+        return at + 6;
+    double number[6];
+    for (int i = 0; i < 6; ++i) {
+        char *end;
+        number[i] = strtod(at, &end);
+        if (end == at || *end != ',')
+            return NULL;
+        at = end + 1;
+    }
+    truth->witness_a[k] = mote_vec3_make(number[0], number[1], number[2]);
+    truth->witness_b[k] = mote_vec3_make(number[3], number[4], number[5]);
+    return at;
+}
+
+/* Reads "K,d,ax,ay,az,bx,by,bz,overruled\n"; NULL when it is not that. */
 static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
 {
     char *end;
@@ -72,19 +94,11 @@ static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
     truth->distance[k] = strtod(at, &end);
     if (end == at || *end != ',' || !(truth->distance[k] >= 0))
         return NULL;
-    at = end + 1;
-    if (strncmp(at, ",,,,,\n", 6) == 0)
-        return at + 6;
-    double number[6];
-    for (int i = 0; i < 6; ++i) {
-        number[i] = strtod(at, &end);
-        if (end == at || *end != (i < 5 ? ',' : '\n'))
-            return NULL;
-        at = end + 1;
-    }
-    truth->witness_a[k] = mote_vec3_make(number[0], number[1], number[2]);
-    truth->witness_b[k] = mote_vec3_make(number[3], number[4], number[5]);
-    return at;
+    at = read_witness(end + 1, truth, k);
+    if (!at || *at == '\n')
+        return at ? at + 1 : NULL;
+    truth->overruled[k] = strtod(at, &end);
+    return end != at && *end == '\n' ? end + 1 : NULL;
 }
 
 /* The text with its last line checked and cut off; false when it is not whole. */
