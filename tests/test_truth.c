@@ -103,6 +103,26 @@ static void mote_truth_load_or_compute_twice_gives_the_same_bits(void **state)
     mote_truth_destroy(second);
 }
 
+static void mote_truth_read_settled_frame_keeps_what_was_overruled(void **state)
+{
+    const mote_scenario *scenario = *state;
+    mote_truth *truth, *again;
+    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
+    truth->overruled[4] = 0.1; /* with and without witness points */
+    truth->overruled[29] = 1.0 / 3;
+    char *path = truth_path(scenario);
+    assert_int_equal(mote_truth_write(scenario, truth, path), MOTE_OK);
+    assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &again), MOTE_OK);
+    for (uint32_t k = 0; k < 30; ++k) {
+        assert_true(again->distance[k] == truth->distance[k]);
+        assert_int_equal(isnan(again->overruled[k]), isnan(truth->overruled[k]));
+        assert_true(isnan(again->overruled[k]) || again->overruled[k] == truth->overruled[k]);
+    }
+    free(path);
+    mote_truth_destroy(truth);
+    mote_truth_destroy(again);
+}
+
 static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
 {
     const mote_scenario *scenario = *state;
@@ -147,6 +167,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mote_truth_compute_small_scenario_is_exact_where_known),
         cmocka_unit_test(mote_truth_load_or_compute_twice_gives_the_same_bits),
+        cmocka_unit_test(mote_truth_read_settled_frame_keeps_what_was_overruled),
         cmocka_unit_test(mote_truth_read_changed_or_cut_file_is_refused),
         cmocka_unit_test(mote_truth_load_or_compute_unwritable_folder_is_an_error),
     };
