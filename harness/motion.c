@@ -15,16 +15,6 @@ mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees)
     return q;
 }
 
-mote_mat3 mote_quaternion_matrix(mote_quaternion q)
-{
-    const double length = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-    const double w = q.w / length, x = q.x / length, y = q.y / length, z = q.z / length;
-    mote_mat3 r = {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-                    {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-                    {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
-    return r;
-}
-
 void mote_quaternions_align(mote_quaternion *keys, uint32_t count)
 {
     for (uint32_t k = 1; k < count; ++k) {

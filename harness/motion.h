@@ -4,17 +4,11 @@
 
 #include "core/body.h"
 #include "core/csrbf_fit.h"
+#include "core/quaternion.h"
 #include "harness/curve.h"
-
-/* A unit quaternion w + xi + yj + zk of a rotation. */
-typedef struct mote_quaternion {
-    double w, x, y, z;
-} mote_quaternion;
 
 /* Rotation by degrees about an axis (any length > 0), right-handed. */
 mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees);
-/* The matrix of a quaternion of any length > 0. */
-mote_mat3 mote_quaternion_matrix(mote_quaternion q);
 
 /* One sine of a control point's displacement: amplitude * sin(2 pi (frame / period + phase)).
  */

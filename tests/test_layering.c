@@ -29,7 +29,8 @@ typedef struct library {
 } library;
 
 static const library libraries[] = {
-    {"gsl/gsl_linalg", {"core/csrbf_fit.c"}},
+    {"gsl/gsl_linalg", {"core/linear_algebra.c"}},
+    {"gsl/gsl_eigen", {"core/linear_algebra.c"}},
     {"gsl/gsl_statistics", {"harness/statistics.c"}},
     {"gsl/gsl_sort", {"harness/statistics.c"}},
     {"gsl/gsl_cdf", {"harness/statistics.c"}},
