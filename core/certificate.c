@@ -37,13 +37,13 @@ static mote_status side_create(mote_cert_side *side, const mote_body *body,
 {
     mote_status status = mote_cert_tree_create(body, options, &side->tree);
     const uint32_t vertices = body->mesh->vertex_count;
-    const uint32_t expected = at_most(128 + vertices / 16, 2048);
+    const uint32_t expected = at_most(64 + vertices / 16, 2048);
     if (status == MOTE_OK)
         status = mote_lazy_init(&side->lazy, body, expected);
     if (status != MOTE_OK)
         return status;
-    side->node_room = at_most(side->tree->block_count, 4096);
-    side->point_room = at_most(side->tree->leaf_count, at_most(64 + vertices / 16, 8192));
+    side->node_room = at_most(side->tree->block_count, at_most(64 + vertices / 64, 4096));
+    side->point_room = at_most(side->tree->leaf_count, at_most(48 + vertices / 64, 4096));
     side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
     side->points = allocate_aligned(side->point_room, sizeof *side->points);
     if (!side->nodes || !side->points)
