@@ -1,5 +1,6 @@
 /* The method certified: the exact distance with its proof (DESIGN section 5). */
 #include "core/certificate.h"
+#include "core/tracker.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,10 +10,10 @@ enum { P_SEED, P_SLACK, P_BUDGET, P_WIDTH, P_FITS, P_PLANE, P_DIRECTIONS, P_REST
 static const mote_parameter parameters[] = {
     [P_SEED] = {.key = "seed",
                 .kind = MOTE_PARAMETER_CHOICE,
-                .choices = "witness|pair|none",
+                .choices = "witness|pair|none|tracked",
                 .fallback = "witness",
-                .help = "first upper bound: the last faces, refined or not, or none: no state "
-                        "is kept"},
+                .help = "first upper bound: the last faces, refined or not; none: no state is "
+                        "kept; or tracked particles"},
     [P_SLACK] = {.key = "slack",
                  .kind = MOTE_PARAMETER_REAL,
                  .minimum = 0,
@@ -53,8 +54,12 @@ static const mote_parameter parameters[] = {
                     .help = "how often the traversal starts again after an improvement"},
 };
 
+/* The choices of seed, in the table's order. */
+enum { SEED_WITNESS, SEED_PAIR, SEED_NONE, SEED_TRACKED };
+
 typedef struct certified_state {
     mote_certificate *certificate;
+    mote_tracker *tracker; /* or NULL */
     mote_ask ask;
     double tolerance;
     bool exact; /* no slack */
@@ -62,14 +67,16 @@ typedef struct certified_state {
 
 static mote_traits traits(const double *values)
 {
-    return (mote_traits){.keeps_state = values[P_SEED] < 2,
+    return (mote_traits){.keeps_state = (int)values[P_SEED] != SEED_NONE,
                          .exact = !(values[P_SLACK] > 0) && isinf(values[P_BUDGET])};
 }
 
 static mote_certificate_options options_of(const mote_setup *setup)
 {
-    static const mote_cert_seed seeds[] = {MOTE_CERT_SEED_WITNESS, MOTE_CERT_SEED_PAIR,
-                                           MOTE_CERT_SEED_NONE};
+    static const mote_cert_seed seeds[] = {[SEED_WITNESS] = MOTE_CERT_SEED_WITNESS,
+                                           [SEED_PAIR] = MOTE_CERT_SEED_PAIR,
+                                           [SEED_NONE] = MOTE_CERT_SEED_NONE,
+                                           [SEED_TRACKED] = MOTE_CERT_SEED_PAIR};
     static const uint32_t widths[] = {8, 4, 2};
     const double *v = setup->values;
     mote_certificate_options options = mote_default_certificate_options(setup->length);
@@ -90,6 +97,7 @@ static void destroy(void *state)
     if (!s)
         return;
     mote_certificate_destroy(s->certificate);
+    mote_tracker_destroy(s->tracker);
     free(s);
 }
 
@@ -99,10 +107,13 @@ static mote_status create(const mote_setup *setup, void **state)
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for certified");
     const mote_certificate_options options = options_of(setup);
-    const mote_status status =
-        mote_certificate_create(setup->body, &options, &made->certificate);
+    mote_status status = mote_certificate_create(setup->body, &options, &made->certificate);
+    if (status == MOTE_OK && (int)setup->values[P_SEED] == SEED_TRACKED) {
+        const mote_tracker_options defaults = mote_default_tracker_options();
+        status = mote_tracker_create(setup->body, setup->length, &defaults, &made->tracker);
+    }
     if (status != MOTE_OK) {
-        free(made);
+        destroy(made);
         return status;
     }
     made->ask = setup->ask;
@@ -116,8 +127,17 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
 {
     certified_state *s = state;
     const bool contact_only = s->ask == MOTE_ASK_CONTACT;
+    const uint32_t(*first)[3] = NULL;
+    mote_refined best;
+    if (s->tracker) {
+        const double enough = contact_only ? s->tolerance * s->tolerance : 0;
+        mote_tracker_query(s->tracker, frame, false, HUGE_VAL, enough, &answer->counters,
+                           &best);
+        if (best.squared < HUGE_VAL)
+            first = (const uint32_t(*)[3])best.triangle;
+    }
     mote_certificate_answer found;
-    mote_certificate_query(s->certificate, frame, NULL, contact_only ? s->tolerance : -1,
+    mote_certificate_query(s->certificate, frame, first, contact_only ? s->tolerance : -1,
                            &found);
     answer->distance = found.distance;
     answer->lower = found.lower;
@@ -131,7 +151,11 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     /* A bracket around the tolerance leaves the contact open. */
     answer->has_contact =
         answer->contact || found.lower > s->tolerance || (s->exact && !found.stopped);
-    answer->counters = found.counters;
+    mote_counters *sum = &answer->counters;
+#define ADD(name) sum->name += found.counters.name;
+    MOTE_COUNTERS(ADD)
+    MOTE_COUNTERS_MORE(ADD)
+#undef ADD
     return MOTE_OK;
 }
 
