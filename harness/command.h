@@ -43,7 +43,9 @@ typedef enum mote_exit {
     X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
       "draws the accepted references, or adds one")                                            \
-    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")
+    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")\
+    X(claims, "claims [--out DIR] [--quick]",                                                  \
+      "measures every claim of the paper, writes DIR/claims.json")
 
 #define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \
     int mote_command_##name(int argc, char **argv);

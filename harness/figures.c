@@ -148,7 +148,7 @@ static const figure figures[] = {
     {"front", NULL, write_front},
 };
 
-static mote_status run_gnuplot(const char *script_name, const char *directory, const char *name)
+mote_status mote_figures_plot(const char *directory, const char *name, const char *script_name)
 {
     char *script = mote_format("%s/plots/%s.gp", MOTE_SOURCE_DIR, script_name);
     char *base = mote_format("%s/figures/%s", directory, name);
@@ -180,7 +180,7 @@ static mote_status draw(const figure *f, const mote_summary *summary, const char
     if (status == MOTE_OK && text.size > 0) {
         status = mote_record_text(directory, file, &text);
         if (status == MOTE_OK)
-            status = run_gnuplot(f->name, directory, name);
+            status = mote_figures_plot(directory, name, f->name);
     }
     free(text.data);
     free(file);

@@ -51,6 +51,17 @@ mote_confidence mote_statistics_t_interval(const double *values, size_t count)
     return interval;
 }
 
+mote_confidence mote_statistics_share_interval(size_t successes, size_t trials)
+{
+    mote_confidence interval = {MOTE_NONE, MOTE_NONE};
+    const double k = (double)successes, n = (double)trials;
+    if (trials == 0)
+        return interval;
+    interval.low = successes > 0 ? gsl_cdf_beta_Pinv(0.025, k, n - k + 1) : 0;
+    interval.high = successes < trials ? gsl_cdf_beta_Pinv(0.975, k + 1, n - k) : 1;
+    return interval;
+}
+
 double mote_statistics_t_test(const double *values, size_t count)
 {
     if (count < 2)

@@ -34,6 +34,10 @@ double mote_statistics_mean(const double *values, size_t count);
 /* Student's t interval of the mean; MOTE_NONE below two values. */
 mote_confidence mote_statistics_t_interval(const double *values, size_t count);
 
+/* Clopper and Pearson's exact interval of a share: successes of trials that are independent.
+   MOTE_NONE without a trial. */
+mote_confidence mote_statistics_share_interval(size_t successes, size_t trials);
+
 /* Two-sided p of Student's t test that the mean is 0; MOTE_NONE below two values. */
 double mote_statistics_t_test(const double *values, size_t count);
 

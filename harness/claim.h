@@ -1,0 +1,68 @@
+/* A claim of the paper and the figures that were measured for it. The verdict follows from the
+   figures and their thresholds alone. */
+#ifndef MOTE_HARNESS_CLAIM_H
+#define MOTE_HARNESS_CLAIM_H
+
+#include "harness/statistics.h"
+
+#include <jansson.h>
+
+typedef enum mote_bound {
+    MOTE_BOUND_NONE, /* the figure is told, and decides nothing */
+    MOTE_AT_MOST,
+    MOTE_AT_LEAST
+} mote_bound;
+
+/* One figure. A threshold is met when the whole interval is on its right side; without an
+   interval, when the value is. */
+typedef struct mote_claim_value {
+    char name[112];           /* "n = 3, 95th percentile" */
+    double value;             /* MOTE_NONE: could not be had; meets no threshold */
+    mote_confidence interval; /* 95 %, or MOTE_NONE */
+    const char *unit;         /* "L", "us", "" */
+    mote_bound bound;
+    double holds;  /* threshold for "holds"; MOTE_NONE: not needed for it */
+    double limits; /* threshold for "holds within limits"; MOTE_NONE: not needed for it */
+} mote_claim_value;
+
+/* What is claimed, where, and how it was measured: constant text. curve is a file in the
+   study's directory, or NULL. */
+typedef struct mote_claim {
+    const char *id, *section, *claim, *measured, *curve;
+    mote_claim_value *values;
+    size_t count, capacity;
+} mote_claim;
+
+typedef enum mote_claim_verdict {
+    MOTE_CLAIM_HOLDS,        /* every threshold for "holds" is met, and there is one */
+    MOTE_CLAIM_LIMITS,       /* else, every one for "holds within limits", and there is one */
+    MOTE_CLAIM_DOES_NOT_HOLD /* anything else */
+} mote_claim_verdict;
+
+/* "holds", "holds within limits", "does not hold" */
+extern const char *const mote_claim_verdict_names[];
+
+/* Adds a figure, the first being the headline; name as printf. */
+mote_status mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
+                           const char *unit, const char *format, ...) MOTE_PRINTF(5, 6);
+
+/* Thresholds of the figure added last (there is one). */
+void mote_claim_require(mote_claim *claim, mote_bound bound, double holds, double limits);
+
+/* Whether a figure is on the right side of a threshold. */
+bool mote_claim_met(const mote_claim_value *value, double threshold);
+
+mote_claim_verdict mote_claim_judge(const mote_claim *claim);
+
+/* An object with id, section, claim, measured, value, interval, unit and threshold of the
+   headline, verdict, values (all figures with their thresholds) and curve. NULL when memory ran
+   out; the caller decrefs. */
+json_t *mote_claim_json(const mote_claim *claim);
+
+/* Lines for a person: the verdict, then a line a figure. */
+void mote_claim_print(const mote_claim *claim);
+
+/* Frees the figures. */
+void mote_claim_free(mote_claim *claim);
+
+#endif

@@ -1,0 +1,42 @@
+/* The experiments on the paper's claims a to m, and on what this implementation must show. Each
+   fills the figures of one claim; its text and thresholds stand in the experiment's file. */
+#ifndef MOTE_HARNESS_CLAIMS_H
+#define MOTE_HARNESS_CLAIMS_H
+
+#include "harness/study.h"
+
+#define MOTE_CLAIMS(X)                                                                         \
+    X(contact_point)    /* a */                                                                \
+    X(passing_through)  /* b */                                                                \
+    X(convex_parts)     /* c */                                                                \
+    X(longest_route)    /* d */                                                                \
+    X(almost_at_rest)   /* e */                                                                \
+    X(initial_places)   /* f */                                                                \
+    X(complexity)       /* g */                                                                \
+    X(distant_cache)    /* h */                                                                \
+    X(times)            /* i */                                                                \
+    X(few_particles)    /* j */                                                                \
+    X(hierarchy_memory) /* k */                                                                \
+    X(hierarchy_update) /* l */                                                                \
+    X(deformed_parts)   /* m */
+
+/* What must be so on any machine, whatever the paper says. */
+#define MOTE_REQUIREMENTS(X)                                                                   \
+    X(exact_shares)                                                                            \
+    X(no_missed_contact)                                                                       \
+    X(faster_than_fcl)                                                                         \
+    X(no_allocation)                                                                           \
+    X(bodies_swapped)
+
+/* mote_claim_NAME: fills claim, which is zero; the caller frees it, also after a failure. */
+#define MOTE_CLAIM_DECLARE(name)                                                               \
+    mote_status mote_claim_##name(mote_study *study, mote_claim *claim);
+MOTE_CLAIMS(MOTE_CLAIM_DECLARE)
+MOTE_REQUIREMENTS(MOTE_CLAIM_DECLARE)
+#undef MOTE_CLAIM_DECLARE
+
+/* Measures every claim into claims.json and every requirement into requirements.json, printing
+   what was found. *met: all requirements are met. */
+mote_status mote_claims_measure(mote_study *study, bool *met);
+
+#endif

@@ -1,0 +1,288 @@
+/* What the paper claims of accuracy: a, b, c, j. */
+#include "harness/claims.h"
+
+#include "core/parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define NEAR_CONTACT 0.1 /* of L: where a collision point means something */
+
+static mote_vec3 middle(mote_vec3 a, mote_vec3 b)
+{
+    return mote_scale(mote_add(a, b), 0.5);
+}
+
+/* Distances from the reported to the true contact point, the middles of the witnesses, in the
+   frames just before and after a contact. Within a contact there is no true point. */
+static mote_status contact_points(const mote_subject *subject, const char *method,
+                                  uint64_t seed, double quantile[2])
+{
+    mote_cell_result result;
+    const mote_tour tour = {.seed = seed};
+    mote_status status = mote_study_measure(subject, method, tour, &result);
+    if (status != MOTE_OK)
+        return status;
+    const mote_truth *truth = subject->truth;
+    const double length = subject->scenario->length;
+    double *distances = malloc((result.row_count + 1) * sizeof *distances);
+    size_t count = 0;
+    for (size_t i = 0; distances && i < result.row_count; ++i) {
+        const mote_cell_row *row = &result.rows[i];
+        const uint32_t k = row->frame - 1;
+        if (!(truth->distance[k] > 0 && truth->distance[k] <= NEAR_CONTACT * length))
+            continue;
+        const mote_vec3 found = middle(row->answer.witness[0], row->answer.witness[1]);
+        const mote_vec3 right = middle(truth->witness_a[k], truth->witness_b[k]);
+        distances[count++] = sqrt(mote_distance_squared(found, right)) / length;
+    }
+    if (distances && count > 0) {
+        mote_statistics_sort(distances, count);
+        quantile[0] = mote_statistics_quantile(distances, count, 0.5);
+        quantile[1] = mote_statistics_quantile(distances, count, 0.95);
+    } else {
+        status = mote_fail(MOTE_ENUMERIC, "%s: no frame near a contact, or no memory",
+                           subject->scenario->name);
+    }
+    free(distances);
+    mote_cell_result_free(&result);
+    return status;
+}
+
+mote_status mote_claim_contact_point(mote_study *study, mote_claim *claim)
+{
+    claim->id = "a";
+    claim->section = "5";
+    claim->claim = "2-3 particles define a sufficiently correct collision point for T-T";
+    claim->measured = "distance from the reported to the true contact point, T-T, frames with "
+                      "a true distance above 0 and at most 0.1 L";
+    static const struct {
+        const char *method, *name;
+        double median, p95; /* thresholds for "holds within limits", "holds" */
+    } cases[] = {
+        {"particle-paper:n=3", "n = 3", 0.1, 0.1},
+        {"particle-paper:n=2", "n = 2", MOTE_NONE, 0.1},
+        {"particle-paper:n=3,refine=always", "n = 3, exact check", MOTE_NONE, MOTE_NONE},
+        {"particle-paper:n=8,refine=always", "n = 8, exact check", MOTE_NONE, MOTE_NONE},
+    };
+    const mote_subject *subject;
+    mote_status status = mote_study_scene(study, "tt", &subject);
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0] && status == MOTE_OK; ++c) {
+        double values[2][MOTE_STUDY_SEEDS];
+        for (size_t s = 0; s < study->seeds && status == MOTE_OK; ++s) {
+            double quantile[2] = {0, 0};
+            status = contact_points(subject, cases[c].method, s + 1, quantile);
+            values[0][s] = quantile[0];
+            values[1][s] = quantile[1];
+        }
+        for (int q = 1; q >= 0 && status == MOTE_OK; --q) {
+            const mote_estimate e = mote_estimate_make(values[q], study->seeds);
+            status = mote_claim_add(claim, e.value, e.interval, "L", "%s, %s", cases[c].name,
+                                    q ? "95th percentile" : "median");
+            if (status == MOTE_OK && q && cases[c].p95 == cases[c].p95)
+                mote_claim_require(claim, MOTE_AT_MOST, cases[c].p95, MOTE_NONE);
+            if (status == MOTE_OK && !q && cases[c].median == cases[c].median)
+                mote_claim_require(claim, MOTE_AT_MOST, cases[c].median, cases[c].median);
+        }
+    }
+    return status;
+}
+
+/* Runs of frames with contact, how many of them a method never saw, and after how many frames
+   it saw the others. */
+typedef struct episodes {
+    size_t count, unseen, delays;
+    double *delay; /* [delays] */
+} episodes;
+
+static mote_status watch_episodes(const mote_subject *subject, const mote_cell_result *result,
+                                  episodes *e)
+{
+    double *delay = realloc(e->delay, (e->delays + result->row_count + 1) * sizeof *delay);
+    if (!delay)
+        return mote_fail(MOTE_ENOMEM, "no memory for contacts");
+    e->delay = delay;
+    size_t start = 0;
+    bool inside = false, seen = false;
+    for (size_t i = 0; i <= result->row_count; ++i) {
+        const bool contact =
+            i < result->row_count && subject->truth->contact[result->rows[i].frame - 1];
+        if (contact && !inside) {
+            ++e->count;
+            start = i;
+            seen = false;
+        }
+        if (!contact && inside && !seen)
+            ++e->unseen;
+        if (contact && !seen && result->rows[i].answer.contact) {
+            seen = true;
+            e->delay[e->delays++] = (double)(i - start);
+        }
+        inside = contact;
+    }
+    return MOTE_OK;
+}
+
+static mote_status add_episodes(mote_claim *claim, const char *name, bool decides, episodes *e)
+{
+    const double share = (double)e->unseen / (double)e->count;
+    mote_status status =
+        mote_claim_add(claim, share, mote_statistics_share_interval(e->unseen, e->count), "",
+                       "%s: share of %zu contacts never seen", name, e->count);
+    if (status == MOTE_OK && decides)
+        mote_claim_require(claim, MOTE_AT_MOST, 0.05, 0.2);
+    if (status != MOTE_OK || e->delays == 0)
+        return status;
+    mote_statistics_sort(e->delay, e->delays);
+    return mote_claim_add(claim, mote_statistics_quantile(e->delay, e->delays, 0.95),
+                          mote_statistics_sign_interval(e->delay, e->delays), "fr.",
+                          "%s: delay of those seen, 95th percentile [median's]", name);
+}
+
+mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
+{
+    claim->id = "b";
+    claim->section = "1";
+    claim->claim = "3-5 particles keep a body of over 10,000 polygons from moving through an "
+                   "obstacle";
+    claim->measured =
+        "W-W of 11,920 triangles: runs of frames with contact in which the method "
+        "saw none (its resolution: two mean edges); motion is given, not answered";
+    static const struct {
+        const char *method, *name;
+        bool decides;
+    } cases[] = {
+        {"particle-paper:n=5", "n = 5", true},
+        {"particle-paper:n=4", "n = 4", true},
+        {"particle-paper:n=3", "n = 3", true},
+        {"particle-paper:n=5,refine=always", "n = 5, exact check, no tolerance", false},
+    };
+    const mote_subject *subject;
+    mote_status status = mote_study_scene(study, "ww", &subject);
+    for (size_t c = 0; c < sizeof cases / sizeof cases[0] && status == MOTE_OK; ++c) {
+        episodes e = {0};
+        for (size_t s = 0; s < study->seeds && status == MOTE_OK; ++s) {
+            mote_cell_result result;
+            const mote_tour tour = {.seed = s + 1};
+            status = mote_study_measure(subject, cases[c].method, tour, &result);
+            if (status == MOTE_OK) {
+                status = watch_episodes(subject, &result, &e);
+                mote_cell_result_free(&result);
+            }
+        }
+        if (status == MOTE_OK)
+            status = add_episodes(claim, cases[c].name, cases[c].decides, &e);
+        free(e.delay);
+    }
+    return status;
+}
+
+#define ENOUGH_TRACKED 0.95
+
+/* One shape of claim c: the share of frames tracked at each n. */
+typedef struct shape {
+    const char *title, *base, *name;
+    char letter;
+    size_t triangles;
+} shape;
+
+static mote_status count_parts(const mote_subject *subject, uint32_t *parts)
+{
+    mote_parts *made = NULL;
+    mote_status status = mote_parts_create(subject->scenario->body[0].mesh, NULL, &made);
+    if (status == MOTE_OK)
+        *parts = made->count;
+    mote_parts_destroy(made);
+    return status;
+}
+
+static mote_status tracked_at(const mote_study *study, const mote_subject *subject, uint32_t n,
+                              mote_estimate *tracked, mote_estimate *p99)
+{
+    char method[64];
+    (void)snprintf(method, sizeof method, "particle-paper:n=%u,refine=always", n);
+    mote_sample samples[MOTE_STUDY_SEEDS];
+    const mote_tour tour = {.seed = 1};
+    mote_status status = mote_study_sample(subject, method, tour, study->seeds, samples);
+    if (status != MOTE_OK)
+        return status;
+    *tracked = mote_sample_estimate(samples, study->seeds, MOTE_MEASURED_TRACKED);
+    *p99 = mote_sample_estimate(samples, study->seeds, MOTE_MEASURED_ERROR_P99);
+    return MOTE_OK;
+}
+
+/* The least n of the sweep from which on the share tracked is enough; 0: none. */
+static mote_status sweep_shape(const mote_study *study, const mote_subject *subject,
+                               uint32_t parts, mote_text *curve, uint32_t *enough)
+{
+    static const uint32_t numbers[] = {1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+    mote_status status = MOTE_OK;
+    *enough = 0;
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == MOTE_OK; ++i) {
+        mote_estimate tracked, p99;
+        status = tracked_at(study, subject, numbers[i], &tracked, &p99);
+        if (status != MOTE_OK)
+            break;
+        mote_text_add(curve, "%u\t%g\t%g\t%g\t%g\t%g\n", numbers[i], (double)numbers[i] / parts,
+                      tracked.value, tracked.interval.low, tracked.interval.high, p99.value);
+        if (tracked.value < ENOUGH_TRACKED)
+            *enough = 0;
+        else if (*enough == 0)
+            *enough = numbers[i];
+    }
+    return status;
+}
+
+static mote_status measure_shape(mote_study *study, const shape *s, mote_text *curve,
+                                 mote_claim *claim)
+{
+    const mote_subject *subject = NULL;
+    uint32_t parts = 1, enough = 0;
+    mote_estimate twice, p99;
+    const mote_variant variant = {s->base, s->name, s->letter, s->triangles, true};
+    mote_status status = s->letter ? mote_study_variant(study, &variant, &subject)
+                                   : mote_study_scene(study, s->base, &subject);
+    if (status == MOTE_OK)
+        status = count_parts(subject, &parts);
+    if (status == MOTE_OK)
+        status = tracked_at(study, subject, 2 * parts, &twice, &p99);
+    mote_text_add(curve, "%s\"%s, %u parts\"\n", curve->size ? "\n\n" : "", s->title, parts);
+    if (status == MOTE_OK)
+        status = sweep_shape(study, subject, parts, curve, &enough);
+    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
+    if (status == MOTE_OK)
+        status = mote_claim_add(claim, twice.value, twice.interval, "",
+                                "%s: share tracked at n = %u, twice %u parts", s->title,
+                                2 * parts, parts);
+    if (status == MOTE_OK)
+        mote_claim_require(claim, MOTE_AT_LEAST, ENOUGH_TRACKED, 0.8);
+    if (status == MOTE_OK)
+        status =
+            mote_claim_add(claim, enough ? enough / (double)parts : MOTE_NONE, none, "",
+                           "%s: least n / parts from which on the share is 0.95", s->title);
+    return status;
+}
+
+mote_status mote_claim_convex_parts(mote_study *study, mote_claim *claim)
+{
+    claim->id = "c";
+    claim->section = "3.5";
+    claim->claim = "n should be twice the number of convex parts; separation is then tracked";
+    claim->measured = "share of frames with an error of at most 0.01 L, exact check always, at "
+                      "twice the parts that HACD finds, and the least n / parts that is enough";
+    claim->curve = "figures/claim_c.dat";
+    static const shape shapes[] = {
+        {"W", "ww", "ww", '\0', 0},
+        {"T", "tt", "tt", '\0', 0},
+        {"V", "tt", "vv", 'V', 1764},
+        {"M", "tt", "mm", 'M', 2968},
+    };
+    mote_text curve = {0};
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < sizeof shapes / sizeof shapes[0] && status == MOTE_OK; ++i)
+        status = measure_shape(study, &shapes[i], &curve, claim);
+    if (status == MOTE_OK)
+        status = mote_study_plot(study, "claim_c", &curve);
+    free(curve.data);
+    return status;
+}

@@ -1,0 +1,297 @@
+/* What the paper claims of a query's cost: g, h. */
+#include "harness/claims.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How the bodies move between queries: the same path, every frame, every 4th, every 16th; cold
+   queries start anew, whatever the motion. */
+typedef struct pace {
+    const char *title, *option;
+    uint32_t stride, first, last;
+} pace;
+
+#define PACES 4
+static const pace paces[PACES] = {
+    {"slow: every frame", "", 1, 901, 1300},
+    {"every 4th frame", "", 4, 401, 2000},
+    {"every 16th frame", "", 16, 1, 2000},
+    {"cold", ",coherent=no", 16, 1, 2000},
+};
+
+#define COST_SEEDS 4
+#define POINTS_MAX (16 * COST_SEEDS)
+
+/* Median time of a query against a size, one point a seed. */
+typedef struct cost_points {
+    double x[POINTS_MAX], us[POINTS_MAX];
+    size_t count;
+} cost_points;
+
+/* Median time of the queries of one seed, microseconds, the first left out: it is cold. */
+static mote_status median_time(const mote_subject *subject, const pace *p, uint32_t n,
+                               uint64_t seed, double *us)
+{
+    char method[96];
+    (void)snprintf(method, sizeof method, "particle-paper:n=%u%s", n, p->option);
+    const uint32_t frames = subject->scenario->frames;
+    const mote_tour tour = {.first = p->first,
+                            .last = p->last < frames ? p->last : frames,
+                            .stride = p->stride,
+                            .seed = seed};
+    mote_cell_result result;
+    mote_status status = mote_study_measure(subject, method, tour, &result);
+    if (status != MOTE_OK)
+        return status;
+    double *times = malloc((result.row_count + 1) * sizeof *times);
+    for (size_t i = 1; times && i < result.row_count; ++i)
+        times[i - 1] = (double)result.rows[i].query_ns * 1e-3;
+    if (times)
+        *us = mote_statistics_median(times, result.row_count - 1);
+    else
+        status = mote_fail(MOTE_ENOMEM, "no memory for times");
+    free(times);
+    mote_cell_result_free(&result);
+    return status;
+}
+
+/* A line "x median low high" of the curve, and a point a seed. */
+static mote_status add_point(const mote_subject *subject, const pace *p, uint32_t n, double x,
+                             cost_points *points, mote_text *curve)
+{
+    double us[COST_SEEDS];
+    for (uint64_t s = 0; s < COST_SEEDS; ++s) {
+        mote_status status = median_time(subject, p, n, s + 1, &us[s]);
+        if (status != MOTE_OK)
+            return status;
+        points->x[points->count] = x;
+        points->us[points->count++] = us[s];
+    }
+    const mote_estimate e = mote_estimate_make(us, COST_SEEDS);
+    mote_text_add(curve, "%g\t%g\t%g\t%g\n", x, e.value, fmax(e.interval.low, e.value / 10),
+                  e.interval.high);
+    return MOTE_OK;
+}
+
+static void begin_block(mote_text *curve, const char *title)
+{
+    mote_text_add(curve, "%s\"%s\"\n", curve->size ? "\n\n" : "", title);
+}
+
+/* The exponent over the points with x >= least. */
+static mote_status add_exponent(mote_claim *claim, const cost_points *points, double least,
+                                const char *over, const char *pace_title)
+{
+    cost_points large = {.count = 0};
+    for (size_t i = 0; i < points->count; ++i) {
+        if (points->x[i] < least)
+            continue;
+        large.x[large.count] = points->x[i];
+        large.us[large.count++] = points->us[i];
+    }
+    double exponent;
+    mote_confidence interval;
+    mote_status status =
+        mote_statistics_exponent(large.x, large.us, large.count, &exponent, &interval);
+    if (status != MOTE_OK)
+        return status;
+    return mote_claim_add(claim, exponent, interval, "", "exponent over %s, %s", over,
+                          pace_title);
+}
+
+/* Over n, on W-W of 11,920 triangles. */
+static mote_status measure_numbers(mote_study *study, mote_claim *claim, mote_text *curve)
+{
+    static const uint32_t numbers[] = {2, 4, 8, 16, 32, 64, 128, 256};
+    const mote_subject *subject;
+    mote_status status = mote_study_scene(study, "ww", &subject);
+    for (int p = 0; p < PACES && status == MOTE_OK; ++p) {
+        cost_points points = {.count = 0};
+        begin_block(curve, paces[p].title);
+        for (size_t i = 0; i < (study->quick ? 6u : 8u) && status == MOTE_OK; ++i)
+            status = add_point(subject, &paces[p], numbers[i], numbers[i], &points, curve);
+        if (status == MOTE_OK)
+            status = add_exponent(claim, &points, 16, "n >= 16", paces[p].title);
+        if (status == MOTE_OK)
+            mote_claim_require(claim, MOTE_AT_MOST, 2.1, 2.1);
+    }
+    return status;
+}
+
+/* Over triangles, n = 5. "Fast even for models with a large number of polygons": a slow motion
+   must not feel the size at all, and no query may take longer than a millisecond. */
+static mote_status measure_sizes(mote_study *study, mote_claim *claim, mote_text *curve)
+{
+    static const size_t sizes[] = {500, 1600, 5000, 12000, 30000, 100000, 300000, 1000000};
+    const size_t count = study->quick ? 5 : 8;
+    mote_status status = MOTE_OK;
+    cost_points points[PACES];
+    memset(points, 0, sizeof points);
+    mote_text blocks[PACES];
+    memset(blocks, 0, sizeof blocks);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        char name[32];
+        (void)snprintf(name, sizeof name, "ww-%zu", sizes[i]);
+        const mote_variant variant = {"ww", name, '\0', sizes[i], false};
+        const mote_subject *subject = NULL;
+        status = mote_study_variant(study, &variant, &subject);
+        for (int p = 0; p < PACES && status == MOTE_OK; ++p)
+            status = add_point(subject, &paces[p], 5, (double)sizes[i], &points[p], &blocks[p]);
+    }
+    for (int p = 0; p < PACES; ++p) {
+        begin_block(curve, paces[p].title);
+        mote_text_add(curve, "%s", blocks[p].data ? blocks[p].data : "");
+        free(blocks[p].data);
+        if (status == MOTE_OK)
+            status = add_exponent(claim, &points[p], 0, "triangles, n = 5", paces[p].title);
+        if (status == MOTE_OK && p + 1 < PACES)
+            mote_claim_require(claim, MOTE_AT_MOST, 0.1, p == 0 ? 0.2 : MOTE_NONE);
+        if (status != MOTE_OK)
+            continue;
+        const mote_estimate most =
+            mote_estimate_make(&points[p].us[(count - 1) * COST_SEEDS], COST_SEEDS);
+        status =
+            mote_claim_add(claim, most.value, most.interval, "us",
+                           "median query, %zu triangles, %s", sizes[count - 1], paces[p].title);
+        if (status == MOTE_OK && p + 1 < PACES)
+            mote_claim_require(claim, MOTE_AT_MOST, 1000, 1000);
+    }
+    return status;
+}
+
+mote_status mote_claim_complexity(mote_study *study, mote_claim *claim)
+{
+    claim->id = "g";
+    claim->section = "3.5";
+    claim->claim = "a query costs O(n^2), and is fast even for models with many polygons";
+    claim->measured = "median time of a query, W-W, three speeds of motion and cold: robust "
+                      "exponents over n (11,920 triangles) and over triangles (n = 5)";
+    claim->curve = "figures/claim_g.dat";
+    mote_text curve = {0};
+    mote_status status = measure_numbers(study, claim, &curve);
+    if (status == MOTE_OK)
+        status = measure_sizes(study, claim, &curve);
+    if (status == MOTE_OK)
+        status = mote_study_plot(study, "claim_g", &curve);
+    free(curve.data);
+    return status;
+}
+
+/* With and without the cache, the same frames and seeds, in turn. */
+typedef struct cache_case {
+    const char *options;
+    uint32_t n;
+    double part;
+} cache_case;
+
+typedef struct cache_gain {
+    mote_estimate ratio;  /* time without / time with */
+    mote_estimate change; /* of the 95th percentile of the error, L */
+} cache_gain;
+
+static mote_status measure_cache(const mote_subject *subject, const cache_case *c,
+                                 cache_gain *gain)
+{
+    double ratio[COST_SEEDS], change[COST_SEEDS];
+    const uint32_t frames = c->n > 32 ? 200 : 400;
+    for (uint64_t s = 0; s < COST_SEEDS; ++s) {
+        mote_sample samples[2];
+        const mote_tour tour = {.first = 951, .last = 950 + frames, .seed = s + 1};
+        for (int with = 0; with < 2; ++with) {
+            char method[128];
+            (void)snprintf(method, sizeof method, "particle-paper:n=%u%s,far_cache=%g", c->n,
+                           c->options, with ? c->part : 0.0);
+            mote_status status = mote_study_sample(subject, method, tour, 1, &samples[with]);
+            if (status != MOTE_OK)
+                return status;
+        }
+        ratio[s] = samples[0].of[MOTE_MEASURED_SUM_US] / samples[1].of[MOTE_MEASURED_SUM_US];
+        change[s] =
+            samples[1].of[MOTE_MEASURED_ERROR_P95] - samples[0].of[MOTE_MEASURED_ERROR_P95];
+    }
+    gain->ratio = mote_estimate_make(ratio, COST_SEEDS);
+    gain->change = mote_estimate_make(change, COST_SEEDS);
+    return MOTE_OK;
+}
+
+/* Noticeable: a tenth faster, for an error that grows by no more than 0.01 L. The paper's
+   numbers of particles decide whether the claim holds, large ones whether it does within
+   limits. */
+static mote_status add_cache(const mote_subject *subject, const cache_case *c,
+                             mote_claim *claim)
+{
+    cache_gain gain;
+    mote_status status = measure_cache(subject, c, &gain);
+    if (status != MOTE_OK)
+        return status;
+    const char *moves = c->options[0] ? "surface" : "vertex";
+    status =
+        mote_claim_add(claim, gain.ratio.value, gain.ratio.interval, "x",
+                       "n = %u, %s moves, far_cache = %g: times faster", c->n, moves, c->part);
+    if (status == MOTE_OK && c->n <= 16)
+        mote_claim_require(claim, MOTE_AT_LEAST, 1.1, MOTE_NONE);
+    if (status == MOTE_OK && c->n >= 128 && c->part >= 0.5)
+        mote_claim_require(claim, MOTE_AT_LEAST, MOTE_NONE, 1.1);
+    if (status == MOTE_OK)
+        status = mote_claim_add(claim, gain.change.value, gain.change.interval, "L",
+                                "  change of the error's 95th percentile");
+    if (status == MOTE_OK && c->n <= 16)
+        mote_claim_require(claim, MOTE_AT_MOST, 0.01, MOTE_NONE);
+    if (status == MOTE_OK && c->n >= 128 && c->part >= 0.5)
+        mote_claim_require(claim, MOTE_AT_MOST, MOTE_NONE, 0.01);
+    return status;
+}
+
+/* Blocks "n ratio low high" for the curve, one a kind of moves and part. */
+static mote_status draw_cache(const mote_study *study, const mote_subject *subject)
+{
+    static const uint32_t numbers[] = {8, 16, 32, 64, 128, 256};
+    static const cache_case kinds[] = {
+        {"", 0, 0.5}, {"", 0, 1}, {",move=surface", 0, 0.5}, {",move=surface", 0, 1}};
+    mote_text curve = {0};
+    mote_status status = MOTE_OK;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
+        char title[64];
+        const bool surface = kinds[k].options[0] != '\0';
+        (void)snprintf(title, sizeof title, "%s moves, far_cache = %g",
+                       surface ? "surface" : "vertex", kinds[k].part);
+        begin_block(&curve, title);
+        const size_t count = (study->quick ? 3u : 6u) - (surface ? 1u : 0u);
+        for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+            const cache_case c = {kinds[k].options, numbers[i], kinds[k].part};
+            cache_gain gain;
+            status = measure_cache(subject, &c, &gain);
+            if (status == MOTE_OK)
+                mote_text_add(&curve, "%u\t%g\t%g\t%g\t%g\n", c.n, gain.ratio.value,
+                              gain.ratio.interval.low, gain.ratio.interval.high,
+                              gain.change.value);
+        }
+    }
+    if (status == MOTE_OK)
+        status = mote_study_plot(study, "claim_h", &curve);
+    free(curve.data);
+    return status;
+}
+
+mote_status mote_claim_distant_cache(mote_study *study, mote_claim *claim)
+{
+    claim->id = "h";
+    claim->section = "3.5";
+    claim->claim = "caching the influence of distant particles improves performance noticeably";
+    claim->measured =
+        "time of all queries without / with the cache, same frames and starts, W-W, "
+        "active interval; the error's change beside it";
+    claim->curve = "figures/claim_h.dat";
+    static const cache_case cases[] = {
+        {"", 16, 0.5},
+        {",move=surface", 16, 0.5},
+        {"", 128, 0.5},
+        {",move=surface", 128, 0.5},
+    };
+    const mote_subject *subject;
+    mote_status status = mote_study_scene(study, "ww", &subject);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0] && status == MOTE_OK; ++i)
+        status = add_cache(subject, &cases[i], claim);
+    return status == MOTE_OK ? draw_cache(study, subject) : status;
+}

@@ -1,0 +1,96 @@
+/* What the experiments on claims share: scenes with their truth, variants of a scene, and a
+   method's answers over a scene for several seeds, measured in this process. */
+#ifndef MOTE_HARNESS_STUDY_H
+#define MOTE_HARNESS_STUDY_H
+
+#include "harness/cell.h"
+#include "harness/claim.h"
+#include "harness/file.h"
+#include "harness/measure.h"
+
+/* At most this many seeds and scenes. */
+#define MOTE_STUDY_SEEDS 16
+#define MOTE_STUDY_SCENES 40
+
+typedef struct mote_study {
+    const char *directory; /* where everything is written; the run is in directory/claims-run */
+    char *run;             /* directory/claims-run */
+    bool quick;            /* fewer seeds, frames and sizes */
+    size_t seeds;          /* of the particles' first places, 2 .. MOTE_STUDY_SEEDS */
+    mote_subject scenes[MOTE_STUDY_SCENES]; /* loaded so far */
+    size_t scene_count;
+} mote_study;
+
+/* Makes the directories. directory is borrowed. Close also after a failure. */
+mote_status mote_study_open(const char *directory, bool quick, mote_study *study);
+void mote_study_close(mote_study *study);
+
+/* A built-in scenario with its truth, which is kept in the run's directory. Loaded once; owned
+   by the study. */
+mote_status mote_study_scene(mote_study *study, const char *name, const mote_subject **subject);
+
+/* A variant of a built-in scenario, both bodies being `letter` ('\0': the letters stay) of that
+   many triangles (0: the numbers stay): written to DIRECTORY/claims-run/scenarios/NAME.json.
+   with_truth: its truth is computed, too. */
+typedef struct mote_variant {
+    const char *base, *name;
+    char letter;
+    size_t triangles;
+    bool with_truth;
+} mote_variant;
+mote_status mote_study_variant(mote_study *study, const mote_variant *variant,
+                               const mote_subject **subject);
+
+/* Which frames, and from which seed. */
+typedef struct mote_tour {
+    uint32_t first, last; /* 0, 0: all */
+    uint32_t stride;      /* every stride-th frame; 0: each */
+    uint64_t seed;
+} mote_tour;
+
+/* A method ("particle-paper:n=5") over frames of a scene. Free with mote_cell_result_free. */
+mote_status mote_study_measure(const mote_subject *subject, const char *method, mote_tour tour,
+                               mote_cell_result *result);
+
+/* What one seed gave. Errors in L, rates as shares. */
+typedef enum mote_measured {
+    MOTE_MEASURED_EXACT,        /* share of frames with absolute error <= MOTE_EXACT_ERROR */
+    MOTE_MEASURED_TRACKED,      /* share of frames with absolute error <= MOTE_TRACKED_ERROR */
+    MOTE_MEASURED_ERROR_MEDIAN, /* of the absolute error */
+    MOTE_MEASURED_ERROR_P95,
+    MOTE_MEASURED_ERROR_P99,
+    MOTE_MEASURED_CONTACTS,    /* frames that are contacts */
+    MOTE_MEASURED_MISSED,      /* share of the contacts that the method did not see */
+    MOTE_MEASURED_FALSE,       /* share of the other frames that it called contacts */
+    MOTE_MEASURED_QUERY_US,    /* median time of a query, microseconds */
+    MOTE_MEASURED_SUM_US,      /* the sum over all queries */
+    MOTE_MEASURED_ALLOCATIONS, /* from frame 50 on */
+    MOTE_MEASURED_COUNT
+} mote_measured;
+
+#define MOTE_TRACKED_ERROR 0.01
+
+typedef struct mote_sample {
+    double of[MOTE_MEASURED_COUNT];
+} mote_sample;
+
+/* One sample a seed, seeds tour.seed, tour.seed + 1, ...: samples[count]. The scene has its
+   truth. */
+mote_status mote_study_sample(const mote_subject *subject, const char *method, mote_tour tour,
+                              size_t count, mote_sample *samples);
+
+/* A mean with Student's t interval. */
+typedef struct mote_estimate {
+    double value;
+    mote_confidence interval;
+} mote_estimate;
+mote_estimate mote_estimate_make(const double *values, size_t count);
+
+/* The mean of one measure over samples. A share's interval is cut to 0 .. 1. */
+mote_estimate mote_sample_estimate(const mote_sample *samples, size_t count,
+                                   mote_measured which);
+
+/* Writes DIRECTORY/figures/NAME.dat, text taken over, and draws it by plots/NAME.gp. */
+mote_status mote_study_plot(const mote_study *study, const char *name, mote_text *text);
+
+#endif
