@@ -142,6 +142,8 @@ void mote_claim_print(const mote_claim *claim)
                  claim->measured);
     for (size_t i = 0; i < claim->count; ++i)
         print_value(&claim->values[i]);
+    if (claim->curve)
+        (void)printf("     curve: %s, drawn beside it\n", claim->curve);
 }
 
 void mote_claim_free(mote_claim *claim)

@@ -94,7 +94,7 @@ static mote_status deformed_parts(clay *c, double amplitude, uint64_t seed, doub
 
 #define LETTERS 4
 #define PART_SEEDS 3
-#define AMPLITUDES 4
+#define AMPLITUDES 5
 
 /* Growth of the number of parts: parts deformed / parts at rest, [amplitude][letter, seed]. */
 static mote_status measure_letter(char letter, size_t amplitudes, const double *amplitude,
@@ -128,7 +128,7 @@ mote_status mote_claim_deformed_parts(mote_study *study, mote_claim *claim)
         "displaced in a random direction, support 0.5 L";
     claim->curve = "figures/claim_m.dat";
     static const char letters[] = "TVMW";
-    static const double amplitude[AMPLITUDES] = {0.5, 0.2, 0.1, 0.05};
+    static const double amplitude[AMPLITUDES] = {0.5, 0.2, 0.1, 0.05, 0.001};
     double growth[AMPLITUDES][LETTERS * PART_SEEDS];
     const size_t first = study->quick ? 2 : 0;
     mote_text curve = {0};
@@ -142,7 +142,8 @@ mote_status mote_claim_deformed_parts(mote_study *study, mote_claim *claim)
         status = mote_claim_add(claim, e.value, e.interval, "",
                                 "growth at %g L, four letters, three deformations each",
                                 amplitude[a]);
-        if (status == MOTE_OK)
+        /* The least deformation shows how much the decomposition itself wavers. */
+        if (status == MOTE_OK && a + 1 < AMPLITUDES)
             mote_claim_require(claim, MOTE_AT_MOST, 1.25, 2);
         mote_text_add(&curve, "%g\t%g\t%g\t%g\n", amplitude[a], e.value, e.interval.low,
                       e.interval.high);

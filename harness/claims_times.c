@@ -42,7 +42,7 @@ static mote_status run_leg(const mote_study *study, const leg *l)
     const mote_run_options options = {.scenarios = &l->scenario,
                                       .scenario_count = 1,
                                       .choices = &choices,
-                                      .plan = {.replicates = study->quick ? 2 : 4,
+                                      .plan = {.replicates = study->quick ? 3 : 6,
                                                .first = l->first,
                                                .last = l->last,
                                                .shard = 1,
@@ -63,15 +63,20 @@ static mote_status run_leg(const mote_study *study, const leg *l)
     return status;
 }
 
-/* Measures what is not there yet, then reads it all. */
-static mote_status measure(const mote_study *study, mote_summary *summary)
+/* Measures what is not there yet, then reads it all, once. */
+static mote_status measure(mote_study *study, const mote_summary **summary)
 {
+    *summary = &study->summary;
+    if (study->summarised)
+        return MOTE_OK;
     for (size_t i = 0; i < sizeof legs / sizeof legs[0]; ++i) {
         mote_status status = run_leg(study, &legs[i]);
         if (status != MOTE_OK)
             return status;
     }
-    return mote_summary_make(study->run, summary);
+    mote_status status = mote_summary_make(study->run, &study->summary);
+    study->summarised = status == MOTE_OK;
+    return status;
 }
 
 /* The row of a method, or MOTE_ENUMERIC. */
@@ -102,16 +107,6 @@ static double active_mean(const mote_stored_cell *cell)
         count += in ? 1 : 0;
     }
     return sum / count * 1e-6;
-}
-
-static double active_maximum(const mote_stored_cell *cell)
-{
-    double most = 0;
-    for (size_t k = 0; k < cell->frames; ++k) {
-        if (cell->frame[k] >= cell->active_first && cell->frame[k] <= cell->active_last)
-            most = fmax(most, cell->total_ns[k]);
-    }
-    return most * 1e-6;
 }
 
 static double update_share(const mote_stored_cell *cell)
@@ -159,34 +154,60 @@ static size_t values_of(const mote_summary_row *row, cell_value value, double *v
 
 static mote_estimate estimate_of(const mote_summary_row *row, cell_value value)
 {
-    double values[MOTE_STUDY_SEEDS];
-    return mote_estimate_make(values, values_of(row, value, values));
+    double values[MOTE_STUDY_SEEDS] = {0};
+    return mote_estimate_ratio(values, values_of(row, value, values));
 }
 
 /* Mean over replicates of over's value / under's value. */
 static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_row *under,
                               cell_value value)
 {
-    double a[MOTE_STUDY_SEEDS], b[MOTE_STUDY_SEEDS];
+    double a[MOTE_STUDY_SEEDS] = {0}, b[MOTE_STUDY_SEEDS] = {0};
     const size_t first = values_of(over, value, a), second = values_of(under, value, b);
     const size_t count = first < second ? first : second;
     for (size_t r = 0; r < count; ++r)
         a[r] /= b[r];
-    return mote_estimate_make(a, count);
+    return mote_estimate_ratio(a, count);
 }
 
 /* A machine of today runs one thread about this many times faster than the paper's Pentium 4 of
    2.53 GHz; a ratio below it would be the machine's, not the method's. */
 #define MACHINE 20
 
+/* The slowest frame of the active interval: the largest over frames of the median over
+   replicates, which no other program's turn on the processor enters; its replicates' interval.
+ */
+static mote_estimate slowest_frame(const mote_summary_row *row)
+{
+    mote_estimate slowest = {0, {MOTE_NONE, MOTE_NONE}};
+    for (size_t k = 0; k < row->first->frames; ++k) {
+        double times[MOTE_STUDY_SEEDS] = {0};
+        size_t count = 0;
+        const uint32_t frame = row->first->frame[k];
+        if (frame < row->first->active_first || frame > row->first->active_last)
+            continue;
+        for (size_t r = 0; r < row->replicates && count < MOTE_STUDY_SEEDS; ++r) {
+            if (row->cells[r].status == MOTE_CELL_OK)
+                times[count++] = row->cells[r].total_ns[k] * 1e-6;
+        }
+        mote_statistics_sort(times, count);
+        const double median = mote_statistics_quantile(times, count, 0.5);
+        if (median > slowest.value) {
+            slowest.value = median;
+            slowest.interval = mote_statistics_sign_interval(times, count);
+        }
+    }
+    return slowest;
+}
+
 static mote_status add_time(const mote_summary_row *row, const char *scene, bool maximum,
                             double paper_ms, mote_claim *claim)
 {
-    const mote_estimate e = estimate_of(row, maximum ? active_maximum : active_mean);
+    const mote_estimate e = maximum ? slowest_frame(row) : estimate_of(row, active_mean);
     const char *what = maximum ? "maximum" : "average";
     mote_status status = mote_claim_add(claim, e.value, e.interval, "ms",
-                                        "%s, active interval, %s (paper: %g ms, %.0f times)",
-                                        scene, what, paper_ms, paper_ms / e.value);
+                                        "%s, %s (paper: %g ms, %.0f times as long)", scene,
+                                        what, paper_ms, paper_ms / e.value);
     if (status == MOTE_OK)
         mote_claim_require(claim, MOTE_AT_MOST, paper_ms / MACHINE, paper_ms);
     return status;
@@ -202,14 +223,14 @@ mote_status mote_claim_times(mote_study *study, mote_claim *claim)
     claim->measured =
         "time of a query, all deformation included, processes of their own; holds: "
         "a twentieth of the paper's time or less, about what the machine is worth";
-    mote_summary summary;
+    const mote_summary *summary;
     mote_status status = measure(study, &summary);
     if (status != MOTE_OK)
         return status;
     const mote_summary_row *w, *t;
-    status = find_row(&summary, "ww", MOTE_CACHE_HOT, "particle-paper:n=5", &w);
+    status = find_row(summary, "ww", MOTE_CACHE_HOT, "particle-paper:n=5", &w);
     if (status == MOTE_OK)
-        status = find_row(&summary, "tt", MOTE_CACHE_HOT, "particle-paper:n=3", &t);
+        status = find_row(summary, "tt", MOTE_CACHE_HOT, "particle-paper:n=3", &t);
     if (status == MOTE_OK)
         status = add_time(w, "W-W, n = 5", false, 12.67, claim);
     if (status == MOTE_OK)
@@ -218,7 +239,6 @@ mote_status mote_claim_times(mote_study *study, mote_claim *claim)
         status = add_time(t, "T-T, n = 3", false, 1, claim);
     if (status == MOTE_OK)
         status = add_time(t, "T-T, n = 3", true, 11, claim);
-    mote_summary_free(&summary);
     return status;
 }
 
@@ -230,14 +250,14 @@ mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
     claim->measured = "live heap after the run, W-W of 11,920 triangles each, mesh, field and "
                       "tables of deformation left out";
     static const char *const trees[] = {"fcl-aabb", "fcl-obbrss"};
-    mote_summary summary;
+    const mote_summary *summary;
     mote_status status = measure(study, &summary);
     if (status != MOTE_OK)
         return status;
     const mote_summary_row *particles = NULL, *tree;
-    status = find_row(&summary, "ww", MOTE_CACHE_HOT, "particle-paper:n=5", &particles);
+    status = find_row(summary, "ww", MOTE_CACHE_HOT, "particle-paper:n=5", &particles);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
-        status = find_row(&summary, "ww", MOTE_CACHE_HOT, trees[i], &tree);
+        status = find_row(summary, "ww", MOTE_CACHE_HOT, trees[i], &tree);
         if (status != MOTE_OK)
             break;
         const mote_estimate ratio = ratio_of(tree, particles, own_bytes);
@@ -253,7 +273,6 @@ mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
         const mote_estimate bytes = estimate_of(particles, own_bytes);
         status = mote_claim_add(claim, bytes.value, bytes.interval, "B", "particles, n = 5");
     }
-    mote_summary_free(&summary);
     return status;
 }
 
@@ -285,17 +304,17 @@ mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
         "T-T with and without refit";
     static const char *const deforming[] = {"fcl-aabb", "fcl-aabb:queue=64,seed=previous",
                                             "fcl-obbrss"};
-    mote_summary summary;
+    const mote_summary *summary;
     mote_status status = measure(study, &summary);
     if (status != MOTE_OK)
         return status;
     const mote_summary_row *with, *without;
     for (size_t i = 0; i < 3 && status == MOTE_OK; ++i)
-        status = add_update(&summary, deforming[i], claim);
+        status = add_update(summary, deforming[i], claim);
     if (status == MOTE_OK)
-        status = find_row(&summary, "tt", MOTE_CACHE_HOT, "fcl-obbrss", &with);
+        status = find_row(summary, "tt", MOTE_CACHE_HOT, "fcl-obbrss", &with);
     if (status == MOTE_OK)
-        status = find_row(&summary, "tt", MOTE_CACHE_HOT, "fcl-obbrss:update=none", &without);
+        status = find_row(summary, "tt", MOTE_CACHE_HOT, "fcl-obbrss:update=none", &without);
     if (status == MOTE_OK) {
         const mote_estimate ratio = ratio_of(with, without, mean_total);
         status = mote_claim_add(claim, ratio.value, ratio.interval, "x",
@@ -303,12 +322,27 @@ mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
     }
     if (status == MOTE_OK)
         mote_claim_require(claim, MOTE_AT_LEAST, 2, 1.1);
-    mote_summary_free(&summary);
     return status;
 }
 
-/* Times that the particles are faster than a setting of FCL: per frame (paired median) and by
-   the sums. */
+/* The paired median over common frames of theirs / ours; MOTE_NONE without any. */
+static double paired_ratio(const mote_stored_cell *theirs, const mote_stored_cell *ours)
+{
+    double *ratios = malloc((theirs->frames + 1) * sizeof *ratios);
+    size_t count = 0;
+    for (size_t i = 0, k = 0; ratios && i < theirs->frames; ++i) {
+        while (k < ours->frames && ours->frame[k] < theirs->frame[i])
+            ++k;
+        if (k < ours->frames && ours->frame[k] == theirs->frame[i])
+            ratios[count++] = theirs->total_ns[i] / fmax(ours->total_ns[k], 1);
+    }
+    const double median = count > 0 ? mote_statistics_median(ratios, count) : MOTE_NONE;
+    free(ratios);
+    return median;
+}
+
+/* How many times longer a setting of FCL takes than the particles: frame by frame, and by the
+   sums over all frames. */
 static mote_status add_ratio(const mote_summary *summary, mote_cache cache, const char *label,
                              double least, mote_claim *claim)
 {
@@ -318,17 +352,23 @@ static mote_status add_ratio(const mote_summary *summary, mote_cache cache, cons
         status = find_row(summary, "ww", cache, label, &theirs);
     if (status != MOTE_OK)
         return status;
+    double paired[MOTE_STUDY_SEEDS] = {0};
+    size_t count = 0;
+    for (size_t r = 0; r < ours->replicates && r < theirs->replicates; ++r) {
+        if (ours->cells[r].status == MOTE_CELL_OK && theirs->cells[r].status == MOTE_CELL_OK &&
+            count < MOTE_STUDY_SEEDS)
+            paired[count++] = paired_ratio(&theirs->cells[r], &ours->cells[r]);
+    }
+    const mote_estimate frames = mote_estimate_ratio(paired, count);
     const mote_estimate sum = ratio_of(theirs, ours, mean_total);
-    status = mote_claim_add(claim, sum.value, sum.interval, "x",
-                            "%s / particles, caches %s, sum", label, mote_cache_names[cache]);
+    const char *caches = mote_cache_names[cache];
+    status = mote_claim_add(claim, frames.value, frames.interval, "x",
+                            "%s, caches %s, frame by frame", label, caches);
     if (status == MOTE_OK && least == least)
         mote_claim_require(claim, MOTE_AT_LEAST, least, least);
-    if (status == MOTE_OK) {
-        const mote_confidence none = {MOTE_NONE, MOTE_NONE};
-        status = mote_claim_add(claim, theirs->total.median / ours->total.median, none, "x",
-                                "%s / particles, caches %s, medians", label,
-                                mote_cache_names[cache]);
-    }
+    if (status == MOTE_OK)
+        status = mote_claim_add(claim, sum.value, sum.interval, "x",
+                                "%s, caches %s, sum of all frames", label, caches);
     return status;
 }
 
@@ -339,8 +379,9 @@ mote_status mote_claim_faster_than_fcl(mote_study *study, mote_claim *claim)
     claim->claim =
         "n = 5 on W-W is at least 200 times below FCL AABB, and 150 below it with queue "
         "and seed";
-    claim->measured = "totals of all frames, one run, caches hot; evicted beside it";
-    mote_summary summary;
+    claim->measured =
+        "FCL's time / particles', deformation and refit included, all frames, one run";
+    const mote_summary *summary;
     mote_status status = measure(study, &summary);
     if (status != MOTE_OK)
         return status;
@@ -349,9 +390,8 @@ mote_status mote_claim_faster_than_fcl(mote_study *study, mote_claim *claim)
         double least;
     } cases[] = {{"fcl-aabb", 200}, {"fcl-aabb:queue=64,seed=previous", 150}};
     for (int c = 0; c < 2 && status == MOTE_OK; ++c)
-        status = add_ratio(&summary, MOTE_CACHE_HOT, cases[c].label, cases[c].least, claim);
+        status = add_ratio(summary, MOTE_CACHE_HOT, cases[c].label, cases[c].least, claim);
     for (int c = 0; c < 2 && status == MOTE_OK; ++c)
-        status = add_ratio(&summary, MOTE_CACHE_EVICT, cases[c].label, MOTE_NONE, claim);
-    mote_summary_free(&summary);
+        status = add_ratio(summary, MOTE_CACHE_EVICT, cases[c].label, MOTE_NONE, claim);
     return status;
 }

@@ -157,8 +157,6 @@ mote_status mote_figures_plot(const char *directory, const char *name, const cha
         const char *const argv[] = {"gnuplot", "-c", script, MOTE_SOURCE_DIR "/plots",
                                     base,      NULL};
         status = mote_spawn(argv, NULL, NULL, 0);
-        if (status == MOTE_OK)
-            (void)printf("%s.svg\n%s.png\n", base, base);
     } else {
         status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
     }
@@ -181,6 +179,9 @@ static mote_status draw(const figure *f, const mote_summary *summary, const char
         status = mote_record_text(directory, file, &text);
         if (status == MOTE_OK)
             status = mote_figures_plot(directory, name, f->name);
+        if (status == MOTE_OK)
+            (void)printf("%s/figures/%s.svg\n%s/figures/%s.png\n", directory, name, directory,
+                         name);
     }
     free(text.data);
     free(file);

@@ -8,8 +8,8 @@
    prints the names of the files to stdout. MOTE_EIO when gnuplot is missing or refuses. */
 mote_status mote_figures_draw(const mote_summary *summary, const char *directory);
 
-/* Draws directory/figures/NAME.dat by plots/SCRIPT.gp as SVG and PNG beside it; prints their
-   names to stdout. MOTE_EIO as above. */
+/* Draws directory/figures/NAME.dat by plots/SCRIPT.gp as SVG and PNG beside it. MOTE_EIO as
+   above. */
 mote_status mote_figures_plot(const char *directory, const char *name, const char *script);
 
 #endif

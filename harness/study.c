@@ -4,7 +4,6 @@
 #include "harness/figures.h"
 #include "harness/measure.h"
 #include "harness/record.h"
-#include "harness/summary.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,6 +40,9 @@ void mote_study_close(mote_study *study)
         mote_truth_destroy(study->scenes[i].truth);
         mote_scenario_destroy(study->scenes[i].scenario);
     }
+    if (study->summarised)
+        mote_summary_free(&study->summary);
+    study->summarised = false;
     study->scene_count = 0;
     free(study->run);
     study->run = NULL;
@@ -214,6 +216,18 @@ mote_estimate mote_estimate_make(const double *values, size_t count)
 {
     const mote_estimate made = {mote_statistics_mean(values, count),
                                 mote_statistics_t_interval(values, count)};
+    return made;
+}
+
+mote_estimate mote_estimate_ratio(const double *values, size_t count)
+{
+    double logs[MOTE_STUDY_SEEDS];
+    for (size_t i = 0; i < count; ++i)
+        logs[i] = log(values[i]);
+    mote_estimate made = mote_estimate_make(logs, count);
+    made.value = exp(made.value);
+    made.interval.low = exp(made.interval.low);
+    made.interval.high = exp(made.interval.high);
     return made;
 }
 

@@ -7,6 +7,7 @@
 #include "harness/claim.h"
 #include "harness/file.h"
 #include "harness/measure.h"
+#include "harness/summary.h"
 
 /* At most this many seeds and scenes. */
 #define MOTE_STUDY_SEEDS 16
@@ -19,6 +20,8 @@ typedef struct mote_study {
     size_t seeds;          /* of the particles' first places, 2 .. MOTE_STUDY_SEEDS */
     mote_subject scenes[MOTE_STUDY_SCENES]; /* loaded so far */
     size_t scene_count;
+    mote_summary summary; /* of the run against hierarchies, once it was measured */
+    bool summarised;
 } mote_study;
 
 /* Makes the directories. directory is borrowed. Close also after a failure. */
@@ -85,6 +88,10 @@ typedef struct mote_estimate {
     mote_confidence interval;
 } mote_estimate;
 mote_estimate mote_estimate_make(const double *values, size_t count);
+
+/* The same for positive values whose ratios matter: geometric mean, interval of the logarithms.
+ */
+mote_estimate mote_estimate_ratio(const double *values, size_t count);
 
 /* The mean of one measure over samples. A share's interval is cut to 0 .. 1. */
 mote_estimate mote_sample_estimate(const mote_sample *samples, size_t count,

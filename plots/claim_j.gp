@@ -21,7 +21,7 @@ array dashes[3] = [1, 2, 3]
 do for [format in "svg png"] {
     eval "set terminal ".value(format."_terminal")
     set output ARG2.".".format
-    set multiplot layout 1,2 margins 0.09,0.98,0.30,0.97 spacing 0.1
+    set multiplot layout 1,2 margins 0.09,0.98,0.34,0.97 spacing 0.1
     set logscale y
     set format y "10^{%L}"
     set ylabel "error, 95th percentile, L"
@@ -31,7 +31,7 @@ do for [format in "svg png"] {
              pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
     set ylabel "share of contacts missed"
     set yrange [floor_share/2:2]
-    set key at screen 0.5,0.17 center horizontal maxcols 3
+    set key at screen 0.5,0.12 center center vertical maxrows 3 samplen 2 width -2 font ',15'
     plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:($6 > floor_share ? $6 : floor_share) \
              with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] \
              title kinds[k+1].", ".laws[l+1]
