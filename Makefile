@@ -10,6 +10,7 @@
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
+#   make claims [OUT=DIR]                             measure the claims of the paper
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -22,7 +23,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -63,6 +64,10 @@ test-statistics: build
 perf-accept: build
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }
 	@harness/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
+
+# Into results/claims unless OUT is given on the command line.
+claims: build
+	@$(MOTE) claims --out $(if $(filter file,$(origin OUT)),results/claims,$(OUT))
 
 figures: build
 	@$(MOTE) figures $(OUT)

@@ -16,8 +16,8 @@ static mote_status sample(const mote_subject *subject, const char *method, size_
 static mote_status add_block(const mote_study *study, const mote_subject *subject,
                              const char *family, uint32_t most, mote_text *curve)
 {
-    static const uint32_t numbers[] = {1, 2, 3, 5, 8, 16, 32, 64};
-    const size_t seeds = study->seeds < 4 ? study->seeds : 4;
+    static const uint32_t numbers[] = {1, 2, 3, 5, 8, 16, 32};
+    const size_t seeds = 3;
     mote_text_add(curve, "%s\"%s\"\n", curve->size ? "\n\n" : "", family);
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == MOTE_OK; ++i) {
@@ -53,7 +53,7 @@ static mote_status draw_families(const mote_study *study, const mote_subject *su
                 char family[96];
                 (void)snprintf(family, sizeof family, "law=%s,move=%s,refine=%s", laws[law],
                                moves[move], checks[check]);
-                status = add_block(study, subject, family, move ? 16 : 64, &curve);
+                status = add_block(study, subject, family, move ? 16 : 32, &curve);
             }
         }
     }

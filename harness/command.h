@@ -43,7 +43,7 @@ typedef enum mote_exit {
     X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
       "draws the accepted references, or adds one")                                            \
-    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")\
+    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")           \
     X(claims, "claims [--out DIR] [--quick]",                                                  \
       "measures every claim of the paper, writes DIR/claims.json")
 

@@ -6,6 +6,7 @@
 #include "core/deform.h"
 #include "core/lazy.h"
 #include "core/particles.h"
+#include "core/refine.h"
 
 #include "tests/bodies.h"
 
@@ -153,12 +154,47 @@ static void particles_of_fixed_bodies_have_the_committed_hash(void **unused)
     expect_hash(particles_hash(&options), 0x5f62ad1cca5c4d3fu);
 }
 
+/* The exact check from many pairs of vertices of two deforming spheres that meet. */
+static void refined_pairs_of_fixed_bodies_have_the_committed_hash(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 4;
+    uint64_t hash = hash_start;
+    test_body b[2];
+    mote_lazy lazy[2];
+    for (int k = 0; k < 2; ++k) {
+        test_body_init(&b[k], solid_to_mesh(solid_icosphere(3 - k)), 14, &seed);
+        assert_int_equal(mote_lazy_init(&lazy[k], &b[k].body, 100), MOTE_OK);
+    }
+    for (uint32_t number = 0; number < 40; ++number) {
+        mote_body_state state[2];
+        for (int k = 0; k < 2; ++k)
+            state[k] = test_body_state(&b[k], 0.2, &seed);
+        state[1].pose.translation.x += 2.5 - 0.05 * number;
+        for (int k = 0; k < 2; ++k)
+            mote_lazy_begin(&lazy[k], &state[k], false);
+        mote_lazy *const both[2] = {&lazy[0], &lazy[1]};
+        const uint32_t vertices[2] = {number * 13, number * 3};
+        mote_refined refined;
+        mote_refine_vertices(both, vertices, 0, &refined);
+        hash_double(&hash, refined.squared);
+        hash_vec3(&hash, refined.witness[0]);
+        hash_vec3(&hash, refined.witness[1]);
+    }
+    for (int k = 0; k < 2; ++k) {
+        mote_lazy_free(&lazy[k]);
+        test_body_free(&b[k]);
+    }
+    expect_hash(hash, 0u);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(deform_of_fixed_bodies_has_the_committed_hash),
         cmocka_unit_test(single_positions_of_fixed_bodies_have_the_committed_hash),
         cmocka_unit_test(particles_of_fixed_bodies_have_the_committed_hash),
+        cmocka_unit_test(refined_pairs_of_fixed_bodies_have_the_committed_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,164 @@
+/* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
+#include "harness/claims.h"
+
+#include "harness/spawn.h"
+
+#include "tests/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+static mote_confidence interval(double low, double high)
+{
+    const mote_confidence made = {low, high};
+    return made;
+}
+
+static void add(mote_claim *claim, double value, mote_confidence range, mote_bound bound,
+                double holds, double limits)
+{
+    assert_int_equal(mote_claim_add(claim, value, range, "L", "figure %d", 1), MOTE_OK);
+    mote_claim_require(claim, bound, holds, limits);
+}
+
+static void judge_by_the_worse_end_of_the_interval(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    add(&claim, 0.08, interval(0.07, 0.09), MOTE_AT_MOST, 0.1, 0.2);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
+    claim.values[0].interval.high = 0.11;
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
+    claim.values[0].interval.high = 0.21;
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_require(&claim, MOTE_AT_LEAST, 0.07, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
+    mote_claim_require(&claim, MOTE_AT_LEAST, 0.075, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void judge_needs_every_threshold_of_a_level(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
+    add(&claim, 1, none, MOTE_AT_MOST, 2, 2);
+    add(&claim, 3, none, MOTE_AT_MOST, 2, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
+    add(&claim, 3, none, MOTE_AT_MOST, MOTE_NONE, 2);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void judge_without_a_figure_or_a_threshold_does_not_hold(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    add(&claim, 1, none, MOTE_BOUND_NONE, MOTE_NONE, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    add(&claim, MOTE_NONE, none, MOTE_AT_LEAST, 0, 0);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void json_holds_the_headline_and_every_figure(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {
+        .id = "x", .section = "3", .claim = "c", .measured = "m", .curve = NULL};
+    add(&claim, 0.5, interval(0.25, 0.75), MOTE_AT_MOST, 1, MOTE_NONE);
+    add(&claim, 7, interval(MOTE_NONE, MOTE_NONE), MOTE_BOUND_NONE, MOTE_NONE, MOTE_NONE);
+    json_t *json = mote_claim_json(&claim);
+    assert_non_null(json);
+    assert_string_equal(json_string_value(json_object_get(json, "verdict")), "holds");
+    assert_true(json_real_value(json_object_get(json, "value")) == 0.5);
+    assert_true(json_real_value(json_array_get(json_object_get(json, "interval"), 1)) == 0.75);
+    assert_int_equal(json_array_size(json_object_get(json, "values")), 2);
+    const json_t *threshold = json_object_get(json, "threshold");
+    assert_true(json_real_value(json_object_get(threshold, "holds")) == 1);
+    assert_true(json_is_null(json_object_get(threshold, "limits")));
+    json_decref(json);
+    mote_claim_free(&claim);
+}
+
+/* Values from published tables of Clopper and Pearson's intervals. */
+static void share_interval_matches_tables(void **unused)
+{
+    (void)unused;
+    const mote_confidence none = mote_statistics_share_interval(0, 10);
+    const mote_confidence half = mote_statistics_share_interval(5, 10);
+    const mote_confidence all = mote_statistics_share_interval(10, 10);
+    assert_true(none.low == 0 && fabs(none.high - 0.3085) < 1e-4);
+    assert_true(fabs(half.low - 0.1871) < 1e-4 && fabs(half.high - 0.8129) < 1e-4);
+    assert_true(fabs(all.low - 0.6915) < 1e-4 && all.high == 1);
+    const mote_confidence nothing = mote_statistics_share_interval(0, 0);
+    assert_true(nothing.low != nothing.low);
+}
+
+static void estimate_of_ratios_is_their_geometric_mean(void **unused)
+{
+    (void)unused;
+    const double values[] = {1, 4, 16};
+    const mote_estimate e = mote_estimate_ratio(values, 3);
+    assert_true(fabs(e.value - 4) < 1e-12);
+    assert_true(fabs(e.interval.low * e.interval.high - 16) < 1e-9 && e.interval.low > 0);
+}
+
+/* A small variant of a scene, and queries that allocate nothing once they are warm. */
+static void queries_from_frame_50_on_allocate_nothing(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-claims-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    mote_study study;
+    assert_int_equal(mote_study_open(folder, true, &study), MOTE_OK);
+    const mote_variant variant = {"ww", "small", 'V', 2000, false};
+    const mote_subject *subject = NULL;
+    if (mote_study_variant(&study, &variant, &subject) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(subject->scenario->body[0].mesh->triangle_count, 2000);
+    static const char *const methods[] = {
+        "particle-paper:n=5", "particle-paper:n=8,refine=always,move=surface",
+        "particle-paper:n=40,far_cache=0.5", "particle-paper:n=5,precision=single"};
+    for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m) {
+        mote_cell_result result;
+        const mote_tour tour = {.first = 900, .last = 1300, .seed = m + 1};
+        assert_int_equal(mote_study_measure(subject, methods[m], tour, &result), MOTE_OK);
+        assert_int_equal(result.row_count, 401);
+        for (size_t i = 50; i < result.row_count; ++i)
+            assert_int_equal(result.rows[i].allocations, 0);
+        mote_cell_result_free(&result);
+    }
+    mote_study_close(&study);
+    const char *const clean[] = {"rm", "-r", folder, NULL};
+    assert_int_equal(mote_spawn(clean, NULL, NULL, 0), MOTE_OK);
+}
+
+static void command_with_an_unknown_word_is_a_usage_error(void **unused)
+{
+    (void)unused;
+    assert_int_equal(program_wait(program_start("claims something", "/dev/null")), 2);
+    assert_int_equal(program_wait(program_start("claims --fast", "/dev/null")), 2);
+    assert_int_equal(program_wait(program_start("claims --out /dev/null/x", "/dev/null")), 4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(judge_by_the_worse_end_of_the_interval),
+        cmocka_unit_test(judge_needs_every_threshold_of_a_level),
+        cmocka_unit_test(judge_without_a_figure_or_a_threshold_does_not_hold),
+        cmocka_unit_test(json_holds_the_headline_and_every_figure),
+        cmocka_unit_test(share_interval_matches_tables),
+        cmocka_unit_test(estimate_of_ratios_is_their_geometric_mean),
+        cmocka_unit_test(queries_from_frame_50_on_allocate_nothing),
+        cmocka_unit_test(command_with_an_unknown_word_is_a_usage_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
