@@ -161,7 +161,7 @@ mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
     mote_status status = mote_study_scene(study, "ww", &subject);
     for (size_t c = 0; c < sizeof cases / sizeof cases[0] && status == MOTE_OK; ++c) {
         episodes e = {0};
-        for (uint64_t s = 0; s < (study->quick ? 16 : 48) && status == MOTE_OK; ++s) {
+        for (uint64_t s = 0; s < (study->quick ? 16 : 32) && status == MOTE_OK; ++s) {
             mote_cell_result result;
             const mote_tour tour = {.seed = s + 1};
             status = mote_study_measure(subject, cases[c].method, tour, &result);
@@ -276,6 +276,7 @@ mote_status mote_claim_convex_parts(mote_study *study, mote_claim *claim)
         {"T", "tt", "tt", '\0', 0},
         {"V", "tt", "v-v", 'V', 1764},
         {"M", "tt", "m-m", 'M', 2968},
+        {"20-tooth comb", "comb", "comb", '\0', 0},
     };
     mote_text curve = {0};
     mote_status status = MOTE_OK;

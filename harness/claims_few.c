@@ -13,8 +13,8 @@ static mote_status sample(const mote_subject *subject, const char *method, size_
 }
 
 /* A block of "n p95 low high p99 missed low high" of one family of methods. */
-static mote_status add_block(const mote_study *study, const mote_subject *subject,
-                             const char *family, uint32_t most, mote_text *curve)
+static mote_status add_block(const mote_subject *subject, const char *family, uint32_t most,
+                             mote_text *curve)
 {
     static const uint32_t numbers[] = {1, 2, 3, 5, 8, 16, 32};
     const size_t seeds = 3;
@@ -53,7 +53,7 @@ static mote_status draw_families(const mote_study *study, const mote_subject *su
                 char family[96];
                 (void)snprintf(family, sizeof family, "law=%s,move=%s,refine=%s", laws[law],
                                moves[move], checks[check]);
-                status = add_block(study, subject, family, move ? 16 : 32, &curve);
+                status = add_block(subject, family, move ? 16 : 32, &curve);
             }
         }
     }

@@ -6,7 +6,7 @@ stats data using 2 nooutput
 blocks = STATS_blocks
 
 set logscale x 2
-set xrange [0.09:40]
+set xrange [0.02:40]
 set yrange [0:1.02]
 set xlabel "particles over convex parts, n / parts"
 set ylabel "share of frames with error {/Symbol \243} 0.01 L"

@@ -6,11 +6,11 @@ stats data using 2 nooutput
 blocks = STATS_blocks
 
 set logscale x 2
-set xrange [6:300]
+set xrange [6:170]
 set xlabel "particles n"
 set ylabel "time without the cache / time with it"
 set yrange [0:*]
-set arrow 1 from 6,1 to 300,1 nohead dt 2 lc rgb ink
+set arrow 1 from 6,1 to 170,1 nohead dt 2 lc rgb ink
 
 array colour[4] = [dark, blue, orange, grey]
 array shape[4] = [7, 5, 9, 13]
