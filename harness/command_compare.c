@@ -4,7 +4,6 @@
 #include "harness/record.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define DEFAULT_FLOOR 0.02
@@ -65,15 +64,7 @@ static int print_json(const mote_comparison *c)
                                               : "same-or-better",
                                "floor", c->floor, "only_base", (int)c->only_base, "only_new",
                                (int)c->only_new, "rows", rows);
-    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
-    json_decref(object);
-    if (!text) {
-        (void)mote_fail(MOTE_ENOMEM, "no memory for the comparison");
-        return mote_command_fail();
-    }
-    (void)printf("%s\n", text);
-    free(text);
-    return MOTE_EXIT_DONE;
+    return mote_json_put(object, stdout) == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
 }
 
 int mote_command_compare(int argc, char **argv)

@@ -1,10 +1,10 @@
 /* mote summarize DIR: the rows of a run, computed again from its cells. */
 #include "harness/command.h"
+#include "harness/record.h"
 #include "harness/summary.h"
 #include "harness/table.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const formats[] = {"table", "json", "csv", "gbench", "gha", "bencher"};
@@ -13,14 +13,8 @@ enum { FORMAT_TABLE, FORMAT_JSON, FORMAT_CSV, FORMAT_GBENCH, FORMAT_GHA, FORMAT_
 
 static int print_json(json_t *object)
 {
-    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
-    json_decref(object);
-    if (!text) {
-        (void)mote_fail(MOTE_ENOMEM, "no memory for the summary");
+    if (mote_json_put(object, stdout) != MOTE_OK)
         return mote_command_fail();
-    }
-    (void)printf("%s\n", text);
-    free(text);
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 

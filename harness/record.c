@@ -66,3 +66,14 @@ json_t *mote_json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
+
+mote_status mote_json_put(json_t *object, FILE *out)
+{
+    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(object);
+    if (!text)
+        return mote_fail(MOTE_ENOMEM, "no memory for JSON");
+    (void)fprintf(out, "%s\n", text);
+    free(text);
+    return MOTE_OK;
+}

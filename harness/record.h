@@ -5,6 +5,7 @@
 #include "harness/file.h"
 
 #include <jansson.h>
+#include <stdio.h>
 
 /* Writes directory/name, text taken over and freed. MOTE_ENOMEM when text failed. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
@@ -19,5 +20,9 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
 
 /* A real, or null where it is not finite. */
 json_t *mote_json_number(double value);
+
+/* Prints object, indented, numbers with 17 digits, and a line end; object is taken over
+   (decref'd), NULL is MOTE_ENOMEM. Whether out took it is the caller's to check. */
+mote_status mote_json_put(json_t *object, FILE *out);
 
 #endif
