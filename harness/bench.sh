@@ -25,17 +25,22 @@ tuned=fcl-aabb:seed=previous,queue=64
 case $profile in
 quick)
     measure ww tt --replicates 3 --method $plain --method $tuned --method fcl-obbrss \
+        --method aabb-tree --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near' --particles 1,3,5,16
     # Nothing deforms there: no refit is needed.
     measure tt --replicates 3 --method fcl-obb:update=none --method fcl-obbrss:update=none
     ;;
 paper)
     measure ww tt mv --replicates 5 --method 'fcl-aabb:seed=none|previous,queue=2|64' \
-        --method fcl-obb --method fcl-obbrss \
+        --method fcl-obb --method fcl-obbrss --method aabb-tree --method hybrid-fcl:n=8 \
+        --method ccd-convex --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near|always' --particles 1,2,3,5,8,16,32,64
     measure ww mv --replicates 5 --method particle-paper:positions=given --particles 5,8
+    measure ww mv --replicates 5 --method particle:n=8,positions=given \
+        --method aabb-tree:positions=given
     measure tt --replicates 5 --method fcl-obb:update=none --method fcl-obbrss:update=none
     measure ww --replicates 5 --cache evict --method $plain --method $tuned \
+        --method aabb-tree --method particle:n=8 --method certified \
         --method particle-paper --particles 5,8
     ;;
 full)
@@ -45,7 +50,12 @@ full)
         --particles 1-8,12,16,24,32,48,64
     measure tt --replicates 10 --method fcl-obb:update=none --method fcl-obbrss:update=none
     measure ww tt mv --replicates 10 --cache evict --method $plain --method $tuned \
+        --method aabb-tree --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near' --particles 5,8,16
+    # Every built-in scenario once, ten million triangles included.
+    measure $("$mote" list scenarios | cut -d ' ' -f 1) --replicates 1 --timeout 3600 \
+        --method $plain --method $tuned --method aabb-tree --method particle:n=8 \
+        --method certified --method particle-paper:n=8
     ;;
 *)
     echo "bench.sh: unknown profile '$profile'; choose quick, paper or full" >&2
