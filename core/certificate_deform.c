@@ -180,36 +180,52 @@ MOTE_INLINE void move(const mote_cert_side *restrict side,
     }
 }
 
-/* Adds what the field does to coordinate r of a block's boxes. */
-MOTE_INLINE void add_field(const mote_cert_row *restrict rows, const uint8_t *restrict active,
-                           size_t count, const float *restrict weight, size_t r,
-                           mote_cert_node *restrict node)
+/* Adds what the field does to a block's boxes, all sums in registers. */
+MOTE_INLINE void add_field(const mote_cert_side *restrict side,
+                           const mote_cert_block *restrict block, mote_cert_node *restrict node)
 {
-    float centre[WIDTH] = {0};
-    float axis0[WIDTH] = {0};
-    float axis1[WIDTH] = {0};
-    float axis2[WIDTH] = {0};
-    float width[WIDTH] = {0};
-    for (size_t i = 0; i < count; ++i) {
+    const mote_cert_row *rows = side->tree->rows + block->first_row;
+    const uint8_t *active = side->tree->active + block->first_active;
+    float cx[WIDTH] = {0}, cy[WIDTH] = {0}, cz[WIDTH] = {0};
+    float ax[WIDTH] = {0}, ay[WIDTH] = {0}, az[WIDTH] = {0};
+    float bx[WIDTH] = {0}, by[WIDTH] = {0}, bz[WIDTH] = {0};
+    float dx[WIDTH] = {0}, dy[WIDTH] = {0}, dz[WIDTH] = {0};
+    float ex[WIDTH] = {0}, ey[WIDTH] = {0}, ez[WIDTH] = {0};
+    for (size_t i = 0; i < block->active_count; ++i) {
         const mote_cert_row *row = &rows[i];
-        const float w = weight[active[i]];
-        const float size = fabsf(w);
+        const float x = side->weight[0][active[i]];
+        const float y = side->weight[1][active[i]];
+        const float z = side->weight[2][active[i]];
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
-            centre[l] += row->offset[l] * w;
-            axis0[l] += row->slope[0][l] * w;
-            axis1[l] += row->slope[1][l] * w;
-            axis2[l] += row->slope[2][l] * w;
-            width[l] += row->rest[l] * size;
+            cx[l] += row->offset[l] * x;
+            cy[l] += row->offset[l] * y;
+            cz[l] += row->offset[l] * z;
+            ax[l] += row->slope[0][l] * x;
+            ay[l] += row->slope[0][l] * y;
+            az[l] += row->slope[0][l] * z;
+            bx[l] += row->slope[1][l] * x;
+            by[l] += row->slope[1][l] * y;
+            bz[l] += row->slope[1][l] * z;
+            dx[l] += row->slope[2][l] * x;
+            dy[l] += row->slope[2][l] * y;
+            dz[l] += row->slope[2][l] * z;
+            ex[l] += row->rest[l] * fabsf(x);
+            ey[l] += row->rest[l] * fabsf(y);
+            ez[l] += row->rest[l] * fabsf(z);
         }
     }
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < WIDTH; ++l) {
-        node->centre[r][l] += centre[l];
-        node->axis[0][r][l] += axis0[l];
-        node->axis[1][r][l] += axis1[l];
-        node->axis[2][r][l] += axis2[l];
-        node->width[r][l] += width[l];
+    const float *const sums[3][5] = {
+        {cx, ax, bx, dx, ex}, {cy, ay, by, dy, ey}, {cz, az, bz, dz, ez}};
+    for (size_t r = 0; r < 3; ++r) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            node->centre[r][l] += sums[r][0][l];
+            node->axis[0][r][l] += sums[r][1][l];
+            node->axis[1][r][l] += sums[r][2][l];
+            node->axis[2][r][l] += sums[r][3][l];
+            node->width[r][l] += sums[r][4][l];
+        }
     }
 }
 
@@ -247,11 +263,8 @@ MOTE_CLONES
 static void deform_block(const mote_cert_side *restrict side,
                          const mote_cert_block *restrict block, mote_cert_node *restrict node)
 {
-    const mote_cert_row *rows = side->tree->rows + block->first_row;
-    const uint8_t *active = side->tree->active + block->first_active;
     move(side, block, node);
-    for (size_t r = 0; r < 3; ++r)
-        add_field(rows, active, block->active_count, side->weight[r], r, node);
+    add_field(side, block, node);
     measure(node);
 }
 

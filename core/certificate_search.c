@@ -9,22 +9,6 @@
    of what is inside crosses it too. */
 #define CROSSING 0.35F
 
-static inline size_t lowest_bit(uint32_t bits)
-{
-    size_t l = 0;
-    while (!(bits >> l & 1))
-        ++l;
-    return l;
-}
-
-static inline uint32_t count_bits(uint32_t bits)
-{
-    uint32_t count = 0;
-    for (; bits; bits &= bits - 1)
-        ++count;
-    return count;
-}
-
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
@@ -124,12 +108,15 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
     }
 }
 
+/* The open lane of least bound; the first of equals. */
 static size_t least_bound(const float bound[WIDTH], uint32_t open)
 {
-    size_t best = lowest_bit(open);
-    for (size_t l = best + 1; l < WIDTH; ++l) {
-        if (open >> l & 1 && bound[l] < bound[best])
-            best = l;
+    size_t best = 0;
+    float least = FLT_MAX;
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const float here = open >> l & 1 ? bound[l] : FLT_MAX;
+        best = here < least ? l : best;
+        least = here < least ? here : least;
     }
     return best;
 }
@@ -153,7 +140,7 @@ static void visit_row(mote_certificate *c, row r, uint32_t depth)
         open = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, open, bound);
     }
     ++c->counters.rows;
-    c->counters.box_tests += count_bits(r.other->block->mask);
+    c->counters.box_tests += r.other->block->children;
     while (open && !c->done) {
         if (c->counters.box_tests >= c->options.budget) {
             c->stopped = true;

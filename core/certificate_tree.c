@@ -301,7 +301,7 @@ static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t cou
 {
     mote_cert_tree *tree = b->tree;
     const uint32_t functions = tree->body->field->count;
-    mote_cert_block block = {.mask = (1u << count) - 1};
+    mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
     memset(rows->active, 0, functions);
     memset(rows->row, 0, functions * sizeof *rows->row);
     for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {

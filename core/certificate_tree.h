@@ -38,7 +38,8 @@ typedef struct mote_cert_block {
     uint32_t first_row;                /* its rows, one for each of its basis functions */
     uint32_t first_active;             /* which these are: see mote_field_kind.group */
     uint32_t active_count;
-    uint32_t mask; /* bit l: lane l has a child */
+    uint32_t children;
+    uint32_t mask; /* bit l: lane l has a child; the first `children` bits */
 } mote_cert_block;
 
 typedef struct mote_cert_leaf {
