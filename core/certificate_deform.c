@@ -150,8 +150,13 @@ static void project_block(const mote_cert_side *restrict side,
             block->half[1][0][l] * x + block->half[1][1][l] * y + block->half[1][2][l] * z;
         axis2[l] +=
             block->half[2][0][l] * x + block->half[2][1][l] * y + block->half[2][2][l] * z;
-        const float half =
-            fabsf(axis0[l]) + fabsf(axis1[l]) + fabsf(axis2[l]) + width[l] + margin;
+        const float loose = width[l] + margin;
+        const float half = fabsf(axis0[l]) + fabsf(axis1[l]) + fabsf(axis2[l]) + loose;
+        node->middle[l] = middle[l];
+        node->slant[0][l] = axis0[l];
+        node->slant[1][l] = axis1[l];
+        node->slant[2][l] = axis2[l];
+        node->loose[l] = loose;
         node->reach[l] = middle[l] + half;
         node->extent[l] = 2 * half;
     }
@@ -307,22 +312,56 @@ static inline void take_vertices(const mote_cert_tree *tree, const mote_cert_lea
     }
 }
 
-/* The largest of MOTE_LANES rigidly moved vertices plus what the field adds, along facing. */
-MOTE_CLONES
-static double reach_of_group(const mote_cert_side *side, const uint32_t v[MOTE_LANES],
-                             const float field[MOTE_LANES])
+/* Where the field is linear, sum_k z_k slant_k = g.(x - centre) with one g for a box. Vertices
+   stick out of it by the leak at most, which g turns into no more than leak * stretch. */
+void mote_cert_leaf_linear(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
+                           double range[2])
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_cert_block *block = node->block;
+    const mote_vec3 *rest = tree->body->mesh->positions;
+    mote_vec3 g = {0, 0, 0};
+    double stretch = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const mote_vec3 h = {(double)block->half[k][0][lane], (double)block->half[k][1][lane],
+                             (double)block->half[k][2][lane]};
+        const double slant = (double)node->slant[k][lane];
+        const double inverse = 1 / mote_length_squared(h);
+        g = mote_add_scaled(g, slant * inverse, h);
+        stretch += slant * slant * inverse;
+    }
+    const mote_vec3 centre = {(double)block->centre[0][lane], (double)block->centre[1][lane],
+                              (double)block->centre[2][lane]};
+    const mote_vec3 scaled = mote_scale(g, tree->scale);
+    const mote_cert_leaf *leaf = &tree->leaves[~block->child[lane]];
+    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
+    double most = -HUGE_VAL;
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
+        const double at = mote_dot(mote_sub(rest[vertices[i]], tree->origin), scaled);
+        most = at > most ? at : most;
+    }
+    most += (double)node->middle[lane] - mote_dot(centre, g);
+    /* sqrt(3 sum s^2) >= sum |s| */
+    const double loose = (double)node->loose[lane] + tree->leak * sqrt(3 * stretch);
+    range[0] = most - loose;
+    range[1] = most + loose;
+}
+
+/* The largest coordinate along facing of `count` rigidly moved vertices plus what the field
+   adds. */
+static double reach_of_group(const mote_cert_side *side, const uint32_t *vertices,
+                             uint32_t count, const float *field)
 {
     const mote_cert_tree *tree = side->tree;
     const mote_vec3 *rest = tree->body->mesh->positions;
-    const mote_vec3 u = side->facing_rest;
-    const double shift = mote_dot(side->exact_translation, side->facing);
+    const mote_vec3 u = mote_scale(side->facing_rest, tree->scale);
     double most = -HUGE_VAL;
-    for (size_t i = 0; i < MOTE_LANES; ++i) {
-        const double at = mote_dot(mote_sub(rest[v[i]], tree->origin), u) * tree->scale +
-                          shift + (double)field[i];
+    for (uint32_t i = 0; i < count; ++i) {
+        const double at =
+            mote_dot(mote_sub(rest[vertices[i]], tree->origin), u) + (double)field[i];
         most = at > most ? at : most;
     }
-    return most;
+    return most + mote_dot(side->exact_translation, side->facing);
 }
 
 bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double range[2])
@@ -345,7 +384,9 @@ bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double r
                 block->active_count, side->pushed, moved);
             factor = f > factor ? f : factor;
         }
-        const double reach = reach_of_group(side, v, moved);
+        const uint32_t left = l->vertex_count - first;
+        const double reach =
+            reach_of_group(side, v, left < MOTE_LANES ? left : MOTE_LANES, moved);
         most = reach > most ? reach : most;
     }
     const double error =

@@ -12,12 +12,18 @@
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
-/* Whether a leaf is clear of the plane, by an estimate if that decides; its reach. */
+/* Whether a leaf is clear of the plane, by the cheapest means that decides; its reach. */
 static bool clear_leaf(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                        double *reach)
 {
     const mote_cert_side *side = &c->side[s];
     double range[2];
+    mote_cert_leaf_linear(side, node, lane, range);
+    *reach = range[1];
+    if (range[1] <= side->threshold)
+        return true;
+    if (range[0] > side->threshold)
+        return false;
     if (mote_cert_leaf_estimate(side, (uint32_t)~node->block->child[lane], range)) {
         *reach = range[1];
         if (range[1] <= side->threshold)

@@ -18,7 +18,11 @@ typedef struct mote_cert_node {
     float size[MOTE_CERT_WIDTH];       /* squares of the two longest half axes, added up */
     float reach[MOTE_CERT_WIDTH];      /* largest coordinate towards the other body */
     float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
-    int32_t child[MOTE_CERT_WIDTH];    /* place of the deformed child; -1: not deformed yet */
+    /* reach = middle + sum |slant| + loose: the parts of the box along the plane's normal */
+    float middle[MOTE_CERT_WIDTH];
+    float slant[3][MOTE_CERT_WIDTH]; /* of the half axes */
+    float loose[MOTE_CERT_WIDTH];    /* half width of the box to be added */
+    int32_t child[MOTE_CERT_WIDTH];  /* place of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
     bool boxes;          /* centre .. size are known */
     uint32_t clear;      /* bit l: child l is wholly on its side of the plane */
@@ -117,6 +121,11 @@ mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_nod
 
 /* Makes the boxes of a node known. */
 void mote_cert_make_boxes(mote_certificate *c, int s, mote_cert_node *node);
+
+/* How far the vertices of leaf `lane` of a node reach towards the other body if the field is
+   taken to be linear in its box: range[0] <= reach <= range[1]. */
+void mote_cert_leaf_linear(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
+                           double range[2]);
 
 /* Estimates how far a leaf reaches towards the other body: range[0] <= reach <= range[1]. False
    when its field offers no estimate. */
