@@ -6,6 +6,7 @@
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
+#   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-statistics                            what intervals cover on simulated runs
@@ -23,7 +24,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -49,6 +50,9 @@ oracle: build
 
 tune: build
 	@harness/tune.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/tune,$(OUT))
+
+ingredients: build
+	@harness/ingredients.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ingredients,$(OUT))
 
 perf-check: build
 	@harness/perf.sh check $(MOTE) results/perf-check
