@@ -35,6 +35,11 @@ typedef enum mote_exit {
       "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--dry-run]\n"     \
       "           [--force]",                                                                  \
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
+    X(simulate,                                                                                \
+      "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \
+      "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
+      "           [--trace FILE.json]",                                                        \
+      "closed loop: bodies move freely and collide where the method says so")                  \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \

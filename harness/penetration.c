@@ -1,0 +1,237 @@
+#include "harness/penetration.h"
+
+#include "core/triangle.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Triangles by the cells of a grid across the ray's direction, x: entries of cell c are
+   entry[first[c]] .. entry[first[c + 1] - 1]. */
+typedef struct shadow {
+    const mote_mesh *mesh;
+    const mote_vec3 *world;
+    mote_vec3 low, high;
+    uint32_t side;   /* cells along y, and along z */
+    uint32_t *first; /* [side^2 + 1] */
+    uint32_t *entry;
+    size_t capacity;
+} shadow;
+
+struct mote_penetration {
+    shadow of[2];
+};
+
+mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
+                                    mote_penetration **penetration)
+{
+    const mote_mesh *const mesh[2] = {a, b};
+    mote_penetration *made = calloc(1, sizeof *made);
+    mote_status status = made ? MOTE_OK : MOTE_ENOMEM;
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        shadow *s = &made->of[i];
+        if (mesh[i]->open_edge_count > 0) {
+            mote_penetration_destroy(made);
+            return mote_fail(MOTE_EINVAL, "an open mesh has no inside; close it");
+        }
+        s->mesh = mesh[i];
+        s->side = 1 + (uint32_t)sqrt(mesh[i]->triangle_count / 2.0);
+        s->first = malloc(((size_t)s->side * s->side + 1) * sizeof *s->first);
+        status = s->first ? MOTE_OK : MOTE_ENOMEM;
+    }
+    if (status != MOTE_OK) {
+        mote_penetration_destroy(made);
+        return mote_fail(status, "no memory for a depth of penetration");
+    }
+    *penetration = made;
+    return MOTE_OK;
+}
+
+void mote_penetration_destroy(mote_penetration *penetration)
+{
+    if (!penetration)
+        return;
+    for (int i = 0; i < 2; ++i) {
+        free(penetration->of[i].first);
+        free(penetration->of[i].entry);
+    }
+    free(penetration);
+}
+
+static void set_bounds(shadow *s, const mote_vec3 *world)
+{
+    s->world = world;
+    s->low = s->high = world[0];
+    for (uint32_t v = 1; v < s->mesh->vertex_count; ++v) {
+        s->low = mote_vec3_make(fmin(s->low.x, world[v].x), fmin(s->low.y, world[v].y),
+                                fmin(s->low.z, world[v].z));
+        s->high = mote_vec3_make(fmax(s->high.x, world[v].x), fmax(s->high.y, world[v].y),
+                                 fmax(s->high.z, world[v].z));
+    }
+}
+
+/* Monotone in at, so that a point's cell lies between those of its triangle's ends. */
+static uint32_t cell_of(const shadow *s, double at, double low, double high)
+{
+    const double place = high > low ? (at - low) / (high - low) * s->side : 0;
+    return place >= s->side ? s->side - 1 : (uint32_t)fmax(place, 0);
+}
+
+typedef struct cell_range {
+    uint32_t y0, y1, z0, z1;
+} cell_range;
+
+static cell_range cells_of(const shadow *s, uint32_t triangle)
+{
+    const uint32_t *t = s->mesh->triangles[triangle];
+    const mote_vec3 a = s->world[t[0]], b = s->world[t[1]], c = s->world[t[2]];
+    return (cell_range){cell_of(s, fmin(a.y, fmin(b.y, c.y)), s->low.y, s->high.y),
+                        cell_of(s, fmax(a.y, fmax(b.y, c.y)), s->low.y, s->high.y),
+                        cell_of(s, fmin(a.z, fmin(b.z, c.z)), s->low.z, s->high.z),
+                        cell_of(s, fmax(a.z, fmax(b.z, c.z)), s->low.z, s->high.z)};
+}
+
+/* Counting sort of the triangles into the cells that they may cover. */
+static mote_status fill(shadow *s)
+{
+    const size_t cells = (size_t)s->side * s->side;
+    memset(s->first, 0, (cells + 1) * sizeof *s->first);
+    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
+        const cell_range r = cells_of(s, f);
+        for (uint32_t y = r.y0; y <= r.y1; ++y) {
+            for (uint32_t z = r.z0; z <= r.z1; ++z)
+                ++s->first[(size_t)y * s->side + z];
+        }
+    }
+    uint32_t sum = 0;
+    for (size_t c = 0; c <= cells; ++c) {
+        sum += s->first[c];
+        s->first[c] = sum; /* the end of the cell: entries are filled in from behind */
+    }
+    if (sum > s->capacity) {
+        uint32_t *grown = realloc(s->entry, sum * sizeof *grown);
+        if (!grown)
+            return mote_fail(MOTE_ENOMEM, "no memory for %u triangles in cells", sum);
+        s->entry = grown;
+        s->capacity = sum;
+    }
+    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
+        const cell_range r = cells_of(s, f);
+        for (uint32_t y = r.y0; y <= r.y1; ++y) {
+            for (uint32_t z = r.z0; z <= r.z1; ++z)
+                s->entry[--s->first[(size_t)y * s->side + z]] = f;
+        }
+    }
+    return MOTE_OK;
+}
+
+/* Whether the edge from a to b crosses the half line from p in +z, seen along x: 1 towards +y,
+   -1 towards -y, else 0. The side is computed from the lower vertex number to the higher, so
+   that both faces of the edge get one answer. */
+static int crossing(const shadow *s, uint32_t a, uint32_t b, mote_vec3 p)
+{
+    const bool swap = a > b;
+    const mote_vec3 u = s->world[swap ? b : a], v = s->world[swap ? a : b];
+    if ((u.y <= p.y) == (v.y <= p.y))
+        return 0;
+    const double area = (v.y - u.y) * (p.z - u.z) - (v.z - u.z) * (p.y - u.y);
+    const bool rising = v.y > u.y;
+    const bool above = rising ? area < 0 : area > 0; /* the edge is above p in z */
+    if (!above)
+        return 0;
+    return rising == swap ? -1 : 1;
+}
+
+/* Whether the triangle lies before p's ray, of which it is known to be crossed. */
+static bool is_ahead(const mote_vec3 t[3], mote_vec3 p)
+{
+    if (t[0].x > p.x && t[1].x > p.x && t[2].x > p.x)
+        return true;
+    if (t[0].x <= p.x && t[1].x <= p.x && t[2].x <= p.x)
+        return false;
+    const mote_vec3 normal = mote_cross(mote_sub(t[1], t[0]), mote_sub(t[2], t[0]));
+    /* The plane's x at the ray minus p.x, times normal.x. */
+    const double offset = mote_dot(normal, mote_sub(t[0], p));
+    return normal.x > 0 ? offset > 0 : offset < 0;
+}
+
+/* The winding number of the surface around p is not 0. */
+static bool is_inside(const shadow *s, mote_vec3 p)
+{
+    const uint32_t y = cell_of(s, p.y, s->low.y, s->high.y);
+    const uint32_t z = cell_of(s, p.z, s->low.z, s->high.z);
+    const size_t cell = (size_t)y * s->side + z;
+    int winding = 0;
+    for (uint32_t e = s->first[cell]; e < s->first[cell + 1]; ++e) {
+        const uint32_t *t = s->mesh->triangles[s->entry[e]];
+        const int around = crossing(s, t[0], t[1], p) + crossing(s, t[1], t[2], p) +
+                           crossing(s, t[2], t[0], p);
+        if (around == 0)
+            continue;
+        const mote_vec3 corner[3] = {s->world[t[0]], s->world[t[1]], s->world[t[2]]};
+        if (is_ahead(corner, p))
+            winding += around;
+    }
+    return winding != 0;
+}
+
+/* Squared distance of p from the surface, or something at most `bound`. *nearest: the triangle
+   to try first, and then the nearest one. */
+static double distance_above(const shadow *s, mote_vec3 p, double bound, uint32_t *nearest)
+{
+    double best = HUGE_VAL;
+    const uint32_t count = s->mesh->triangle_count;
+    const uint32_t from = *nearest;
+    for (uint32_t i = 0; i < count && best > bound; ++i) {
+        const uint32_t f = from + i < count ? from + i : from + i - count;
+        const uint32_t *t = s->mesh->triangles[f];
+        const mote_vec3 corner[3] = {s->world[t[0]], s->world[t[1]], s->world[t[2]]};
+        const double squared = mote_point_triangle(p, corner, NULL);
+        if (squared < best) {
+            best = squared;
+            *nearest = f;
+        }
+    }
+    return best;
+}
+
+static bool in_box(const shadow *s, mote_vec3 p)
+{
+    return p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y &&
+           p.z >= s->low.z && p.z <= s->high.z;
+}
+
+/* The deepest vertex of `other` inside s, as a squared depth; deeper than *squared only. */
+static mote_status deepen(shadow *s, const shadow *other, double *squared)
+{
+    bool filled = false;
+    uint32_t nearest = 0;
+    for (uint32_t v = 0; v < other->mesh->vertex_count; ++v) {
+        const mote_vec3 p = other->world[v];
+        if (!in_box(s, p))
+            continue;
+        if (!filled) {
+            const mote_status status = fill(s);
+            if (status != MOTE_OK)
+                return status;
+            filled = true;
+        }
+        if (is_inside(s, p))
+            *squared = fmax(*squared, distance_above(s, p, *squared, &nearest));
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
+                                   const mote_vec3 *world_b, double *depth)
+{
+    shadow *a = &penetration->of[0], *b = &penetration->of[1];
+    set_bounds(a, world_a);
+    set_bounds(b, world_b);
+    double squared = 0;
+    mote_status status = deepen(a, b, &squared);
+    if (status == MOTE_OK)
+        status = deepen(b, a, &squared);
+    if (status == MOTE_OK)
+        *depth = sqrt(squared);
+    return status;
+}

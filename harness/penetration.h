@@ -1,0 +1,23 @@
+/* How deep two closed, deformed surfaces lie in each other. */
+#ifndef MOTE_HARNESS_PENETRATION_H
+#define MOTE_HARNESS_PENETRATION_H
+
+#include "core/mesh.h"
+
+typedef struct mote_penetration mote_penetration;
+
+/* For two closed meshes (borrowed); MOTE_EINVAL for an open one. */
+mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
+                                    mote_penetration **penetration);
+void mote_penetration_destroy(mote_penetration *penetration); /* NULL is allowed */
+
+/* Depth of the deepest vertex of either body inside the other one: its distance from that one's
+   surface; 0 where none is inside. world[i][vertex of body i]. A vertex is inside where the
+   surface winds around it: signed crossings of a ray, each edge's side decided once for both of
+   its faces, so that no ray slips between them; what lies within rounding of the surface may be
+   taken for either. Cost O(vertices + triangles) plus a pass over the triangles for each vertex
+   that is deeper than all before. */
+mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
+                                   const mote_vec3 *world_b, double *depth);
+
+#endif

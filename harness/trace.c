@@ -1,0 +1,103 @@
+#include "harness/trace.h"
+
+#include "harness/json_print.h"
+#include "harness/motion.h"
+#include "harness/scenario_read.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The key poses of body i. */
+static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
+                           const mote_rigid_state (*states)[2], uint32_t count, int i)
+{
+    json_t *keys = json_array();
+    for (uint32_t k = 0; k < count; ++k) {
+        const mote_rigid_state *state = &states[k][i];
+        const mote_pose pose = mote_rigid_pose(mass, state);
+        const mote_vec3 middle = mote_pose_apply(&pose, scenario->motion->body[i].centre);
+        const mote_vec3 p = mote_scale(middle, 1 / scenario->length);
+        const mote_quaternion q = state->turn;
+        (void)json_array_append_new(keys, json_pack("{s:I, s:[f,f,f], s:[f,f,f,f]}", "frame",
+                                                    (json_int_t)k + 1, "position", p.x, p.y,
+                                                    p.z, "quaternion", q.w, q.x, q.y, q.z));
+    }
+    return keys;
+}
+
+/* Paths of meshes count from the scenario's folder, and the trace may be in another one. */
+static mote_status anchor_mesh(json_t *body, const char *path)
+{
+    const char *file = json_string_value(json_object_get(body, "file"));
+    if (!file || file[0] == '/')
+        return MOTE_OK;
+    char here[4096] = "";
+    if (path[0] != '/' && !getcwd(here, sizeof here))
+        return mote_fail(MOTE_EIO, "%s: the working directory cannot be told: %s", path,
+                         strerror(errno));
+    const char *slash = strrchr(path, '/');
+    char *whole = mote_format("%s%s%.*s%s", here, here[0] ? "/" : "",
+                              slash ? (int)(slash - path) + 1 : 0, path, file);
+    if (!whole)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", path);
+    (void)json_object_set_new(body, "file", json_string(whole));
+    free(whole);
+    return MOTE_OK;
+}
+
+static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mote_mass mass[2],
+                           const mote_rigid_state (*states)[2], uint32_t count)
+{
+    (void)json_object_del(root, "warmup");
+    (void)json_object_del(root, "active");
+    (void)json_object_set_new(root, "frames", json_integer(count));
+    (void)json_object_set_new(root, "ask", json_string("distance"));
+    char *purpose = mote_format("A simulated run of %s, recorded.", scenario->name);
+    if (!purpose)
+        return mote_fail(MOTE_ENOMEM, "no memory for a trace");
+    (void)json_object_set_new(root, "purpose", json_string(purpose));
+    free(purpose);
+    mote_status status = MOTE_OK;
+    /* Keys stand at frames here, and the deformation follows the path. */
+    if (scenario->motion->start != 1 || scenario->motion->pace != 1)
+        status = mote_fail(MOTE_EINVAL,
+                           "%s: start and pace other than 1 cannot be recorded with the motion "
+                           "of a simulation; use the scenario that it is like",
+                           scenario->path);
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        json_t *body = json_array_get(json_object_get(root, "bodies"), (size_t)i);
+        (void)json_object_del(body, "velocity");
+        (void)json_object_del(body, "spin");
+        (void)json_object_set_new(body, "motion",
+                                  motion_json(scenario, &mass[i], states, count, i));
+        status = anchor_mesh(body, scenario->path);
+    }
+    return status;
+}
+
+mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
+                             const mote_rigid_state (*states)[2], uint32_t count,
+                             double tolerance, const char *path)
+{
+    mote_json_file file;
+    mote_status status = mote_json_open(scenario->path, &file);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_scenario_merge_like(&file);
+    if (status == MOTE_OK)
+        (void)json_object_set_new(file.root, "tolerance", json_real(tolerance));
+    if (status == MOTE_OK)
+        status = rewrite(file.root, scenario, mass, states, count);
+    mote_text text = {0};
+    if (status == MOTE_OK) {
+        mote_json_print(file.root, 17, &text);
+        status = text.failed
+                     ? mote_fail(MOTE_ENOMEM, "no memory for a trace of %u frames", count)
+                     : mote_file_write(path, text.data, text.size);
+    }
+    free(text.data);
+    mote_json_close(&file);
+    return status;
+}

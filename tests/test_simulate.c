@@ -1,0 +1,437 @@
+/* The closed loop: what it books against independent truth, what it keeps, what it refuses. */
+#include "harness/simulate.h"
+
+#include "core/triangle.h"
+#include "harness/file.h"
+#include "harness/motion.h"
+#include "harness/penetration.h"
+#include "harness/trace.h"
+#include "harness/truth.h"
+#include "tests/program.h"
+#include "tests/solids.h"
+
+#define FOLDER "test_simulate_files"
+#define FILE_NAME FOLDER "/s.json"
+#define TRACE FOLDER "/trace.json"
+#define SAID FOLDER "/said"
+
+/* A deforming V flies at a turning T; %s: what more the V has, what the scenario has. */
+static const char form[] =
+    "{\"purpose\": \"a test\", \"frames\": 160, \"ask\": \"distance\"%s,\n"
+    " \"bodies\": [{\"letter\": \"T\", \"triangles\": 400, \"velocity\": [0, 0, 0],\n"
+    "   \"spin\": [0, 0.7, 0]},\n"
+    "  {\"letter\": \"V\", \"triangles\": 400, \"field\": {\"count\": 6, \"support\": 0.5,\n"
+    "   \"displacement\": {\"random\": {\"seed\": 5, \"amplitude\": 0.05, \"periods\": [40, "
+    "90]}}},\n"
+    "   \"motion\": [{\"frame\": 1, \"position\": [%s]}], %s}]}\n";
+#define FLYING "\"velocity\": [-0.012, 0, 0], \"spin\": [1, 0, 0.4]"
+
+static mote_scenario *load(const char *more, const char *position, const char *motion)
+{
+    char *text = mote_format(form, more, position, motion);
+    mote_scenario *scenario = NULL;
+    assert_non_null(text);
+    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    free(text);
+    if (mote_scenario_load(FILE_NAME, &scenario) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return scenario;
+}
+
+static mote_simulator *simulator_of(const mote_scenario *scenario, const mote_method_choice *m,
+                                    const mote_simulation_options *options)
+{
+    mote_simulator *simulator = NULL;
+    if (mote_simulator_create(scenario, m, options, &simulator) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return simulator;
+}
+
+static mote_method_choice choice_of(const char *text)
+{
+    mote_method_choice choice;
+    if (mote_method_choice_read(text, &choice) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return choice;
+}
+
+/* A method that says what it is told: that the bodies are 1 apart, or in contact. */
+static bool told;
+
+static mote_traits told_traits(const double *values)
+{
+    (void)values;
+    return (mote_traits){0};
+}
+
+static mote_status told_create(const mote_setup *setup, void **state)
+{
+    (void)setup;
+    *state = NULL;
+    return MOTE_OK;
+}
+
+static void told_destroy(void *state)
+{
+    (void)state;
+}
+
+static mote_status told_query(void *state, const mote_frame *frame, mote_answer *answer)
+{
+    (void)state;
+    (void)frame;
+    answer->has_contact = true;
+    answer->contact = told;
+    return MOTE_OK;
+}
+
+static const mote_method told_method = {.name = "told",
+                                        .traits = told_traits,
+                                        .create = told_create,
+                                        .destroy = told_destroy,
+                                        .query = told_query};
+
+static mote_simulation_result run_of(const mote_scenario *scenario,
+                                     const mote_method_choice *choice,
+                                     const mote_simulation_options *options,
+                                     mote_rigid_state (*trace)[2])
+{
+    mote_simulator *simulator = simulator_of(scenario, choice, options);
+    const mote_simulation_start start = mote_simulation_start_of(simulator);
+    mote_simulation_result result;
+    if (mote_simulator_run(simulator, &start, trace, &result) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    mote_simulator_destroy(simulator);
+    return result;
+}
+
+static void simulator_run_exact_methods_agree_and_miss_nothing(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"certified", "aabb-tree", "fcl-aabb"};
+    mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
+    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    mote_rigid_state(*trace[3])[2];
+    for (int i = 0; i < 3; ++i) {
+        const mote_method_choice choice = choice_of(methods[i]);
+        trace[i] = calloc(scenario->frames, sizeof *trace[i]);
+        const mote_simulation_result r = run_of(scenario, &choice, &options, trace[i]);
+        assert_int_equal(r.steps, 159);
+        assert_true(r.approaches > 0 && r.responses > 0 && r.truth_asked < r.steps);
+        assert_int_equal(r.passes + r.missed_steps + r.false_steps + r.delay_max, 0);
+        assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-12);
+        assert_true(r.angular_drift < 1e-12);
+    }
+    for (int i = 1; i < 3; ++i) {
+        for (uint32_t k = 0; k < scenario->frames; ++k) {
+            const mote_vec3 a = trace[0][k][1].centre, b = trace[i][k][1].centre;
+            assert_true(mote_length(mote_sub(a, b)) < 1e-9 * scenario->length);
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        free(trace[i]);
+    mote_scenario_destroy(scenario);
+}
+
+static void simulator_run_blind_method_passes_through(void **state)
+{
+    (void)state;
+    const mote_method_choice blind = {.method = &told_method, .text = "told"};
+    told = false;
+    mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
+    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    mote_rigid_state(*trace)[2] = calloc(scenario->frames, sizeof *trace);
+    const mote_simulation_result r = run_of(scenario, &blind, &options, trace);
+    assert_true(r.approaches > 0 && r.passes == r.approaches && r.deep_passes > 0);
+    assert_true(r.depth_passes > 0.02 && r.depth_max == r.depth_passes);
+    assert_int_equal(r.missed_steps, r.contact_steps);
+    assert_int_equal(r.responses, 0);
+    /* Replayed as a scenario, the truth of its own code finds the same contacts. */
+    mote_simulator *simulator = simulator_of(scenario, &blind, &options);
+    assert_int_equal(mote_trace_write(scenario, mote_simulator_masses(simulator),
+                                      (const mote_rigid_state(*)[2])trace, scenario->frames,
+                                      options.tolerance, TRACE),
+                     MOTE_OK);
+    mote_scenario *replay = NULL;
+    mote_truth *truth = NULL;
+    assert_int_equal(mote_scenario_load(TRACE, &replay), MOTE_OK);
+    assert_int_equal(replay->frames, scenario->frames);
+    assert_int_equal(mote_truth_compute(replay, &truth), MOTE_OK);
+    uint32_t contacts = 0, begins = 0;
+    for (uint32_t k = 0; k < truth->frames; ++k) {
+        contacts += truth->contact[k];
+        begins += truth->contact[k] && (k == 0 || !truth->contact[k - 1]);
+    }
+    assert_int_equal(contacts, r.contact_steps);
+    assert_int_equal(begins, r.approaches);
+    for (uint32_t k = 0; k < replay->frames; ++k) {
+        const mote_pose a = mote_rigid_pose(mote_simulator_masses(simulator) + 1, &trace[k][1]);
+        const mote_pose b = mote_motion_pose(&replay->motion->body[1], k + 1.0);
+        assert_true(mote_length(mote_sub(a.translation, b.translation)) <
+                    1e-13 * replay->length);
+        for (int i = 0; i < 9; ++i)
+            assert_close(a.rotation.m[i / 3][i % 3], b.rotation.m[i / 3][i % 3], 1e-14);
+    }
+    mote_truth_destroy(truth);
+    mote_scenario_destroy(replay);
+    mote_simulator_destroy(simulator);
+    mote_scenario_destroy(scenario);
+    free(trace);
+    assert_int_equal(unlink(TRACE), 0);
+}
+
+static void simulator_run_at_rest_stays(void **state)
+{
+    (void)state;
+    mote_scenario *scenario =
+        load("", "1.1, 0, 0", "\"velocity\": [0, 0, 0], \"spin\": [0, 0, 0]");
+    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_method_choice choice = choice_of("certified");
+    mote_rigid_state(*trace)[2] = calloc(scenario->frames, sizeof *trace);
+    const mote_simulation_result r = run_of(scenario, &choice, &options, trace);
+    assert_int_equal(r.contact_steps + r.responses, 0);
+    assert_memory_equal(&trace[0][1].centre, &trace[159][1].centre, sizeof(mote_vec3));
+    free(trace);
+    mote_scenario_destroy(scenario);
+}
+
+static void simulator_run_gravity_and_restitution_are_accounted_for(void **state)
+{
+    (void)state;
+    mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
+    mote_simulation_options options = mote_default_simulation_options(scenario);
+    options.gravity = mote_vec3_make(1e-5, -2e-5, 3e-5);
+    options.restitution = 0.4;
+    options.density = 7;
+    const mote_method_choice choice = choice_of("certified");
+    const mote_simulation_result r = run_of(scenario, &choice, &options, NULL);
+    assert_true(r.responses > 0);
+    assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-12 && isnan(r.angular_drift));
+    mote_scenario_destroy(scenario);
+}
+
+static void simulator_run_refuses_with_reason(void **state)
+{
+    (void)state;
+    const mote_method_choice method = {.method = &told_method, .text = "told"};
+    mote_simulation_result r = {.steps = 77};
+    /* A contact without a normal. */
+    told = true;
+    mote_scenario *scenario = load("", "1.1, 0, 0", FLYING);
+    const mote_simulation_options good = mote_default_simulation_options(scenario);
+    mote_simulator *simulator = simulator_of(scenario, &method, &good);
+    mote_simulation_start start = mote_simulation_start_of(simulator);
+    assert_int_equal(mote_simulator_run(simulator, &start, NULL, &r), MOTE_EUNSUPPORTED);
+    assert_non_null(strstr(mote_error_text(), "witness"));
+    mote_simulator_destroy(simulator);
+    /* Options out of range. */
+    mote_simulation_options bad[6] = {good, good, good, good, good, good};
+    static const char *const says[] = {"density 0", "density -1",  "tolerance 0",
+                                       "tolerance", "restitution", "gravity"};
+    bad[0].density = 0;
+    bad[1].density = -1;
+    bad[2].tolerance = 0;
+    bad[3].tolerance = 0.06;
+    bad[4].restitution = 2;
+    bad[5].gravity.x = NAN;
+    for (int i = 0; i < 6; ++i) {
+        assert_int_equal(mote_simulator_create(scenario, &method, &bad[i], &simulator),
+                         MOTE_EINVAL);
+        assert_non_null(strstr(mote_error_text(), says[i]));
+    }
+    mote_scenario_destroy(scenario);
+    /* Bodies that start in contact. */
+    told = false;
+    scenario = load("", "0.05, 0, 0", FLYING);
+    simulator = simulator_of(scenario, &method, &good);
+    start = mote_simulation_start_of(simulator);
+    assert_int_equal(mote_simulator_run(simulator, &start, NULL, &r), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "start in contact"));
+    assert_int_equal(r.steps, 77);
+    mote_simulator_destroy(simulator);
+    mote_scenario_destroy(scenario);
+}
+
+/* The winding number of a closed surface around p by solid angles (van Oosterom, Strackee). */
+static double solid_angles(const mote_mesh *mesh, const mote_vec3 *world, mote_vec3 p)
+{
+    double sum = 0;
+    for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
+        const uint32_t *t = mesh->triangles[f];
+        const mote_vec3 a = mote_sub(world[t[0]], p), b = mote_sub(world[t[1]], p);
+        const mote_vec3 c = mote_sub(world[t[2]], p);
+        const double la = mote_length(a), lb = mote_length(b), lc = mote_length(c);
+        sum += 2 * atan2(mote_dot(a, mote_cross(b, c)), la * lb * lc + mote_dot(a, b) * lc +
+                                                            mote_dot(b, c) * la +
+                                                            mote_dot(c, a) * lb);
+    }
+    return sum / (4 * 3.14159265358979323846);
+}
+
+static double depth_by_angles(mote_mesh *const mesh[2], mote_vec3 *const world[2])
+{
+    double deepest = 0;
+    for (int i = 0; i < 2; ++i) {
+        const mote_mesh *other = mesh[1 - i];
+        for (uint32_t v = 0; v < mesh[i]->vertex_count; ++v) {
+            const mote_vec3 p = world[i][v];
+            if (fabs(solid_angles(other, world[1 - i], p)) < 0.5)
+                continue;
+            double nearest = HUGE_VAL;
+            for (uint32_t f = 0; f < other->triangle_count; ++f) {
+                mote_vec3 corner[3];
+                for (int k = 0; k < 3; ++k)
+                    corner[k] = world[1 - i][other->triangles[f][k]];
+                nearest = fmin(nearest, mote_point_triangle(p, corner, NULL));
+            }
+            deepest = fmax(deepest, sqrt(nearest));
+        }
+    }
+    return deepest;
+}
+
+static void penetration_depth_random_poses_as_by_solid_angles(void **state)
+{
+    (void)state;
+    uint64_t seed = 21;
+    mote_mesh *mesh[2] = {solid_to_mesh(solid_torus(24, 12)),
+                          solid_to_mesh(solid_icosphere(2))};
+    mote_vec3 *world[2];
+    mote_penetration *penetration = NULL;
+    assert_int_equal(mote_penetration_create(mesh[0], mesh[1], &penetration), MOTE_OK);
+    for (int i = 0; i < 2; ++i)
+        world[i] = malloc(mesh[i]->vertex_count * sizeof *world[i]);
+    int deep = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        for (int i = 0; i < 2; ++i) {
+            /* Every third time axes stay parallel, so that edges and vertices lie on the rays.
+             */
+            const mote_pose pose = {trial % 3 ? random_rotation_matrix(&seed)
+                                              : (mote_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+                                    mote_scale(random_vec3(&seed, 1.6), i)};
+            for (uint32_t v = 0; v < mesh[i]->vertex_count; ++v)
+                world[i][v] =
+                    mote_pose_apply(&pose, mote_scale(mesh[i]->positions[v], i ? 0.6 : 1));
+        }
+        double depth = -1;
+        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], &depth),
+                         MOTE_OK);
+        assert_close(depth, depth_by_angles(mesh, world), 1e-14);
+        deep += depth > 0.01;
+    }
+    assert_true(deep > 10 && deep < 60);
+    mote_penetration_destroy(penetration);
+    for (int i = 0; i < 2; ++i) {
+        free(world[i]);
+        mote_mesh_destroy(mesh[i]);
+    }
+}
+
+/* Shifted along the ray, every vertex of one lies on rays through vertices of the other. */
+static void penetration_depth_aligned_tori_ties_as_by_solid_angles(void **state)
+{
+    (void)state;
+    mote_mesh *mesh[2] = {solid_to_mesh(solid_torus(16, 8)), solid_to_mesh(solid_torus(16, 8))};
+    mote_penetration *penetration = NULL;
+    assert_int_equal(mote_penetration_create(mesh[0], mesh[1], &penetration), MOTE_OK);
+    mote_vec3 *moved = malloc(mesh[1]->vertex_count * sizeof *moved);
+    mote_vec3 *const world[2] = {mesh[0]->positions, moved};
+    for (int i = 1; i < 8; ++i) {
+        for (uint32_t v = 0; v < mesh[1]->vertex_count; ++v)
+            moved[v] = mote_add(mesh[1]->positions[v], mote_vec3_make(0.06 * i, 0, 0));
+        double depth = -1;
+        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], &depth),
+                         MOTE_OK);
+        assert_close(depth, depth_by_angles(mesh, world), 1e-14);
+        assert_true(depth > 0.01);
+    }
+    free(moved);
+    mote_penetration_destroy(penetration);
+    mote_mesh_destroy(mesh[0]);
+    mote_mesh_destroy(mesh[1]);
+}
+
+static int run_line(const char *line, char *said, size_t size)
+{
+    const int status = program_wait(program_start(line, SAID));
+    program_read(SAID, said, size);
+    return status;
+}
+
+static void command_simulate_json_has_the_keys(void **state)
+{
+    (void)state;
+    static const char *const keys[] = {"steps",           "approaches",   "passes_through",
+                                       "max_penetration", "energy_drift", "momentum_drift"};
+    char said[8192];
+    mote_scenario_destroy(load("", "1.1, 0.1, 0", FLYING));
+    assert_int_equal(
+        run_line("simulate " FILE_NAME " --method certified --json", said, sizeof said), 0);
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        char quoted[64];
+        (void)snprintf(quoted, sizeof quoted, "\"%s\":", keys[i]);
+        if (!strstr(said, quoted))
+            fail_msg("no %s in %s", keys[i], said);
+    }
+    assert_non_null(strstr(said, "\"passes_through\": 0,"));
+}
+
+typedef struct bad_line {
+    const char *line;
+    int status;
+    const char *says;
+} bad_line;
+
+static void command_simulate_bad_line_exit_status_and_reason(void **state)
+{
+    (void)state;
+    static const bad_line bad[] = {
+        {"simulate", 2, "missing"},
+        {"simulate tt", 2, "missing"},
+        {"simulate tt --method certified --steps 0", 2, "--steps 0"},
+        {"simulate tt --method certified --gravity 1,2", 2, "--gravity"},
+        {"simulate tt --method certified --density 0", 4, "density 0"},
+        {"simulate tt --method certified --density -3", 4, "density -3"},
+        {"simulate tt --method certified --tolerance 0", 4, "tolerance 0"},
+        {"simulate tt --method magic", 4, "magic"},
+        {"simulate nothing --method certified", 4, "nothing"},
+        {"simulate teapot --method certified", 4, "open"},
+        {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
+    };
+    char said[8192];
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        const int status = run_line(bad[i].line, said, sizeof said);
+        if (status != bad[i].status || !strstr(said, bad[i].says))
+            fail_msg("mote %s: exit %d: %s", bad[i].line, status, said);
+    }
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    (void)unlink(FILE_NAME);
+    (void)unlink(SAID);
+    return rmdir(FOLDER);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(simulator_run_exact_methods_agree_and_miss_nothing),
+        cmocka_unit_test(simulator_run_blind_method_passes_through),
+        cmocka_unit_test(simulator_run_at_rest_stays),
+        cmocka_unit_test(simulator_run_gravity_and_restitution_are_accounted_for),
+        cmocka_unit_test(simulator_run_refuses_with_reason),
+        cmocka_unit_test(penetration_depth_random_poses_as_by_solid_angles),
+        cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),
+        cmocka_unit_test(command_simulate_json_has_the_keys),
+        cmocka_unit_test(command_simulate_bad_line_exit_status_and_reason),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
