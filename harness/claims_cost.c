@@ -108,7 +108,8 @@ static mote_status measure_numbers(mote_study *study, mote_claim *claim, mote_te
         cost_points points = {.count = 0};
         begin_block(curve, paces[p].title);
         /* The slower the query, the fewer: one of n = 64 takes 5 ms cold. */
-        const size_t count = (study->quick ? 5u : 7u) - (p + 1 == PACES ? 1u : 0u);
+        const size_t most = p + 1 == PACES ? 6 : 7;
+        const size_t count = study->quick ? 5 : most;
         for (size_t i = 0; i < count && status == MOTE_OK; ++i)
             status = add_point(subject, &paces[p], numbers[i], numbers[i], &points, curve);
         if (status == MOTE_OK)

@@ -385,7 +385,9 @@ static mote_status add_starts(const mote_study *study, const mote_subject *subje
     for (uint32_t k = 0; (k + 1) * BLOCK <= frames; ++k)
         mote_text_add(curve, "%u\t%g\n", k * BLOCK + BLOCK / 2,
                       agree[k] / (double)(BLOCK * pairs));
-    const mote_estimate e = mote_estimate_make(shares, pairs);
+    mote_estimate e = mote_estimate_make(shares, pairs);
+    e.interval.low = fmax(e.interval.low, 0);
+    e.interval.high = fmin(e.interval.high, 1);
     return mote_claim_add(claim, e.value, e.interval, "",
                           "%s: share of later queries on which two starts agree", name);
 }

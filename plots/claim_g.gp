@@ -5,7 +5,6 @@ data = ARG2.".dat"
 half = 4
 
 set logscale xy
-set yrange [0.5:*]
 set key inside top left vertical
 
 array colour[4] = [dark, blue, orange, grey]
@@ -17,12 +16,15 @@ do for [format in "svg png"] {
     set multiplot layout 1,2
     set ylabel "median time of a query, {/Symbol m}s"
     set format x "%g"
+    set format y "10^{%L}"
+    set yrange [0.5:1e6]
     set xlabel "particles n, W-W of 11,920 triangles"
     set logscale x 2
     plot for [i=0:half-1] data index i using 1:2:3:4 with yerrorlines pt shape[i+1] ps 0.8 lw 1.5 \
              lc rgb colour[i+1] title columnheader(1), \
          [x=16:128] 0.02*x**2 with lines dt 2 lw 1.5 lc rgb ink title "n^2"
     set xlabel "triangles, n = 5"
+    set yrange [0.5:1e5]
     set logscale x 10
     set format x "10^{%L}"
     plot for [i=0:half-1] data index half+i using 1:2:3:4 with yerrorlines pt shape[i+1] ps 0.8 \
