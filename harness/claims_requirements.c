@@ -105,6 +105,7 @@ static void swap_bodies(const mote_subject *subject, mote_scenario *scenario,
     *scenario = *subject->scenario;
     scenario->body[0] = subject->scenario->body[1];
     scenario->body[1] = subject->scenario->body[0];
+    *motion = *subject->scenario->motion;
     motion->body[0] = subject->scenario->motion->body[1];
     motion->body[1] = subject->scenario->motion->body[0];
     scenario->motion = motion;
@@ -119,8 +120,7 @@ static void gather(const mote_sample *samples, size_t count, mote_measured which
         values[s] = samples[s].of[which];
 }
 
-/* Welch's interval of the difference, as a multiple of its distance from the middle to 0: at
-   most 1 when 0 lies inside. */
+/* The difference by Welch's test, which must not be told from none. */
 static mote_status add_swap(const mote_sample *samples, const mote_sample *swapped,
                             size_t seeds, mote_measured which, const char *name,
                             mote_claim *claim)

@@ -22,14 +22,14 @@ do for [format in "svg png"] {
     set logscale x 2
     plot for [i=0:half-1] data index i using 1:2:3:4 with yerrorlines pt shape[i+1] ps 0.8 lw 1.5 \
              lc rgb colour[i+1] title columnheader(1), \
-         [x=16:128] 0.02*x**2 with lines dt 2 lw 1.5 lc rgb ink title "n^2"
+         (x >= 16 ? 0.02*x**2 : NaN) with lines dt 2 lw 1.5 lc rgb ink title "n^2"
     set xlabel "triangles, n = 5"
     set yrange [0.5:1e5]
     set logscale x 10
     set format x "10^{%L}"
     plot for [i=0:half-1] data index half+i using 1:2:3:4 with yerrorlines pt shape[i+1] ps 0.8 \
              lw 1.5 lc rgb colour[i+1] title columnheader(1), \
-         [x=500:1000000] 0.8*sqrt(x) with lines dt 2 lw 1.5 lc rgb ink title "square root"
+         (x >= 500 ? 0.8*sqrt(x) : NaN) with lines dt 2 lw 1.5 lc rgb ink title "square root"
     unset multiplot
     unset output
 }

@@ -9,7 +9,7 @@ shown(e) = e > floor_error ? e : floor_error
 floor_share = 1e-4
 
 set logscale x 2
-set xrange [0.9:70]
+set xrange [0.9:40]
 set key outside bottom center horizontal
 set xlabel "particles n"
 array laws[3] = ["log", "inverse", "inverse-square"]
@@ -31,10 +31,15 @@ do for [format in "svg png"] {
              pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
     set ylabel "share of contacts missed"
     set yrange [floor_share/2:2]
-    set key at screen 0.5,0.12 center center vertical maxrows 3 samplen 2 width -2 font ',15'
+    set key at screen 0.52,0.11 center center vertical maxrows 3 samplen 3 width 1
     plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:($6 > floor_share ? $6 : floor_share) \
-             with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] \
-             title kinds[k+1].", ".laws[l+1]
+             with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle, \
+         for [k=0:1] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
+         keyentry with lines lc rgb "white" title " ", \
+         for [k=2:3] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
+         keyentry with lines lc rgb "white" title " ", \
+         for [l=0:2] keyentry with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] \
+             lc rgb ink title laws[l+1]
     unset multiplot
     unset output
 }
