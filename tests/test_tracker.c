@@ -97,7 +97,7 @@ static double run(scene *s, const char *parameters, int frames, bool smooth)
 static double run_tori(const char *parameters, int frames, bool deforming, bool smooth)
 {
     scene s;
-    scene_init(&s, 24, 12, 1, deforming);
+    scene_init(&s, 18, 10, 1, deforming);
     const double rate = run(&s, parameters, frames, smooth);
     scene_free(&s);
     return rate;
@@ -106,16 +106,16 @@ static double run_tori(const char *parameters, int frames, bool deforming, bool 
 static void query_smooth_motion_nearly_always_exact(void **context)
 {
     (void)context;
-    assert_true(run_tori("n=8", 150, true, true) >= 0.98);
-    assert_true(run_tori("n=8,positions=given", 150, true, true) >= 0.98);
-    assert_true(run_tori("n=8", 150, false, true) >= 0.98);
+    assert_true(run_tori("n=8", 80, true, true) >= 0.98);
+    assert_true(run_tori("n=8,positions=given", 80, true, true) >= 0.98);
+    assert_true(run_tori("n=8", 80, false, true) >= 0.98);
 }
 
 static void query_teleports_mostly_exact(void **context)
 {
     (void)context;
-    assert_true(run_tori("n=16", 150, true, false) >= 0.9);
-    assert_true(run_tori("n=16,positions=given", 100, true, false) >= 0.9);
+    assert_true(run_tori("n=16", 80, true, false) >= 0.9);
+    assert_true(run_tori("n=16,positions=given", 80, true, false) >= 0.9);
 }
 
 static void query_switches_answers_on_surfaces(void **context)
@@ -131,11 +131,11 @@ static void query_switches_answers_on_surfaces(void **context)
         "n=8,start=random",
         "n=8,track=0,refine=1,launch=0",
         "n=8,forces=on,positions=given",
-        "n=200,launch=200,track=64,refine=64",
+        "n=150,launch=150,track=64,refine=64",
     };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; ++i) {
-        run_tori(choices[i], 15, true, true);
-        run_tori(choices[i], 15, true, false);
+        run_tori(choices[i], 8, true, true);
+        run_tori(choices[i], 8, true, false);
     }
 }
 
