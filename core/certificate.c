@@ -149,6 +149,22 @@ static void polish(mote_certificate *c, mote_refined *refined)
     }
 }
 
+/* Descends from the pair that improved, as far as it goes. */
+static void refine_best(mote_certificate *c)
+{
+    mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
+    const double enough = c->enough > 0 ? c->enough * c->enough : 0;
+    mote_refined refined;
+    mote_refine_triangles(lazy, (const uint32_t *)c->best.triangle[0], c->best.triangle[1],
+                          enough, &refined);
+    polish(c, &refined);
+    ++c->counters.refined;
+    if (refined.squared < c->best.squared) {
+        c->best = refined;
+        mote_cert_set_best(c, refined.squared);
+    }
+}
+
 /* The first upper bound: from faces that may be near, or found in the trees. */
 static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32_t (*first)[3])
 {
@@ -156,6 +172,8 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
     const double enough = c->enough > 0 ? c->enough * c->enough : 0;
     for (int s = 0; s < 2; ++s)
         mote_lazy_begin(lazy[s], &frame->body[s], false);
+    const bool steady = c->steady;
+    c->steady = false;
     if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
         first = (const uint32_t(*)[3])c->last;
     if (!first) {
@@ -167,14 +185,15 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
         mote_cert_descend(c, vertex);
         mote_refine_vertices(lazy, vertex, enough, &c->best);
         polish(c, &c->best);
-    } else if (c->options.seed == MOTE_CERT_SEED_PAIR) {
+    } else {
         c->best = (mote_refined){.squared = HUGE_VAL};
         for (int s = 0; s < 2; ++s)
             memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         polish(c, &c->best);
-    } else {
-        mote_refine_triangles(lazy, first[0], first[1], enough, &c->best);
-        polish(c, &c->best);
+        c->seed_squared = c->best.squared;
+        c->unrefined = steady && c->options.seed == MOTE_CERT_SEED_WITNESS;
+        if (!steady && c->options.seed == MOTE_CERT_SEED_WITNESS)
+            refine_best(c);
     }
 }
 
@@ -193,20 +212,22 @@ static void set_plane(mote_certificate *c)
     ++c->generation;
 }
 
-/* Descends from the pair that improved, as far as it goes. */
-static void refine_best(mote_certificate *c)
+/* Whether both bodies are clear of the plane. A pair of faces that was only measured is refined
+   when its plane is crossed: as long as it stays the nearest, that is never. */
+static bool plane_clears(mote_certificate *c)
 {
-    mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
-    const double enough = c->enough > 0 ? c->enough * c->enough : 0;
-    mote_refined refined;
-    mote_refine_triangles(lazy, (const uint32_t *)c->best.triangle[0], c->best.triangle[1],
-                          enough, &refined);
-    polish(c, &refined);
-    ++c->counters.refined;
-    if (refined.squared < c->best.squared) {
-        c->best = refined;
-        mote_cert_set_best(c, refined.squared);
+    while (!c->done) {
+        const bool clear0 = mote_cert_plane_pass(c, 0);
+        const bool clear1 = !c->crossed && mote_cert_plane_pass(c, 1);
+        if (!c->crossed)
+            return clear0 && clear1;
+        const double before = c->best.squared;
+        c->crossed = c->unrefined = false;
+        refine_best(c);
+        if (c->best.squared < before && !c->done)
+            set_plane(c);
     }
+    return false;
 }
 
 /* Proves the limit, lowering the upper bound whenever something nearer turns up. */
@@ -216,13 +237,12 @@ static void prove(mote_certificate *c)
         c->open = DBL_MAX;
         c->proven = true;
         set_plane(c);
-        if (c->options.plane) {
-            const bool clear0 = mote_cert_plane_pass(c, 0);
-            const bool clear1 = mote_cert_plane_pass(c, 1);
-            if (clear0 && clear1)
-                return;
+        if (c->options.plane && plane_clears(c)) {
+            c->steady = c->best.squared >= c->seed_squared * (1 - 1e-12);
+            return;
         }
-        mote_cert_traverse(c);
+        if (!c->done)
+            mote_cert_traverse(c);
         c->proven = !c->done;
         if (!c->improved)
             return;
@@ -239,6 +259,7 @@ static void begin(mote_certificate *c, double enough)
     c->slack = c->options.slack * c->options.length;
     c->restarts = 0;
     c->done = c->improved = c->stopped = c->proven = false;
+    c->unrefined = c->crossed = false;
     c->direction_count = 0;
     c->open = DBL_MAX;
 }

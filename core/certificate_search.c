@@ -40,42 +40,57 @@ static bool clear_leaf(mote_certificate *c, int s, mote_cert_node *node, size_t 
 static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                        uint32_t depth)
 {
-    float reach;
+    float reach = 0;
     bool clear;
     if (node->block->child[lane] < 0) {
         double exact;
         clear = clear_leaf(c, s, node, lane, &exact);
         reach = (float)exact + c->side[s].reach_margin;
+        c->crossed = c->unrefined && !clear;
     } else {
         mote_cert_node *child = mote_cert_child(c, s, node, lane, depth);
         clear = clear_node(c, s, child, depth + 1, &reach);
     }
+    if (c->crossed)
+        return;
     if (clear)
         node->clear |= 1u << lane;
     if (reach < node->reach[lane])
         node->reach[lane] = reach;
 }
 
-/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. */
+static inline bool worth_opening(const mote_cert_node *node, size_t lane, float threshold)
+{
+    return !(node->clear >> lane & 1) &&
+           node->reach[lane] - threshold <= CROSSING * node->extent[lane];
+}
+
+/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. The child
+   that reaches farthest comes first: if something crosses the plane, it is found there. */
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach)
 {
-    const uint32_t mask = node->block->mask;
+    const uint32_t children = node->block->children;
     const float threshold = c->side[s].threshold_f;
+    size_t farthest = 0;
+    for (size_t l = 1; l < children; ++l)
+        farthest = node->reach[l] > node->reach[farthest] ? l : farthest;
     float most = -FLT_MAX;
-    for (size_t l = 0; l < WIDTH && mask >> l; ++l) {
-        const bool open = !(node->clear >> l & 1);
-        if (open && node->reach[l] - threshold <= CROSSING * node->extent[l])
+    for (size_t i = 0; i < children; ++i) {
+        const size_t l = i == 0 ? farthest : i == farthest ? 0 : i;
+        if (worth_opening(node, l, threshold))
             open_child(c, s, node, l, depth);
+        if (c->crossed)
+            return false;
         most = node->reach[l] > most ? node->reach[l] : most;
     }
     *reach = most;
-    return node->clear == mask;
+    return node->clear == node->block->mask;
 }
 
 bool mote_cert_plane_pass(mote_certificate *c, int s)
 {
-    float reach;
+    float reach = 0;
     return clear_node(c, s, mote_cert_root(c, s), 0, &reach);
 }
 

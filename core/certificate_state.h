@@ -90,10 +90,15 @@ struct mote_certificate {
     double open;   /* least bound of what was left when the budget was spent */
     uint32_t generation;
     uint32_t restarts;
-    bool done;     /* the traversal ends */
-    bool improved; /* ... because the upper bound improved */
-    bool stopped;  /* the budget is spent */
-    bool proven;   /* all pairs were ruled out or measured, or are in `open` */
+    bool done;      /* the traversal ends */
+    bool improved;  /* ... because the upper bound improved */
+    bool stopped;   /* the budget is spent */
+    bool proven;    /* all pairs were ruled out or measured, or are in `open` */
+    bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
+    bool crossed;   /* ... which it was */
+    bool steady;    /* the last query's seed was its answer, and a plane proved it: the next
+                       one's is likely to be, so that it is not refined at first */
+    double seed_squared;
     bool has_last;
     uint32_t last[2][3]; /* faces of the last query's witnesses */
     mote_vec3 direction[MOTE_CERT_DIRECTIONS];
