@@ -172,8 +172,6 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
     const double enough = c->enough > 0 ? c->enough * c->enough : 0;
     for (int s = 0; s < 2; ++s)
         mote_lazy_begin(lazy[s], &frame->body[s], false);
-    const bool steady = c->steady;
-    c->steady = false;
     if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
         first = (const uint32_t(*)[3])c->last;
     if (!first) {
@@ -191,8 +189,8 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
             memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         polish(c, &c->best);
         c->seed_squared = c->best.squared;
-        c->unrefined = steady && c->options.seed == MOTE_CERT_SEED_WITNESS;
-        if (!steady && c->options.seed == MOTE_CERT_SEED_WITNESS)
+        c->unrefined = c->steady && c->options.seed == MOTE_CERT_SEED_WITNESS;
+        if (!c->steady && c->options.seed == MOTE_CERT_SEED_WITNESS)
             refine_best(c);
     }
 }
@@ -237,10 +235,8 @@ static void prove(mote_certificate *c)
         c->open = DBL_MAX;
         c->proven = true;
         set_plane(c);
-        if (c->options.plane && plane_clears(c)) {
-            c->steady = c->best.squared >= c->seed_squared * (1 - 1e-12);
+        if (c->options.plane && plane_clears(c))
             return;
-        }
         if (!c->done)
             mote_cert_traverse(c);
         c->proven = !c->done;
@@ -260,6 +256,7 @@ static void begin(mote_certificate *c, double enough)
     c->restarts = 0;
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
+    c->seed_squared = HUGE_VAL;
     c->direction_count = 0;
     c->open = DBL_MAX;
 }
@@ -280,6 +277,7 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
     answer->counters.positions +=
         c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
     memcpy(c->last, c->best.triangle, sizeof c->last);
+    c->steady = c->best.squared >= c->seed_squared * (1 - 1e-12);
     c->has_last = true;
 }
 

@@ -24,6 +24,10 @@
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
+/* A box that crosses the plane by more than this part of its extent is not worth opening: most
+   of what is inside crosses it too. */
+#define CROSSING 0.35F
+
 #define FLOAT_ROUNDING 0x1p-24
 
 static double largest(mote_vec3 v)
@@ -160,7 +164,13 @@ static void project_block(const mote_cert_side *restrict side,
         node->reach[l] = middle[l] + half;
         node->extent[l] = 2 * half;
     }
-    node->clear = bits_at_most(node->reach, side->threshold_f) & block->mask;
+    const float threshold = side->threshold_f;
+    float excess[WIDTH];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        excess[l] = node->reach[l] - CROSSING * node->extent[l];
+    node->clear = bits_at_most(node->reach, threshold) & block->mask;
+    node->crossing = bits_at_most(excess, threshold) & block->mask & ~node->clear;
 }
 
 /* The rigid motion of a block's boxes. */

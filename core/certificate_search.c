@@ -5,10 +5,6 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
-/* A box that crosses the plane by more than this part of its extent is not worth opening: most
-   of what is inside crosses it too. */
-#define CROSSING 0.35F
-
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
@@ -55,35 +51,37 @@ static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t 
         return;
     if (clear)
         node->clear |= 1u << lane;
+    node->crossing &= ~(1u << lane);
     if (reach < node->reach[lane])
         node->reach[lane] = reach;
 }
 
-static inline bool worth_opening(const mote_cert_node *node, size_t lane, float threshold)
+/* The child that reaches farthest; the first of equals. */
+static size_t farthest_child(const mote_cert_node *node)
 {
-    return !(node->clear >> lane & 1) &&
-           node->reach[lane] - threshold <= CROSSING * node->extent[lane];
+    size_t best = 0;
+    for (size_t l = 1; l < node->block->children; ++l)
+        best = node->reach[l] > node->reach[best] ? l : best;
+    return best;
 }
 
-/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. The child
-   that reaches farthest comes first: if something crosses the plane, it is found there. */
+/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. Where the
+   first crossing ends the pass, the child that reaches farthest is looked at first. */
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach)
 {
-    const uint32_t children = node->block->children;
-    const float threshold = c->side[s].threshold_f;
-    size_t farthest = 0;
-    for (size_t l = 1; l < children; ++l)
-        farthest = node->reach[l] > node->reach[farthest] ? l : farthest;
-    float most = -FLT_MAX;
-    for (size_t i = 0; i < children; ++i) {
-        const size_t l = i == 0 ? farthest : i == farthest ? 0 : i;
-        if (worth_opening(node, l, threshold))
-            open_child(c, s, node, l, depth);
-        if (c->crossed)
-            return false;
-        most = node->reach[l] > most ? node->reach[l] : most;
+    uint32_t left = node->crossing;
+    if (c->unrefined && left) {
+        const size_t first = farthest_child(node);
+        if (left >> first & 1)
+            open_child(c, s, node, first, depth);
+        left &= ~(1u << first);
     }
+    for (; left && !c->crossed; left &= left - 1)
+        open_child(c, s, node, mote_lowest_bit(left), depth);
+    float most = -FLT_MAX;
+    for (size_t l = 0; l < node->block->children; ++l)
+        most = node->reach[l] > most ? node->reach[l] : most;
     *reach = most;
     return node->clear == node->block->mask;
 }

@@ -26,6 +26,7 @@ typedef struct mote_cert_node {
     const mote_cert_block *block;
     bool boxes;          /* centre .. size are known */
     uint32_t clear;      /* bit l: child l is wholly on its side of the plane */
+    uint32_t crossing;   /* bit l: child l crosses the plane by little: worth opening */
     uint32_t generation; /* the plane that reach, extent and clear belong to */
 } mote_cert_node;
 
@@ -96,8 +97,8 @@ struct mote_certificate {
     bool proven;    /* all pairs were ruled out or measured, or are in `open` */
     bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
     bool crossed;   /* ... which it was */
-    bool steady;    /* the last query's seed was its answer, and a plane proved it: the next
-                       one's is likely to be, so that it is not refined at first */
+    bool steady; /* the last query's seed was its answer: the next one's is likely to be, too,
+                    so that it is not refined at first */
     double seed_squared;
     bool has_last;
     uint32_t last[2][3]; /* faces of the last query's witnesses */
@@ -105,6 +106,19 @@ struct mote_certificate {
     uint32_t direction_count;
     mote_counters counters;
 };
+
+/* The place of the lowest bit; bits is not 0. */
+static inline size_t mote_lowest_bit(uint32_t bits)
+{
+#if defined(__GNUC__)
+    return (size_t)__builtin_ctz(bits);
+#else
+    size_t place = 0;
+    while (!(bits >> place & 1))
+        ++place;
+    return place;
+#endif
+}
 
 /* certificate_deform.c */
 
