@@ -2,9 +2,6 @@
 #include "core/certificate_state.h"
 #include "core/triangle.h"
 
-#include <float.h>
-#include <string.h>
-
 /* Whether the gap along a unit direction, or one a little shorter, is at least the limit. */
 static bool separates(const mote_certificate *c, const mote_cert_points *const points[2],
                       mote_vec3 direction)
@@ -121,27 +118,56 @@ static bool separated(mote_certificate *c, const mote_cert_points *const points[
 /* A leaf's triangle with what rules it out cheaply. */
 typedef struct face {
     mote_vec3 corner[3];
-    mote_vec3 low, high; /* bounding box */
-    double reach;        /* towards the other body, in the trees' units */
+    mote_vec3 low, high;   /* bounding box */
+    double reach;          /* towards the other body, in the trees' units */
+    const uint8_t *places; /* of its corners in the leaf */
 } face;
 
-static void take_face(const mote_certificate *c, const mote_cert_side *side,
-                      const mote_cert_points *points, const uint8_t corner[3], face *f)
+static double least(double a, double b, double c)
 {
-    f->reach = -DBL_MAX;
-    for (int k = 0; k < 3; ++k) {
-        const mote_vec3 x = mote_cert_point(points, corner[k]);
-        f->corner[k] = x;
-        const double reach = mote_dot(mote_sub(x, c->origin), side->facing) * c->scale;
-        f->reach = reach > f->reach ? reach : f->reach;
-    }
+    const double d = a < b ? a : b;
+    return c < d ? c : d;
+}
+
+static double most(double a, double b, double c)
+{
+    const double d = a > b ? a : b;
+    return c > d ? c : d;
+}
+
+static void take_face(const mote_cert_points *points, face *f)
+{
+    for (int k = 0; k < 3; ++k)
+        f->corner[k] = mote_cert_point(points, f->places[k]);
     const mote_vec3 *x = f->corner;
-    f->low =
-        mote_vec3_make(fmin(x[0].x, fmin(x[1].x, x[2].x)), fmin(x[0].y, fmin(x[1].y, x[2].y)),
-                       fmin(x[0].z, fmin(x[1].z, x[2].z)));
-    f->high =
-        mote_vec3_make(fmax(x[0].x, fmax(x[1].x, x[2].x)), fmax(x[0].y, fmax(x[1].y, x[2].y)),
-                       fmax(x[0].z, fmax(x[1].z, x[2].z)));
+    f->low = mote_vec3_make(least(x[0].x, x[1].x, x[2].x), least(x[0].y, x[1].y, x[2].y),
+                            least(x[0].z, x[1].z, x[2].z));
+    f->high = mote_vec3_make(most(x[0].x, x[1].x, x[2].x), most(x[0].y, x[1].y, x[2].y),
+                             most(x[0].z, x[1].z, x[2].z));
+}
+
+/* The faces of a leaf that reach far enough to be nearer to the other leaf than the limit. */
+static uint32_t near_faces(const mote_certificate *c, int s,
+                           const mote_cert_points *const points[2],
+                           face faces[MOTE_CERT_LEAF_TRIANGLES])
+{
+    const mote_cert_side *side = &c->side[s];
+    const mote_cert_leaf *leaf = &side->tree->leaves[points[s]->leaf];
+    const mote_vec3 direction = mote_scale(side->facing, c->scale);
+    double along[MOTE_CERT_LEAF_VERTICES];
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i)
+        along[i] = mote_dot(mote_sub(mote_cert_point(points[s], i), c->origin), direction);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < leaf->triangle_count; ++i) {
+        const uint8_t *places = side->tree->corners[leaf->first_corner + i];
+        const double reach = most(along[places[0]], along[places[1]], along[places[2]]);
+        if (-(reach + points[1 - s]->reach) >= c->limit)
+            continue;
+        faces[count].reach = reach;
+        faces[count].places = places;
+        take_face(points[s], &faces[count++]);
+    }
+    return count;
 }
 
 static inline double gap(double low_a, double high_a, double low_b, double high_b)
@@ -159,9 +185,17 @@ static double box_gap_squared(const face *s, const face *t)
     return x * x + y * y + z * z;
 }
 
+static void corners_of(const mote_cert_tree *tree, const mote_cert_points *points,
+                       const face *f, uint32_t vertices[3])
+{
+    const mote_cert_leaf *leaf = &tree->leaves[points->leaf];
+    for (int k = 0; k < 3; ++k)
+        vertices[k] = tree->leaf_vertices[leaf->first_vertex + f->places[k]];
+}
+
 /* Measures two triangles unless they are far; true when they are nearer than any before. */
-static bool measure(mote_certificate *c, const face *s, const face *t, const uint32_t vs[3],
-                    const uint32_t vt[3])
+static bool measure(mote_certificate *c, const mote_cert_points *const points[2], const face *s,
+                    const face *t)
 {
     if (-(s->reach + t->reach) >= c->limit)
         return false;
@@ -177,44 +211,22 @@ static bool measure(mote_certificate *c, const face *s, const face *t, const uin
         return false;
     c->best.witness[0] = p;
     c->best.witness[1] = q;
-    memcpy(c->best.triangle[0], vs, sizeof c->best.triangle[0]);
-    memcpy(c->best.triangle[1], vt, sizeof c->best.triangle[1]);
+    corners_of(c->side[0].tree, points[0], s, c->best.triangle[0]);
+    corners_of(c->side[1].tree, points[1], t, c->best.triangle[1]);
     mote_cert_set_best(c, squared);
     return true;
-}
-
-static void corners_of(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
-                       const uint8_t corner[3], uint32_t vertices[3])
-{
-    for (int k = 0; k < 3; ++k)
-        vertices[k] = tree->leaf_vertices[leaf->first_vertex + corner[k]];
 }
 
 /* Measures all pairs of triangles of two leaves; true when the upper bound improved. */
 static bool measure_all(mote_certificate *c, const mote_cert_points *const points[2])
 {
-    const mote_cert_tree *tree[2] = {c->side[0].tree, c->side[1].tree};
-    const mote_cert_leaf *leaf[2];
-    face others[MOTE_CERT_LEAF_TRIANGLES];
+    face faces[2][MOTE_CERT_LEAF_TRIANGLES];
+    const uint32_t count0 = near_faces(c, 0, points, faces[0]);
+    const uint32_t count1 = count0 > 0 ? near_faces(c, 1, points, faces[1]) : 0;
     bool improved = false;
-    for (int s = 0; s < 2; ++s)
-        leaf[s] = &tree[s]->leaves[points[s]->leaf];
-    for (uint32_t k = 0; k < leaf[1]->triangle_count; ++k)
-        take_face(c, &c->side[1], points[1], tree[1]->corners[leaf[1]->first_corner + k],
-                  &others[k]);
-    for (uint32_t i = 0; i < leaf[0]->triangle_count; ++i) {
-        const uint8_t *corner = tree[0]->corners[leaf[0]->first_corner + i];
-        uint32_t vs[3];
-        face f;
-        take_face(c, &c->side[0], points[0], corner, &f);
-        if (-(f.reach + points[1]->reach) >= c->limit)
-            continue;
-        corners_of(tree[0], leaf[0], corner, vs);
-        for (uint32_t k = 0; k < leaf[1]->triangle_count && !c->done; ++k) {
-            uint32_t vt[3];
-            corners_of(tree[1], leaf[1], tree[1]->corners[leaf[1]->first_corner + k], vt);
-            improved = measure(c, &f, &others[k], vs, vt) || improved;
-        }
+    for (uint32_t i = 0; i < count0; ++i) {
+        for (uint32_t k = 0; k < count1 && !c->done; ++k)
+            improved = measure(c, points, &faces[0][i], &faces[1][k]) || improved;
     }
     return improved;
 }
