@@ -7,6 +7,7 @@
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
+#   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-statistics                            what intervals cover on simulated runs
@@ -24,7 +25,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -53,6 +54,10 @@ tune: build
 
 ingredients: build
 	@harness/ingredients.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ingredients,$(OUT))
+
+dynamics: build
+	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \
+	    $(if $(filter quick,$(PROFILE)),--quick)
 
 perf-check: build
 	@harness/perf.sh check $(MOTE) results/perf-check

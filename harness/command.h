@@ -40,6 +40,8 @@ typedef enum mote_exit {
       "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
       "           [--trace FILE.json]",                                                        \
       "closed loop: bodies move freely and collide where the method says so")                  \
+    X(dynamics, "dynamics [--out DIR] [--quick]",                                              \
+      "how often n particles let a body pass through, in the closed loop")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \

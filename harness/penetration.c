@@ -15,6 +15,9 @@ typedef struct shadow {
     uint32_t *first; /* [side^2 + 1] */
     uint32_t *entry;
     size_t capacity;
+    double longest;      /* edge */
+    uint32_t deepest[2]; /* the last deepest vertex of the other body, and its nearest triangle:
+                            tried first, it lets most others be dropped soon */
 } shadow;
 
 struct mote_penetration {
@@ -67,6 +70,18 @@ static void set_bounds(shadow *s, const mote_vec3 *world)
         s->high = mote_vec3_make(fmax(s->high.x, world[v].x), fmax(s->high.y, world[v].y),
                                  fmax(s->high.z, world[v].z));
     }
+}
+
+static void set_longest(shadow *s)
+{
+    double squared = 0;
+    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
+        const uint32_t *t = s->mesh->triangles[f];
+        for (int k = 0; k < 3; ++k)
+            squared =
+                fmax(squared, mote_distance_squared(s->world[t[k]], s->world[t[(k + 1) % 3]]));
+    }
+    s->longest = sqrt(squared);
 }
 
 /* Monotone in at, so that a point's cell lies between those of its triangle's ends. */
@@ -178,16 +193,20 @@ static bool is_inside(const shadow *s, mote_vec3 p)
    to try first, and then the nearest one. */
 static double distance_above(const shadow *s, mote_vec3 p, double bound, uint32_t *nearest)
 {
-    double best = HUGE_VAL;
+    double best = HUGE_VAL, far = HUGE_VAL;
     const uint32_t count = s->mesh->triangle_count;
     const uint32_t from = *nearest;
     for (uint32_t i = 0; i < count && best > bound; ++i) {
         const uint32_t f = from + i < count ? from + i : from + i - count;
         const uint32_t *t = s->mesh->triangles[f];
         const mote_vec3 corner[3] = {s->world[t[0]], s->world[t[1]], s->world[t[2]]};
+        if (mote_distance_squared(p, corner[0]) > far)
+            continue; /* no point of it can be nearer */
         const double squared = mote_point_triangle(p, corner, NULL);
         if (squared < best) {
             best = squared;
+            far = sqrt(best) + s->longest;
+            far *= far * (1 + 1e-12);
             *nearest = f;
         }
     }
@@ -200,24 +219,37 @@ static bool in_box(const shadow *s, mote_vec3 p)
            p.z >= s->low.z && p.z <= s->high.z;
 }
 
+/* One vertex of the other body. */
+static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t *nearest,
+                      double *squared)
+{
+    const mote_vec3 p = other->world[vertex];
+    if (!in_box(s, p) || !is_inside(s, p))
+        return;
+    const double depth = distance_above(s, p, *squared, nearest);
+    if (depth > *squared) {
+        *squared = depth;
+        s->deepest[0] = vertex;
+        s->deepest[1] = *nearest;
+    }
+}
+
 /* The deepest vertex of `other` inside s, as a squared depth; deeper than *squared only. */
 static mote_status deepen(shadow *s, const shadow *other, double *squared)
 {
-    bool filled = false;
-    uint32_t nearest = 0;
-    for (uint32_t v = 0; v < other->mesh->vertex_count; ++v) {
-        const mote_vec3 p = other->world[v];
-        if (!in_box(s, p))
-            continue;
-        if (!filled) {
-            const mote_status status = fill(s);
-            if (status != MOTE_OK)
-                return status;
-            filled = true;
-        }
-        if (is_inside(s, p))
-            *squared = fmax(*squared, distance_above(s, p, *squared, &nearest));
-    }
+    uint32_t v = 0;
+    while (v < other->mesh->vertex_count && !in_box(s, other->world[v]))
+        ++v;
+    if (v == other->mesh->vertex_count)
+        return MOTE_OK;
+    const mote_status status = fill(s);
+    if (status != MOTE_OK)
+        return status;
+    set_longest(s);
+    uint32_t nearest = s->deepest[1];
+    deepen_by(s, other, s->deepest[0], &nearest, squared);
+    for (; v < other->mesh->vertex_count; ++v)
+        deepen_by(s, other, v, &nearest, squared);
     return MOTE_OK;
 }
 

@@ -396,6 +396,8 @@ static void command_simulate_bad_line_exit_status_and_reason(void **state)
         {"simulate tt --method magic", 4, "magic"},
         {"simulate nothing --method certified", 4, "nothing"},
         {"simulate teapot --method certified", 4, "open"},
+        {"dynamics tt", 2, "takes no argument"},
+        {"dynamics --quick --out /proc/x", 4, "/proc/x"},
         {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
     };
     char said[8192];
