@@ -341,7 +341,9 @@ static mote_status book(run *r, const mote_frame *frame, uint32_t k, bool truth,
         result->delay_max = delay > result->delay_max ? delay : result->delay_max;
     }
     /* Apart, no vertex is inside. */
-    return distance > 0 ? MOTE_OK : measure_depth(r, frame);
+    if (distance > 0 || (r->start->depth_unreported && r->reported))
+        return MOTE_OK;
+    return measure_depth(r, frame);
 }
 
 static mote_status respond(run *r)

@@ -30,6 +30,8 @@ typedef struct mote_simulation_start {
     double apart;   /* end early when the bodies, moving apart, are so far apart for certain
                        (absolute); 0: never */
     uint64_t seed;  /* of the method */
+    bool
+        depth_unreported; /* measure depth only until a contact is reported: it takes longest */
 } mote_simulation_start;
 
 typedef struct mote_simulation_result {

@@ -87,7 +87,8 @@ static mote_simulation_start draw_start(const mote_scenario *scenario, const mot
     const double radian = 3.14159265358979323846 / 180;
     const double speed =
         length * SLOWEST * exp(log(FASTEST / SLOWEST) * mote_random_unit(&random));
-    mote_simulation_start start = {.seed = index + 1, .apart = APART * length};
+    mote_simulation_start start = {
+        .seed = index + 1, .apart = APART * length, .depth_unreported = true};
     start.first = 1 + (uint32_t)mote_random_below(&random, scenario->frames);
     for (int i = 0; i < 2; ++i) {
         start.state[i].turn = random_turn(&random);
@@ -171,10 +172,10 @@ static json_t *row_json(const row *r)
         json_pack("{s:s, s:s, s:I, s:I, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:f}", "scenario",
                   r->scene, "method", r->method, "trials", (json_int_t)r->trials, "approaches",
                   (json_int_t)r->approaches, "passes_through", (json_int_t)r->passes,
-                  "deep_passes_through", (json_int_t)r->deep, "max_penetration", r->depth_max,
-                  "max_penetration_passes", r->depth_passes, "energy_drift", r->energy_drift,
-                  "momentum_drift", r->momentum_drift, "angular_momentum_drift",
-                  r->angular_drift, "query_ns", r->query_ns);
+                  "deep_passes_through", (json_int_t)r->deep, "max_penetration_unreported",
+                  r->depth_max, "max_penetration_passes", r->depth_passes, "energy_drift",
+                  r->energy_drift, "momentum_drift", r->momentum_drift,
+                  "angular_momentum_drift", r->angular_drift, "query_ns", r->query_ns);
     const struct {
         const char *key;
         uint64_t value;
