@@ -5,8 +5,9 @@
    relative to the query's origin: a bound of the sum of the absolute values of all terms of a
    box's centre, half axes and half width together.
    - Each of these is a sum of at most n + 4 terms, n the functions that reach the block; a term
-     is a product of two factors, of which one was rounded to float. So every coordinate of a
-     point of the box is wrong by at most (n + 6) u B.
+     is a product of two factors, of which one was rounded twice. So every coordinate of a
+     point of the box is wrong by at most (n + 7) u B, and its projection on a direction by
+     sqrt(3) as much.
    - A projection onto a direction of length <= 1 + 6 u adds up at most 9 roundings of terms
    whose absolute values sum up to at most sqrt(3) B: 16 u B; the difference of two projections
      rounds once more: 2 u B for each box.
@@ -132,14 +133,15 @@ static void project_block(const mote_cert_side *restrict side,
     for (size_t i = 0; i < block->active_count; ++i) {
         const mote_cert_row *row = &rows[i];
         const float w = side->along[active[i]];
-        const float size = fabsf(w);
+        const float turn = w * row->slope_unit;
+        const float size = fabsf(w) * row->rest_unit;
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
             middle[l] += row->offset[l] * w;
-            axis0[l] += row->slope[0][l] * w;
-            axis1[l] += row->slope[1][l] * w;
-            axis2[l] += row->slope[2][l] * w;
-            width[l] += row->rest[l] * size;
+            axis0[l] += (float)mote_cert_below(row->slopes[l]) * turn;
+            axis1[l] += (float)mote_cert_above(row->slopes[l]) * turn;
+            axis2[l] += (float)mote_cert_below(row->slope_rest[l]) * turn;
+            width[l] += (float)mote_cert_above(row->slope_rest[l]) * size;
         }
     }
     const float shift = side->shift;
@@ -211,23 +213,34 @@ MOTE_INLINE void add_field(const mote_cert_side *restrict side,
         const float x = side->weight[0][active[i]];
         const float y = side->weight[1][active[i]];
         const float z = side->weight[2][active[i]];
+        const float tx = x * row->slope_unit;
+        const float ty = y * row->slope_unit;
+        const float tz = z * row->slope_unit;
+        const float sx = fabsf(x) * row->rest_unit;
+        const float sy = fabsf(y) * row->rest_unit;
+        const float sz = fabsf(z) * row->rest_unit;
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
-            cx[l] += row->offset[l] * x;
-            cy[l] += row->offset[l] * y;
-            cz[l] += row->offset[l] * z;
-            ax[l] += row->slope[0][l] * x;
-            ay[l] += row->slope[0][l] * y;
-            az[l] += row->slope[0][l] * z;
-            bx[l] += row->slope[1][l] * x;
-            by[l] += row->slope[1][l] * y;
-            bz[l] += row->slope[1][l] * z;
-            dx[l] += row->slope[2][l] * x;
-            dy[l] += row->slope[2][l] * y;
-            dz[l] += row->slope[2][l] * z;
-            ex[l] += row->rest[l] * fabsf(x);
-            ey[l] += row->rest[l] * fabsf(y);
-            ez[l] += row->rest[l] * fabsf(z);
+            const float f = row->offset[l];
+            const float g0 = (float)mote_cert_below(row->slopes[l]);
+            const float g1 = (float)mote_cert_above(row->slopes[l]);
+            const float g2 = (float)mote_cert_below(row->slope_rest[l]);
+            const float m = (float)mote_cert_above(row->slope_rest[l]);
+            cx[l] += f * x;
+            cy[l] += f * y;
+            cz[l] += f * z;
+            ax[l] += g0 * tx;
+            ay[l] += g0 * ty;
+            az[l] += g0 * tz;
+            bx[l] += g1 * tx;
+            by[l] += g1 * ty;
+            bz[l] += g1 * tz;
+            dx[l] += g2 * tx;
+            dy[l] += g2 * ty;
+            dz[l] += g2 * tz;
+            ex[l] += m * sx;
+            ey[l] += m * sy;
+            ez[l] += m * sz;
         }
     }
     const float *const sums[3][5] = {

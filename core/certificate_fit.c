@@ -224,33 +224,31 @@ static void accumulate(normal_equations *e, const double z3[3], const double *ph
     }
 }
 
-/* The least-squares fit over the vertices, or over a sample of them where they are many: a fit
-   need only be good, its residuals are taken over all vertices. */
-static void fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                       const mote_cert_box *box, double *phi, mote_cert_fit *fit)
+/* A fit need only be good, its rests are taken over all vertices: where these are many, it is
+   made over a sample. */
+void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                          const mote_cert_box *box, double *phi, mote_cert_fit *fit)
 {
     const size_t functions = tree->body->field->count;
-    const size_t padded = tree->body->field->padded;
     const size_t stride = (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
-    normal_equations e = {{{0}}, {{0}}};
+    normal_equations e;
     double inverse[3];
+    memset(e.a, 0, sizeof e.a);
+    for (int i = 0; i < 4; ++i)
+        memset(e.b[i], 0, functions * sizeof *e.b[i]);
     inverse_squares(box, inverse);
     size_t used = 0;
     for (size_t i = 0; i < count; i += stride, ++used) {
         double z[3];
         box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
-        double *here = stride == 1 ? phi + i * padded : phi;
-        if (stride > 1)
-            scaled_basis(tree, vertices[i], here);
-        accumulate(&e, z, here, functions);
+        scaled_basis(tree, vertices[i], phi);
+        accumulate(&e, z, phi, functions);
     }
     for (int i = 0; i < 4; ++i)
         e.a[i][i] += 1e-6 * (double)used; /* directions in which the vertices do not spread */
     solve(&e, functions);
-    for (size_t j = 0; j < functions; ++j) {
-        for (int k = 0; k < 3; ++k)
-            fit->slope[k][j] = (float)e.b[k + 1][j];
-    }
+    for (int k = 0; k < 3; ++k)
+        memcpy(fit->slope[k], e.b[k + 1], functions * sizeof *fit->slope[k]);
 }
 
 /* The least and the largest of phi - sum_k g_k z_k over all vertices. */
@@ -259,30 +257,27 @@ typedef struct residuals {
 } residuals;
 
 static void measure_residuals(const mote_cert_tree *tree, const uint32_t *vertices,
-                              size_t count, const mote_cert_box *box, bool held, double *phi,
+                              size_t count, const mote_cert_box *box, double *phi,
                               mote_cert_fit *fit, residuals *r)
 {
     const size_t functions = tree->body->field->count;
-    const size_t padded = tree->body->field->padded;
     double inverse[3];
     inverse_squares(box, inverse);
     for (size_t j = 0; j < functions; ++j) {
         r->low[j] = DBL_MAX;
         r->high[j] = -DBL_MAX;
+        fit->active[j] = false;
     }
     for (size_t i = 0; i < count; ++i) {
         double z[3];
         box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
-        double *here = held ? phi + i * padded : phi;
-        if (!held)
-            scaled_basis(tree, vertices[i], here);
+        scaled_basis(tree, vertices[i], phi);
         for (size_t j = 0; j < functions; ++j) {
-            const double value = here[j] - (double)fit->slope[0][j] * z[0] -
-                                 (double)fit->slope[1][j] * z[1] -
-                                 (double)fit->slope[2][j] * z[2];
+            const double value = phi[j] - fit->slope[0][j] * z[0] - fit->slope[1][j] * z[1] -
+                                 fit->slope[2][j] * z[2];
             r->low[j] = value < r->low[j] ? value : r->low[j];
             r->high[j] = value > r->high[j] ? value : r->high[j];
-            fit->active[j] = fit->active[j] || fabs(here[j]) > 0;
+            fit->active[j] = fit->active[j] || fabs(phi[j]) > 0;
         }
     }
 }
@@ -292,33 +287,22 @@ static float rounded_up(double x)
     return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
 }
 
-void mote_cert_fit_box(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                       const mote_cert_box *box, bool linear, double *phi, mote_cert_fit *fit)
+void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                         const mote_cert_box *box, double *phi, mote_cert_fit *fit)
 {
     const size_t functions = tree->body->field->count;
-    const size_t padded = tree->body->field->padded;
-    const bool held = count <= MOTE_CERT_FIT_CHUNK;
-    memset(fit, 0, sizeof *fit);
-    for (size_t i = 0; held && i < count; ++i)
-        scaled_basis(tree, vertices[i], phi + i * padded);
-    if (linear)
-        fit_slopes(tree, vertices, count, box, phi, fit);
     residuals r;
-    measure_residuals(tree, vertices, count, box, held, phi, fit, &r);
+    measure_residuals(tree, vertices, count, box, phi, fit, &r);
     for (size_t j = 0; j < functions; ++j) {
-        if (!fit->active[j]) {
-            for (int k = 0; k < 3; ++k)
-                fit->slope[k][j] = 0;
+        if (!fit->active[j])
             continue;
-        }
         fit->offset[j] = (float)(0.5 * (r.low[j] + r.high[j]));
         const double middle = (double)fit->offset[j];
         const double above = r.high[j] - middle;
         const double below = middle - r.low[j];
         fit->rest[j] = rounded_up(above > below ? above : below);
-        const double reach = fabs(middle) + (double)fabsf(fit->slope[0][j]) +
-                             (double)fabsf(fit->slope[1][j]) + (double)fabsf(fit->slope[2][j]) +
-                             (double)fit->rest[j];
+        const double reach = fabs(middle) + fabs(fit->slope[0][j]) + fabs(fit->slope[1][j]) +
+                             fabs(fit->slope[2][j]) + (double)fit->rest[j];
         tree->reach[j] = reach > tree->reach[j] ? reach : tree->reach[j];
     }
 }

@@ -13,8 +13,8 @@ typedef struct mote_cert_box {
 
 /* Fits of all basis functions over one box. */
 typedef struct mote_cert_fit {
+    double slope[3][MOTE_FIELD_MAX];
     float offset[MOTE_FIELD_MAX];
-    float slope[3][MOTE_FIELD_MAX];
     float rest[MOTE_FIELD_MAX];
     bool active[MOTE_FIELD_MAX]; /* not 0 at every vertex */
 } mote_cert_fit;
@@ -26,12 +26,17 @@ void mote_cert_principal_axes(double matrix[3][3], mote_vec3 axes[3]);
    tree->leak. */
 mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, size_t count);
 
-/* Fits every basis function over the vertices of a box. Raises tree->reach. phi holds
-   MOTE_CERT_FIT_CHUNK * padded doubles. */
-void mote_cert_fit_box(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                       const mote_cert_box *box, bool linear, double *phi, mote_cert_fit *fit);
+/* The slopes of every basis function over the vertices of a box, by least squares. phi holds
+   MOTE_FIELD_MAX doubles. */
+void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                          const mote_cert_box *box, double *phi, mote_cert_fit *fit);
 
-/* Vertices whose basis is held at a time. */
+/* Offsets and rests for the slopes in fit, whatever they are, and which functions are active.
+   Raises tree->reach. */
+void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                         const mote_cert_box *box, double *phi, mote_cert_fit *fit);
+
+/* Vertices that a fit uses at most. */
 #define MOTE_CERT_FIT_CHUNK 512
 
 #endif

@@ -13,6 +13,8 @@ typedef struct item {
     uint32_t triangle;
 } item;
 
+typedef struct draft draft;
+
 typedef struct builder {
     mote_cert_tree *tree;
     mote_cert_tree_options options;
@@ -24,6 +26,7 @@ typedef struct builder {
     uint32_t stamp;
     double *phi;
     mote_cert_fit fit;
+    draft *draft;
     size_t block_room, leaf_room, row_room, vertex_room;
     uint32_t corner_count;
     uint32_t bits; /* binary levels a block */
@@ -218,12 +221,6 @@ static uint32_t split_levels(builder *b, range whole, uint32_t levels,
     return count;
 }
 
-typedef struct part {
-    range r;
-    uint32_t vertex_count;
-    mote_cert_box box;
-} part;
-
 static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box *box)
 {
     block->centre[0][lane] = (float)box->centre.x;
@@ -236,36 +233,69 @@ static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box
     }
 }
 
-/* Rows of one block while its children are fitted; those of functions that reach it are
-   appended to the tree. */
-typedef struct block_rows {
-    bool active[MOTE_FIELD_MAX];
+/* What a block's children need until they are all known. */
+struct draft {
+    mote_cert_box box[MOTE_CERT_WIDTH];
+    float slope[MOTE_FIELD_MAX][3][MOTE_CERT_WIDTH];
+    float rest[MOTE_FIELD_MAX][MOTE_CERT_WIDTH];
     mote_cert_row row[MOTE_FIELD_MAX];
-} block_rows;
+    bool active[MOTE_FIELD_MAX];
+};
 
-static void store_fit(block_rows *rows, uint32_t lane, const mote_cert_fit *fit,
-                      uint32_t functions)
+/* The largest number that a row stores. */
+#define WHOLE 32767
+
+static float largest(const float *values, size_t count)
+{
+    float most = 0;
+    for (size_t i = 0; i < count; ++i)
+        most = fabsf(values[i]) > most ? fabsf(values[i]) : most;
+    return most;
+}
+
+/* Turns the slopes of all children into whole numbers. */
+static void round_slopes(draft *d, uint32_t functions)
 {
     for (uint32_t j = 0; j < functions; ++j) {
-        if (!fit->active[j])
-            continue;
-        rows->active[j] = true;
-        rows->row[j].offset[lane] = fit->offset[j];
-        for (int k = 0; k < 3; ++k)
-            rows->row[j].slope[k][lane] = fit->slope[k][j];
-        rows->row[j].rest[lane] = fit->rest[j];
+        mote_cert_row *row = &d->row[j];
+        row->slope_unit = largest(d->slope[j][0], (size_t)3 * MOTE_CERT_WIDTH) / WHOLE;
+        const double inverse = row->slope_unit > 0 ? 1 / (double)row->slope_unit : 0;
+        for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+            int32_t whole[3];
+            for (int k = 0; k < 3; ++k) {
+                const double exact = rint((double)d->slope[j][k][l] * inverse);
+                whole[k] = (int32_t)fmin(fmax(exact, -WHOLE), WHOLE);
+            }
+            row->slopes[l] = mote_cert_word(whole[0], whole[1]);
+            row->slope_rest[l] = mote_cert_word(whole[2], 0);
+        }
+    }
+}
+
+/* The same for the rests, upwards. */
+static void round_rests(draft *d, uint32_t functions)
+{
+    for (uint32_t j = 0; j < functions; ++j) {
+        mote_cert_row *row = &d->row[j];
+        row->rest_unit = largest(d->rest[j], MOTE_CERT_WIDTH) * (1 + 0x1p-20F) / WHOLE;
+        const double inverse = row->rest_unit > 0 ? 1 / (double)row->rest_unit : 0;
+        for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+            const double whole = ceil((double)d->rest[j][l] * inverse);
+            row->slope_rest[l] = mote_cert_word(mote_cert_below(row->slope_rest[l]),
+                                                (int32_t)fmin(whole, WHOLE));
+        }
     }
 }
 
 /* Appends the rows in the order of the lanes of sums over basis functions (see
    mote_field_kind.group). */
-static void append_rows(builder *b, const block_rows *rows, mote_cert_block *block)
+static void append_rows(builder *b, const draft *d, mote_cert_block *block)
 {
     mote_cert_tree *tree = b->tree;
     const uint32_t functions = tree->body->field->count;
     uint32_t count = 0;
     for (uint32_t j = 0; j < functions; ++j)
-        count += rows->active[j];
+        count += d->active[j];
     block->first_row = block->first_active = tree->row_count;
     block->active_count = count;
     size_t room = b->row_room;
@@ -284,9 +314,9 @@ static void append_rows(builder *b, const block_rows *rows, mote_cert_block *blo
     }
     for (uint32_t lane = 0; lane < MOTE_LANES; ++lane) {
         for (uint32_t j = lane; j < functions; j += MOTE_LANES) {
-            if (!rows->active[j])
+            if (!d->active[j])
                 continue;
-            tree->rows[tree->row_count] = rows->row[j];
+            tree->rows[tree->row_count] = d->row[j];
             tree->active[tree->row_count] = (uint8_t)j;
             ++tree->row_count;
         }
@@ -295,35 +325,74 @@ static void append_rows(builder *b, const block_rows *rows, mote_cert_block *blo
 
 static int32_t build_block(builder *b, range whole, uint32_t depth);
 
-/* Fills boxes, rows and leaves of a block; parts that need a block of their own are left. */
-static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count,
-                       block_rows *rows)
+/* Boxes of all parts, and the slopes of the functions over them. */
+static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d,
+                        mote_cert_block *block)
 {
     mote_cert_tree *tree = b->tree;
     const uint32_t functions = tree->body->field->count;
-    mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
-    memset(rows->active, 0, functions);
-    memset(rows->row, 0, functions * sizeof *rows->row);
-    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
-        const range r = parts[lane];
-        const uint32_t vertices = list_vertices(b, r);
-        const mote_cert_box box = mote_cert_box_of(tree, b->list, vertices);
-        store_box(&block, lane, &box);
-        if (functions > 0) {
-            mote_cert_fit_box(tree, b->list, vertices, &box, b->options.linear_fits, b->phi,
-                              &b->fit);
-            store_fit(rows, lane, &b->fit, functions);
+    for (uint32_t lane = 0; lane < count; ++lane) {
+        const uint32_t vertices = list_vertices(b, parts[lane]);
+        d->box[lane] = mote_cert_box_of(tree, b->list, vertices);
+        store_box(block, lane, &d->box[lane]);
+        if (functions == 0 || !b->options.linear_fits)
+            continue;
+        mote_cert_fit_slopes(tree, b->list, vertices, &d->box[lane], b->phi, &b->fit);
+        for (uint32_t j = 0; j < functions; ++j) {
+            for (int k = 0; k < 3; ++k)
+                d->slope[j][k][lane] = (float)b->fit.slope[k][j];
         }
-        if (r.levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
-            block.child[lane] = add_leaf(b, r, vertices, id);
     }
     for (uint32_t lane = count; lane < MOTE_CERT_WIDTH; ++lane) {
         for (int k = 0; k < 3; ++k) /* an empty lane's axes are not 0 either */
-            block.half[k][k][lane] = 0x1p-23F;
+            block->half[k][k][lane] = 0x1p-23F;
     }
+    round_slopes(d, functions);
+}
+
+/* Offsets and rests of the functions over one part, whose vertices are in b->list. */
+static void draft_rests(builder *b, uint32_t lane, uint32_t vertices, draft *d)
+{
+    const uint32_t functions = b->tree->body->field->count;
+    mote_cert_fit *fit = &b->fit;
+    for (uint32_t j = 0; j < functions; ++j) {
+        const mote_cert_row *row = &d->row[j];
+        const double unit = (double)row->slope_unit;
+        fit->slope[0][j] = mote_cert_below(row->slopes[lane]) * unit;
+        fit->slope[1][j] = mote_cert_above(row->slopes[lane]) * unit;
+        fit->slope[2][j] = mote_cert_below(row->slope_rest[lane]) * unit;
+    }
+    mote_cert_fit_rests(b->tree, b->list, vertices, &d->box[lane], b->phi, fit);
+    for (uint32_t j = 0; j < functions; ++j) {
+        if (!fit->active[j])
+            continue;
+        d->active[j] = true;
+        d->row[j].offset[lane] = fit->offset[j];
+        d->rest[j][lane] = fit->rest[j];
+    }
+}
+
+/* Fills boxes, rows and leaves of a block; parts that need a block of their own are left. */
+static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count, draft *d)
+{
+    const uint32_t functions = b->tree->body->field->count;
+    mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
+    memset(d->slope, 0, functions * sizeof *d->slope);
+    memset(d->rest, 0, functions * sizeof *d->rest);
+    memset(d->row, 0, functions * sizeof *d->row);
+    memset(d->active, 0, functions);
+    draft_boxes(b, parts, count, d, &block);
+    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
+        const uint32_t vertices = list_vertices(b, parts[lane]);
+        if (functions > 0)
+            draft_rests(b, lane, vertices, d);
+        if (parts[lane].levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
+            block.child[lane] = add_leaf(b, parts[lane], vertices, id);
+    }
+    round_rests(d, functions);
     if (b->status == MOTE_OK)
-        append_rows(b, rows, &block);
-    tree->blocks[id] = block;
+        append_rows(b, d, &block);
+    b->tree->blocks[id] = block;
 }
 
 static int32_t build_block(builder *b, range whole, uint32_t depth)
@@ -343,13 +412,7 @@ static int32_t build_block(builder *b, range whole, uint32_t depth)
         levels = 1; /* what would be a leaf has too many vertices */
     range parts[MOTE_CERT_WIDTH];
     const uint32_t count = split_levels(b, whole, levels, parts);
-    block_rows *rows = malloc(sizeof *rows);
-    if (!rows) {
-        b->status = mote_fail(MOTE_ENOMEM, "no memory for the rows of a block");
-        return -1;
-    }
-    fill_block(b, id, parts, count, rows);
-    free(rows);
+    fill_block(b, id, parts, count, b->draft);
     for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
         if (tree->blocks[id].child[lane] < 0)
             continue;
@@ -382,15 +445,15 @@ static void scale_basis(builder *b)
 static mote_status allocate(builder *b)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
-    const size_t padded = b->tree->body->field->padded;
     b->items = malloc(mesh->triangle_count * sizeof *b->items);
     b->centres = malloc(mesh->triangle_count * sizeof *b->centres);
     b->seen = calloc(mesh->vertex_count, sizeof *b->seen);
     b->place = malloc(mesh->vertex_count * sizeof *b->place);
     b->list = malloc(mesh->vertex_count * sizeof *b->list);
-    b->phi = malloc((MOTE_CERT_FIT_CHUNK * padded + 1) * sizeof *b->phi);
+    b->phi = malloc(MOTE_FIELD_MAX * sizeof *b->phi);
+    b->draft = malloc(sizeof *b->draft);
     b->tree->corners = malloc(mesh->triangle_count * sizeof *b->tree->corners);
-    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->phi ||
+    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->phi || !b->draft ||
         !b->tree->corners)
         return mote_fail(MOTE_ENOMEM, "no memory to build a tree of %u triangles",
                          mesh->triangle_count);
@@ -475,6 +538,7 @@ mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_op
         free(b->place);
         free(b->list);
         free(b->phi);
+        free(b->draft);
     }
     free(b);
     if (status != MOTE_OK) {

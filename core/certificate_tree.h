@@ -24,12 +24,34 @@
 #define MOTE_CERT_LEAF_TRIANGLES 8
 #define MOTE_CERT_LEAF_VERTICES 16
 
-/* What one basis function that reaches a block does to its children. */
+/* What one basis function that reaches a block does to its children: offset f, slopes
+   g = s * slope_unit by axis, and m = r * rest_unit >= 0, with whole numbers s and r of 16
+   bits. They halve what a query reads; the rests are taken with the slopes as they are stored,
+   so that nothing is lost. Two share a word, since lanes of one width make the fastest loops.
+ */
 typedef struct mote_cert_row {
-    float offset[MOTE_CERT_WIDTH];   /* f */
-    float slope[3][MOTE_CERT_WIDTH]; /* g, by axis */
-    float rest[MOTE_CERT_WIDTH];     /* m >= 0 */
+    float offset[MOTE_CERT_WIDTH];
+    int32_t slopes[MOTE_CERT_WIDTH];     /* axis 0 below, axis 1 above */
+    int32_t slope_rest[MOTE_CERT_WIDTH]; /* axis 2 below, the rest above */
+    float slope_unit, rest_unit;
 } mote_cert_row;
+
+/* The two numbers of a word; >> keeps the sign with every compiler that we know of, which a
+   test checks. */
+static inline int32_t mote_cert_below(int32_t word)
+{
+    return (int32_t)((uint32_t)word << 16) >> 16;
+}
+
+static inline int32_t mote_cert_above(int32_t word)
+{
+    return word >> 16;
+}
+
+static inline int32_t mote_cert_word(int32_t below, int32_t above)
+{
+    return (int32_t)((uint32_t)above << 16 | ((uint32_t)below & 0xffffu));
+}
 
 typedef struct mote_cert_block {
     float centre[3][MOTE_CERT_WIDTH];
