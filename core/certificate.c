@@ -42,8 +42,8 @@ static mote_status side_create(mote_cert_side *side, const mote_body *body,
         status = mote_lazy_init(&side->lazy, body, expected);
     if (status != MOTE_OK)
         return status;
-    side->node_room = at_most(side->tree->block_count, at_most(64 + vertices / 64, 4096));
-    side->point_room = at_most(side->tree->leaf_count, at_most(48 + vertices / 64, 4096));
+    side->node_room = at_most(side->tree->block_count, at_most(24 + vertices / 64, 4096));
+    side->point_room = at_most(side->tree->leaf_count, at_most(32 + vertices / 64, 4096));
     side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
     side->points = allocate_aligned(side->point_room, sizeof *side->points);
     if (!side->nodes || !side->points)

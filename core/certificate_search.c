@@ -130,6 +130,8 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
 /* The open lane of least bound; the first of equals. */
 static size_t least_bound(const float bound[WIDTH], uint32_t open)
 {
+    if ((open & (open - 1)) == 0)
+        return mote_lowest_bit(open);
     size_t best = 0;
     float least = FLT_MAX;
     for (size_t l = 0; l < WIDTH; ++l) {
