@@ -183,16 +183,27 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
         mote_cert_descend(c, vertex);
         mote_refine_vertices(lazy, vertex, enough, &c->best);
         polish(c, &c->best);
+    } else if (c->options.seed == MOTE_CERT_SEED_WITNESS && !c->steady) {
+        mote_refine_triangles(lazy, first[0], first[1], enough, &c->best);
+        polish(c, &c->best);
+        ++c->counters.refined;
     } else {
         c->best = (mote_refined){.squared = HUGE_VAL};
         for (int s = 0; s < 2; ++s)
             memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         polish(c, &c->best);
-        c->seed_squared = c->best.squared;
-        c->unrefined = c->steady && c->options.seed == MOTE_CERT_SEED_WITNESS;
-        if (!c->steady && c->options.seed == MOTE_CERT_SEED_WITNESS)
-            refine_best(c);
+        c->unrefined = c->options.seed == MOTE_CERT_SEED_WITNESS;
     }
+}
+
+/* Whether two faces, given by their vertices in any order, are the same. */
+static bool same_face(const uint32_t a[3], const uint32_t b[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        if (a[k] != b[0] && a[k] != b[1] && a[k] != b[2])
+            return false;
+    }
+    return true;
 }
 
 /* The plane across the gap: nothing of body 0 should reach beyond it by more than threshold 0,
@@ -256,7 +267,6 @@ static void begin(mote_certificate *c, double enough)
     c->restarts = 0;
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
-    c->seed_squared = HUGE_VAL;
     c->direction_count = 0;
     c->open = DBL_MAX;
 }
@@ -276,8 +286,9 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
     answer->counters = c->counters;
     answer->counters.positions +=
         c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
+    c->steady = c->has_last && same_face(c->last[0], c->best.triangle[0]) &&
+                same_face(c->last[1], c->best.triangle[1]);
     memcpy(c->last, c->best.triangle, sizeof c->last);
-    c->steady = c->best.squared >= c->seed_squared * (1 - 1e-12);
     c->has_last = true;
 }
 

@@ -97,9 +97,8 @@ struct mote_certificate {
     bool proven;    /* all pairs were ruled out or measured, or are in `open` */
     bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
     bool crossed;   /* ... which it was */
-    bool steady; /* the last query's seed was its answer: the next one's is likely to be, too,
-                    so that it is not refined at first */
-    double seed_squared;
+    bool steady; /* the last query ended at the faces it began with: the next one is likely to,
+                    too, so that it is not refined at first */
     bool has_last;
     uint32_t last[2][3]; /* faces of the last query's witnesses */
     mote_vec3 direction[MOTE_CERT_DIRECTIONS];
