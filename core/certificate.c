@@ -192,7 +192,7 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
         for (int s = 0; s < 2; ++s)
             memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         polish(c, &c->best);
-        c->unrefined = c->options.seed == MOTE_CERT_SEED_WITNESS;
+        c->unrefined = c->options.seed == MOTE_CERT_SEED_WITNESS && !c->saddle;
     }
 }
 
@@ -233,7 +233,8 @@ static bool plane_clears(mote_certificate *c)
         const double before = c->best.squared;
         c->crossed = c->unrefined = false;
         refine_best(c);
-        if (c->best.squared < before && !c->done)
+        c->saddle = !(c->best.squared < before);
+        if (!c->saddle && !c->done)
             set_plane(c);
     }
     return false;
@@ -288,6 +289,7 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
         c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
     c->steady = c->has_last && same_face(c->last[0], c->best.triangle[0]) &&
                 same_face(c->last[1], c->best.triangle[1]);
+    c->saddle = c->saddle && c->steady;
     memcpy(c->last, c->best.triangle, sizeof c->last);
     c->has_last = true;
 }

@@ -32,6 +32,22 @@ static bool clear_leaf(mote_certificate *c, int s, mote_cert_node *node, size_t 
     return points->reach <= side->threshold + c->noise;
 }
 
+/* Whether a leaf has a vertex of the best pair's face: where such a leaf crosses the plane, a
+   descent from the pair is likely to come nearer. */
+static bool touches_witness(const mote_certificate *c, int s, const mote_cert_node *node,
+                            size_t lane)
+{
+    const mote_cert_tree *tree = c->side[s].tree;
+    const mote_cert_leaf *leaf = &tree->leaves[~node->block->child[lane]];
+    const uint32_t *face = c->best.triangle[s];
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
+        const uint32_t v = tree->leaf_vertices[leaf->first_vertex + i];
+        if (v == face[0] || v == face[1] || v == face[2])
+            return true;
+    }
+    return false;
+}
+
 /* Opens child `lane` of a node; its reach becomes that of what is inside. */
 static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                        uint32_t depth)
@@ -42,7 +58,7 @@ static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t 
         double exact;
         clear = clear_leaf(c, s, node, lane, &exact);
         reach = (float)exact + c->side[s].reach_margin;
-        c->crossed = c->unrefined && !clear;
+        c->crossed = c->unrefined && !clear && touches_witness(c, s, node, lane);
     } else {
         mote_cert_node *child = mote_cert_child(c, s, node, lane, depth);
         clear = clear_node(c, s, child, depth + 1, &reach);

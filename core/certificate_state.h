@@ -99,6 +99,7 @@ struct mote_certificate {
     bool crossed;   /* ... which it was */
     bool steady; /* the last query ended at the faces it began with: the next one is likely to,
                     too, so that it is not refined at first */
+    bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
     bool has_last;
     uint32_t last[2][3]; /* faces of the last query's witnesses */
     mote_vec3 direction[MOTE_CERT_DIRECTIONS];
