@@ -132,9 +132,6 @@ uint32_t mote_cert_row_boxes(const mote_cert_node *restrict d, size_t lane,
     single one;
     take(d, lane, &one);
     along_centres(&one, e, bound);
-    open &= bits_below(bound, need);
-    if (open == 0)
-        return 0;
     along_its_normal(&one, e, bound);
     open &= bits_below(bound, need);
     if (open == 0)
