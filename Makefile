@@ -7,6 +7,8 @@
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
+#   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
+#   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
@@ -25,7 +27,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients dynamics claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients ablation certify dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -54,6 +56,14 @@ tune: build
 
 ingredients: build
 	@harness/ingredients.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ingredients,$(OUT))
+
+ablation: build
+	@harness/ablation.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ablation,$(OUT))
+
+certify: build
+	@mkdir -p $(OUT)
+	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
+	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
 dynamics: build
 	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \
