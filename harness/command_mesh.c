@@ -28,6 +28,34 @@ static edge_facts measure_edges(const mote_mesh *mesh)
     return facts;
 }
 
+/* One line a part: its label and where it is. */
+static void print_parts(const mote_mesh *mesh, const mote_parts *parts)
+{
+    (void)printf("convex parts        %" PRIu32 "\n", parts->count);
+    for (uint32_t label = 0; label < parts->count; ++label) {
+        uint32_t count = 0;
+        mote_vec3 sum = {0, 0, 0};
+        for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+            if (parts->label[v] != label)
+                continue;
+            ++count;
+            sum = mote_add(sum, mesh->positions[v]);
+        }
+        const mote_vec3 middle = mote_scale(sum, 1.0 / count);
+        (void)printf("  part %-4" PRIu32 "         %" PRIu32
+                     " vertices about (%.3g, %.3g, %.3g)\n",
+                     label, count, middle.x, middle.y, middle.z);
+    }
+}
+
+static json_t *labels_json(const mote_parts *parts)
+{
+    json_t *labels = json_array();
+    for (uint32_t v = 0; v < parts->vertex_count; ++v)
+        json_array_append_new(labels, json_integer(parts->label[v]));
+    return labels;
+}
+
 static void print_lines(const char *path, const mote_mesh *mesh, const mote_import *import,
                         const mote_parts *parts)
 {
@@ -45,7 +73,7 @@ static void print_lines(const char *path, const mote_mesh *mesh, const mote_impo
     (void)printf("edge lengths        %.4g / %.4g / %.4g L (shortest / mean / longest)\n",
                  edges.shortest / mesh->diagonal, edges.mean / mesh->diagonal,
                  edges.longest / mesh->diagonal);
-    (void)printf("convex parts        %" PRIu32 "\n", parts->count);
+    print_parts(mesh, parts);
     (void)printf("coordinates         %s\n",
                  import->single_precision ? "32-bit floats (assimp's)" : "64-bit floats");
     if (import->welded + import->collapsed + import->unused > 0)
@@ -73,6 +101,8 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
         (void)mote_fail(MOTE_EINVAL, "%s: cannot be told in JSON; rename it in UTF-8", path);
         return mote_command_fail();
     }
+    /* The part of each vertex, in the vertices' order. */
+    json_object_set_new(root, "part_labels", labels_json(parts));
     (void)json_dumpf(root, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
     (void)fputc('\n', stdout);
     json_decref(root);

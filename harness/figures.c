@@ -123,22 +123,44 @@ static void add_point(const mote_summary_row *row, mote_text *text)
                   row->error.median, row->missed);
 }
 
+/* The rows from first on that have this title, which is in no row before. */
+static void add_block(const mote_summary *summary, const char *scenario, size_t first,
+                      const char *title, mote_text *text)
+{
+    mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", title);
+    for (size_t i = first; i < summary->count; ++i) {
+        char other[256];
+        block_title(&summary->rows[i], other, sizeof other);
+        if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
+            add_point(&summary->rows[i], text);
+    }
+}
+
+/* Whether a row before this one has the same title. */
+static bool in_earlier_block(const mote_summary *summary, const char *scenario, size_t index,
+                             const char *title)
+{
+    for (size_t i = 0; i < index; ++i) {
+        char other[256];
+        block_title(&summary->rows[i], other, sizeof other);
+        if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
+            return true;
+    }
+    return false;
+}
+
 /* Time against error, every configuration a point: what a particle more costs and gives. A
    block of "n median low high error-p99 error-median missed", times in microseconds, below a
    title, for the configurations that differ in n only. */
 static mote_status write_front(const mote_summary *summary, const char *scenario,
                                mote_text *text)
 {
-    char title[256] = "", last[256] = "";
     for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        if (!on_front(row, scenario))
-            continue;
-        block_title(row, title, sizeof title);
-        if (strcmp(title, last) != 0)
-            mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", title);
-        memcpy(last, title, sizeof last);
-        add_point(row, text);
+        char title[256];
+        block_title(&summary->rows[i], title, sizeof title);
+        if (on_front(&summary->rows[i], scenario) &&
+            !in_earlier_block(summary, scenario, i, title))
+            add_block(summary, scenario, i, title, text);
     }
     return MOTE_OK;
 }

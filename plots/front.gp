@@ -15,9 +15,10 @@ set format x "10^{%L}"
 set format y "10^{%L}"
 set ytics add ("exact" floor_error)
 set grid x y lc rgb "#d5d5d5" lw 1
-set xlabel "median total time of a query, {/Symbol m}s"
+set xlabel "median total time of a query, {/Symbol m}s" offset 0,0.4
 set ylabel "99th percentile of the error, L"
 set yrange [floor_error / 3 : 2]
+set key outside below center maxcols 3 samplen 1.5 font ",11"
 
 array colour[4] = [dark, blue, orange, grey]
 array shape[8] = [7, 5, 9, 13, 6, 4, 8, 12]
