@@ -1,64 +1,10 @@
 #include "harness/table.h"
 
-#include <math.h>
+#include "harness/number_text.h"
+
 #include <string.h>
 
-#define CELL 24
-
-typedef char field[CELL];
-
-/* Three digits and a unit. */
-static const char *time_text(double ns, field text)
-{
-    static const struct {
-        double above;
-        const char *unit;
-    } units[] = {{1e9, "s"}, {1e6, "ms"}, {1e3, "us"}, {0, "ns"}};
-    if (ns != ns)
-        return "-";
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i) {
-        double scaled = units[i].above > 0 ? ns / units[i].above : ns;
-        if (ns < units[i].above * 0.9995)
-            continue;
-        int digits = scaled < 9.995 && ns > 0 ? 2 : scaled < 99.95 && ns > 0 ? 1 : 0;
-        (void)snprintf(text, CELL, "%.*f %s", digits, scaled, units[i].unit);
-        break;
-    }
-    return text;
-}
-
-static const char *number_text(double value, const char *format, field text)
-{
-    if (value != value)
-        return "-";
-    /* The callers' formats are literals below. */
-    if (strcmp(format, "ratio") == 0)
-        (void)snprintf(text, CELL,
-                       value < 9.995   ? "%.2f"
-                       : value < 99.95 ? "%.1f"
-                                       : "%.0f",
-                       value);
-    else if (strcmp(format, "percent") == 0)
-        (void)snprintf(text, CELL, "%.1f %%", 100 * value);
-    else if (strcmp(format, "error") == 0)
-        (void)snprintf(text, CELL, "%.1e", value);
-    else
-        (void)snprintf(text, CELL, "%.4g", value);
-    return text;
-}
-
-static const char *bytes_text(double bytes, field text)
-{
-    if (bytes != bytes)
-        return "-";
-    if (bytes < 10e3)
-        (void)snprintf(text, CELL, "%.0f B", bytes);
-    else if (bytes < 10e6)
-        (void)snprintf(text, CELL, "%.1f kB", bytes / 1e3);
-    else
-        (void)snprintf(text, CELL, "%.1f MB", bytes / 1e6);
-    return text;
-}
+typedef char field[MOTE_NUMBER_TEXT];
 
 static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
 {
@@ -103,7 +49,7 @@ static void print_head(const mote_summary *summary, size_t start, int width, FIL
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
     field f[16];
-    (void)fprintf(out, "%-*s %5s ", width, row->label, number_text(row->n, "count", f[0]));
+    (void)fprintf(out, "%-*s %5s ", width, row->label, mote_show_count(row->n, f[0]));
     if (row->status != MOTE_CELL_OK) {
         const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
         (void)fprintf(out, "%s: %s\n", mote_cell_status_names[row->status],
@@ -112,17 +58,15 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
     }
     (void)fprintf(
         out, "%9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %7s %6s %6s %9s",
-        time_text(row->total.median, f[1]), time_text(row->total.p95, f[2]),
-        time_text(row->deform.median, f[3]), time_text(row->update.median, f[4]),
-        time_text(row->query.median, f[5]), number_text(row->ratio.value, "ratio", f[6]),
-        number_text(row->ratio_given.value, "ratio", f[15]),
-        number_text(row->ratio_best.value, "ratio", f[7]),
-        number_text(row->error.median, "error", f[8]),
-        number_text(row->error.p99, "error", f[9]), number_text(row->error.max, "error", f[10]),
-        number_text(row->error.exact_rate, "percent", f[11]),
-        number_text(row->missed, "count", f[12]),
-        number_text(row->false_contacts, "count", f[13]),
-        bytes_text(row->heap_live_bytes, f[14]));
+        mote_show_time(row->total.median, f[1]), mote_show_time(row->total.p95, f[2]),
+        mote_show_time(row->deform.median, f[3]), mote_show_time(row->update.median, f[4]),
+        mote_show_time(row->query.median, f[5]), mote_show_ratio(row->ratio.value, f[6]),
+        mote_show_ratio(row->ratio_given.value, f[15]),
+        mote_show_ratio(row->ratio_best.value, f[7]), mote_show_error(row->error.median, f[8]),
+        mote_show_error(row->error.p99, f[9]), mote_show_error(row->error.max, f[10]),
+        mote_show_percent(row->error.exact_rate, f[11]), mote_show_count(row->missed, f[12]),
+        mote_show_count(row->false_contacts, f[13]),
+        mote_show_bytes(row->heap_live_bytes, f[14]));
     if (row->first->stride > 1)
         (void)fprintf(out, "  every %uth frame", row->first->stride);
     if (row->finished < row->replicates)
