@@ -1,5 +1,6 @@
 #include "harness/cell.h"
 
+#include "harness/manifest.h"
 #include "harness/record.h"
 
 #include <ctype.h>
@@ -94,12 +95,13 @@ static json_t *interval_json(uint32_t first, uint32_t last)
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
     const mote_scenario *scenario = cell->subject->scenario;
-    char fingerprint[20], hash[20];
+    char fingerprint[20], hash[20], machine[MOTE_MACHINE_SIZE];
+    mote_machine_name(machine, sizeof machine);
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, cell->subject->fingerprint);
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
-        " s:f, s:s, s:i, s:o*, s:s}",
+        " s:f, s:s, s:i, s:o*, s:s, s:s}",
         "schema", 1, "id", cell->id, "status", mote_cell_status_names[status], "scenario",
         scenario->name, "fingerprint", fingerprint, "method", cell->choice->method->name,
         "parameters", mote_choice_json(cell->choice), "replicate", (int)cell->replicate,
@@ -111,7 +113,8 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         "length", scenario->length, "tolerance", scenario->tolerance, "ask",
         scenario->ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
         (int)scenario->frames, "active",
-        interval_json(scenario->active.first, scenario->active.last), "program", hash);
+        interval_json(scenario->active.first, scenario->active.last), "program", hash,
+        "machine", machine);
 }
 
 static void add_real(mote_text *text, bool present, double value)

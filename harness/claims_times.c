@@ -41,8 +41,6 @@ static mote_status run_leg(const mote_study *study, const leg *l)
                                       .plan = {.replicates = study->quick ? 3 : 6,
                                                .first = l->first,
                                                .last = l->last,
-                                               .shard = 1,
-                                               .shards = 1,
                                                .seed = 1,
                                                .cache = l->cache},
                                       .directory = study->run,

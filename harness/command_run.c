@@ -51,11 +51,12 @@ typedef struct request {
     const char **methods;   /* [argc] */
     size_t method_count;
     const char *particles, *frames;
-    char *pair; /* the name of the scenario that two meshes make, or NULL */
+    uint32_t shard, shards; /* shard of shards, from 1; 0, 0: not given */
+    char *pair;             /* the name of the scenario that two meshes make, or NULL */
     mote_choices choices;
 } request;
 
-static bool read_shard(const char *text, mote_plan_options *plan)
+static bool read_shard(const char *text, request *q)
 {
     uint64_t shard, shards;
     char first[16];
@@ -67,8 +68,8 @@ static bool read_shard(const char *text, mote_plan_options *plan)
     if (!mote_read_unsigned(slash + 1, 1, UINT32_MAX, &shards) ||
         !mote_read_unsigned(first, 1, shards, &shard))
         return false;
-    plan->shard = (uint32_t)shard;
-    plan->shards = (uint32_t)shards;
+    q->shard = (uint32_t)shard;
+    q->shards = (uint32_t)shards;
     return true;
 }
 
@@ -118,7 +119,7 @@ static bool take_option(request *q, int option, const char *value, const char **
         return value[0] != '\0';
     case OPTION_SHARD:
         *expected = "I/N with 1 <= I <= N";
-        return read_shard(value, plan);
+        return read_shard(value, q);
     case OPTION_SEED:
         *expected = "a whole number below 2^62";
         return mote_read_unsigned(value, 0, ((uint64_t)1 << 62) - 1, &plan->seed);
@@ -184,6 +185,42 @@ static int read_arguments(int argc, char **argv, request *q)
     return MOTE_EXIT_DONE;
 }
 
+/* Without --shard, a task of a Slurm job array is a shard. False, told on stderr, when what
+   Slurm says cannot be one. */
+static bool read_array_task(const char *command, request *q)
+{
+    const char *task = getenv("SLURM_ARRAY_TASK_ID");
+    const char *count = getenv("SLURM_ARRAY_TASK_COUNT");
+    if (q->shards > 0 || (!task && !count))
+        return true;
+    char *text = mote_format("%s/%s", task ? task : "", count ? count : "");
+    bool read = text && read_shard(text, q);
+    free(text);
+    if (read)
+        (void)fprintf(stderr, "shard %u/%u, from SLURM_ARRAY_TASK_ID and _COUNT\n", q->shard,
+                      q->shards);
+    else
+        (void)mote_command_usage(command,
+                                 "SLURM_ARRAY_TASK_ID=%s, SLURM_ARRAY_TASK_COUNT=%s: not task "
+                                 "I of N with 1 <= I <= N; submit with --array=1-N, or give "
+                                 "--shard I/N (1/1: everything)",
+                                 task ? task : "(not set)", count ? count : "(not set)");
+    return read;
+}
+
+/* Leaves the scenarios of the shard: every shards-th. Whole scenarios, so that methods that are
+   compared are measured by one process on one machine. */
+static void take_shard(request *q)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < q->run.scenario_count && q->shards > 0; ++i) {
+        if (i % q->shards == q->shard - 1)
+            q->scenarios[kept++] = q->scenarios[i];
+    }
+    if (q->shards > 0)
+        q->run.scenario_count = kept;
+}
+
 /* The configurations asked for, or every method there is. */
 static mote_status expand_methods(request *q)
 {
@@ -244,7 +281,7 @@ int mote_command_run(int argc, char **argv)
 {
     request q = {.run = {.directory = "results/run",
                          .timeout = DEFAULT_TIMEOUT,
-                         .plan = {.replicates = DEFAULT_REPLICATES, .shard = 1, .shards = 1},
+                         .plan = {.replicates = DEFAULT_REPLICATES},
                          .argc = argc,
                          .argv = argv}};
     q.scenarios = calloc((size_t)argc + 1, sizeof *q.scenarios);
@@ -257,6 +294,9 @@ int mote_command_run(int argc, char **argv)
         code = mote_command_fail();
     } else {
         code = read_arguments(argc, argv, &q);
+        if (code == MOTE_EXIT_DONE && !read_array_task(argv[0], &q))
+            code = MOTE_EXIT_USAGE;
+        take_shard(&q);
         if (code == MOTE_EXIT_DONE)
             code = execute(&q);
     }

@@ -18,13 +18,22 @@ static int print_json(json_t *object)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-static int print(const mote_summary *summary, size_t format)
+static int print_gbench(const mote_summary *summary, const char *directory)
+{
+    json_t *manifest = NULL;
+    (void)mote_record_read_json(directory, "manifest.json", &manifest);
+    int code = print_json(mote_gbench_json(summary, manifest));
+    json_decref(manifest);
+    return code;
+}
+
+static int print(const mote_summary *summary, const char *directory, size_t format)
 {
     switch (format) {
     case FORMAT_JSON:
         return print_json(mote_summary_json(summary));
     case FORMAT_GBENCH:
-        return print_json(mote_gbench_json(summary));
+        return print_gbench(summary, directory);
     case FORMAT_GHA:
         return print_json(mote_gha_json(summary));
     case FORMAT_BENCHER:
@@ -70,8 +79,9 @@ int mote_command_summarize(int argc, char **argv)
     mote_summary summary;
     if (mote_summary_make(directory, &summary) != MOTE_OK)
         return mote_command_fail();
-    int code = mote_summary_write(&summary, directory) == MOTE_OK ? print(&summary, format)
-                                                                  : mote_command_fail();
+    int code = mote_summary_write(&summary, directory) == MOTE_OK
+                   ? print(&summary, directory, format)
+                   : mote_command_fail();
     mote_summary_free(&summary);
     return code;
 }

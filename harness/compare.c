@@ -74,14 +74,19 @@ static bool same_configuration(const json_t *a, const json_t *b)
     return true;
 }
 
+/* The row of that configuration, on the same machine where there is one. */
 static const json_t *find_partner(const json_t *rows, const json_t *row)
 {
+    const json_t *found = NULL;
     for (size_t i = 0; i < json_array_size(rows); ++i) {
         const json_t *other = json_array_get(rows, i);
-        if (same_configuration(row, other))
+        if (!same_configuration(row, other))
+            continue;
+        if (json_equal(json_object_get(row, "machine"), json_object_get(other, "machine")))
             return other;
+        found = found ? found : other;
     }
-    return NULL;
+    return found;
 }
 
 static const json_t *find_process(const json_t *row, const json_t *replicate)

@@ -73,9 +73,20 @@ static void add_sources(json_t *object)
                               known ? json_boolean(changes[0] != '\0') : json_null());
 }
 
+void mote_machine_name(char *text, size_t size)
+{
+    char processor[MOTE_MACHINE_SIZE / 2];
+    struct utsname system;
+    proc_value("/proc/cpuinfo", "model name", processor, sizeof processor);
+    (void)snprintf(text, size, "%.*s, %s", MOTE_MACHINE_SIZE / 3,
+                   uname(&system) == 0 ? system.nodename : "", processor);
+}
+
 static void add_machine(json_t *object)
 {
-    char processor[256], memory[64];
+    char processor[256], memory[64], machine[MOTE_MACHINE_SIZE];
+    mote_machine_name(machine, sizeof machine);
+    (void)json_object_set_new(object, "machine", json_string(machine));
     proc_value("/proc/cpuinfo", "model name", processor, sizeof processor);
     proc_value("/proc/meminfo", "MemTotal", memory, sizeof memory);
     struct utsname system;

@@ -4,11 +4,17 @@
 
 #include "core/status.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Hash of this program's own file: changes with anything that was compiled in. MOTE_EIO when it
    cannot be read. */
 mote_status mote_program_hash(uint64_t *hash);
+
+/* Which machine this is, for telling whether two times may be compared: "name, processor", as
+   far as the system says; cut to size. */
+#define MOTE_MACHINE_SIZE 320
+void mote_machine_name(char *text, size_t size);
 
 /* Writes directory/manifest.json: what is true now, and under "sessions" a line for each time
    that something was measured into the directory, this one added. */

@@ -155,21 +155,6 @@ static void add_group(const mote_plan_options *options, const mote_subject *subj
     }
 }
 
-/* Leaves the cells of this shard. */
-static void take_shard(const mote_plan_options *options, size_t groups, size_t group_size,
-                       mote_plan *plan)
-{
-    if (options->shards <= 1)
-        return;
-    size_t kept = 0;
-    for (size_t i = 0; i < plan->count; ++i) {
-        size_t unit = groups >= options->shards ? i / group_size : i;
-        if (unit % options->shards == options->shard - 1)
-            plan->cells[kept++] = plan->cells[i];
-    }
-    plan->count = kept;
-}
-
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
                            size_t subject_count, const mote_choices *choices, mote_plan *plan)
 {
@@ -190,7 +175,6 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
         for (size_t s = 0; s < subject_count; ++s)
             add_group(options, &subjects[s], replicate, choices, &made);
     }
-    take_shard(options, groups, choices->count, &made);
     *plan = made;
     return MOTE_OK;
 }

@@ -21,10 +21,9 @@ mote_status mote_choices_add(mote_choices *choices, const char *text, const char
 void mote_choices_free(mote_choices *choices);
 
 typedef struct mote_plan_options {
-    uint32_t replicates;    /* >= 1 */
-    uint32_t first, last;   /* frames; 0, 0: all of each scenario */
-    uint32_t stride;        /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
-    uint32_t shard, shards; /* shard of shards, from 1; 1, 1: everything */
+    uint32_t replicates;  /* >= 1 */
+    uint32_t first, last; /* frames; 0, 0: all of each scenario */
+    uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
     uint64_t seed;
     mote_cache cache;
     uint64_t program; /* mote_program_hash */
@@ -36,11 +35,9 @@ typedef struct mote_plan {
 } mote_plan;
 
 /* Replicates outermost, then scenarios, then configurations in an order rotated by the
-   replicate, so that no method always runs first or after the same one. A shard is made of
-   whole (scenario, replicate) groups where there are enough of them, so that methods are
-   compared on one machine. MOTE_EINVAL when the frames lie outside a scenario. subjects and
-   choices are borrowed by the cells. cell->stride is 1 until it is known. The caller frees
-   plan->cells. */
+   replicate, so that no method always runs first or after the same one. MOTE_EINVAL when the
+   frames lie outside a scenario. subjects and choices are borrowed by the cells. cell->stride
+   is 1 until it is known. The caller frees plan->cells. */
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
                            size_t subject_count, const mote_choices *choices, mote_plan *plan);
 

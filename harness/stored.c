@@ -209,9 +209,9 @@ static char *group_name(const mote_stored_cell *cell)
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group = NULL;
     if (parameters && frames)
-        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f", cell->scenario,
+        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f on %s", cell->scenario,
                             cell->cache, cell->method, parameters, cell->fingerprint, frames,
-                            cell->stride, mote_stored_number(cell, "seed"));
+                            cell->stride, mote_stored_number(cell, "seed"), cell->machine);
     free(parameters);
     free(frames);
     return group;
@@ -244,6 +244,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->stride = (uint32_t)stride;
     cell->active_first = (uint32_t)first;
     cell->active_last = (uint32_t)last;
+    const char *machine = json_string_value(json_object_get(cell->json, "machine"));
+    cell->machine = machine ? machine : "";
     cell->group = group_name(cell);
     return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
 }

@@ -23,8 +23,9 @@ extern const char *const mote_stored_count_names[MOTE_STORED_COUNTS];
 /* One cell. Frame arrays are [frames]; NULL and 0 where status is not "ok". */
 typedef struct mote_stored_cell {
     json_t *json; /* the whole cell file */
-    char *group;  /* equal for the replicates of one configuration */
+    char *group;  /* equal for the replicates of one configuration on one machine */
     const char *id, *scenario, *fingerprint, *method, *cache; /* inside json */
+    const char *machine;                                      /* likewise; "" if not stored */
     json_t *parameters;                                       /* likewise */
     mote_cell_status status;
     uint32_t replicate, stride;

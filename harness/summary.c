@@ -24,6 +24,8 @@ static int by_place(const void *a, const void *b)
     if (order == 0)
         order = strcmp(second->first->cache, first->first->cache); /* hot, then evict */
     if (order == 0)
+        order = strcmp(first->first->machine, second->first->machine);
+    if (order == 0)
         order = strcmp(first->first->method, second->first->method);
     if (order == 0 && (first->n < second->n || first->n > second->n))
         order = first->n < second->n ? -1 : 1;
@@ -35,7 +37,17 @@ static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
     return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK &&
            strcmp(a->first->scenario, b->first->scenario) == 0 &&
            strcmp(a->first->fingerprint, b->first->fingerprint) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0;
+           strcmp(a->first->cache, b->first->cache) == 0 &&
+           strcmp(a->first->machine, b->first->machine) == 0;
+}
+
+bool mote_summary_machines_differ(const mote_summary *summary)
+{
+    for (size_t i = 1; i < summary->count; ++i) {
+        if (strcmp(summary->rows[i].first->machine, summary->rows[0].first->machine) != 0)
+            return true;
+    }
+    return false;
 }
 
 /* The row that this one's ratio is taken to: fcl-aabb as its users call it, which is its
@@ -240,6 +252,8 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
                   mote_cell_status_names[row->status]);
     if (!object)
         return NULL;
+    if (row->first->machine[0])
+        (void)json_object_set_new(object, "machine", json_string(row->first->machine));
     json_t *reason = json_object_get(cell, "reason");
     if (reason)
         (void)json_object_set(object, "reason", reason);

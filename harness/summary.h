@@ -81,7 +81,7 @@ typedef struct mote_summary_row {
 
 typedef struct mote_summary {
     mote_stored stored;
-    mote_summary_row *rows; /* by scenario, caches, method, n */
+    mote_summary_row *rows; /* by scenario, caches, machine, method, n */
     size_t count;
     double noise_floor; /* see mote_summary_noise_floor */
 } mote_summary;
@@ -89,6 +89,10 @@ typedef struct mote_summary {
 /* Reads a run directory and computes its rows. The caller frees *summary. */
 mote_status mote_summary_make(const char *directory, mote_summary *summary);
 void mote_summary_free(mote_summary *summary);
+
+/* Whether rows were measured on more than one machine. Those of different machines are never
+   put into one row nor compared. */
+bool mote_summary_machines_differ(const mote_summary *summary);
 
 /* How much rows differ from themselves when nothing changed, as a share (0.03: 3 %), exceeded
    by one row in ten: replicates with odd numbers against those with even numbers, quiet times

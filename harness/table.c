@@ -9,7 +9,8 @@ typedef char field[MOTE_NUMBER_TEXT];
 static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0;
+           strcmp(a->first->cache, b->first->cache) == 0 &&
+           strcmp(a->first->machine, b->first->machine) == 0;
 }
 
 static size_t label_width(const mote_summary *summary)
@@ -33,11 +34,13 @@ static void print_head(const mote_summary *summary, size_t start, int width, FIL
         replicates = other->replicates > replicates ? other->replicates : replicates;
     }
     const json_t *triangles = json_object_get(row->first->json, "triangles");
-    (void)fprintf(out, "%s%s: %d and %d triangles, %zu frames, %zu replicates, caches %s\n",
+    bool several = mote_summary_machines_differ(summary);
+    (void)fprintf(out, "%s%s: %d and %d triangles, %zu frames, %zu replicates, caches %s%s%s\n",
                   start ? "\n" : "", row->first->scenario,
                   (int)json_integer_value(json_array_get(triangles, 0)),
                   (int)json_integer_value(json_array_get(triangles, 1)), frames, replicates,
-                  row->first->cache);
+                  row->first->cache, several ? ", on " : "",
+                  several ? row->first->machine : "");
     (void)fprintf(out, "%-*s %5s %9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %7s %6s %6s %9s\n",
                   width, "", "", "total", "", "deform", "update", "query", "fcl-aabb", "given",
                   "best FCL", "error/L", "", "", "exact", "missed", "false", "heap");
@@ -114,6 +117,18 @@ static void csv_number(double value, FILE *out)
         (void)fputc(',', out);
 }
 
+/* A quoted field. */
+static void csv_text(const char *text, FILE *out)
+{
+    (void)fputc('"', out);
+    for (; *text; ++text) {
+        if (*text == '"')
+            (void)fputc('"', out);
+        (void)fputc(*text, out);
+    }
+    (void)fputc('"', out);
+}
+
 static void csv_time(const mote_time *time, FILE *out)
 {
     csv_number(time->median, out);
@@ -134,11 +149,12 @@ void mote_table_print_csv(const mote_summary *summary, FILE *out)
 #undef PRINT_NAMES
     (void)fprintf(out, ",ratio,ratio_ci_low,ratio_ci_high,ratio_best,error_median,error_p95,"
                        "error_p99,error_max,exact_rate,contacts,missed,false_contacts,"
-                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes\n");
+                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,machine\n");
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        (void)fprintf(out, "%s,%s,%s,\"%s\"", row->first->scenario, row->first->cache,
-                      row->first->method, row->label);
+        csv_text(row->first->scenario, out);
+        (void)fprintf(out, ",%s,%s,", row->first->cache, row->first->method);
+        csv_text(row->label, out);
         csv_number(row->n, out);
         (void)fprintf(out, ",%u,%zu,%zu,%s", row->first->stride, row->frames, row->finished,
                       mote_cell_status_names[row->status]);
@@ -153,6 +169,9 @@ void mote_table_print_csv(const mote_summary *summary, FILE *out)
             row->heap_live_bytes,  row->heap_peak_bytes, row->rss_peak_bytes};
         for (size_t k = 0; k < sizeof rest / sizeof rest[0]; ++k)
             csv_number(rest[k], out);
+        (void)fputc(',', out);
+        if (row->first->machine[0])
+            csv_text(row->first->machine, out);
         (void)fputc('\n', out);
     }
 }

@@ -13,8 +13,11 @@ void mote_table_print(const mote_summary *summary, FILE *out);
 void mote_table_print_csv(const mote_summary *summary, FILE *out);
 
 /* What benchmark trackers read. NULL when memory ran out; the caller decrefs. */
-json_t *mote_gbench_json(const mote_summary *summary);  /* Google Benchmark */
 json_t *mote_gha_json(const mote_summary *summary);     /* github-action-benchmark */
 json_t *mote_bencher_json(const mote_summary *summary); /* Bencher */
+
+/* Google Benchmark: an entry a replicate. manifest (borrowed, may be NULL): the run's, for when
+   and where it was measured. */
+json_t *mote_gbench_json(const mote_summary *summary, const json_t *manifest);
 
 #endif

@@ -3,34 +3,54 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
-/* "scenario/method:key=value/evict": the name of a row in other tools. */
-static char *row_name(const mote_summary_row *row)
+/* "scenario/method:key=value/evict": the name of a row in other tools; with "/machine" where
+   there are several. */
+static char *row_name(const mote_summary *summary, const mote_summary_row *row)
 {
-    return mote_format("%s/%s/%s", row->first->scenario, row->label, row->first->cache);
+    bool several = mote_summary_machines_differ(summary);
+    return mote_format("%s/%s/%s%s%s", row->first->scenario, row->label, row->first->cache,
+                       several ? "/" : "", several ? row->first->machine : "");
 }
 
-static json_t *gbench_context(void)
+/* Sets a member to what is known; leaves it out when there is nothing. */
+static void set_known(json_t *object, const char *key, json_t *value)
 {
-    char host[256] = "", date[32] = "";
-    time_t now = time(NULL);
-    struct tm utc;
-    if (gmtime_r(&now, &utc))
-        (void)strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S+00:00", &utc);
-    (void)gethostname(host, sizeof host - 1);
-    return json_pack(
-        "{s:s, s:s, s:s, s:i, s:b, s:[], s:[], s:s, s:i}", "date", date, "host_name", host,
-        "executable", "mote", "num_cpus", (int)sysconf(_SC_NPROCESSORS_ONLN),
-        "cpu_scaling_enabled", 0, "caches", "load_avg", "library_build_type",
-        strcmp(MOTE_BUILD_TYPE, "Debug") == 0 ? "debug" : "release", "json_schema_version", 1);
+    if (json_is_string(value) ? json_string_length(value) > 0 : json_is_number(value))
+        (void)json_object_set(object, key, value);
+}
+
+/* Of when, where and by what the run was measured, which its manifest says. */
+static json_t *gbench_context(const json_t *manifest, const mote_summary *summary)
+{
+    json_t *context = json_pack("{s:s, s:[], s:[], s:i}", "executable", "mote", "caches",
+                                "load_avg", "json_schema_version", 1);
+    const json_t *sessions = json_object_get(manifest, "sessions");
+    const json_t *last = json_array_get(sessions, json_array_size(sessions) - 1);
+    set_known(context, "date", json_object_get(last, "started"));
+    set_known(context, "num_cpus", json_object_get(manifest, "cores"));
+    const char *type = json_string_value(json_object_get(manifest, "build_type"));
+    if (type)
+        (void)json_object_set_new(
+            context, "library_build_type",
+            json_string(strcmp(type, "Debug") == 0 ? "debug" : "release"));
+    if (summary->count > 0) {
+        const mote_stored_cell *cell = summary->rows[0].first;
+        json_t *host = json_stringn(cell->machine, strcspn(cell->machine, ","));
+        set_known(context, "host_name", host);
+        json_decref(host);
+        double mhz =
+            json_number_value(json_array_get(json_object_get(cell->json, "clock_mhz"), 0));
+        if (mhz > 0)
+            (void)json_object_set_new(context, "mhz_per_cpu", json_integer((json_int_t)mhz));
+    }
+    return context;
 }
 
 /* One replicate of a row: its median total. */
-static json_t *gbench_replicate(const mote_summary_row *row, const char *name, size_t index)
+static json_t *gbench_replicate(const mote_summary_row *row, const mote_stored_cell *cell,
+                                const char *name, size_t index)
 {
-    const mote_stored_cell *cell = &row->cells[index];
     double *work = malloc((cell->frames + 1) * sizeof *work);
     if (!work)
         return NULL;
@@ -50,19 +70,22 @@ static json_t *gbench_replicate(const mote_summary_row *row, const char *name, s
     return entry;
 }
 
-json_t *mote_gbench_json(const mote_summary *summary)
+json_t *mote_gbench_json(const mote_summary *summary, const json_t *manifest)
 {
     json_t *benchmarks = json_array();
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        char *name = row_name(row);
+        char *name = row_name(summary, row);
+        size_t index = 0;
         for (size_t r = 0; name && r < row->replicates; ++r) {
             if (row->cells[r].frames > 0)
-                (void)json_array_append_new(benchmarks, gbench_replicate(row, name, r));
+                (void)json_array_append_new(
+                    benchmarks, gbench_replicate(row, &row->cells[r], name, index++));
         }
         free(name);
     }
-    return json_pack("{s:o, s:o}", "context", gbench_context(), "benchmarks", benchmarks);
+    return json_pack("{s:o, s:o}", "context", gbench_context(manifest, summary), "benchmarks",
+                     benchmarks);
 }
 
 json_t *mote_gha_json(const mote_summary *summary)
@@ -70,7 +93,7 @@ json_t *mote_gha_json(const mote_summary *summary)
     json_t *list = json_array();
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        char *name = row_name(row);
+        char *name = row_name(summary, row);
         if (name && row->status == MOTE_CELL_OK) {
             json_t *entry = json_pack("{s:s, s:s, s:f}", "name", name, "unit", "ns", "value",
                                       row->total.median);
@@ -90,7 +113,7 @@ json_t *mote_bencher_json(const mote_summary *summary)
     json_t *object = json_object();
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        char *name = row_name(row);
+        char *name = row_name(summary, row);
         if (name && row->status == MOTE_CELL_OK) {
             json_t *latency = json_pack("{s:f}", "value", row->total.median);
             if (row->total.low == row->total.low) {

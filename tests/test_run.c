@@ -209,38 +209,6 @@ static void run_with_a_sweep_makes_every_combination(void **state)
     assert_int_equal(count_cells(".json"), 12);
 }
 
-static void run_of_shards_makes_each_cell_once(void **state)
-{
-    (void)state;
-    assert_int_equal(run("tt --frames 1-4 --replicates 3 --shard 1/2 " TWO_METHODS), 0);
-    int first = count_cells(".json");
-    assert_int_equal(run("tt --frames 1-4 --replicates 3 --shard 2/2 " TWO_METHODS), 0);
-    assert_true(first > 0 && first < 6);
-    assert_int_equal(count_cells(".json"), 6);
-}
-
-static void merge_of_shards_is_the_whole_run(void **state)
-{
-    (void)state;
-    char first[64], line[512];
-    assert_int_equal(run("tt --frames 1-4 --replicates 3 --shard 1/2 " TWO_METHODS), 0);
-    (void)snprintf(first, sizeof first, "%s", directory);
-    (void)next_directory(NULL);
-    assert_int_equal(run("tt --frames 1-4 --replicates 3 --shard 2/2 " TWO_METHODS), 0);
-    (void)snprintf(line, sizeof line, "merge %s/merged %s %s %s", base, first, directory,
-                   first);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
-    (void)snprintf(directory, sizeof directory, "%s/merged", base);
-    assert_int_equal(count_cells(".json"), 6);
-    assert_int_equal(count_cells(".csv"), 6);
-    json_t *summary = read_json("summary.json");
-    const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
-    assert_int_equal(json_integer_value(json_object_get(row, "replicates")), 3);
-    json_decref(summary);
-    (void)snprintf(line, sizeof line, "merge %s %s/no-such-run", directory, base);
-    assert_int_equal(program_wait(program_start(line, said)), 4);
-}
-
 static void refused(const char *arguments, int status, const char *part)
 {
     assert_int_equal(run(arguments), status);
@@ -434,8 +402,6 @@ int main(void)
         TEST(run_summary_has_a_row_a_configuration),
         TEST(run_again_measures_nothing_again),
         TEST(run_with_a_sweep_makes_every_combination),
-        TEST(run_of_shards_makes_each_cell_once),
-        TEST(merge_of_shards_is_the_whole_run),
         TEST_BARE(run_with_bad_input_says_what_and_writes_nothing),
         TEST_BARE(run_with_bad_usage_says_what_is_expected),
         TEST_BARE(run_into_an_impossible_directory_is_bad_input),
