@@ -477,7 +477,7 @@ constexpr mote_method describe(const char *name, const char *summary,
 {
     using A = Adapter<Volume>;
     return mote_method{name,      summary,    parameters, PARAMETER_COUNT, A::traits,
-                       A::create, A::destroy, A::update,  A::query};
+                       A::create, A::destroy, A::update,  A::query,        nullptr};
 }
 
 } // namespace mote_fcl

@@ -123,4 +123,4 @@ MOTE_METHOD(hybrid_fcl) = {
     parameters,   HYBRID_COUNT,
     traits,       create,
     destroy,      update,
-    query};
+    query,        nullptr};

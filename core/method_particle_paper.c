@@ -270,6 +270,15 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     return MOTE_OK;
 }
 
+static size_t particles(const void *state, int body, mote_vec3 *positions, size_t capacity)
+{
+    const paper_state *s = state;
+    const uint32_t count = mote_particles_count(s->particles);
+    for (uint32_t i = 0; i < count && i < capacity; ++i)
+        positions[i] = mote_particles_position(s->particles, body, i);
+    return count;
+}
+
 MOTE_METHOD(particle_paper) = {
     .name = "particle-paper",
     .summary = "the paper's particle system: attraction across, repulsion on each body",
@@ -279,4 +288,5 @@ MOTE_METHOD(particle_paper) = {
     .create = create,
     .destroy = destroy,
     .query = query,
+    .particles = particles,
 };

@@ -67,6 +67,13 @@ void mote_probe_destroy(mote_probe *probe)
     free(probe);
 }
 
+size_t mote_probe_particles(const mote_probe *probe, int i, mote_vec3 *positions,
+                            size_t capacity)
+{
+    const mote_method *method = probe->choice.method;
+    return method->particles ? method->particles(probe->state, i, positions, capacity) : 0;
+}
+
 const mote_vec3 *mote_probe_vertices(mote_probe *probe, const mote_frame *frame, int i)
 {
     mote_deform_all(probe->deform[i], &frame->body[i], probe->world[i]);

@@ -17,6 +17,11 @@ void mote_probe_destroy(mote_probe *probe); /* NULL is allowed */
 /* Deforms what the method needs, updates it and asks it. The frame's vertices may be NULL. */
 mote_status mote_probe_answer(mote_probe *probe, const mote_frame *frame, mote_answer *answer);
 
+/* The particles of body i after the last answer: see mote_method.particles. 0 for a method
+   without. */
+size_t mote_probe_particles(const mote_probe *probe, int i, mote_vec3 *positions,
+                            size_t capacity);
+
 /* World vertices of body i at a frame, deformed now: valid until the next call. */
 const mote_vec3 *mote_probe_vertices(mote_probe *probe, const mote_frame *frame, int i);
 

@@ -210,6 +210,31 @@ static void distance_is_at_least_the_truth_and_between_its_witnesses(void **unus
     scene_close(&s);
 }
 
+static void particles_are_told_with_the_closest_pair_at_the_distance(void **unused)
+{
+    (void)unused;
+    particle_scene s;
+    paper_run r;
+    scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
+    start_run(&r, &s, "n=9,refine=no");
+    scene_next(&s, 1.2);
+    const mote_answer answer = ask(&r, &s);
+    mote_vec3 p[2][9] = {{{0, 0, 0}}};
+    for (int b = 0; b < 2; ++b) {
+        assert_int_equal(r.method->particles(r.state, b, p[b], 4), 9);
+        assert_true(mote_distance_squared(p[b][4], (mote_vec3){0, 0, 0}) == 0);
+        assert_int_equal(r.method->particles(r.state, b, p[b], 9), 9);
+    }
+    double least = HUGE_VAL;
+    for (int i = 0; i < 9; ++i) {
+        for (int j = 0; j < 9; ++j)
+            least = fmin(least, sqrt(mote_distance_squared(p[0][i], p[1][j])));
+    }
+    assert_true(least == answer.distance);
+    r.method->destroy(r.state);
+    scene_close(&s);
+}
+
 static void every_component_has_a_particle_that_stays_on_it(void **unused)
 {
     (void)unused;
@@ -338,6 +363,7 @@ int main(void)
         cmocka_unit_test(answers_after_a_rigid_motion_agree_to_1e_12),
         cmocka_unit_test(answers_with_one_seed_are_identical),
         cmocka_unit_test(distance_is_at_least_the_truth_and_between_its_witnesses),
+        cmocka_unit_test(particles_are_told_with_the_closest_pair_at_the_distance),
         cmocka_unit_test(every_component_has_a_particle_that_stays_on_it),
         cmocka_unit_test(single_triangles_are_answered_for_every_n),
         cmocka_unit_test(open_and_bow_tie_meshes_are_answered),
