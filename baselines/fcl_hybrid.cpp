@@ -14,8 +14,12 @@ using namespace mote_fcl;
 
 enum { HYBRID_N, HYBRID_REFINE, HYBRID_QUEUE, HYBRID_POSITIONS, HYBRID_COUNT };
 
+constexpr uint32_t DEFAULT_COUNT = 8;
+
 constexpr mote_parameter parameters[HYBRID_COUNT] = {
-    {"n", MOTE_PARAMETER_INTEGER, 1, 65536, nullptr, "8", "particles on each body"},
+    {"n", MOTE_PARAMETER_INTEGER, 1, 65536, "auto", "auto",
+     "particles on each body, at least one a connected component; auto: 8, or all vertices of "
+     "a smaller body"},
     choice("refine", "no|near|always", "always",
            "exact check around the closest pair of particles, before FCL"),
     queue_parameter,
@@ -60,13 +64,23 @@ mote_traits traits(const double *values)
     return traits;
 }
 
+/* As many as asked for, or one a component where that is more. */
+uint32_t count_of(const mote_setup *setup)
+{
+    const mote_mesh *a = setup->body[0]->mesh, *b = setup->body[1]->mesh;
+    double asked = setup->values[HYBRID_N];
+    uint32_t count = asked == MOTE_AUTO
+                         ? std::min({DEFAULT_COUNT, a->vertex_count, b->vertex_count})
+                         : static_cast<uint32_t>(asked);
+    return std::max({count, a->component_count, b->component_count});
+}
+
 mote_status create_particles(const mote_setup *setup, Hybrid *hybrid)
 {
     static const char *const refine[] = {"no", "near", "always"};
     char text[128];
-    std::snprintf(text, sizeof text, "n=%d,start=fps,refine=%s,tolerance=0,positions=given",
-                  static_cast<int>(setup->values[HYBRID_N]),
-                  refine[static_cast<int>(setup->values[HYBRID_REFINE])]);
+    std::snprintf(text, sizeof text, "n=%u,start=fps,refine=%s,tolerance=0,positions=given",
+                  count_of(setup), refine[static_cast<int>(setup->values[HYBRID_REFINE])]);
     mote_parameters_default(particles.parameters, particles.parameter_count, hybrid->values);
     mote_status status = mote_parameters_parse(particles.parameters, particles.parameter_count,
                                                text, hybrid->values);

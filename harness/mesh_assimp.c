@@ -1,4 +1,4 @@
-/* Meshes by assimp: PLY, STL, OFF, glTF and what else it knows. The only file that includes it.
+/* Meshes by assimp: PLY, STL, glTF and what else it knows. The only file that includes it.
  */
 #include "harness/mesh_soup.h"
 

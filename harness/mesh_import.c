@@ -29,27 +29,35 @@ static bool has_ending(const char *path, const char *ending)
     return length > end && strcasecmp(path + length - end, ending) == 0;
 }
 
+/* A file that is read by ourselves. */
+static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
+                             mote_soup *soup)
+{
+    if (strlen(text) != size)
+        return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
+    const mote_status status = is_off ? mote_soup_read_off(path, text, size, soup)
+                                      : mote_soup_read_obj(path, text, soup);
+    return status == MOTE_OK ? mote_soup_compact(soup) : status;
+}
+
 static mote_status read_soup(const char *path, mote_soup *soup)
 {
     const bool is_obj = has_ending(path, ".obj");
+    const bool is_off = has_ending(path, ".off");
     char *text;
     size_t size;
     mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
     if (status != MOTE_OK)
         return status;
-    if (is_obj && strlen(text) != size)
-        status =
-            mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
-    else if (is_obj)
-        status = mote_soup_read_obj(path, text, soup);
+    if (is_obj || is_off)
+        status = read_text(path, text, size, is_off, soup);
     else
         status = mote_soup_check_counts(path, text, size);
     free(text);
-    if (status == MOTE_OK && !is_obj)
-        status = mote_soup_read_assimp(path, soup);
-    if (status != MOTE_OK)
+    if (status != MOTE_OK || is_obj || is_off)
         return status;
-    return is_obj ? mote_soup_compact(soup) : mote_soup_weld(soup);
+    status = mote_soup_read_assimp(path, soup);
+    return status == MOTE_OK ? mote_soup_weld(soup) : status;
 }
 
 /* assimp prints its failed assertions; what is wrong is told by our own text. */

@@ -6,16 +6,16 @@
 
 /* What happened to a file's triangles on the way to a mesh. */
 typedef struct mote_import {
-    bool single_precision; /* coordinates went through 32-bit floats (all but OBJ) */
+    bool single_precision; /* coordinates went through 32-bit floats (all but OBJ and OFF) */
     size_t welded;         /* vertices that stood at the place of another one */
     size_t collapsed;      /* faces left out: two vertices at one place */
     size_t unused;         /* vertices left out: in no face */
 } mote_import;
 
-/* Reads a mesh: OBJ in double precision by ourselves; PLY, STL, OFF, glTF and others by assimp,
-   welding vertices of equal position. In a child process with a time-out and a memory limit
-   (4 seconds and 128 MB for a small file, more in proportion for large ones): whatever is in
-   the file, the caller goes on. MOTE_EINVAL with a text that names the file and the place:
+/* Reads a mesh: OBJ and OFF in double precision by ourselves; PLY, STL, glTF and others by
+   assimp, welding vertices of equal position. In a child process with a time-out and a memory
+   limit (4 seconds and 128 MB for a small file, more in proportion for large ones): whatever is
+   in the file, the caller goes on. MOTE_EINVAL with a text that names the file and the place:
    not finite, an index out of range, no face, an edge of more than two faces. MOTE_EIO: not
    readable, or the child crashed or took too long. *import may be NULL. The caller destroys
    *mesh. */

@@ -37,7 +37,14 @@ mote_status mote_soup_compact(mote_soup *soup);
    MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *soup);
 
-/* Whether an OFF or PLY text declares no more vertices and faces than it can hold. MOTE_EINVAL
+/* Reads an ASCII OFF text (ended by a 0 byte; OFF, COFF, NOFF, STOFF and their combinations,
+   what follows a vertex's place or a face's corners being passed over) in double precision:
+   assimp would round the coordinates to 32 bits, and put another vertex for an index out of
+   range. Polygons as fans. MOTE_EINVAL with "FILE:LINE: what". */
+mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
+                               mote_soup *soup);
+
+/* Whether a PLY text declares no more vertices and faces than it can hold. MOTE_EINVAL
    otherwise. Other formats, by the path's ending, pass. */
 mote_status mote_soup_check_counts(const char *path, const char *text, size_t size);
 

@@ -4,6 +4,7 @@
 #include "baselines/ccd_triangle.h"
 #include "baselines/fcl_defects.h"
 #include "baselines/fcl_triangle.h"
+#include "baselines/wide_triangle.h"
 #include "tests/shapes.h"
 
 #include <ccd/ccd.h>
@@ -136,6 +137,22 @@ static void fcl_distance_of_small_triangles_is_zero(void **unused)
     assert_int_equal(large[0], 0);
     if (small[0] == 0)
         fail_msg(MENDED);
+}
+
+/* Triangles of whole numbers: a corner of one, (2, 2, 1) and (2, 2, 2), is in the other. */
+static void fcl_distance_of_triangles_that_touch_is_not_zero(void **unused)
+{
+    (void)unused;
+    static const mote_vec3 pairs[2][2][3] = {
+        {{{3, 3, 1}, {0, 1, 2}, {3, 2, 0}}, {{1, 2, 3}, {1, 1, 2}, {2, 2, 1}}},
+        {{{1, 1, 2}, {2, 0, 0}, {2, 2, 2}}, {{1, 3, 3}, {2, 2, 1}, {3, 1, 2}}}};
+    for (int i = 0; i < 2; ++i) {
+        assert_true(reference_triangle_triangle(pairs[i][0], pairs[i][1]) == 0);
+        const double said = mote_fcl_triangle_distance(pairs[i][0], pairs[i][1]);
+        print_message("two triangles that touch, by FCL: %.3f apart\n", said);
+        if (said == 0)
+            fail_msg(MENDED);
+    }
 }
 
 static void fcl_distance_of_oriented_boxes_is_missing(void **unused)
@@ -330,6 +347,7 @@ int main(void)
         cmocka_unit_test(fcl_refit_bottom_up_of_rss_misses_contacts),
         cmocka_unit_test(fcl_sum_of_rss_has_skew_axes),
         cmocka_unit_test(fcl_distance_of_small_triangles_is_zero),
+        cmocka_unit_test(fcl_distance_of_triangles_that_touch_is_not_zero),
         cmocka_unit_test(fcl_distance_of_oriented_boxes_is_missing),
         cmocka_unit_test(fcl_memory_usage_is_a_status),
         cmocka_unit_test(fcl_replace_after_update_fails),

@@ -424,6 +424,52 @@ static void create_takes_the_memory_that_fcl_needs(void **unused)
     scene_free(&s);
 }
 
+/* count tetrahedra in a row along x, from height z on. */
+static mote_mesh *make_row(uint32_t count, double z)
+{
+    static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t face[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    double xyz[16 * 4][3];
+    uint32_t faces[16 * 4][3];
+    need(count <= 16);
+    for (uint32_t i = 0; i < 4 * count; ++i) {
+        const double *c = corner[i % 4];
+        const double place[3] = {c[0] + 2 * (i / 4), c[1], c[2] + z};
+        memcpy(xyz[i], place, sizeof place);
+        for (int k = 0; k < 3; ++k)
+            faces[i][k] = face[i % 4][k] + 4 * (i / 4);
+    }
+    mote_mesh *mesh = NULL;
+    need(mote_mesh_create(&xyz[0][0], 4 * count, &faces[0][0], 4 * count, &mesh) == MOTE_OK);
+    return mesh;
+}
+
+/* Sixteen components and one, 1.5 apart: more than the default number of particles, and as many
+   vertices as that is at most. */
+static void hybrid_on_more_components_than_particles_raises_their_number(void **unused)
+{
+    (void)unused;
+    static const variant variants[] = {{"hybrid-fcl", ""}, {"hybrid-fcl", "n=1"}};
+    for (int v = 0; v < 4; ++v) {
+        scene s;
+        scene_init_meshes(&s, make_row(v < 2 ? 16 : 1, 0), make_row(v < 2 ? 16 : 1, 2.5),
+                          false);
+        const mote_pose still = {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {0, 0, 0}};
+        for (int b = 0; b < 2; ++b) {
+            s.frame.body[b] =
+                (mote_body_state){.pose = still, .shape_changed = true, .pose_changed = true};
+            mote_deform_all(s.deform[b], &s.frame.body[b], s.world[b]);
+            s.frame.body[b].vertices = s.world[b];
+        }
+        void *state = create(&variants[v % 2], &s, MOTE_ASK_DISTANCE, 0);
+        const mote_answer found = answer(&variants[v % 2], state, &s.frame);
+        assert_true(found.has_distance);
+        assert_true(found.distance == 1.5);
+        mote_method_find("hybrid-fcl")->destroy(state);
+        scene_free(&s);
+    }
+}
+
 static void traits_follow_the_parameters(void **unused)
 {
     (void)unused;
@@ -471,6 +517,7 @@ int main(void)
         cmocka_unit_test(create_with_a_bad_mesh_is_refused),
         cmocka_unit_test(update_with_a_bad_frame_is_refused_and_the_next_good),
         cmocka_unit_test(create_takes_the_memory_that_fcl_needs),
+        cmocka_unit_test(hybrid_on_more_components_than_particles_raises_their_number),
         cmocka_unit_test(traits_follow_the_parameters),
         cmocka_unit_test(destroy_of_nothing_does_nothing),
     };

@@ -103,10 +103,30 @@ static void mote_mesh_import_formats_give_the_same_tetrahedron(void **state)
 {
     (void)state;
     check_tetrahedron("t.obj", obj_text, false);
-    check_tetrahedron("t.off", off_text, true);
+    check_tetrahedron("t.off", off_text, false);
     check_tetrahedron("t.ply", ply_text, true);
     check_tetrahedron("t.stl", stl_text, true);
     check_tetrahedron("t.gltf", gltf_text, true);
+}
+
+/* Everything that the format allows around the numbers. */
+static void mote_mesh_import_off_with_extras_is_read(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "\xef\xbb\xbf# made by hand\r\nSTCNOFF 6 2\r\n\r\n0 0 0 1 0 0 0.5 0.5 0.5 1 0 0\r\n"
+        "1 0 0 0 # second\r\n1 1 0\r\n \t0 1 0\r\n9 9 9\r\n0 0 1\r\n# faces\r\n4 0 1 2 3 255 0 "
+        "0\r\n"
+        "3 5 1 0 0.5 0.5 0.5\r\nrest";
+    mote_mesh *mesh;
+    mote_import import;
+    if (import_text("t.off", text, strlen(text), &mesh, &import) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mesh->vertex_count, 5);
+    assert_int_equal(mesh->triangle_count, 3);
+    assert_int_equal(import.unused, 1);
+    assert_true(mesh->high.x == 1 && mesh->high.y == 1 && mesh->high.z == 1);
+    mote_mesh_destroy(mesh);
 }
 
 /* 80 bytes that say solid, a count, and 50 bytes a triangle. */
@@ -173,10 +193,25 @@ static const bad_text bad_texts[] = {
     {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
      "edge"},
     {"b.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "b.obj"},
-    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n", "not finite"},
-    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\ninf 1 0\n3 0 1 2\n", "not finite"},
+    {"b.off", "", "an empty file"},
+    {"b.off", "4OFF\n1 0 0\n0 0 0 0\n", ":1: no word OFF"},
+    {"b.off", "OFF BINARY\n3 1 0\n", ":1: binary"},
+    {"b.off", "OFF\n1\n", ":2: no counts"},
+    {"b.off", "OFF\n-1 1 0\n", ":2: no counts"},
     {"b.off", "OFF\n999999999 999999999 0\n0 0 0\n", "declares 999999999 vertices"},
-    {"b.off", "", "b.off"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n", ":5: a coordinate"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\ninf 1 0\n3 0 1 2\n", ":5: a coordinate"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1,5 1 0\n3 0 1 2\n", ":5: a vertex without three"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n", ":6: face with vertex 99 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: face with vertex 3 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":6: face with vertex -1 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 4294967298\n", ":6: face with vertex"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n", ":6: a face with a vertex twice"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", ":6: a face of 3 corners with 2"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ":6: a face of 2 vertices"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", ":5: ends after 0 of 1 faces"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: ends after 2 of 3 vertices"},
+    {"b.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no face"},
     {"b.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "without a line end_header"},
     {"b.ply", "ply\nformat ascii 1.0\nelement vertex 77777777\nend_header\n",
      "declares 77777777"},
@@ -288,6 +323,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mote_mesh_import_formats_give_the_same_tetrahedron),
+        cmocka_unit_test(mote_mesh_import_off_with_extras_is_read),
         cmocka_unit_test(mote_mesh_import_binary_stl_beginning_with_solid_is_read),
         cmocka_unit_test(mote_soup_weld_equal_places_become_one),
         cmocka_unit_test(mote_mesh_import_bad_file_names_the_place),

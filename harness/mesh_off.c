@@ -1,0 +1,125 @@
+/* OFF, read in double precision and checked line by line: assimp would round the coordinates to
+   32 bits, and put another vertex for an index out of range. */
+#include "harness/mesh_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct off_reader {
+    mote_mesh_reader common;
+    const char *at; /* what is not read yet */
+    size_t size;    /* of the text */
+    size_t vertices, faces;
+} off_reader;
+
+static const char *skip_word(const char *at)
+{
+    while (!mote_is_blank(*at) && !mote_is_end(*at))
+        ++at;
+    return mote_skip_blanks(at);
+}
+
+/* The next line that is neither blank nor a comment: its first word, or NULL at the end. */
+static const char *next_line(off_reader *reader)
+{
+    while (*reader->at) {
+        const char *line = mote_skip_blanks(reader->at);
+        reader->at += strcspn(reader->at, "\n");
+        reader->at += *reader->at == '\n';
+        ++reader->common.line;
+        if (!mote_is_end(*line))
+            return line;
+    }
+    return NULL;
+}
+
+static mote_status fail_at(const off_reader *reader, const char *what)
+{
+    return mote_fail(MOTE_EINVAL, "%s:%zu: %s", reader->common.path, reader->common.line, what);
+}
+
+/* A whole number >= 0, up to the file's size: nothing can be more. */
+static mote_status read_count(const off_reader *reader, const char **at, const char *what,
+                              size_t least_bytes, size_t *count)
+{
+    char *end;
+    const long long number = strtoll(*at, &end, 10);
+    if (end == *at || (!mote_is_blank(*end) && !mote_is_end(*end)) || number < 0)
+        return fail_at(reader, "no counts; write the numbers of vertices, faces and edges");
+    if ((unsigned long long)number > reader->size / least_bytes)
+        return mote_fail(MOTE_EINVAL,
+                         "%s:%zu: declares %lld %s, which %zu bytes cannot hold; give the "
+                         "number that follows",
+                         reader->common.path, reader->common.line, number, what, reader->size);
+    *count = (size_t)number;
+    *at = mote_skip_blanks(end);
+    return MOTE_OK;
+}
+
+/* "OFF", and vertices, faces and edges on the same line or the next. */
+static mote_status read_header(off_reader *reader)
+{
+    const char *at = next_line(reader);
+    if (!at)
+        return fail_at(reader, "an empty file; give a mesh");
+    if (strncmp(at, "ST", 2) == 0)
+        at += 2;
+    at += *at == 'C';
+    at += *at == 'N';
+    if (strncmp(at, "OFF", 3) != 0 || !(mote_is_blank(at[3]) || mote_is_end(at[3])))
+        return fail_at(reader, "no word OFF to begin with; give ASCII OFF in three dimensions");
+    at = skip_word(at);
+    if (strncmp(at, "BINARY", 6) == 0)
+        return fail_at(reader, "binary; give ASCII OFF");
+    if (mote_is_end(*at))
+        at = next_line(reader);
+    if (!at)
+        return fail_at(reader, "no counts; write the numbers of vertices, faces and edges");
+    /* A vertex takes three digits and blanks, a face four. */
+    mote_status status = read_count(reader, &at, "vertices", 6, &reader->vertices);
+    return status == MOTE_OK ? read_count(reader, &at, "faces", 7, &reader->faces) : status;
+}
+
+/* "3 0 1 2": how many corners, and vertices from 0. */
+static mote_status read_face(off_reader *reader, const char *at)
+{
+    mote_polygon polygon = {0};
+    char *end;
+    const long long corners = strtoll(at, &end, 10);
+    mote_status status = MOTE_OK;
+    if (end == at || corners < 0 || !(mote_is_blank(*end) || mote_is_end(*end)))
+        return fail_at(reader, "a face without its number of corners; write 3 0 1 2");
+    for (long long i = 0; i < corners && status == MOTE_OK; ++i) {
+        at = mote_skip_blanks(end);
+        const long long index = mote_is_end(*at) ? 0 : strtoll(at, &end, 10);
+        if (mote_is_end(*at) || end == at || !(mote_is_blank(*end) || mote_is_end(*end)))
+            return mote_fail(MOTE_EINVAL, "%s:%zu: a face of %lld corners with %lld; give all",
+                             reader->common.path, reader->common.line, corners, i);
+        if (index < 0 || index >= (long long)reader->vertices)
+            return mote_fail(MOTE_EINVAL, "%s:%zu: face with vertex %lld of %zu; use 0 to %zu",
+                             reader->common.path, reader->common.line, index, reader->vertices,
+                             reader->vertices - 1);
+        status = mote_polygon_add(&reader->common, &polygon, (uint32_t)index);
+    }
+    return status == MOTE_OK ? mote_polygon_end(&reader->common, &polygon) : status;
+}
+
+mote_status mote_soup_read_off(const char *path, const char *text, size_t size, mote_soup *soup)
+{
+    off_reader reader = {{path, 0, soup}, mote_skip_mark(text), size, 0, 0};
+    mote_status status = read_header(&reader);
+    for (size_t i = 0; status == MOTE_OK && i < reader.vertices + reader.faces; ++i) {
+        const bool is_vertex = i < reader.vertices;
+        const char *line = next_line(&reader);
+        if (!line)
+            return mote_fail(MOTE_EINVAL, "%s:%zu: ends after %zu of %zu %s", path,
+                             reader.common.line, is_vertex ? i : i - reader.vertices,
+                             is_vertex ? reader.vertices : reader.faces,
+                             is_vertex ? "vertices" : "faces");
+        status = is_vertex ? mote_mesh_read_vertex(&reader.common, line, "write x y z")
+                           : read_face(&reader, line);
+    }
+    if (status == MOTE_OK && soup->triangle_count == 0)
+        status = fail_at(&reader, "no face in it; give triangles");
+    return status;
+}
