@@ -64,25 +64,6 @@ static void check(variant *v, const scene *s, double truth)
     v->most_error = error > v->most_error ? error : v->most_error;
 }
 
-/* A small step from the frame before: a walk of both bodies. */
-static void step(scene *s)
-{
-    for (int b = 0; b < 2; ++b) {
-        mote_body_state *state = &s->frame.body[b];
-        const double size = 0.01 * s->length;
-        state->pose.translation =
-            mote_add(state->pose.translation,
-                     mote_vec3_make(scene_random(s, -size, size), scene_random(s, -size, size),
-                                    scene_random(s, -size, size)));
-        for (uint32_t j = 0; j < s->field[b]->count; ++j) {
-            for (int k = 0; k < 3; ++k)
-                s->weights[b][k][j] += scene_random(s, -0.2, 0.2) * size;
-        }
-        mote_deform_all(s->deform[b], state, s->world[b]);
-    }
-    ++s->frame.number;
-}
-
 static bool run_scene(variant v[VARIANTS], uint32_t index)
 {
     scene s;
@@ -95,7 +76,7 @@ static bool run_scene(variant v[VARIANTS], uint32_t index)
         if (k % 10 == 0)
             scene_next(&s, 1.4, false);
         else
-            step(&s);
+            scene_step(&s);
         const double truth = scene_distance(&s);
         for (int i = 0; i < VARIANTS; ++i)
             check(&v[i], &s, truth);

@@ -145,6 +145,25 @@ static inline const mote_frame *scene_next(scene *s, double reach, bool pose_onl
     return &s->frame;
 }
 
+/* A small step from the frame before: a walk of both bodies. */
+static inline void scene_step(scene *s)
+{
+    for (int b = 0; b < 2; ++b) {
+        mote_body_state *state = &s->frame.body[b];
+        const double size = 0.01 * s->length;
+        state->pose.translation =
+            mote_add(state->pose.translation,
+                     mote_vec3_make(scene_random(s, -size, size), scene_random(s, -size, size),
+                                    scene_random(s, -size, size)));
+        for (uint32_t j = 0; j < s->field[b]->count; ++j) {
+            for (int k = 0; k < 3; ++k)
+                s->weights[b][k][j] += scene_random(s, -0.2, 0.2) * size;
+        }
+        mote_deform_all(s->deform[b], state, s->world[b]);
+    }
+    ++s->frame.number;
+}
+
 /* The distance of the frame by all pairs of triangles. */
 static inline double scene_distance(const scene *s)
 {
