@@ -9,6 +9,7 @@
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
+#   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
@@ -27,7 +28,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients ablation certify dynamics claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients ablation certify soak dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -64,6 +65,14 @@ certify: build
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
+
+# Cases that fail are shrunk and kept in OUT/cases.
+HOURS ?= 0.1
+SEED ?= 1
+soak: build
+	@mkdir -p results
+	@$(BUILD)/tests/soak --hours $(HOURS) --seed $(SEED) \
+	    --out $(if $(filter file,$(origin OUT)),results/soak,$(OUT))
 
 dynamics: build
 	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \

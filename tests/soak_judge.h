@@ -1,0 +1,47 @@
+/* What methods say of a scenario, against the truth, frame by frame. */
+#ifndef MOTE_TESTS_SOAK_JUDGE_H
+#define MOTE_TESTS_SOAK_JUDGE_H
+
+#include "core/status.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Exact methods first; the truth is the last of them, and is itself judged by another
+   arithmetic wherever one differs. */
+enum { SOAK_EXACT = 6, SOAK_METHODS = 9, SOAK_DECADES = 18 };
+extern const char *const soak_methods[SOAK_METHODS];
+
+typedef struct soak_tally {
+    uint64_t queries;
+    uint64_t wrong; /* exact methods: not within 1e-12 L; all: NaN, negative, below a bound */
+    uint64_t violated; /* a proven lower bound above the truth */
+    uint64_t missed, false_contacts;
+    uint64_t decades[SOAK_DECADES]; /* errors over L: [0] below 1e-16, [k] below 10^(k - 16) */
+    double largest;                 /* error over L */
+} soak_tally;
+
+typedef struct soak_verdict {
+    uint32_t frames;       /* judged; as far as the first failure when stopped there */
+    uint32_t failed_frame; /* the first at which something failed, 0: none */
+    uint32_t settled;      /* frames that 113 bits had to settle */
+    soak_tally tally[SOAK_METHODS];
+} soak_verdict;
+
+/* A wrong answer to plant, to see that it is found: certified's distance at a frame, times
+   1 + 1e-9. Frame 0: none. */
+typedef struct soak_plant {
+    uint32_t frame;
+} soak_plant;
+
+/* Judges every frame of a scenario file in a process of its own; with stop, until the first
+   failure. MOTE_EINVAL when the file is refused; MOTE_EIO when a method crashed or hung. */
+mote_status soak_judge(const char *path, const soak_plant *plant, bool stop,
+                       soak_verdict *verdict);
+
+static inline bool soak_failed(mote_status status, const soak_verdict *verdict)
+{
+    return status == MOTE_EIO || (status == MOTE_OK && verdict->failed_frame > 0);
+}
+
+#endif
