@@ -4,6 +4,7 @@
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
 #   make test                                         release tests, then ASan and UBSan
 #   make figures [OUT=DIR]                            draw again from what is stored
+#   make report [OUT=DIR]                             write report.html and report.md again
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
@@ -99,6 +100,10 @@ claims: build
 
 figures: build
 	@$(MOTE) figures $(OUT)
+
+.PHONY: report
+report: build
+	@$(MOTE) report $(OUT)
 
 SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp')
 

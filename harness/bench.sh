@@ -1,6 +1,6 @@
 #!/bin/sh
 # bench.sh MOTE PROFILE OUT: the experiments of one profile, into one run directory. A run that was
-# stopped goes on where it stopped. Ends with the table and the figures.
+# stopped goes on where it stopped. Ends with the table, the figures and the report.
 set -eu
 mote=$1
 profile=$2
@@ -65,4 +65,5 @@ esac
 
 "$mote" summarize "$out"
 "$mote" figures "$out"
+"$mote" report "$out"
 exit $failed

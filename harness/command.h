@@ -51,6 +51,7 @@ typedef enum mote_exit {
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
       "draws the accepted references, or adds one")                                            \
     X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")           \
+    X(report, "report DIR", "a run as a page and as plain text, from what is stored")          \
     X(claims, "claims [--out DIR] [--quick]",                                                  \
       "measures every claim of the paper, writes DIR/claims.json")
 

@@ -67,3 +67,19 @@ const char *mote_show_bytes(double bytes, char text[MOTE_NUMBER_TEXT])
         (void)snprintf(text, MOTE_NUMBER_TEXT, "%.1f MB", bytes / 1e6);
     return text;
 }
+
+const char *mote_show_whole(double value, char text[MOTE_NUMBER_TEXT])
+{
+    char digits[MOTE_NUMBER_TEXT];
+    int length = snprintf(digits, sizeof digits, "%.0f", value);
+    if (length > 16)
+        return mote_show_count(value, text);
+    int used = 0;
+    for (int i = 0; i < length; ++i) {
+        if (i > 0 && (length - i) % 3 == 0)
+            text[used++] = ',';
+        text[used++] = digits[i];
+    }
+    text[used] = '\0';
+    return text;
+}

@@ -13,5 +13,7 @@ const char *mote_show_percent(double share, char text[MOTE_NUMBER_TEXT]); /* "99
 const char *mote_show_error(double error, char text[MOTE_NUMBER_TEXT]);   /* "1.2e-03" */
 const char *mote_show_count(double value, char text[MOTE_NUMBER_TEXT]);   /* "12.5" */
 const char *mote_show_bytes(double bytes, char text[MOTE_NUMBER_TEXT]);   /* "61.2 kB" */
+const char *mote_show_whole(double value,
+                            char text[MOTE_NUMBER_TEXT]); /* "11,920"; value >= 0 */
 
 #endif

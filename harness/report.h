@@ -1,0 +1,51 @@
+/* The report of a run: what was asked, the machine, the table, the figures, the claims and the
+   baselines' known defects, as a page (report.html) and as plain text (report.md). Made from
+   what is stored, measuring nothing; what is missing is named. */
+#ifndef MOTE_HARNESS_REPORT_H
+#define MOTE_HARNESS_REPORT_H
+
+#include "harness/file.h"
+#include "harness/summary.h"
+
+/* A drawn figure of the run. */
+typedef struct mote_report_figure {
+    char *name;     /* "front-ww": the file's name without its end */
+    char *file;     /* "figures/front-ww.svg", relative to the run */
+    char *title;    /* what it shows: a few words */
+    char *caption;  /* what can be read from it; "" where nothing is known of it */
+    bool animation; /* an animated GIF: linked, not shown */
+} mote_report_figure;
+
+/* What a report is made from. Everything is owned; NULL is what the run does not have. */
+typedef struct mote_report {
+    const char *directory; /* borrowed */
+    char *name;            /* the last part of the directory's path */
+    json_t *manifest;      /* manifest.json */
+    json_t *summary;       /* as summary.json; made from the cells where there are any */
+    bool has_cells;
+    mote_summary cells; /* where has_cells: row i is row i of summary */
+    json_t *claims, *requirements;
+    char *claims_folder; /* where they are, relative to the run: "" or "../claims/" */
+    mote_report_figure *figures;
+    size_t figure_count;
+    char *defects;   /* Markdown: the known defects of the baselines */
+    json_t *missing; /* texts: what the run does not have, and how to get it */
+} mote_report;
+
+/* Gathers what there is in a run's directory. MOTE_EIO when there is nothing to report: no such
+   directory, or nothing of a run in it. The caller frees *report. */
+mote_status mote_report_gather(const char *directory, mote_report *report);
+void mote_report_free(mote_report *report);
+
+/* Fills figures from directory/figures and names those that a run should have and this one does
+   not. Part of mote_report_gather. */
+mote_status mote_report_figures(mote_report *report);
+
+/* The page and the text. `text` is to be written by mote_record_text. */
+mote_status mote_report_html(const mote_report *report, mote_text *text);
+mote_status mote_report_markdown(const mote_report *report, mote_text *text);
+
+/* Writes directory/report.html and directory/report.md. */
+mote_status mote_report_write(const char *directory);
+
+#endif

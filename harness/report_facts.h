@@ -1,0 +1,22 @@
+/* Plain facts of a report that both of its forms list: the machine and what was asked. */
+#ifndef MOTE_HARNESS_REPORT_FACTS_H
+#define MOTE_HARNESS_REPORT_FACTS_H
+
+#include "harness/report.h"
+
+/* Lines "key: value" of the machine and the program, [[key, value], ...] of texts; empty
+   without a manifest. NULL when memory ran out; the caller decrefs. */
+json_t *mote_report_machine(const mote_report *report);
+
+/* The commands that measured into the run: ["2026-11-21T13:29:53Z", "mote run ..."], quoted for
+   a shell where needed. NULL when memory ran out; the caller decrefs. */
+json_t *mote_report_commands(const mote_report *report);
+
+/* The scenarios of the run with their purposes, "" where it is no built-in one: [[name,
+   purpose], ...]. NULL when memory ran out; the caller decrefs. */
+json_t *mote_report_scenarios(const mote_report *report);
+
+/* One line: "176 cells of 2 scenarios, commit 9c079316, 2026-11-21". The caller frees it. */
+char *mote_report_subtitle(const mote_report *report);
+
+#endif

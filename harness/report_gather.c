@@ -1,0 +1,194 @@
+#include "harness/record.h"
+#include "harness/report.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define DEFECTS_LIMIT ((size_t)1 << 20)
+
+static mote_status no_memory(void)
+{
+    return mote_fail(MOTE_ENOMEM, "no memory for a report");
+}
+
+/* Adds a text to what is missing; takes it over. */
+static mote_status add_missing(mote_report *report, char *what)
+{
+    int added = what ? json_array_append_new(report->missing, json_string(what)) : -1;
+    free(what);
+    return added == 0 ? MOTE_OK : no_memory();
+}
+
+static bool exists(const char *directory, const char *name)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    struct stat info;
+    bool found = path && stat(path, &info) == 0;
+    free(path);
+    return found;
+}
+
+/* Reads directory/name; one that is not there or cannot be read is missing, no failure. */
+static mote_status read_json(mote_report *report, const char *name, const char *remedy,
+                             json_t **object)
+{
+    if (!exists(report->directory, name))
+        return add_missing(report, mote_format("%s: not there; %s", name, remedy));
+    if (mote_record_read_json(report->directory, name, object) == MOTE_OK)
+        return MOTE_OK;
+    return add_missing(report, mote_format("%s: %s", name, mote_error_text()));
+}
+
+/* The rows: from the cells, or else as they were stored. */
+static mote_status read_rows(mote_report *report)
+{
+    if (mote_summary_make(report->directory, &report->cells) == MOTE_OK) {
+        if (report->cells.count > 0) {
+            report->has_cells = true;
+            report->summary = mote_summary_json(&report->cells);
+            return report->summary ? MOTE_OK : no_memory();
+        }
+        mote_summary_free(&report->cells);
+        (void)mote_fail(MOTE_EIO, "no cell is there; `mote run --out %s` measures some",
+                        report->directory);
+    }
+    mote_status status = add_missing(report, mote_format("cells: %s", mote_error_text()));
+    if (status != MOTE_OK)
+        return status;
+    return read_json(report, "summary.json", "`mote summarize` writes it from the cells",
+                     &report->summary);
+}
+
+/* The claims are measured by a run of their own, which `make claims` leaves beside the others.
+ */
+static mote_status read_claims(mote_report *report)
+{
+    static const char *const folders[] = {"", "../claims/"};
+    size_t k = 0;
+    while (k < 2) {
+        char name[64];
+        (void)snprintf(name, sizeof name, "%sclaims.json", folders[k]);
+        if (exists(report->directory, name))
+            break;
+        ++k;
+    }
+    if (k == 2)
+        return add_missing(report, mote_format("claims.json: neither in the run nor in "
+                                               "../claims; `make claims` measures them"));
+    report->claims_folder = mote_format("%s", folders[k]);
+    char claims[64], requirements[64];
+    (void)snprintf(claims, sizeof claims, "%sclaims.json", folders[k]);
+    (void)snprintf(requirements, sizeof requirements, "%srequirements.json", folders[k]);
+    mote_status status = report->claims_folder ? MOTE_OK : no_memory();
+    if (status == MOTE_OK)
+        status = read_json(report, claims, "`make claims` measures them", &report->claims);
+    if (status == MOTE_OK)
+        status = read_json(report, requirements, "`make claims` measures them",
+                           &report->requirements);
+    return status;
+}
+
+static mote_status read_defects(mote_report *report)
+{
+    size_t size;
+    if (mote_file_read(MOTE_SOURCE_DIR "/datasets/defects.md", DEFECTS_LIMIT, &report->defects,
+                       &size) == MOTE_OK)
+        return MOTE_OK;
+    return add_missing(report, mote_format("known defects: %s", mote_error_text()));
+}
+
+/* The last part of a path; that of the working directory for ".". */
+static char *last_part(const char *directory)
+{
+    char here[4096];
+    const char *path = directory;
+    if (strcmp(path, ".") == 0 && getcwd(here, sizeof here))
+        path = here;
+    size_t end = strlen(path);
+    while (end > 1 && path[end - 1] == '/')
+        --end;
+    size_t start = end;
+    while (start > 0 && path[start - 1] != '/')
+        --start;
+    return mote_format("%.*s", (int)(end - start), path + start);
+}
+
+mote_status mote_report_gather(const char *directory, mote_report *report)
+{
+    mote_report made = {.directory = directory};
+    struct stat info;
+    if (stat(directory, &info) != 0)
+        return mote_fail(MOTE_EIO, "%s: %s; name the directory of a run", directory,
+                         strerror(errno));
+    if (!S_ISDIR(info.st_mode))
+        return mote_fail(MOTE_EIO, "%s: not a directory; name the directory of a run",
+                         directory);
+    made.missing = json_array();
+    made.name = last_part(directory);
+    mote_status status = made.missing && made.name ? MOTE_OK : no_memory();
+    if (status == MOTE_OK)
+        status = read_json(&made, "manifest.json", "`mote run` writes it", &made.manifest);
+    if (status == MOTE_OK)
+        status = read_rows(&made);
+    if (status == MOTE_OK)
+        status = mote_report_figures(&made);
+    bool own_claims = exists(directory, "claims.json");
+    if (status == MOTE_OK && !made.summary && !made.figure_count && !own_claims)
+        status = mote_fail(MOTE_EIO,
+                           "%s: nothing to report: no cells that can be read, no summary.json, "
+                           "no claims.json, no figures; name the directory of a run",
+                           directory);
+    if (status == MOTE_OK)
+        status = read_claims(&made);
+    if (status == MOTE_OK)
+        status = read_defects(&made);
+    if (status == MOTE_OK)
+        *report = made;
+    else
+        mote_report_free(&made);
+    return status;
+}
+
+void mote_report_free(mote_report *report)
+{
+    if (report->has_cells)
+        mote_summary_free(&report->cells);
+    json_decref(report->manifest);
+    json_decref(report->summary);
+    json_decref(report->claims);
+    json_decref(report->requirements);
+    json_decref(report->missing);
+    for (size_t i = 0; i < report->figure_count; ++i) {
+        free(report->figures[i].name);
+        free(report->figures[i].file);
+        free(report->figures[i].title);
+        free(report->figures[i].caption);
+    }
+    free(report->figures);
+    free(report->claims_folder);
+    free(report->defects);
+    free(report->name);
+}
+
+mote_status mote_report_write(const char *directory)
+{
+    mote_report report;
+    mote_status status = mote_report_gather(directory, &report);
+    if (status != MOTE_OK)
+        return status;
+    mote_text html = {0}, markdown = {0};
+    status = mote_report_html(&report, &html);
+    if (status == MOTE_OK)
+        status = mote_report_markdown(&report, &markdown);
+    if (status == MOTE_OK)
+        status = mote_record_text(directory, "report.html", &html);
+    if (status == MOTE_OK)
+        status = mote_record_text(directory, "report.md", &markdown);
+    free(html.data);
+    free(markdown.data);
+    mote_report_free(&report);
+    return status;
+}

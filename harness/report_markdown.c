@@ -1,0 +1,310 @@
+/* The report as text that reads well in a terminal, and as Markdown on a forge: numbers stand
+   in tables, and what they were computed from is linked at the end of each row. */
+#include "harness/escape.h"
+#include "harness/markdown_html.h"
+#include "harness/report_facts.h"
+#include "harness/report_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *pair_text(const json_t *pair, size_t index)
+{
+    const char *value = json_string_value(json_array_get(pair, index));
+    return value ? value : "";
+}
+
+/* "- key: value" for each pair. */
+static mote_status add_pairs(json_t *pairs, mote_text *text)
+{
+    size_t i;
+    const json_t *pair;
+    if (!pairs)
+        return mote_fail(MOTE_ENOMEM, "no memory for a report");
+    json_array_foreach(pairs, i, pair)
+    {
+        mote_text_add(text, "- ");
+        mote_escape_markdown(text, pair_text(pair, 0));
+        mote_text_add(text, ": ");
+        mote_escape_markdown(text, pair_text(pair, 1));
+        mote_text_add(text, "\n");
+    }
+    json_decref(pairs);
+    return MOTE_OK;
+}
+
+static mote_status add_commands(const mote_report *report, mote_text *text)
+{
+    size_t i;
+    const json_t *pair;
+    json_t *commands = mote_report_commands(report);
+    if (!commands)
+        return mote_fail(MOTE_ENOMEM, "no memory for a report");
+    if (json_array_size(commands) > 0)
+        mote_text_add(text, "\nMeasured by\n");
+    json_array_foreach(commands, i, pair)
+    {
+        mote_text_add(text, "\n1. ");
+        mote_escape_markdown(text, pair_text(pair, 1));
+        mote_text_add(text, " (%s)", pair_text(pair, 0));
+    }
+    mote_text_add(text, "%s", json_array_size(commands) > 0 ? "\n" : "");
+    json_decref(commands);
+    return MOTE_OK;
+}
+
+static void add_missing(const mote_report *report, mote_text *text)
+{
+    size_t i;
+    const json_t *what;
+    if (json_array_size(report->missing) == 0)
+        return;
+    mote_text_add(text, "\n## What this run does not have\n\n");
+    json_array_foreach(report->missing, i, what)
+    {
+        mote_text_add(text, "- ");
+        mote_escape_markdown(text, json_string_value(what));
+        mote_text_add(text, "\n");
+    }
+}
+
+/* A cell of a table, padded on its left to the width, or on its right where it is negative. */
+static void add_field(mote_text *text, const char *value, int width)
+{
+    mote_text_add(text, " %*s |", width, value);
+}
+
+#define FIELD_WIDTH 9
+
+/* The width of the first column of a block, in bytes. */
+static int label_width(const mote_report *report, size_t first, size_t end)
+{
+    size_t width = strlen("method");
+    for (size_t i = first; i < end; ++i) {
+        size_t length = strlen(mote_report_text(mote_report_row(report, i), "label"));
+        width = length > width ? length : width;
+    }
+    return (int)width;
+}
+
+/* The line below the heads: as wide as the fields, a colon on the side of alignment. */
+static void add_rule(mote_text *text, int width, bool right)
+{
+    mote_text_add(text, right ? "-" : ":");
+    for (int k = 0; k < width; ++k)
+        mote_text_add(text, "-");
+    mote_text_add(text, right ? ":|" : "-|");
+}
+
+static void add_head(int width, mote_text *text)
+{
+    mote_text_add(text, "|");
+    add_field(text, "method", -width);
+    for (size_t k = 0; k < mote_report_column_count; ++k) {
+        if (mote_report_columns[k].brief)
+            add_field(text, mote_report_columns[k].brief, FIELD_WIDTH);
+    }
+    mote_text_add(text, " cells |\n|");
+    add_rule(text, width, false);
+    for (size_t k = 0; k < mote_report_column_count; ++k) {
+        if (mote_report_columns[k].brief)
+            add_rule(text, FIELD_WIDTH, true);
+    }
+    mote_text_add(text, ":------|\n");
+}
+
+/* "[1][c3-1] [2][c3-2]": the cells of row i. */
+static void add_cell_links(const mote_report *report, size_t i, mote_text *text)
+{
+    if (!report->has_cells) {
+        mote_text_add(text, " [summary](summary.json) |");
+        return;
+    }
+    const mote_summary_row *row = &report->cells.rows[i];
+    for (size_t r = 0; r < row->replicates; ++r)
+        mote_text_add(text, " [%u][c%zu-%u]", row->cells[r].replicate, i + 1,
+                      row->cells[r].replicate);
+    mote_text_add(text, " |");
+}
+
+static void add_row(const mote_report *report, size_t i, int width, mote_text *text)
+{
+    const json_t *row = mote_report_row(report, i);
+    const char *label = mote_report_text(row, "label");
+    mote_text_add(text, "| ");
+    mote_escape_markdown(text, label);
+    mote_text_add(text, "%*s |", width - (int)strlen(label), "");
+    bool ok = strcmp(mote_report_text(row, "status"), "ok") == 0;
+    if (!ok) {
+        mote_text_add(text, " ");
+        mote_escape_markdown(text, mote_report_text(row, "status"));
+        mote_text_add(text, ": ");
+        mote_escape_markdown(text, mote_report_text(row, "reason"));
+        mote_text_add(text, " |");
+    }
+    for (size_t k = 0, shown = 0; k < mote_report_column_count; ++k) {
+        const mote_report_column *column = &mote_report_columns[k];
+        char value[MOTE_NUMBER_TEXT];
+        if (!column->brief)
+            continue;
+        if (ok)
+            add_field(text,
+                      column->show(mote_report_number(row, column->object, column->key), value),
+                      FIELD_WIDTH);
+        else if (shown > 0)
+            mote_text_add(text, " |");
+        ++shown;
+    }
+    add_cell_links(report, i, text);
+    mote_text_add(text, "\n");
+}
+
+static void add_block(const mote_report *report, size_t first, size_t end, mote_text *text)
+{
+    const json_t *row = mote_report_row(report, first);
+    const json_t *triangles = json_object_get(row, "triangles");
+    char shown[2][MOTE_NUMBER_TEXT];
+    mote_text_add(text, "\n### ");
+    mote_escape_markdown(text, mote_report_text(row, "scenario"));
+    mote_text_add(text, ", caches ");
+    mote_escape_markdown(text, mote_report_text(row, "cache"));
+    mote_text_add(text, ": %s and %s triangles\n\n",
+                  mote_show_whole(json_number_value(json_array_get(triangles, 0)), shown[0]),
+                  mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]));
+    const int width = label_width(report, first, end);
+    add_head(width, text);
+    for (size_t i = first; i < end; ++i)
+        add_row(report, i, width, text);
+}
+
+static void add_results(const mote_report *report, mote_text *text)
+{
+    const size_t count = mote_report_row_count(report);
+    if (count == 0)
+        return;
+    mote_text_add(
+        text,
+        "\n## Results\n\nTimes are medians over frames and replicates of deform, update and "
+        "query "
+        "together; `FCL/this`\nand `best/this`: how many times slower FCL's AABB tree and "
+        "its fastest configuration are;\nerrors are absolute, over L. The numbers in the "
+        "last column link to the cells that a row was\ncomputed from. Intervals and more "
+        "columns are in [report.html](report.html) and\n[summary.json](summary.json).\n");
+    for (size_t first = 0; first < count;) {
+        size_t end = mote_report_block_end(report, first);
+        add_block(report, first, end, text);
+        first = end;
+    }
+}
+
+static void add_figures(const mote_report *report, mote_text *text)
+{
+    if (report->figure_count == 0)
+        return;
+    mote_text_add(text, "\n## Figures\n");
+    for (size_t i = 0; i < report->figure_count; ++i) {
+        const mote_report_figure *figure = &report->figures[i];
+        mote_text_add(text, "\n![");
+        mote_escape_markdown(text, figure->title);
+        mote_text_add(text, "](");
+        mote_escape_path(text, figure->file);
+        mote_text_add(text, ")\n\n");
+        mote_escape_markdown(text, figure->title);
+        mote_text_add(text, ". ");
+        mote_escape_markdown(text, figure->caption);
+        mote_text_add(text, "\n");
+    }
+}
+
+static void add_claim(const mote_report *report, const json_t *claim, const char *file,
+                      mote_text *text)
+{
+    const double value = mote_report_number(claim, NULL, "value");
+    const json_t *interval = json_object_get(claim, "interval");
+    mote_text_add(text, "- **");
+    mote_escape_markdown(text, mote_report_text(claim, "id"));
+    mote_text_add(text, "**, ");
+    mote_escape_markdown(text, mote_report_text(claim, "verdict"));
+    mote_text_add(text, ": ");
+    mote_escape_markdown(text, mote_report_text(claim, "claim"));
+    if (value == value) {
+        mote_text_add(text, ". Measured: [%.4g", value);
+        mote_escape_markdown(text, mote_report_text(claim, "unit")[0] ? " " : "");
+        mote_escape_markdown(text, mote_report_text(claim, "unit"));
+        mote_text_add(text, "](%s%s)", report->claims_folder, file);
+    }
+    if (json_array_size(interval) == 2)
+        mote_text_add(text, " (%.4g to %.4g)", json_number_value(json_array_get(interval, 0)),
+                      json_number_value(json_array_get(interval, 1)));
+    mote_text_add(text, "\n");
+}
+
+static void add_claims(const mote_report *report, const json_t *claims, const char *title,
+                       const char *file, mote_text *text)
+{
+    size_t i;
+    const json_t *claim;
+    if (json_array_size(claims) == 0)
+        return;
+    mote_text_add(text, "\n## %s\n\n", title);
+    json_array_foreach(claims, i, claim)
+    {
+        add_claim(report, claim, file, text);
+    }
+}
+
+/* The targets of the links in the tables. */
+static void add_cells(const mote_report *report, mote_text *text)
+{
+    if (!report->has_cells)
+        return;
+    mote_text_add(text, "\n");
+    for (size_t i = 0; i < report->cells.count; ++i) {
+        const mote_summary_row *row = &report->cells.rows[i];
+        for (size_t r = 0; r < row->replicates; ++r) {
+            const mote_stored_cell *cell = &row->cells[r];
+            mote_text_add(text, "[c%zu-%u]: cells/", i + 1, cell->replicate);
+            mote_escape_path(text, cell->id);
+            mote_text_add(text, cell->status == MOTE_CELL_OK ? ".csv\n" : ".json\n");
+        }
+    }
+}
+
+mote_status mote_report_markdown(const mote_report *report, mote_text *text)
+{
+    char *subtitle = mote_report_subtitle(report);
+    mote_text_add(text, "# ");
+    mote_escape_markdown(text, report->name);
+    mote_text_add(text, "\n\n");
+    mote_escape_markdown(text, subtitle);
+    mote_text_add(text,
+                  "\n\n## What was asked\n\nHow much accuracy does a collision query by a few "
+                  "particles give up, and how much time and\nmemory does it save, against "
+                  "bounding volume hierarchies, on deforming triangle meshes? Every\nmethod "
+                  "gets the same frames; its answers are compared with the exact "
+                  "distance.\n\n");
+    mote_status status = subtitle ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a report");
+    free(subtitle);
+    if (status == MOTE_OK)
+        status = add_pairs(mote_report_scenarios(report), text);
+    if (status == MOTE_OK)
+        status = add_commands(report, text);
+    if (status != MOTE_OK)
+        return status;
+    add_missing(report, text);
+    add_results(report, text);
+    add_figures(report, text);
+    add_claims(report, report->claims, "Claims of the paper", "claims.json", text);
+    add_claims(report, report->requirements, "Requirements", "requirements.json", text);
+    if (report->manifest) {
+        mote_text_add(text, "\n## The machine and the program\n\n");
+        status = add_pairs(mote_report_machine(report), text);
+        mote_text_add(text, "\nFrom [manifest.json](manifest.json).\n");
+    }
+    if (report->defects) {
+        mote_text_add(text, "\n## Known defects of the baselines\n\n");
+        mote_markdown_nested(text, report->defects);
+    }
+    add_cells(report, text);
+    return status;
+}
