@@ -17,6 +17,8 @@
 #   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make claims [OUT=DIR]                             measure the claims of the paper
+#   make test-library                               the library alone: gcc, clang, musl-gcc
+#   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -115,3 +117,14 @@ lint: format build
 
 clean:
 	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz
+
+.PHONY: test-library install
+
+test-library: deps
+	@cmake/deps.sh tests/packages-library.txt || echo "going on with the compilers at hand"
+	@tests/core_only.sh
+
+PREFIX ?= /usr/local
+
+install: build
+	cmake --install $(BUILD) --prefix $(PREFIX)

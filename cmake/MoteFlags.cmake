@@ -8,13 +8,15 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_C_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 
 set(mote_c_warnings -Wall -Wextra -Wshadow -Wconversion -Wdouble-promotion -Wstrict-prototypes
     -Wmissing-prototypes -Wundef -Wvla -Wcast-qual -Wformat=2 -pedantic-errors)
 target_compile_options(mote_flags INTERFACE
-  -ffp-contract=off -fvisibility=hidden -fno-math-errno -fno-trapping-math
+  -ffp-contract=off -fno-math-errno -fno-trapping-math
   $<$<COMPILE_LANGUAGE:C>:${mote_c_warnings}>
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra>)
 # gcc 12 would fuse the lanes of two terms of a sum and then add them up in pairs.
@@ -32,12 +34,12 @@ endif()
 if(MOTE_FORCE_ISA)
   target_compile_options(mote_flags INTERFACE -march=${MOTE_FORCE_ISA})
 elseif(MOTE_CLONES AND NOT MOTE_SANITIZE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64")
-  include(CheckCSourceCompiles)
-  check_c_source_compiles("
+  include(CheckCSourceRuns) # some C libraries (musl) cannot pick a version at load time
+  check_c_source_runs("
     __attribute__((target_clones(\"default\",\"arch=x86-64-v3\",\"arch=x86-64-v4\")))
     int f(int x) { return x + 1; }
     int main(void) { return f(-1); }" MOTE_HAVE_CLONES_V4)
-  check_c_source_compiles("
+  check_c_source_runs("
     __attribute__((target_clones(\"default\",\"avx2\",\"avx512f\")))
     int f(int x) { return x + 1; }
     int main(void) { return f(-1); }" MOTE_HAVE_CLONES)

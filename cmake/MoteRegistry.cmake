@@ -1,6 +1,6 @@
-# mote_registry(OUT SOURCE...): writes the table of all methods that the sources define with
-# MOTE_METHOD(identifier), sorted by file, so that a new method is one new file.
-function(mote_registry out)
+# mote_registry(OUT NAME SOURCE...): writes NAME.c, the table of all methods that the sources define
+# with MOTE_METHOD(identifier), sorted by file, so that a new method is one new file.
+function(mote_registry out name)
   set(declarations "")
   set(entries "")
   foreach(source ${ARGN})
@@ -12,7 +12,7 @@ function(mote_registry out)
       string(APPEND entries "    &mote_method_${id},\n")
     endforeach()
   endforeach()
-  set(file ${CMAKE_BINARY_DIR}/method_registry.c)
+  set(file ${CMAKE_BINARY_DIR}/${name}.c)
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
 #include \"core/method.h\"
 

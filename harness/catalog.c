@@ -1,5 +1,6 @@
 #include "harness/catalog.h"
 
+#include "harness/data.h"
 #include "harness/file.h"
 
 #include <dirent.h>
@@ -8,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FOLDER MOTE_SOURCE_DIR "/datasets/scenarios"
+#define FOLDER "datasets/scenarios"
 
 char *mote_catalog_path(const char *name)
 {
-    return mote_format("%s/%s.json", FOLDER, name);
+    return mote_format("%s/%s/%s.json", mote_data_directory(), FOLDER, name);
 }
 
 static int is_scenario(const struct dirent *entry)
@@ -53,11 +54,16 @@ static mote_status read_entry(const char *file, mote_catalog_entry *entry)
 mote_status mote_catalog_read(mote_catalog *catalog)
 {
     struct dirent **files;
-    int count = scandir(FOLDER, &files, is_scenario, alphasort);
+    char *folder = mote_format("%s/%s", mote_data_directory(), FOLDER);
+    if (!folder)
+        return mote_fail(MOTE_ENOMEM, "no memory for a name");
+    int count = scandir(folder, &files, is_scenario, alphasort);
+    mote_status status =
+        count < 0 ? mote_fail(MOTE_EIO, "%s: %s", folder, strerror(errno)) : MOTE_OK;
+    free(folder);
     if (count < 0)
-        return mote_fail(MOTE_EIO, "%s: %s", FOLDER, strerror(errno));
+        return status;
     mote_catalog read = {0};
-    mote_status status = MOTE_OK;
     read.entries = calloc((size_t)count + 1, sizeof *read.entries);
     if (!read.entries)
         status = mote_fail(MOTE_ENOMEM, "no memory for %d scenarios", count);

@@ -1,5 +1,6 @@
 #include "harness/figures.h"
 
+#include "harness/data.h"
 #include "harness/record.h"
 #include "harness/spawn.h"
 
@@ -172,16 +173,17 @@ static const figure figures[] = {
 
 mote_status mote_figures_plot(const char *directory, const char *name, const char *script_name)
 {
-    char *script = mote_format("%s/plots/%s.gp", MOTE_SOURCE_DIR, script_name);
+    char *plots = mote_format("%s/plots", mote_data_directory());
+    char *script = mote_format("%s/plots/%s.gp", mote_data_directory(), script_name);
     char *base = mote_format("%s/figures/%s", directory, name);
     mote_status status = MOTE_OK;
-    if (script && base) {
-        const char *const argv[] = {"gnuplot", "-c", script, MOTE_SOURCE_DIR "/plots",
-                                    base,      NULL};
+    if (plots && script && base) {
+        const char *const argv[] = {"gnuplot", "-c", script, plots, base, NULL};
         status = mote_spawn(argv, NULL, NULL, 0);
     } else {
         status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
     }
+    free(plots);
     free(script);
     free(base);
     return status;

@@ -1,6 +1,7 @@
 #include "harness/history.h"
 
 #include "harness/command.h"
+#include "harness/data.h"
 #include "harness/record.h"
 #include "harness/spawn.h"
 #include "harness/summary.h"
@@ -230,10 +231,13 @@ static mote_status add_series(const points *p, const char *row, mote_text *text)
 
 static mote_status plot(const char *base)
 {
-    const char *const argv[] = {
-        "gnuplot", "-c", MOTE_SOURCE_DIR "/plots/history.gp", MOTE_SOURCE_DIR "/plots",
-        base,      NULL};
-    mote_status status = mote_spawn(argv, NULL, NULL, 0);
+    char *plots = mote_format("%s/plots", mote_data_directory());
+    char *script = mote_format("%s/plots/history.gp", mote_data_directory());
+    const char *const argv[] = {"gnuplot", "-c", script, plots, base, NULL};
+    mote_status status = plots && script ? mote_spawn(argv, NULL, NULL, 0)
+                                         : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    free(plots);
+    free(script);
     if (status == MOTE_OK)
         (void)printf("%s.svg\n%s.png\n", base, base);
     return status;

@@ -1,0 +1,123 @@
+#!/bin/bash
+# install.sh BUILD: installs a build into a folder of its own, moves it, and uses it as a stranger
+# would: the README's program by pkg-config and by find_package, with the shared and with the static
+# library, every header alone from C and C++, the manual and the completion.
+set -euo pipefail
+build=$(realpath "$1")
+tests=$(realpath "$(dirname "$0")")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() { echo "install.sh: $*" >&2; exit 1; }
+
+# Staged below DESTDIR, then moved elsewhere: nothing may hold the prefix.
+DESTDIR=$work/stage cmake --install "$build" --prefix /opt/mote > log
+[ "$(ls stage)" = opt ] || fail "files outside of DESTDIR/PREFIX"
+mv stage/opt/mote moved
+root=$work/moved
+library=$root/$(basename "$(dirname "$(find "$root" -name libmote.a)")")
+[ -e "$library/libmote.so" ] || library=$(dirname "$(find "$root" -name libmote.a)")
+if grep -rlI -e /opt/mote -e "$work" "$root"; then fail "files above hold the place of installation"; fi
+
+# One function of another library or of ours that is not public would be a promise.
+soname=$(objdump -p "$library/libmote.so" | awk '$1 == "SONAME" { print $2 }')
+[[ $soname =~ ^libmote\.so\.[0-9.]+$ && -L $library/$soname ]] || fail "SONAME $soname"
+nm -D --defined-only "$library/libmote.so" | awk '{ sub(/@.*/, "", $3); print $3 }' | sort > exported
+while read -r symbol; do
+    [[ $symbol == MOTE_* ]] || grep -qE "\b$symbol[([]" "$root"/include/mote/*.h ||
+        fail "$symbol is exported, and in no public header"
+done < exported
+[ "$(grep -c ^mote_ exported)" -ge 40 ] || fail "few functions are exported"
+
+headers=0
+for header in "$root"/include/mote/*.h; do
+    name=mote/$(basename "$header")
+    echo "#include <$name>" > alone.c
+    for compiler in gcc clang; do
+        $compiler -std=c17 -Wall -Wextra -Wstrict-prototypes -pedantic-errors -Werror \
+            -fsyntax-only -I"$root/include" alone.c
+    done
+    for language in c++11 c++20; do
+        g++ -x c++ -std=$language -Wall -Wextra -pedantic-errors -Werror -fsyntax-only \
+            -I"$root/include" alone.c
+    done
+    headers=$((headers + 1))
+done
+echo "$headers headers compile alone, C17 and C++"
+
+# The README's program: two sheets 40 apart whose middles come nearer by 4 a frame.
+"$tests/readme.sh" track.c > track.c
+for k in 1 2 3 4 5 6 7 8; do echo "frame $k: distance $((40 - 4 * k)).000000000"; done > expected
+flags="-std=c17 -Wall -Wextra -pedantic-errors -Werror"
+export PKG_CONFIG_PATH=$library/pkgconfig
+# shellcheck disable=SC2046,SC2086 # lists of words
+{
+    cc $flags track.c $(pkg-config --cflags --libs mote) -o shared
+    # The static library by its name; what it needs follows.
+    cc $flags track.c $(pkg-config --cflags mote) $(pkg-config --static --libs mote |
+        sed 's/-lmote/-l:libmote.a/') -o static
+}
+LD_LIBRARY_PATH=$library ./shared > out-shared
+./static > out-static
+
+mkdir package
+cat > package/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(tracker LANGUAGES C)
+find_package(mote 0.1 REQUIRED)
+add_executable(package-shared ../track.c)
+target_link_libraries(package-shared PRIVATE mote::mote)
+add_executable(package-static ../track.c)
+target_link_libraries(package-static PRIVATE mote::mote_static)
+CMAKE
+cmake -S package -B package/build -DCMAKE_PREFIX_PATH="$root" -DCMAKE_C_STANDARD=17 \
+    -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > log
+cmake --build package/build > log || { cat log; exit 1; }
+package/build/package-shared > out-package-shared
+package/build/package-static > out-package-static
+for way in shared static package-shared package-static; do
+    cmp expected "out-$way" || fail "$way: another answer than expected"
+done
+for program in static package/build/package-static; do
+    ! ldd $program | grep -q libmote || fail "$program needs libmote.so"
+done
+for program in shared package/build/package-shared; do
+    objdump -p $program | grep -q "NEEDED *$soname" || fail "$program does not ask for $soname"
+done
+echo "the README's program: pkg-config and find_package, shared and static, 8 frames as expected"
+if [ ! -e "$root/bin/mote" ]; then exit 0; fi
+
+# The installed program reads what was installed beside it.
+echo '{"purpose": "of the installation", "like": "tt"}' > "$root/share/mote/datasets/scenarios/zz.json"
+"$root/bin/mote" list scenarios | grep -q '^zz .*of the installation' || fail "scenarios of elsewhere"
+"$root/bin/mote" run zz --frames 1-2 --replicates 1 --method certified --out run > log 2>&1 ||
+    { cat log; fail "the installed program does not run"; }
+
+commands=$("$root/bin/mote" --help | sed -n 's/^  mote \([a-z]*\).*/\1/p')
+if command -v groff > log; then
+    groff -man -ww -z "$root/share/man/man1/mote.1" 2> log
+    [ ! -s log ] || { cat log; fail "warnings of the manual"; }
+fi
+for command in $commands; do
+    grep -q "^\.B mote $command\b" "$root/share/man/man1/mote.1" ||
+        fail "the manual does not tell of mote $command"
+done
+
+# complete WORD...: what is offered for the last word.
+source "$root/share/bash-completion/completions/mote"
+compopt() { :; } # works in an interactive completion only
+complete_words()
+{
+    COMP_WORDS=("$root/bin/mote" "$@")
+    COMP_CWORD=$#
+    _mote
+    echo "${COMPREPLY[*]}"
+}
+[ "$(complete_words summ)" = summarize ] || fail "completion of a command"
+[ "$(complete_words run --cache '')" = "hot evict" ] || fail "completion of a value"
+[ "$(complete_words summarize DIR --format gb)" = gbench ] || fail "completion of a format"
+[[ " $(complete_words run --r) " == *" --replicates "* ]] || fail "completion of an option"
+[ "$(complete_words run zz)" = zz ] || fail "completion of a scenario"
+[ "$(complete_words run --method cert)" = certified ] || fail "completion of a method"
+[ "$(complete_words list me)" = methods ] || fail "completion of a word"
+echo "manual and completion know every command"
