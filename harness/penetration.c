@@ -5,14 +5,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Triangles by the cells of a grid across the ray's direction, x: entries of cell c are
-   entry[first[c]] .. entry[first[c + 1] - 1]. */
+/* Where the boxes of the two bodies overlap: no vertex outside of it is inside the other body.
+ */
+typedef struct overlap {
+    mote_vec3 low, high;
+} overlap;
+
+/* Triangles that a ray from the overlap may meet, by the cells of a grid across the ray's
+   direction, x: entries of cell c are entry[first[c]] .. entry[first[c + 1] - 1]. */
 typedef struct shadow {
     const mote_mesh *mesh;
     const mote_vec3 *world;
-    mote_vec3 low, high;
-    uint32_t side;   /* cells along y, and along z */
-    uint32_t *first; /* [side^2 + 1] */
+    overlap box;   /* of the body; then, what is in the other's as well */
+    uint32_t side; /* cells along y, and along z */
+    uint32_t *met; /* [triangle_count]; the triangles that may be met */
+    uint32_t met_count;
+    uint32_t *first; /* [most_side^2 + 1] */
     uint32_t *entry;
     size_t capacity;
     double longest;      /* edge */
@@ -23,6 +31,12 @@ typedef struct shadow {
 struct mote_penetration {
     shadow of[2];
 };
+
+/* Two triangles a cell, about. */
+static uint32_t side_for(uint32_t triangles)
+{
+    return 1 + (uint32_t)sqrt(triangles / 2.0);
+}
 
 mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
                                     mote_penetration **penetration)
@@ -37,9 +51,10 @@ mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
             return mote_fail(MOTE_EINVAL, "an open mesh has no inside; close it");
         }
         s->mesh = mesh[i];
-        s->side = 1 + (uint32_t)sqrt(mesh[i]->triangle_count / 2.0);
-        s->first = malloc(((size_t)s->side * s->side + 1) * sizeof *s->first);
-        status = s->first ? MOTE_OK : MOTE_ENOMEM;
+        const size_t side = side_for(mesh[i]->triangle_count);
+        s->first = malloc((side * side + 1) * sizeof *s->first);
+        s->met = malloc(mesh[i]->triangle_count * sizeof *s->met);
+        status = s->first && s->met ? MOTE_OK : MOTE_ENOMEM;
     }
     if (status != MOTE_OK) {
         mote_penetration_destroy(made);
@@ -55,21 +70,39 @@ void mote_penetration_destroy(mote_penetration *penetration)
         return;
     for (int i = 0; i < 2; ++i) {
         free(penetration->of[i].first);
+        free(penetration->of[i].met);
         free(penetration->of[i].entry);
     }
     free(penetration);
 }
 
+static double less(double a, double b)
+{
+    return b < a ? b : a;
+}
+
+static double more(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 static void set_bounds(shadow *s, const mote_vec3 *world)
 {
-    s->world = world;
-    s->low = s->high = world[0];
+    mote_vec3 low = world[0], high = world[0];
     for (uint32_t v = 1; v < s->mesh->vertex_count; ++v) {
-        s->low = mote_vec3_make(fmin(s->low.x, world[v].x), fmin(s->low.y, world[v].y),
-                                fmin(s->low.z, world[v].z));
-        s->high = mote_vec3_make(fmax(s->high.x, world[v].x), fmax(s->high.y, world[v].y),
-                                 fmax(s->high.z, world[v].z));
+        const mote_vec3 p = world[v];
+        low = mote_vec3_make(less(low.x, p.x), less(low.y, p.y), less(low.z, p.z));
+        high = mote_vec3_make(more(high.x, p.x), more(high.y, p.y), more(high.z, p.z));
     }
+    s->world = world;
+    s->box = (overlap){low, high};
+}
+
+static overlap overlap_of(const overlap *a, const overlap *b)
+{
+    return (overlap){
+        {more(a->low.x, b->low.x), more(a->low.y, b->low.y), more(a->low.z, b->low.z)},
+        {less(a->high.x, b->high.x), less(a->high.y, b->high.y), less(a->high.z, b->high.z)}};
 }
 
 static void set_longest(shadow *s)
@@ -79,7 +112,7 @@ static void set_longest(shadow *s)
         const uint32_t *t = s->mesh->triangles[f];
         for (int k = 0; k < 3; ++k)
             squared =
-                fmax(squared, mote_distance_squared(s->world[t[k]], s->world[t[(k + 1) % 3]]));
+                more(squared, mote_distance_squared(s->world[t[k]], s->world[t[(k + 1) % 3]]));
     }
     s->longest = sqrt(squared);
 }
@@ -88,7 +121,33 @@ static void set_longest(shadow *s)
 static uint32_t cell_of(const shadow *s, double at, double low, double high)
 {
     const double place = high > low ? (at - low) / (high - low) * s->side : 0;
-    return place >= s->side ? s->side - 1 : (uint32_t)fmax(place, 0);
+    if (!(place > 0))
+        return 0;
+    return place >= s->side ? s->side - 1 : (uint32_t)place;
+}
+
+/* What a triangle spans. */
+static overlap span_of(const shadow *s, uint32_t triangle)
+{
+    const uint32_t *t = s->mesh->triangles[triangle];
+    const mote_vec3 a = s->world[t[0]], b = s->world[t[1]], c = s->world[t[2]];
+    return (overlap){
+        {less(a.x, less(b.x, c.x)), less(a.y, less(b.y, c.y)), less(a.z, less(b.z, c.z))},
+        {more(a.x, more(b.x, c.x)), more(a.y, more(b.y, c.y)), more(a.z, more(b.z, c.z))}};
+}
+
+/* Lists the triangles that rays towards +x from points of the box may meet. */
+static void find_met(shadow *s)
+{
+    const overlap *box = &s->box;
+    s->met_count = 0;
+    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
+        const overlap span = span_of(s, f);
+        if (span.high.x >= box->low.x && span.high.y >= box->low.y &&
+            span.low.y <= box->high.y && span.high.z >= box->low.z && span.low.z <= box->high.z)
+            s->met[s->met_count++] = f;
+    }
+    s->side = side_for(s->met_count);
 }
 
 typedef struct cell_range {
@@ -97,21 +156,20 @@ typedef struct cell_range {
 
 static cell_range cells_of(const shadow *s, uint32_t triangle)
 {
-    const uint32_t *t = s->mesh->triangles[triangle];
-    const mote_vec3 a = s->world[t[0]], b = s->world[t[1]], c = s->world[t[2]];
-    return (cell_range){cell_of(s, fmin(a.y, fmin(b.y, c.y)), s->low.y, s->high.y),
-                        cell_of(s, fmax(a.y, fmax(b.y, c.y)), s->low.y, s->high.y),
-                        cell_of(s, fmin(a.z, fmin(b.z, c.z)), s->low.z, s->high.z),
-                        cell_of(s, fmax(a.z, fmax(b.z, c.z)), s->low.z, s->high.z)};
+    const overlap *box = &s->box, span = span_of(s, triangle);
+    return (cell_range){cell_of(s, span.low.y, box->low.y, box->high.y),
+                        cell_of(s, span.high.y, box->low.y, box->high.y),
+                        cell_of(s, span.low.z, box->low.z, box->high.z),
+                        cell_of(s, span.high.z, box->low.z, box->high.z)};
 }
 
-/* Counting sort of the triangles into the cells that they may cover. */
+/* Counting sort of what may be met into the cells that it may cover. */
 static mote_status fill(shadow *s)
 {
     const size_t cells = (size_t)s->side * s->side;
     memset(s->first, 0, (cells + 1) * sizeof *s->first);
-    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
-        const cell_range r = cells_of(s, f);
+    for (uint32_t i = 0; i < s->met_count; ++i) {
+        const cell_range r = cells_of(s, s->met[i]);
         for (uint32_t y = r.y0; y <= r.y1; ++y) {
             for (uint32_t z = r.z0; z <= r.z1; ++z)
                 ++s->first[(size_t)y * s->side + z];
@@ -129,11 +187,11 @@ static mote_status fill(shadow *s)
         s->entry = grown;
         s->capacity = sum;
     }
-    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
-        const cell_range r = cells_of(s, f);
+    for (uint32_t i = 0; i < s->met_count; ++i) {
+        const cell_range r = cells_of(s, s->met[i]);
         for (uint32_t y = r.y0; y <= r.y1; ++y) {
             for (uint32_t z = r.z0; z <= r.z1; ++z)
-                s->entry[--s->first[(size_t)y * s->side + z]] = f;
+                s->entry[--s->first[(size_t)y * s->side + z]] = s->met[i];
         }
     }
     return MOTE_OK;
@@ -172,8 +230,8 @@ static bool is_ahead(const mote_vec3 t[3], mote_vec3 p)
 /* The winding number of the surface around p is not 0. */
 static bool is_inside(const shadow *s, mote_vec3 p)
 {
-    const uint32_t y = cell_of(s, p.y, s->low.y, s->high.y);
-    const uint32_t z = cell_of(s, p.z, s->low.z, s->high.z);
+    const uint32_t y = cell_of(s, p.y, s->box.low.y, s->box.high.y);
+    const uint32_t z = cell_of(s, p.z, s->box.low.z, s->box.high.z);
     const size_t cell = (size_t)y * s->side + z;
     int winding = 0;
     for (uint32_t e = s->first[cell]; e < s->first[cell + 1]; ++e) {
@@ -213,10 +271,10 @@ static double distance_above(const shadow *s, mote_vec3 p, double bound, uint32_
     return best;
 }
 
-static bool in_box(const shadow *s, mote_vec3 p)
+static bool in_box(const overlap *box, mote_vec3 p)
 {
-    return p.x >= s->low.x && p.x <= s->high.x && p.y >= s->low.y && p.y <= s->high.y &&
-           p.z >= s->low.z && p.z <= s->high.z;
+    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
+           p.z >= box->low.z && p.z <= box->high.z;
 }
 
 /* One vertex of the other body. */
@@ -224,7 +282,7 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
                       double *squared)
 {
     const mote_vec3 p = other->world[vertex];
-    if (!in_box(s, p) || !is_inside(s, p))
+    if (!in_box(&s->box, p) || !is_inside(s, p))
         return;
     const double depth = distance_above(s, p, *squared, nearest);
     if (depth > *squared) {
@@ -238,10 +296,11 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
 static mote_status deepen(shadow *s, const shadow *other, double *squared)
 {
     uint32_t v = 0;
-    while (v < other->mesh->vertex_count && !in_box(s, other->world[v]))
+    while (v < other->mesh->vertex_count && !in_box(&s->box, other->world[v]))
         ++v;
     if (v == other->mesh->vertex_count)
         return MOTE_OK;
+    find_met(s);
     const mote_status status = fill(s);
     if (status != MOTE_OK)
         return status;
@@ -259,6 +318,7 @@ mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec
     shadow *a = &penetration->of[0], *b = &penetration->of[1];
     set_bounds(a, world_a);
     set_bounds(b, world_b);
+    a->box = b->box = overlap_of(&a->box, &b->box);
     double squared = 0;
     mote_status status = deepen(a, b, &squared);
     if (status == MOTE_OK)
