@@ -313,17 +313,17 @@ static mote_status deepen(shadow *s, const shadow *other, double *squared)
 }
 
 mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
-                                   const mote_vec3 *world_b, double *depth)
+                                   const mote_vec3 *world_b, double above, double *depth)
 {
     shadow *a = &penetration->of[0], *b = &penetration->of[1];
     set_bounds(a, world_a);
     set_bounds(b, world_b);
     a->box = b->box = overlap_of(&a->box, &b->box);
-    double squared = 0;
+    double squared = above * above;
     mote_status status = deepen(a, b, &squared);
     if (status == MOTE_OK)
         status = deepen(b, a, &squared);
     if (status == MOTE_OK)
-        *depth = sqrt(squared);
+        *depth = squared > above * above ? sqrt(squared) : above;
     return status;
 }

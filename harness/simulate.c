@@ -35,7 +35,7 @@ typedef struct run {
     mote_vec3 witness[2];
     bool in_contact, reported; /* the run of contacts that goes on */
     uint32_t began;
-    double depth; /* its deepest */
+    double depth; /* its deepest, absolute */
     double query_ns;
 } run;
 
@@ -292,13 +292,8 @@ static mote_status ask_truth(run *r, const mote_frame *frame, bool *contact, dou
 static mote_status measure_depth(run *r, const mote_frame *frame)
 {
     const mote_simulator *s = r->simulator;
-    double depth = 0;
-    const mote_status status =
-        mote_penetration_depth(s->penetration, mote_probe_vertices(s->truth, frame, 0),
-                               mote_probe_vertices(s->truth, frame, 1), &depth);
-    if (status == MOTE_OK)
-        r->depth = fmax(r->depth, depth / s->scenario->length);
-    return status;
+    return mote_penetration_depth(s->penetration, mote_probe_vertices(s->truth, frame, 0),
+                                  mote_probe_vertices(s->truth, frame, 1), r->depth, &r->depth);
 }
 
 static void end_contact(run *r)
@@ -306,13 +301,14 @@ static void end_contact(run *r)
     if (!r->in_contact)
         return;
     mote_simulation_result *result = r->result;
+    const double depth = r->depth / r->simulator->scenario->length;
     ++result->approaches;
     if (!r->reported) {
         ++result->passes;
-        result->deep_passes += r->depth > 0;
-        result->depth_passes = fmax(result->depth_passes, r->depth);
+        result->deep_passes += depth > 0;
+        result->depth_passes = fmax(result->depth_passes, depth);
     }
-    result->depth_max = fmax(result->depth_max, r->depth);
+    result->depth_max = fmax(result->depth_max, depth);
     r->in_contact = false;
 }
 

@@ -314,10 +314,19 @@ static void penetration_depth_random_poses_as_by_solid_angles(void **state)
                     mote_pose_apply(&pose, mote_scale(mesh[i]->positions[v], i ? 0.6 : 1));
         }
         double depth = -1;
-        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], &depth),
+        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], 0, &depth),
                          MOTE_OK);
         assert_close(depth, depth_by_angles(mesh, world), 1e-14);
         deep += depth > 0.01;
+        /* What is less deep than asked for is not told. */
+        for (int part = -1; part <= 1; ++part) {
+            const double above = depth * (1 + 0.1 * part) + 0.01 * (part > 0);
+            double found = -1;
+            assert_int_equal(
+                mote_penetration_depth(penetration, world[0], world[1], above, &found),
+                MOTE_OK);
+            assert_true(found == (part < 0 ? depth : above));
+        }
     }
     assert_true(deep > 10 && deep < 60);
     mote_penetration_destroy(penetration);
@@ -340,7 +349,7 @@ static void penetration_depth_aligned_tori_ties_as_by_solid_angles(void **state)
         for (uint32_t v = 0; v < mesh[1]->vertex_count; ++v)
             moved[v] = mote_add(mesh[1]->positions[v], mote_vec3_make(0.06 * i, 0, 0));
         double depth = -1;
-        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], &depth),
+        assert_int_equal(mote_penetration_depth(penetration, world[0], world[1], 0, &depth),
                          MOTE_OK);
         assert_close(depth, depth_by_angles(mesh, world), 1e-14);
         assert_true(depth > 0.01);
