@@ -11,7 +11,7 @@ typedef struct request {
     const char *scenario, *method, *trace;
     mote_method_choice choice;
     bool json;
-    double density, restitution, tolerance; /* MOTE_NONE: the default */
+    double density, restitution, tolerance, time_step; /* MOTE_NONE: the default */
     mote_vec3 gravity;
     uint64_t steps, seed; /* steps 0: all frames */
 } request;
@@ -72,6 +72,8 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
         options.restitution = wish->restitution;
     if (!isnan(wish->tolerance))
         options.tolerance = wish->tolerance;
+    if (!isnan(wish->time_step))
+        options.time_step = wish->time_step;
     options.gravity = wish->gravity;
     mote_simulator *simulator;
     mote_status status = mote_simulator_create(scenario, &wish->choice, &options, &simulator);
@@ -89,7 +91,7 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
     if (status == MOTE_OK && trace)
         status = mote_trace_write(scenario, mote_simulator_masses(simulator),
                                   (const mote_rigid_state(*)[2])trace, result->steps + 1,
-                                  options.tolerance, wish->trace);
+                                  &options, wish->trace);
     free(trace);
     mote_simulator_destroy(simulator);
     return status;
@@ -110,6 +112,7 @@ static const mote_option options[] = {{"method", "NAME[:key=value,...]"},
                                       {"restitution", "E"},
                                       {"tolerance", "T"},
                                       {"gravity", "X,Y,Z"},
+                                      {"time-step", "H"},
                                       {"trace", "FILE.json"}};
 
 /* False, told on stderr, when the value is not right for the option. */
@@ -123,6 +126,7 @@ static bool read_option(request *wish, int option, const char *value)
                                          "give a number",
                                          "give a number, of L",
                                          "give x,y,z, in L a frame squared",
+                                         "give a number, of frames",
                                          ""};
     bool good = true;
     switch (option) {
@@ -133,7 +137,7 @@ static bool read_option(request *wish, int option, const char *value)
         wish->json = true;
         break;
     case 2:
-        good = mote_read_unsigned(value, 1, 1000000, &wish->steps);
+        good = mote_read_unsigned(value, 1, MOTE_SIMULATION_STEPS_MAX, &wish->steps);
         break;
     case 3:
         good = mote_read_unsigned(value, 0, UINT64_MAX, &wish->seed);
@@ -150,6 +154,9 @@ static bool read_option(request *wish, int option, const char *value)
     case 7:
         good = read_vector(value, &wish->gravity);
         break;
+    case 8:
+        good = mote_read_real(value, -1e300, 1e300, &wish->time_step);
+        break;
     default:
         wish->trace = value;
     }
@@ -162,8 +169,11 @@ static bool read_option(request *wish, int option, const char *value)
 int mote_command_simulate(int argc, char **argv)
 {
     mote_option_reader reader = {options, sizeof options / sizeof options[0], argc, argv, 0};
-    request wish = {
-        .density = MOTE_NONE, .restitution = MOTE_NONE, .tolerance = MOTE_NONE, .seed = 1};
+    request wish = {.density = MOTE_NONE,
+                    .restitution = MOTE_NONE,
+                    .tolerance = MOTE_NONE,
+                    .time_step = MOTE_NONE,
+                    .seed = 1};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

@@ -70,10 +70,10 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
     free(buffer);
 }
 
-/* Where on the path a frame is. */
-static double path_place(const mote_scenario *scenario, uint32_t number)
+/* Where on the path a frame, or a place between frames, is. */
+static double path_place(const mote_scenario *scenario, double number)
 {
-    return scenario->motion->start + (number - 1.0) * scenario->motion->pace;
+    return scenario->motion->start + (number - 1) * scenario->motion->pace;
 }
 
 /* Weights that displace the control points as the motion says, rotated with the body. */
@@ -124,11 +124,10 @@ static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer
                                                count * sizeof(mote_vec3)) != 0;
 }
 
-const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
-                                      uint32_t number, uint32_t previous)
+static const mote_frame *set_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                                   double number, uint32_t previous)
 {
     const double place = path_place(scenario, number);
-    buffer->frame.number = number;
     for (int i = 0; i < 2; ++i) {
         mote_body_state *state = &buffer->frame.body[i];
         state->pose = mote_motion_pose(&scenario->motion->body[i], place);
@@ -137,6 +136,20 @@ const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_
         set_changes(scenario, buffer, i, previous);
     }
     return &buffer->frame;
+}
+
+const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                                      uint32_t number, uint32_t previous)
+{
+    buffer->frame.number = number;
+    return set_frame(scenario, buffer, number, previous);
+}
+
+const mote_frame *mote_scenario_frame_at(const mote_scenario *scenario,
+                                         mote_frame_buffer *buffer, double place)
+{
+    buffer->frame.number = 0;
+    return set_frame(scenario, buffer, place, 0);
 }
 
 /* The rotation vector of to * from^-1. */

@@ -43,7 +43,7 @@ mote_simulation_options mote_default_simulation_options(const mote_scenario *sce
 {
     const double own = scenario->tolerance / scenario->length;
     return (mote_simulation_options){
-        .density = 1, .restitution = 1, .tolerance = own > 0 ? own : 0.005};
+        .density = 1, .restitution = 1, .tolerance = own > 0 ? own : 0.005, .time_step = 1};
 }
 
 static mote_status check_options(const mote_simulation_options *options)
@@ -57,6 +57,10 @@ static mote_status check_options(const mote_simulation_options *options)
                          options->restitution);
     if (!isfinite(mote_length(options->gravity)))
         return mote_fail(MOTE_EINVAL, "gravity is not finite");
+    if (!(options->time_step > 0 && options->time_step <= MOTE_SIMULATION_STEP_MAX))
+        return mote_fail(MOTE_EINVAL,
+                         "time step %g frames; give a number above 0 and at most %g",
+                         options->time_step, MOTE_SIMULATION_STEP_MAX);
     return MOTE_OK;
 }
 
@@ -154,8 +158,9 @@ static mote_quaternion turn_at(const mote_body_motion *motion, double place)
 mote_simulation_start mote_simulation_start_of(const mote_simulator *simulator)
 {
     const mote_scenario *scenario = simulator->scenario;
-    mote_simulation_start start = {
-        .first = 1, .steps = scenario->frames > 1 ? scenario->frames - 1 : 1, .seed = 1};
+    const double steps = ceil((scenario->frames - 1.0) / simulator->options.time_step);
+    mote_simulation_start start = {.first = 1, .seed = 1};
+    start.steps = (uint32_t)fmin(fmax(steps, 1), MOTE_SIMULATION_STEPS_MAX);
     for (int i = 0; i < 2; ++i) {
         const mote_body_motion *motion = &scenario->motion->body[i];
         const mote_mass *mass = &simulator->mass[i];
@@ -172,22 +177,23 @@ mote_simulation_start mote_simulation_start_of(const mote_simulator *simulator)
     return start;
 }
 
-/* The frame whose deformation step k shows: forwards, then backwards, and so on. */
-static uint32_t shown_frame(const mote_scenario *scenario, uint32_t first, uint32_t k)
+/* The place among the frames whose deformation step k shows: forwards, then backwards, and so
+   on. */
+static double shown_place(const run *r, uint32_t k)
 {
-    if (scenario->frames == 1)
+    const mote_simulator *s = r->simulator;
+    if (s->scenario->frames == 1)
         return 1;
-    const uint32_t last = scenario->frames - 1;
-    const uint32_t place = (uint32_t)(((uint64_t)first - 1 + k) % (2 * (uint64_t)last));
+    const double last = s->scenario->frames - 1.0;
+    const double place = fmod(r->start->first - 1.0 + k * s->options.time_step, 2 * last);
     return 1 + (place <= last ? place : 2 * last - place);
 }
 
-/* The scenario's deformation of that frame at the simulated poses. */
+/* The scenario's deformation at that place with the simulated poses. */
 static mote_frame frame_of(run *r, uint32_t k)
 {
     mote_simulator *s = r->simulator;
-    mote_frame frame = *mote_scenario_frame(s->scenario, s->buffer,
-                                            shown_frame(s->scenario, r->start->first, k), 0);
+    mote_frame frame = *mote_scenario_frame_at(s->scenario, s->buffer, shown_place(r, k));
     frame.number = (uint64_t)k + 1;
     for (int i = 0; i < 2; ++i) {
         mote_body_state *body = &frame.body[i];
@@ -397,7 +403,7 @@ static invariants invariants_of(const run *r, double time)
 
 static void note_drift(run *r, invariants *first, uint32_t k)
 {
-    const invariants now = invariants_of(r, k);
+    const invariants now = invariants_of(r, k * r->simulator->options.time_step);
     mote_simulation_result *result = r->result;
     first->energy_size = fmax(first->energy_size, now.energy_size);
     first->momentum_size = fmax(first->momentum_size, now.momentum_size);
@@ -422,7 +428,7 @@ static mote_status move_on(run *r)
     mote_status status = MOTE_OK;
     memcpy(r->previous, r->state, sizeof r->previous);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i)
-        status = mote_rigid_step(&s->mass[i], gravity, 1, &r->state[i]);
+        status = mote_rigid_step(&s->mass[i], gravity, s->options.time_step, &r->state[i]);
     return status;
 }
 

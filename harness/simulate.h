@@ -11,22 +11,28 @@
 /* Truth is not asked where a lower bound of the distance exceeds this part of L. */
 #define MOTE_SIMULATION_NEAR 0.05
 
+/* Frames a step, and steps, at most. */
+#define MOTE_SIMULATION_STEP_MAX 1000.0
+#define MOTE_SIMULATION_STEPS_MAX 1000000u
+
 typedef struct mote_simulation_options {
     double density;     /* of both bodies, > 0 */
     double restitution; /* 0 .. 1 */
     double tolerance;   /* of L, above 0, at most MOTE_SIMULATION_NEAR: contact */
     mote_vec3 gravity;  /* L a frame squared; 0: none */
+    double time_step;   /* frames that motion and deformation go on by in a step, > 0 */
 } mote_simulation_options;
 
-/* Density 1, restitution 1, no gravity, the scenario's tolerance or, when that is 0, 0.005. */
+/* Density 1, restitution 1, no gravity, the scenario's tolerance or, when that is 0, 0.005, a
+   frame a step. */
 mote_simulation_options mote_default_simulation_options(const mote_scenario *scenario);
 
-/* Where a simulation begins and how long it lasts; a step is a frame. */
+/* Where a simulation begins and how long it lasts. */
 typedef struct mote_simulation_start {
     mote_rigid_state state[2];
     uint32_t first; /* frame whose deformation is shown first (1 .. frames); after the last
                        frame the deformation runs backwards */
-    uint32_t steps; /* >= 1 */
+    uint32_t steps; /* of options.time_step, >= 1 */
     double apart;   /* end early when the bodies, moving apart, are so far apart for certain
                        (absolute); 0: never */
     uint64_t seed;  /* of the method */
@@ -68,7 +74,7 @@ void mote_simulator_destroy(mote_simulator *simulator); /* NULL is allowed */
 const mote_mass *mote_simulator_masses(const mote_simulator *simulator);
 
 /* The scenario's own start: poses of frame 1, the velocities that it names, or those that lead
-   from frame 1 to frame 2; all frames. */
+   from frame 1 to frame 2; steps until the last frame, MOTE_SIMULATION_STEPS_MAX at most. */
 mote_simulation_start mote_simulation_start_of(const mote_simulator *simulator);
 
 /* Simulates. trace: NULL, or [steps + 1][2], receives the states of each frame. MOTE_EINVAL

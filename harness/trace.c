@@ -77,17 +77,32 @@ static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mo
     return status;
 }
 
+/* Deformation in a scenario goes on by a frame a frame and never turns back. */
+static mote_status check_deformation(const mote_scenario *scenario, uint32_t count,
+                                     double time_step)
+{
+    const bool deforms = scenario->body[0].field->count + scenario->body[1].field->count > 0;
+    if (!deforms || (time_step == 1 && count <= scenario->frames))
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "%s: bodies that deform can be recorded with a time step of 1 and for at "
+                     "most %u steps only, not %g and %u",
+                     scenario->path, scenario->frames - 1, time_step, count - 1);
+}
+
 mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
                              const mote_rigid_state (*states)[2], uint32_t count,
-                             double tolerance, const char *path)
+                             const mote_simulation_options *options, const char *path)
 {
     mote_json_file file;
-    mote_status status = mote_json_open(scenario->path, &file);
+    mote_status status = check_deformation(scenario, count, options->time_step);
+    if (status == MOTE_OK)
+        status = mote_json_open(scenario->path, &file);
     if (status != MOTE_OK)
         return status;
     status = mote_scenario_merge_like(&file);
     if (status == MOTE_OK)
-        (void)json_object_set_new(file.root, "tolerance", json_real(tolerance));
+        (void)json_object_set_new(file.root, "tolerance", json_real(options->tolerance));
     if (status == MOTE_OK)
         status = rewrite(file.root, scenario, mass, states, count);
     mote_text text = {0};

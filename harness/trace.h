@@ -5,11 +5,12 @@
 #include "harness/simulate.h"
 
 /* Writes the scenario with a key pose for each of states[count], count >= 2, in place of its
-   motion and this contact tolerance, of L; deformation starts with frame 1. Positions come back
-   to some 1e-16 L. MOTE_EIO, MOTE_EINVAL for a scenario that is no file (a pair), as its motion
-   is found when loaded. */
+   motion, and the tolerance of the simulation; deformation starts with frame 1. Positions come
+   back to some 1e-16 L. MOTE_EIO; MOTE_EINVAL for a scenario that is no file (a pair, as its
+   motion is found when loaded), and where a body deforms, but not by a frame a step or beyond
+   the last frame: a scenario has no such deformation. */
 mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
                              const mote_rigid_state (*states)[2], uint32_t count,
-                             double tolerance, const char *path);
+                             const mote_simulation_options *options, const char *path);
 
 #endif

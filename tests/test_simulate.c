@@ -150,7 +150,7 @@ static void simulator_run_blind_method_passes_through(void **state)
     mote_simulator *simulator = simulator_of(scenario, &blind, &options);
     assert_int_equal(mote_trace_write(scenario, mote_simulator_masses(simulator),
                                       (const mote_rigid_state(*)[2])trace, scenario->frames,
-                                      options.tolerance, TRACE),
+                                      &options, TRACE),
                      MOTE_OK);
     mote_scenario *replay = NULL;
     mote_truth *truth = NULL;
