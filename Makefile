@@ -79,7 +79,7 @@ soak: build
 
 dynamics: build
 	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \
-	    $(if $(filter quick,$(PROFILE)),--quick)
+	    --jobs $(JOBS) $(if $(filter quick,$(PROFILE)),--quick)
 
 perf-check: build
 	@harness/perf.sh check $(MOTE) results/perf-check

@@ -38,9 +38,9 @@ typedef enum mote_exit {
     X(simulate,                                                                                \
       "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \
       "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
-      "           [--trace FILE.json]",                                                        \
+      "           [--time-step H] [--trace FILE.json]",                                        \
       "closed loop: bodies move freely and collide where the method says so")                  \
-    X(dynamics, "dynamics [--out DIR] [--quick]",                                              \
+    X(dynamics, "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K]",   \
       "how often n particles let a body pass through, in the closed loop")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \

@@ -1,25 +1,78 @@
-/* mote dynamics [--out DIR] [--quick]: passes through over n, in the closed loop. */
+/* mote dynamics [--out DIR] [--quick] ...: passes through over n, in the closed loop. */
 #include "harness/command.h"
+#include "harness/file.h"
+#include "harness/manifest.h"
 #include "harness/study_dynamics.h"
+
+typedef struct request {
+    const char *directory;
+    mote_dynamics_size size;
+    uint64_t jobs;
+} request;
+
+static const mote_option options[] = {
+    {"out", "DIR"}, {"quick", NULL}, {"jobs", "K"}, {"approaches", "K"}, {"scene", "NAME"}};
+
+/* False, told on stderr, when the value is not right for the option. */
+static bool read_option(request *wish, int option, const char *value)
+{
+    uint64_t number = 0;
+    switch (option) {
+    case 0:
+        wish->directory = value;
+        return true;
+    case 1:
+        wish->size.quick = true;
+        return true;
+    case 2:
+        if (mote_read_unsigned(value, 1, 64, &wish->jobs))
+            return true;
+        break;
+    case 3:
+        if (mote_read_unsigned(value, 1, 1000000, &number)) {
+            wish->size.approaches = (uint32_t)number;
+            return true;
+        }
+        break;
+    default:
+        wish->size.scene = value;
+        return true;
+    }
+    (void)mote_command_usage("dynamics", "--%s %s: give a whole number from 1 to %s",
+                             options[option].name, value, option == 2 ? "64" : "1000000");
+    return false;
+}
+
+static mote_status study(const request *wish, int argc, char **argv, bool *met)
+{
+    uint64_t program = 0;
+    mote_status status = mote_directory_make(wish->directory);
+    if (status == MOTE_OK)
+        status = mote_program_hash(&program);
+    if (status == MOTE_OK)
+        status = mote_manifest_write(wish->directory, program, MOTE_APPROACH_SEED, argc, argv);
+    if (status != MOTE_OK)
+        return status;
+    return mote_study_dynamics(wish->directory, &wish->size, (uint32_t)wish->jobs, program,
+                               met);
+}
 
 int mote_command_dynamics(int argc, char **argv)
 {
-    static const mote_option options[] = {{"out", "DIR"}, {"quick", NULL}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
-    const char *directory = "results/dynamics", *value;
-    bool quick = false;
+    mote_option_reader reader = {options, sizeof options / sizeof options[0], argc, argv, 0};
+    request wish = {.directory = "results/dynamics", .jobs = 1};
+    const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
         if (option == MOTE_OPTION_PLAIN)
             return mote_command_usage(
                 argv[0], "%s: takes no argument; write `mote dynamics --out DIR`", value);
-        if (option == 0)
-            directory = value;
-        quick = quick || option == 1;
+        if (!read_option(&wish, option, value))
+            return MOTE_EXIT_USAGE;
     }
     bool met = false;
-    if (mote_study_dynamics(directory, quick, &met) != MOTE_OK)
+    if (study(&wish, argc, argv, &met) != MOTE_OK)
         return mote_command_fail();
     return mote_command_finish(met ? MOTE_EXIT_DONE : MOTE_EXIT_CHECK_FAILED);
 }

@@ -56,7 +56,7 @@ typedef struct mote_simulation_result {
     double energy_drift;   /* largest change not due to impacts below restitution 1, relative */
     double momentum_drift; /* likewise, of the sum of m |V| */
     double angular_drift; /* of the angular momentum about the origin; MOTE_NONE with gravity */
-    double query_ns;      /* mean time a step of deforming, updating and asking the method */
+    double query_ns; /* mean processor time a step of deforming, updating, asking the method */
 } mote_simulation_result;
 
 typedef struct mote_simulator mote_simulator;

@@ -3,16 +3,18 @@
 #ifndef MOTE_HARNESS_STUDY_DYNAMICS_H
 #define MOTE_HARNESS_STUDY_DYNAMICS_H
 
-#include "core/status.h"
+#include "harness/dynamics.h"
 
-#include <stdbool.h>
-
-/* Simulates random approaches for n = 1 .. 8 and 16 of the paper's particles, for the tracked
-   ones, and for exact methods as control; prints a table and writes DIRECTORY/dynamics.json,
-   the verdict on the paper's claim included. quick: 100 approaches instead of 1,000 (200 for
-   other laws and scenes, which quick leaves out, and for FCL; quick: 20). The same approaches
-   for every method of a scene. *met: no exact method let a body pass or missed a contact, and
-   momentum and energy were kept in every simulation; failures are told on stderr. */
-mote_status mote_study_dynamics(const char *directory, bool quick, bool *met);
+/* Simulates random approaches, the same for every method of a scene (harness/dynamics.h: which
+   rows there are), prints a table and the verdict on the paper's claim, and writes
+   DIRECTORY/dynamics.json, dynamics.csv and figures/. Each row is kept in DIRECTORY/rows when
+   it is done: the study goes on where it stopped, rows of another build of the program or of
+   another number of approaches being measured again. It runs `jobs` processes, 1 .. 64, and
+   other studies that write the same directory share the rows.
+   *met: no exact method let a body pass or was wrong about a contact, and momentum and energy
+   were kept in every simulation; failures are told on stderr. The directory has its manifest.
+ */
+mote_status mote_study_dynamics(const char *directory, const mote_dynamics_size *size,
+                                uint32_t jobs, uint64_t program, bool *met);
 
 #endif

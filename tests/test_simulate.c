@@ -225,16 +225,20 @@ static void simulator_run_refuses_with_reason(void **state)
     assert_non_null(strstr(mote_error_text(), "witness"));
     mote_simulator_destroy(simulator);
     /* Options out of range. */
-    mote_simulation_options bad[6] = {good, good, good, good, good, good};
-    static const char *const says[] = {"density 0", "density -1",  "tolerance 0",
-                                       "tolerance", "restitution", "gravity"};
+    mote_simulation_options bad[9] = {good, good, good, good, good, good, good, good, good};
+    static const char *const says[] = {"density 0",   "density -1",     "tolerance 0",
+                                       "tolerance",   "restitution",    "gravity",
+                                       "time step 0", "time step -0.5", "time step"};
     bad[0].density = 0;
     bad[1].density = -1;
     bad[2].tolerance = 0;
     bad[3].tolerance = 0.06;
     bad[4].restitution = 2;
     bad[5].gravity.x = NAN;
-    for (int i = 0; i < 6; ++i) {
+    bad[6].time_step = 0;
+    bad[7].time_step = -0.5;
+    bad[8].time_step = NAN;
+    for (int i = 0; i < 9; ++i) {
         assert_int_equal(mote_simulator_create(scenario, &method, &bad[i], &simulator),
                          MOTE_EINVAL);
         assert_non_null(strstr(mote_error_text(), says[i]));
@@ -249,6 +253,39 @@ static void simulator_run_refuses_with_reason(void **state)
     assert_non_null(strstr(mote_error_text(), "start in contact"));
     assert_int_equal(r.steps, 77);
     mote_simulator_destroy(simulator);
+    mote_scenario_destroy(scenario);
+}
+
+/* Steps of a half and of two frames: the same paths until the first contact, the same time. */
+static void simulator_run_time_step_keeps_the_pace(void **state)
+{
+    (void)state;
+    mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
+    const mote_method_choice choice = choice_of("certified");
+    mote_simulation_options options = mote_default_simulation_options(scenario);
+    mote_rigid_state(*trace[3])[2];
+    static const double sizes[] = {1, 0.5, 2};
+    static const uint32_t counts[] = {159, 318, 80};
+    for (int i = 0; i < 3; ++i) {
+        options.time_step = sizes[i];
+        trace[i] = calloc(counts[i] + 1, sizeof *trace[i]);
+        const mote_simulation_result r = run_of(scenario, &choice, &options, trace[i]);
+        assert_int_equal(r.steps, counts[i]);
+        assert_true(r.responses > 0 && r.approaches > 0 && r.passes == 0);
+        assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-12);
+    }
+    for (uint32_t k = 0; k <= 20; k += 2) {
+        for (int i = 1; i < 3; ++i) {
+            const mote_rigid_state *a = &trace[0][k][1],
+                                   *b = &trace[i][i == 1 ? 2 * k : k / 2][1];
+            assert_true(mote_length(mote_sub(a->centre, b->centre)) < 1e-12 * scenario->length);
+            const double turned = a->turn.w * b->turn.w + a->turn.x * b->turn.x +
+                                  a->turn.y * b->turn.y + a->turn.z * b->turn.z;
+            assert_close(fabs(turned), 1, 1e-6); /* of second order */
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        free(trace[i]);
     mote_scenario_destroy(scenario);
 }
 
@@ -405,8 +442,13 @@ static void command_simulate_bad_line_exit_status_and_reason(void **state)
         {"simulate tt --method magic", 4, "magic"},
         {"simulate nothing --method certified", 4, "nothing"},
         {"simulate teapot --method certified", 4, "open"},
-        {"dynamics tt", 2, "takes no argument"},
-        {"dynamics --quick --out /proc/x", 4, "/proc/x"},
+        {"simulate tt --method certified --time-step x", 2, "--time-step x"},
+        {"simulate tt --method certified --time-step nan", 2, "--time-step nan"},
+        {"simulate tt --method certified --time-step 0", 4, "time step 0"},
+        {"simulate tt --method certified --time-step -1", 4, "time step -1"},
+        {"simulate jump --method certified", 4, "start in contact"},
+        {"simulate mv --method certified --time-step 0.5 --steps 2 --trace t.json", 4,
+         "time step of 1"},
         {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
     };
     char said[8192];
@@ -438,6 +480,7 @@ int main(void)
         cmocka_unit_test(simulator_run_blind_method_passes_through),
         cmocka_unit_test(simulator_run_at_rest_stays),
         cmocka_unit_test(simulator_run_gravity_and_restitution_are_accounted_for),
+        cmocka_unit_test(simulator_run_time_step_keeps_the_pace),
         cmocka_unit_test(simulator_run_refuses_with_reason),
         cmocka_unit_test(penetration_depth_random_poses_as_by_solid_angles),
         cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),

@@ -1,0 +1,55 @@
+/* What the study of the closed loop measures, and how it is told. */
+#ifndef MOTE_HARNESS_DYNAMICS_H
+#define MOTE_HARNESS_DYNAMICS_H
+
+#include "harness/approaches.h"
+#include "harness/claim.h"
+
+/* One method on one scene. */
+typedef struct mote_dynamics_row {
+    const char *scene;
+    const char *law;     /* of the paper's particles; NULL for other methods */
+    char method[64];     /* as on the command line */
+    uint32_t n;          /* particles a body; 0 for methods without */
+    uint32_t wanted;     /* approaches that are to come to a contact */
+    bool exact;          /* may let nothing pass */
+    bool paper;          /* of a scene of the paper */
+    mote_approaches sum; /* what was measured */
+    char measured[32];   /* when: "2026-01-31T12:00:00Z" */
+} mote_dynamics_row;
+
+/* How much is measured. */
+typedef struct mote_dynamics_size {
+    bool quick;          /* the scenes of the paper with 100 approaches a row (FCL: 20); else
+                            1,000 there, 200 for FCL, with other laws and on other scenes */
+    uint32_t approaches; /* not 0: so many for every row */
+    const char *scene;   /* not NULL: this one only */
+} mote_dynamics_size;
+
+/* Every row of the study, scene by scene; the caller frees *rows. MOTE_EINVAL for a scene that
+   is not in the study. */
+mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row **rows,
+                               size_t *count);
+
+/* Fills in what the paper claims, and adds a row's figure to it: those of 3 to 5 particles by
+   the law as printed on the paper's scenes decide, others are told. */
+void mote_dynamics_claim(mote_claim *claim);
+mote_status mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row);
+
+/* What a measured row must show; NULL, or what it did not. */
+const char *mote_dynamics_failure(const mote_dynamics_row *row);
+
+/* The table for a person. */
+void mote_dynamics_print(const mote_dynamics_row *rows, size_t count);
+
+/* An object a row; the caller decrefs. */
+json_t *mote_dynamics_row_json(const mote_dynamics_row *row);
+
+/* Writes directory/dynamics.csv (a line a row, from this commit) and directory/figures/, drawn.
+ */
+mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count, const char *commit,
+                              const char *directory);
+mote_status mote_dynamics_figure(const mote_dynamics_row *rows, size_t count,
+                                 const char *directory);
+
+#endif

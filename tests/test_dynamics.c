@@ -1,0 +1,246 @@
+/* The study of the closed loop: its rows, its approaches, and that it goes on where it stopped.
+ */
+#include "harness/dynamics.h"
+
+#include "harness/file.h"
+#include "tests/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#define OUT "test_dynamics_files"
+#define SAID OUT "/said"
+#define ROW OUT "/rows/tt-particle-paper-n-3-law-log.json"
+#define LINE "dynamics --quick --scene tt --approaches 2 --jobs 2 --out " OUT
+
+static const mote_dynamics_row *find(const mote_dynamics_row *rows, size_t count,
+                                     const char *scene, const char *method)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (strcmp(rows[i].scene, scene) == 0 && strcmp(rows[i].method, method) == 0)
+            return &rows[i];
+    }
+    fail_msg("no row %s, %s", scene, method);
+    return NULL;
+}
+
+static void plan_full_has_what_the_claim_needs(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"tt", "mv", "ww", "vv", "tw", "comb"};
+    static const char *const laws[] = {"log", "inverse", "inverse-square"};
+    static const int numbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 16};
+    const mote_dynamics_size size = {0};
+    mote_dynamics_row *rows;
+    size_t count;
+    assert_int_equal(mote_dynamics_plan(&size, &rows, &count), MOTE_OK);
+    for (size_t s = 0; s < 6; ++s) {
+        const uint32_t many = s < 3 ? 1000 : 200;
+        for (size_t law = 0; law < (s < 3 ? 3 : 1); ++law) {
+            for (size_t k = 0; k < 9; ++k) {
+                char method[64];
+                (void)snprintf(method, sizeof method, "particle-paper:n=%d,law=%s", numbers[k],
+                               laws[law]);
+                const mote_dynamics_row *row = find(rows, count, scenes[s], method);
+                assert_true(row->wanted >= (law == 0 ? many : 200) && !row->exact);
+            }
+        }
+        assert_true(find(rows, count, scenes[s], "particle:n=8")->wanted >= many);
+        assert_true(find(rows, count, scenes[s], "certified")->wanted >= many);
+        if (s < 3)
+            assert_true(find(rows, count, scenes[s], "fcl-aabb:seed=previous,queue=64")->exact);
+    }
+    free(rows);
+}
+
+static void plan_unknown_scene_refused(void **state)
+{
+    (void)state;
+    const mote_dynamics_size size = {.scene = "nowhere"};
+    mote_dynamics_row *rows;
+    size_t count;
+    assert_int_equal(mote_dynamics_plan(&size, &rows, &count), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "nowhere"));
+}
+
+static void approach_draw_starts_apart_and_aims_at_the_other(void **state)
+{
+    (void)state;
+    mote_scenario *scenario;
+    mote_mass mass[2];
+    assert_int_equal(mote_scenario_load("mv", &scenario), MOTE_OK);
+    for (int i = 0; i < 2; ++i)
+        assert_int_equal(mote_mass_of_mesh(scenario->body[i].mesh, 1, &mass[i]), MOTE_OK);
+    const double length = scenario->length;
+    double slowest = HUGE_VAL, fastest = 0, most_aside = 0;
+    for (uint32_t index = 0; index < 1000; ++index) {
+        const mote_simulation_start a = mote_approach_draw(scenario, mass, index);
+        const mote_simulation_start b = mote_approach_draw(scenario, mass, index);
+        assert_memory_equal(&a.state, &b.state, sizeof a.state);
+        const mote_vec3 away = mote_sub(a.state[1].centre, a.state[0].centre);
+        const mote_vec3 v = a.state[1].velocity;
+        const double speed = mote_length(v), along = -mote_dot(away, v) / speed;
+        const double aside = sqrt(fmax(0, mote_length_squared(away) - along * along));
+        assert_true(along > length && a.steps * speed > along);
+        assert_true(a.first >= 1 && a.first <= scenario->frames);
+        for (int i = 0; i < 2; ++i) {
+            const mote_vec3 w = mote_rigid_angular_velocity(&mass[i], &a.state[i]);
+            assert_true(mote_length(w) <= 0.0349066);
+        }
+        slowest = fmin(slowest, speed / length);
+        fastest = fmax(fastest, speed / length);
+        most_aside = fmax(most_aside, aside / length);
+    }
+    assert_true(slowest >= 0.002 && slowest < 0.0021 && fastest <= 0.02 && fastest > 0.019);
+    assert_true(most_aside <= 0.35 && most_aside > 0.33);
+    mote_scenario_destroy(scenario);
+}
+
+static void approaches_json_comes_back(void **state)
+{
+    (void)state;
+    mote_scenario *scenario;
+    mote_approaches sum, again;
+    assert_int_equal(mote_scenario_load("tt", &scenario), MOTE_OK);
+    assert_int_equal(mote_approaches_simulate(scenario, "particle:n=8", 3, &sum), MOTE_OK);
+    assert_true(sum.approaches == 3 && sum.trials >= 3 && sum.contact_runs >= 3);
+    assert_true(sum.steps > 50 && sum.truth_asked < sum.steps && sum.responses > 0);
+    json_t *object = mote_approaches_json(&sum);
+    assert_true(mote_approaches_read(object, &again));
+    assert_memory_equal(&sum, &again, sizeof sum);
+    (void)json_object_del(object, "delay_sum");
+    assert_false(mote_approaches_read(object, &again));
+    json_decref(object);
+    mote_scenario_destroy(scenario);
+}
+
+static void failure_names_what_was_not_met(void **state)
+{
+    (void)state;
+    mote_dynamics_row row = {.wanted = 10, .sum = {.trials = 12, .approaches = 10}};
+    row.sum.passes_through = row.sum.missed_steps = 1;
+    assert_null(mote_dynamics_failure(&row));
+    row.exact = true;
+    assert_non_null(strstr(mote_dynamics_failure(&row), "pass"));
+    row.sum.passes_through = 0;
+    assert_non_null(strstr(mote_dynamics_failure(&row), "contact"));
+    row.sum.missed_steps = 0;
+    assert_null(mote_dynamics_failure(&row));
+    row.sum.energy_drift = 1e-6;
+    assert_non_null(strstr(mote_dynamics_failure(&row), "energy"));
+    row.sum.approaches = 9;
+    assert_non_null(strstr(mote_dynamics_failure(&row), "too few"));
+}
+
+/* The claim needs every row of 3 to 5 particles, by the upper end of its interval. */
+static void claim_follows_from_the_rows(void **state)
+{
+    (void)state;
+    static const struct {
+        uint64_t passes, approaches;
+        mote_claim_verdict verdict;
+    } cases[] = {{0, 1000, MOTE_CLAIM_HOLDS},
+                 {3, 1000, MOTE_CLAIM_HOLDS},
+                 {5, 1000, MOTE_CLAIM_LIMITS},
+                 {0, 100, MOTE_CLAIM_LIMITS},
+                 {45, 1000, MOTE_CLAIM_DOES_NOT_HOLD}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_claim claim = {0};
+        mote_dynamics_claim(&claim);
+        for (uint32_t n = 2; n <= 5; ++n) {
+            mote_dynamics_row row = {.scene = "ww", .law = "log", .n = n, .paper = true};
+            row.sum.approaches = n == 4 ? cases[i].approaches : 1000;
+            row.sum.passes_through = n == 4 ? cases[i].passes : 0;
+            if (n == 2)
+                row.sum.passes_through = 500;
+            assert_int_equal(mote_dynamics_claim_add(&claim, &row), MOTE_OK);
+        }
+        assert_int_equal(mote_claim_judge(&claim), cases[i].verdict);
+        mote_claim_free(&claim);
+    }
+}
+
+static void run_study(char *said, size_t size)
+{
+    assert_int_equal(program_wait(program_start(LINE, SAID)), 0);
+    program_read(SAID, said, size);
+}
+
+/* Rows that are there are taken; one of another build, and one that is damaged, are not. */
+static void command_dynamics_goes_on_where_it_stopped(void **state)
+{
+    (void)state;
+    static char said[32768], row[8192];
+    run_study(said, sizeof said);
+    assert_non_null(strstr(said, "dynamics: tt, particle-paper:n=3,law=log:"));
+    assert_non_null(strstr(said, "dynamics: tt, certified: 0 passes of 2"));
+    assert_int_equal(access(OUT "/dynamics.json", R_OK), 0);
+    assert_int_equal(access(OUT "/dynamics.csv", R_OK), 0);
+    assert_int_equal(access(OUT "/figures/dynamics.svg", R_OK), 0);
+    run_study(said, sizeof said);
+    assert_null(strstr(said, "dynamics: tt,"));
+    assert_non_null(strstr(said, "tt, n = 3"));
+    program_read(ROW, row, sizeof row);
+    char *program = strstr(row, "\"program\": \"");
+    assert_non_null(program);
+    program[12] = program[12] == '0' ? '1' : '0';
+    assert_int_equal(mote_file_write(ROW, row, strlen(row)), MOTE_OK);
+    assert_int_equal(mote_file_write(OUT "/rows/tt-certified.json", "{", 1), MOTE_OK);
+    run_study(said, sizeof said);
+    const char *first = strstr(said, "dynamics: tt,");
+    assert_non_null(strstr(said, "dynamics: tt, particle-paper:n=3,law=log:"));
+    assert_non_null(strstr(said, "dynamics: tt, certified:"));
+    const char *second = strstr(first + 1, "dynamics: tt,");
+    assert_non_null(second);
+    assert_null(strstr(second + 1, "dynamics: tt,"));
+}
+
+static void command_dynamics_bad_line_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *says;
+        int status;
+    } bad[] = {{"dynamics tt", "takes no argument", 2},
+               {"dynamics --jobs 0", "--jobs 0", 2},
+               {"dynamics --approaches 0", "--approaches 0", 2},
+               {"dynamics --quick --scene vv --out " OUT, "vv", 4},
+               {"dynamics --quick --out /proc/x", "/proc/x", 4}};
+    char said[4096];
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        const int status = program_wait(program_start(bad[i].line, SAID));
+        program_read(SAID, said, sizeof said);
+        if (status != bad[i].status || !strstr(said, bad[i].says))
+            fail_msg("mote %s: exit %d: %s", bad[i].line, status, said);
+    }
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(OUT) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return system("rm -r " OUT) == 0 ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plan_full_has_what_the_claim_needs),
+        cmocka_unit_test(plan_unknown_scene_refused),
+        cmocka_unit_test(approach_draw_starts_apart_and_aims_at_the_other),
+        cmocka_unit_test(approaches_json_comes_back),
+        cmocka_unit_test(failure_names_what_was_not_met),
+        cmocka_unit_test(claim_follows_from_the_rows),
+        cmocka_unit_test(command_dynamics_goes_on_where_it_stopped),
+        cmocka_unit_test(command_dynamics_bad_line_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
