@@ -43,8 +43,8 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
 const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                       uint32_t number, uint32_t previous);
 
-/* The state between frames: place 1 .. frames, any real number, where place k is frame k. Number
-   0; everything changed. */
+/* The state between frames: place 1 .. frames, any real number, where place k is frame k.
+   Number 0; everything changed. */
 const mote_frame *mote_scenario_frame_at(const mote_scenario *scenario,
                                          mote_frame_buffer *buffer, double place);
 
