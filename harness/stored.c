@@ -11,6 +11,7 @@
 
 #define FILE_LIMIT ((size_t)1 << 30)
 #define COLUMNS_MAX 64
+#define FRAME_LAST 4294967295.0
 
 #define NAME_TEXT(name) #name,
 const char *const mote_stored_count_names[MOTE_STORED_COUNTS] = {
@@ -125,7 +126,7 @@ static void put_value(mote_stored_cell *cell, size_t row, int index, double valu
     bool none = value != value;
     switch (index) {
     case COLUMN_FRAME:
-        cell->frame[row] = none ? 0 : (uint32_t)value;
+        cell->frame[row] = value >= 1 && value <= FRAME_LAST ? (uint32_t)value : 0;
         return;
     case COLUMN_DEFORM:
         cell->deform_ns[row] = none ? 0 : value;
@@ -193,7 +194,7 @@ static mote_status read_frames(const char *path, const char *text, mote_stored_c
     const char *line = strchr(text, '\n') + 1;
     for (size_t row = 0; status == MOTE_OK && row + 1 < lines; ++row) {
         line = read_row(line, &map, cell, row);
-        if (!line || (row > 0 && cell->frame[row] <= cell->frame[row - 1]))
+        if (!line || cell->frame[row] <= (row > 0 ? cell->frame[row - 1] : 0))
             return mote_fail(MOTE_EINVAL, "%s:%zu: not a frame's row; expected %zu fields",
                              path, row + 2, map.count);
         cell->frames = row + 1;
@@ -273,6 +274,11 @@ static mote_status read_cell(const char *directory, const char *file, const char
                               : mote_fail(MOTE_ENOMEM, "no memory for a name");
     if (status == MOTE_OK)
         status = read_fields(name, cell);
+    const size_t length = status == MOTE_OK ? strlen(cell->id) : 0;
+    if (status == MOTE_OK &&
+        (strncmp(file, cell->id, length) != 0 || strcmp(file + length, ".json") != 0))
+        status = mote_fail(MOTE_EINVAL, "%s: its id is %s; a cell is named by its id", name,
+                           cell->id);
     if (status == MOTE_OK) {
         const char *by = json_string_value(json_object_get(cell->json, "program"));
         *wanted = program[0] == '\0' || (by && strcmp(by, program) == 0);
