@@ -14,6 +14,7 @@
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
+#   make test-kill                                  200 random kill -9 of a sweep: is a cell lost?
 #   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make claims [OUT=DIR]                             measure the claims of the paper
@@ -31,7 +32,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-statistics oracle tune ingredients ablation certify soak dynamics claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -87,6 +88,11 @@ perf-check: build
 test-perf: build
 	@cmake --build $(BUILD) -j $(JOBS) --target perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf
+
+test-kill: build
+	@cmake --build $(BUILD) -j $(JOBS) --target kills
+	@rm -rf results/test-kill
+	@$(BUILD)/tests/kills results/test-kill
 
 test-statistics: build
 	@cmake --build $(BUILD) -j $(JOBS) --target coverage

@@ -50,6 +50,8 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
                   cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
                   program);
+    if (cell->jobs > 1)
+        mote_text_add(&text, " jobs");
     char name[20], method[28];
     plain(scenario->name, name, sizeof name);
     plain(cell->choice->method->name, method, sizeof method);
@@ -101,7 +103,7 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
-        " s:f, s:s, s:i, s:o*, s:s, s:s}",
+        " s:f, s:s, s:i, s:o*, s:s, s:s, s:i}",
         "schema", 1, "id", cell->id, "status", mote_cell_status_names[status], "scenario",
         scenario->name, "fingerprint", fingerprint, "method", cell->choice->method->name,
         "parameters", mote_choice_json(cell->choice), "replicate", (int)cell->replicate,
@@ -114,7 +116,7 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         scenario->ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
         (int)scenario->frames, "active",
         interval_json(scenario->active.first, scenario->active.last), "program", hash,
-        "machine", machine);
+        "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1));
 }
 
 static void add_real(mote_text *text, bool present, double value)

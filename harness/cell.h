@@ -50,12 +50,15 @@ typedef struct mote_cell {
     uint32_t stride;                  /* the one used, >= 1 */
     uint64_t seed;                    /* the run's; replicate r draws from seed + r - 1 */
     mote_cache cache;
+    uint32_t
+        jobs; /* cells measured at the same time; with 2 or more, times are not comparable */
     char id[MOTE_CELL_ID_SIZE];
 } mote_cell;
 
 /* Writes cell->id: a readable beginning, then a hash of everything that decides what is
    measured: the scenario's fingerprint, the question, method, every parameter, replicate,
-   frames, stride asked, seed, cache, and program (mote_program_hash). */
+   frames, stride asked, seed, cache, whether others ran beside it, and program
+   (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
 /* What one frame gave. */

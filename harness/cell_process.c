@@ -4,26 +4,17 @@
 #include "harness/measure.h"
 #include "harness/statistics.h"
 
-#include <errno.h>
-#include <poll.h>
 #include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
-
-/* How often a waiting parent looks for a signal that asked it to stop. */
-#define POLL_MS 200
 
 #define PROBE_FRAMES 3
 
 /* What a child tells its parent before it ends. */
 typedef struct message {
     mote_cell_status cell;
-    mote_status status; /* an error that ends the whole run, or MOTE_OK */
     mote_forecast forecast;
     bool refused; /* the method said that its input is wrong */
     char text[400];
@@ -51,17 +42,14 @@ static void pin(int core)
     (void)sched_setaffinity(0, sizeof set, &set);
 }
 
-/* Three quarters of the machine; not where a sanitizer reserves address space. */
-static void limit_memory(void)
+/* Three quarters of the machine among the jobs; none where a sanitizer reserves address space.
+ */
+static size_t memory_limit(uint32_t jobs)
 {
-    struct rlimit none = {0, 0};
-    (void)setrlimit(RLIMIT_CORE, &none);
     long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
     if (!mote_heap_read().counted || pages <= 0 || size <= 0)
-        return;
-    rlim_t bytes = (rlim_t)pages * (rlim_t)size / 4 * 3;
-    struct rlimit limit = {bytes, bytes};
-    (void)setrlimit(RLIMIT_AS, &limit);
+        return 0;
+    return (size_t)pages * (size_t)size / 4 * 3 / (jobs ? jobs : 1);
 }
 
 static double load_average(void)
@@ -114,8 +102,9 @@ static void child_probe(const mote_cell *cell, message *told)
     mote_cell_result_free(&result);
 }
 
-static void child_measure(const mote_cell *cell, const mote_process_options *options,
-                          message *told)
+/* An error status ends the whole run: what was measured cannot be written. */
+static mote_status child_measure(const mote_cell *cell, const mote_process_options *options,
+                                 message *told)
 {
     mote_cell_result result;
     double load = load_average(), clock_mhz = core_clock(options->core);
@@ -123,7 +112,7 @@ static void child_measure(const mote_cell *cell, const mote_process_options *opt
     mote_status status = mote_measure_cell(cell, 0, &result);
     if (status != MOTE_OK) {
         child_fail(told, status);
-        return;
+        return MOTE_OK;
     }
     result.core = options->core;
     result.load[0] = load;
@@ -131,132 +120,114 @@ static void child_measure(const mote_cell *cell, const mote_process_options *opt
     result.clock_mhz[0] = clock_mhz;
     result.clock_mhz[1] = core_clock(options->core);
     result.wall_seconds = (double)(mote_clock_ns() - start) * 1e-9;
-    told->status = mote_cell_record(cell, &result, options->program, options->directory);
-    if (told->status != MOTE_OK)
-        (void)snprintf(told->text, sizeof told->text, "%s", mote_error_text());
+    status = mote_cell_record(cell, &result, options->program, options->directory);
     mote_cell_result_free(&result);
+    return status;
 }
 
-_Noreturn static void child(const mote_cell *cell, const mote_process_options *options,
-                            bool probe, int out, pid_t parent)
+/* What a child is told, in its own copy of the parent's memory. */
+typedef struct task {
+    const mote_cell *cell;
+    const mote_process_options *options;
+    bool probe;
+} task;
+
+static mote_status work(void *context, int output)
 {
-    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-        _exit(1); /* the parent died before the line above */
-    (void)signal(SIGINT, SIG_DFL);
-    (void)signal(SIGTERM, SIG_DFL);
-    limit_memory();
-    pin(options->core);
-    message told = {.cell = MOTE_CELL_OK};
-    if (probe)
-        child_probe(cell, &told);
+    const task *t = context;
+    message told;
+    memset(&told, 0, sizeof told);
+    pin(t->options->core);
+    mote_status status = MOTE_OK;
+    if (t->probe)
+        child_probe(t->cell, &told);
     else
-        child_measure(cell, options, &told);
-    ssize_t put = write(out, &told, sizeof told);
-    _exit(put == (ssize_t)sizeof told ? 0 : 1);
+        status = child_measure(t->cell, t->options, &told);
+    return status == MOTE_OK ? mote_child_put(output, &told, sizeof told) : status;
 }
 
-typedef enum wait_end { WAIT_TOLD, WAIT_SILENT, WAIT_TIMEOUT, WAIT_STOPPED } wait_end;
-
-/* Waits until the child has told its message, ended, or run out of time. */
-static wait_end wait_for_message(int in, const mote_process_options *options, message *told)
+static mote_status start(const mote_cell *cell, const mote_process_options *options, bool probe,
+                         mote_child *child)
 {
-    uint64_t start = mote_clock_ns();
-    for (;;) {
-        struct pollfd ready = {.fd = in, .events = POLLIN};
-        int count = poll(&ready, 1, POLL_MS);
-        if (options->stop && *options->stop)
-            return WAIT_STOPPED;
-        if (count > 0) {
-            ssize_t got = read(in, told, sizeof *told);
-            if (got < 0 && errno == EINTR)
-                continue;
-            return got == (ssize_t)sizeof *told ? WAIT_TOLD : WAIT_SILENT;
-        }
-        if (options->timeout > 0 && (double)(mote_clock_ns() - start) * 1e-9 > options->timeout)
-            return WAIT_TIMEOUT;
-    }
+    task t = {cell, options, probe};
+    const mote_child_limits limits = {.seconds = options->timeout,
+                                      .memory_bytes = memory_limit(options->jobs),
+                                      .output_bytes = sizeof(message)};
+    mote_status status = mote_child_start(work, &t, limits, child);
+    if (status == MOTE_OK)
+        return MOTE_OK;
+    char text[256];
+    (void)snprintf(text, sizeof text, "%s", mote_error_text());
+    return mote_fail(status, "%s: %s", cell->id, text);
 }
 
-static void describe_death(int wait_status, message *told)
+/* What the child told, or what its end tells. */
+static mote_status listen(const mote_process_options *options, mote_child *child, message *told)
 {
-    told->cell = MOTE_CELL_CRASHED;
-    if (WIFSIGNALED(wait_status))
-        (void)snprintf(told->text, sizeof told->text, "ended by signal %d (%s)",
-                       WTERMSIG(wait_status), strsignal(WTERMSIG(wait_status)));
-    else
-        (void)snprintf(told->text, sizeof told->text, "ended with status %d and no answer",
-                       WEXITSTATUS(wait_status));
-}
-
-/* Runs a child to its end, whichever it is. */
-static mote_status run_child(const mote_cell *cell, const mote_process_options *options,
-                             bool probe, message *told)
-{
-    int ends[2];
-    if (pipe(ends) != 0)
-        return mote_fail(MOTE_EIO, "no pipe for a cell: %s", strerror(errno));
-    (void)fflush(NULL);
-    pid_t parent = getpid();
-    pid_t pid = fork();
-    if (pid == 0) {
-        (void)close(ends[0]);
-        child(cell, options, probe, ends[1], parent);
-    }
-    int error = errno;
-    (void)close(ends[1]);
-    if (pid < 0) {
-        (void)close(ends[0]);
-        return mote_fail(MOTE_EIO, "no process for a cell: %s", strerror(error));
-    }
-    wait_end end = wait_for_message(ends[0], options, told);
-    (void)close(ends[0]);
-    if (end == WAIT_TIMEOUT || end == WAIT_STOPPED)
-        (void)kill(pid, SIGKILL);
-    int wait_status = 0;
-    while (waitpid(pid, &wait_status, 0) < 0 && errno == EINTR) {
-    }
-    if (end == WAIT_STOPPED)
-        return mote_fail(MOTE_EIO, "stopped by a signal; run the same command again to go on");
-    if (end == WAIT_SILENT)
-        describe_death(wait_status, told);
-    if (end == WAIT_TIMEOUT) {
+    mote_status status = MOTE_OK;
+    memset(told, 0, sizeof *told);
+    if (child->end == MOTE_CHILD_TIMEOUT) {
         told->cell = MOTE_CELL_TIMEOUT;
         (void)snprintf(told->text, sizeof told->text, "ended after %g s", options->timeout);
+    } else if (child->end == MOTE_CHILD_DONE && child->status != MOTE_OK) {
+        status = mote_fail(child->status, "%s", child->text);
+    } else if (child->end == MOTE_CHILD_DONE && child->size == sizeof *told) {
+        memcpy(told, child->output, sizeof *told);
+    } else {
+        told->cell = MOTE_CELL_CRASHED;
+        (void)snprintf(told->text, sizeof told->text, "%.*s", (int)sizeof told->text - 1,
+                       child->text);
     }
-    if (end == WAIT_TOLD && told->status != MOTE_OK)
-        return mote_fail(told->status, "%s", told->text);
+    mote_child_release(child);
+    return status;
+}
+
+mote_status mote_cell_start(const mote_cell *cell, const mote_process_options *options,
+                            mote_child *child)
+{
+    return start(cell, options, false, child);
+}
+
+mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *options,
+                             mote_child *child, mote_cell_end *end)
+{
+    message told;
+    mote_status status = listen(options, child, &told);
+    if (status == MOTE_OK && told.cell != MOTE_CELL_OK)
+        status = mote_cell_record_failure(cell, told.cell, told.text, options->program,
+                                          options->directory);
+    if (status != MOTE_OK)
+        return status;
+    end->status = told.cell;
+    memcpy(end->reason, told.text, sizeof end->reason);
     return MOTE_OK;
 }
 
 mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
-                              mote_cell_status *status, char *reason, size_t size)
+                              mote_cell_end *end)
 {
-    message told = {.cell = MOTE_CELL_OK};
-    mote_status ran = run_child(cell, options, false, &told);
-    if (ran != MOTE_OK)
-        return ran;
-    if (told.cell != MOTE_CELL_OK) {
-        ran = mote_cell_record_failure(cell, told.cell, told.text, options->program,
-                                       options->directory);
-        if (ran != MOTE_OK)
-            return ran;
-    }
-    *status = told.cell;
-    (void)snprintf(reason, size, "%s", told.text);
-    return MOTE_OK;
+    mote_child child;
+    size_t index;
+    mote_status status = start(cell, options, false, &child);
+    if (status == MOTE_OK)
+        status = mote_child_wait(&child, 1, &index);
+    return status == MOTE_OK ? mote_cell_finish(cell, options, &child, end) : status;
 }
 
 mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *options,
-                            mote_cell_status *status, mote_forecast *forecast)
+                            mote_forecast *forecast)
 {
-    message told = {.cell = MOTE_CELL_OK};
-    mote_status ran = run_child(cell, options, true, &told);
-    if (ran != MOTE_OK)
-        return ran;
-    if (told.refused)
-        return mote_fail(MOTE_EINVAL, "%s", told.text);
-    *status = told.cell;
-    *forecast = told.forecast;
-    return MOTE_OK;
+    mote_child child;
+    message told;
+    size_t index;
+    mote_status status = start(cell, options, true, &child);
+    if (status == MOTE_OK)
+        status = mote_child_wait(&child, 1, &index);
+    if (status == MOTE_OK)
+        status = listen(options, &child, &told);
+    if (status == MOTE_OK && told.refused)
+        status = mote_fail(MOTE_EINVAL, "%s", told.text);
+    if (status == MOTE_OK)
+        *forecast = told.forecast;
+    return status;
 }

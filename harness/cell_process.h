@@ -4,8 +4,7 @@
 #define MOTE_HARNESS_CELL_PROCESS_H
 
 #include "harness/cell.h"
-
-#include <signal.h>
+#include "harness/child.h"
 
 /* What a probe found: a few frames, nothing stored. */
 typedef struct mote_forecast {
@@ -19,21 +18,34 @@ typedef struct mote_process_options {
     uint64_t program;      /* mote_program_hash */
     double timeout;        /* seconds; 0: none */
     int core;
-    const volatile sig_atomic_t *stop; /* set by a signal: end the cell and return MOTE_EIO */
+    uint32_t jobs; /* cells that run at once, among which memory is shared; 0 is 1 */
 } mote_process_options;
 
-/* Measures one cell in a child and waits for it. *status says how it ended; its files are
-   written by the child when it ran to its end, by the parent otherwise, and reason (size bytes,
-   may be empty) tells why. An error status means that nothing more can be measured: no process,
-   a full disk, a signal. */
-mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
-                              mote_cell_status *status, char *reason, size_t size);
+/* How a cell ended. */
+typedef struct mote_cell_end {
+    mote_cell_status status;
+    char reason[400]; /* one line; empty when ok */
+} mote_cell_end;
 
-/* Runs the first frames of a cell in a child and says what they cost. *status as above, nothing
-   is stored. MOTE_EINVAL with the method's text when it refuses its input (n above the vertex
-   count). */
+/* Starts the process of a cell, which writes the cell's files when it runs to its end. */
+mote_status mote_cell_start(const mote_cell *cell, const mote_process_options *options,
+                            mote_child *child);
+
+/* Takes what a child that has ended said of its cell; the files of one that did not run to its
+   end are written here. The child is released. An error status means that nothing more can be
+   measured: a full disk. */
+mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *options,
+                             mote_child *child, mote_cell_end *end);
+
+/* Measures one cell from start to end. MOTE_EIO also when a signal asked to stop. */
+mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
+                              mote_cell_end *end);
+
+/* Runs the first frames of a cell in a child and says what they cost; nothing is stored. All 0
+   when it does not get that far. MOTE_EINVAL with the method's text when it refuses its input
+   (n above the vertex count). */
 mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *options,
-                            mote_cell_status *status, mote_forecast *forecast);
+                            mote_forecast *forecast);
 
 /* A core to pin to: the last of those allowed; -1 when unknown. */
 int mote_process_core(void);

@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,16 +13,37 @@
 #include <time.h>
 #include <unistd.h>
 
+/* How often a waiting parent looks for a signal that asked it to stop. */
+#define POLL_MS 200
+
 /* The child's last words, after its output. */
 typedef struct last_words {
     uint32_t status;
     char text[1024];
 } last_words;
 
-typedef struct received {
-    char *data;
-    size_t size, capacity;
-} received;
+static volatile sig_atomic_t stop_asked;
+
+static void ask_to_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_asked = 1;
+}
+
+void mote_child_heed_signals(void)
+{
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = ask_to_stop;
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+    (void)signal(SIGXFSZ, SIG_IGN); /* a file that becomes too large is an error of write */
+}
+
+bool mote_child_stop_asked(void)
+{
+    return stop_asked != 0;
+}
 
 mote_status mote_child_put(int output, const void *data, size_t size)
 {
@@ -43,22 +63,25 @@ mote_status mote_child_put(int output, const void *data, size_t size)
 /* Pages that this process has mapped, in bytes: a limit on top of it leaves room to work. */
 static size_t mapped_bytes(void)
 {
-    unsigned long pages = 0;
+    char line[64] = "";
     FILE *file = fopen("/proc/self/statm", "r");
-    if (file) {
-        if (fscanf(file, "%lu", &pages) != 1)
-            pages = 0;
-        (void)fclose(file);
-    }
-    return (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
+    if (!file)
+        return 0;
+    const char *got = fgets(line, sizeof line, file);
+    (void)fclose(file);
+    return got ? strtoul(line, NULL, 10) * (size_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
-static void be_child(mote_child_work work, void *context, size_t memory_bytes, pid_t parent,
-                     int output)
+static _Noreturn void be_child(mote_child_work work, void *context, size_t memory_bytes,
+                               pid_t parent, int output)
 {
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
-        _exit(1);
+        _exit(1); /* the parent died before the line above */
+    /* A terminal's Ctrl-C reaches the whole group: the parent decides, and no cell looks as if
+       it had crashed. */
+    (void)signal(SIGINT, SIG_IGN);
+    (void)signal(SIGTERM, SIG_IGN);
     if (memory_bytes > 0) {
         const rlim_t bytes = mapped_bytes() + memory_bytes;
         const struct rlimit limit = {bytes, bytes};
@@ -82,103 +105,189 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool append(received *all, const char *data, size_t size, size_t limit)
+mote_status mote_child_start(mote_child_work work, void *context, mote_child_limits limits,
+                             mote_child *child)
 {
-    if (all->size + size > limit)
+    int ends[2];
+    mote_child none = {.input = -1};
+    *child = none;
+    if (pipe(ends) != 0)
+        return mote_fail(MOTE_EIO, "no pipe: %s", strerror(errno));
+    (void)fflush(NULL); /* or the child would print it again */
+    pid_t parent = getpid();
+    pid_t pid = fork();
+    if (pid == 0) {
+        (void)close(ends[0]);
+        be_child(work, context, limits.memory_bytes, parent, ends[1]);
+    }
+    int error = errno;
+    (void)close(ends[1]);
+    if (pid < 0) {
+        (void)close(ends[0]);
+        return mote_fail(MOTE_EIO, "no process: %s", strerror(error));
+    }
+    child->pid = pid;
+    child->input = ends[0];
+    child->deadline = limits.seconds > 0 ? seconds_now() + limits.seconds : 0;
+    child->limit = limits.output_bytes + sizeof(last_words);
+    return MOTE_OK;
+}
+
+static bool append(mote_child *child, const char *data, size_t size)
+{
+    if (child->size + size > child->limit)
         return false;
-    if (all->size + size > all->capacity) {
-        size_t capacity = 2 * (all->size + size);
-        char *grown = realloc(all->data, capacity);
+    if (child->size + size > child->capacity) {
+        size_t capacity = 2 * (child->size + size);
+        char *grown = realloc(child->output, capacity);
         if (!grown)
             return false;
-        all->data = grown;
-        all->capacity = capacity;
+        child->output = grown;
+        child->capacity = capacity;
     }
-    memcpy(all->data + all->size, data, size);
-    all->size += size;
+    memcpy(child->output + child->size, data, size);
+    child->size += size;
     return true;
 }
 
-/* Reads until the child closes its end. False, with *why, when it has to be ended instead. */
-static bool receive(int input, mote_child_limits limits, received *all, const char **why)
+/* Reads what has arrived. RUNNING until the child has closed its side: then DONE. */
+static mote_child_end receive(mote_child *child)
 {
     static char block[1 << 16];
-    const double end = seconds_now() + limits.seconds;
-    for (;;) {
-        int wait_ms = -1;
-        if (limits.seconds > 0) {
-            double left = end - seconds_now();
-            wait_ms = left > 0 ? (int)(left * 1000) + 1 : 0;
-        }
-        struct pollfd watch = {.fd = input, .events = POLLIN};
-        int ready = poll(&watch, 1, wait_ms);
-        if (ready < 0 && errno == EINTR)
-            continue;
-        if (ready <= 0) {
-            *why = "took too long";
-            return false;
-        }
-        ssize_t got = read(input, block, sizeof block);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            return true;
-        if (!append(all, block, (size_t)got, limits.output_bytes + sizeof(last_words))) {
-            *why = "gave more than fits";
-            return false;
-        }
+    ssize_t got = read(child->input, block, sizeof block);
+    if (got < 0 && errno == EINTR)
+        return MOTE_CHILD_RUNNING;
+    if (got <= 0)
+        return MOTE_CHILD_DONE;
+    return append(child, block, (size_t)got) ? MOTE_CHILD_RUNNING : MOTE_CHILD_TOO_MUCH;
+}
+
+/* What became of a child that closed its side, given its wait status. */
+static void conclude(mote_child *child, int ended)
+{
+    last_words last;
+    if (WIFSIGNALED(ended)) {
+        child->end = MOTE_CHILD_CRASHED;
+        (void)snprintf(child->text, sizeof child->text, "ended by signal %d (%s)",
+                       WTERMSIG(ended), strsignal(WTERMSIG(ended)));
+    } else if (child->size < sizeof last) {
+        child->end = MOTE_CHILD_CRASHED;
+        (void)snprintf(child->text, sizeof child->text, "ended with status %d and no answer",
+                       WEXITSTATUS(ended));
+    } else {
+        child->size -= sizeof last;
+        memcpy(&last, child->output + child->size, sizeof last);
+        child->status = (mote_status)last.status;
+        memcpy(child->text, last.text, sizeof child->text);
     }
 }
 
-/* The result of a child that ended by itself. */
-static mote_status conclude(const char *what, int ended, received *all)
+static void reap(mote_child *child, mote_child_end end)
 {
-    if (WIFSIGNALED(ended))
-        return mote_fail(MOTE_EIO, "%s: crashed (signal %d)", what, WTERMSIG(ended));
-    last_words last;
-    if (all->size < sizeof last)
-        return mote_fail(MOTE_EIO, "%s: ended without an answer", what);
-    all->size -= sizeof last;
-    memcpy(&last, all->data + all->size, sizeof last);
-    if (last.status != MOTE_OK)
-        return mote_fail((mote_status)last.status, "%s", last.text);
-    return MOTE_OK;
+    int ended = 0;
+    (void)close(child->input);
+    if (end != MOTE_CHILD_DONE)
+        (void)kill(child->pid, SIGKILL);
+    while (waitpid(child->pid, &ended, 0) < 0 && errno == EINTR) {
+    }
+    child->pid = 0;
+    child->input = -1;
+    child->end = end;
+    if (end == MOTE_CHILD_DONE)
+        conclude(child, ended);
+}
+
+void mote_child_stop(mote_child *children, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (children[i].pid > 0)
+            reap(&children[i], MOTE_CHILD_TIMEOUT);
+    }
+}
+
+void mote_child_release(mote_child *child)
+{
+    free(child->output);
+    child->output = NULL;
+    child->size = child->capacity = 0;
+}
+
+static bool is_late(const mote_child *child)
+{
+    return child->deadline > 0 && seconds_now() > child->deadline;
+}
+
+/* How long to wait in one go: until the next deadline, or the next look for a signal. */
+static int patience_ms(const mote_child *children, size_t count)
+{
+    double seconds = POLL_MS * 1e-3;
+    for (size_t i = 0; i < count; ++i) {
+        double left = children[i].deadline - seconds_now();
+        if (children[i].pid > 0 && children[i].deadline > 0 && left < seconds)
+            seconds = left > 0 ? left : 0;
+    }
+    return (int)(seconds * 1000) + 1;
+}
+
+mote_status mote_child_wait(mote_child *children, size_t count, size_t *index)
+{
+    struct pollfd watch[MOTE_CHILDREN_MAX];
+    for (;;) {
+        for (size_t i = 0; i < count; ++i) {
+            const struct pollfd input = {.fd = children[i].pid > 0 ? children[i].input : -1,
+                                         .events = POLLIN};
+            watch[i] = input;
+        }
+        int ready = poll(watch, count, patience_ms(children, count));
+        if (stop_asked) {
+            mote_child_stop(children, count);
+            return mote_fail(MOTE_EIO,
+                             "stopped by a signal; run the same command again to go on");
+        }
+        for (size_t i = 0; i < count; ++i) {
+            mote_child_end end = MOTE_CHILD_RUNNING;
+            if (ready > 0 && watch[i].revents != 0)
+                end = receive(&children[i]);
+            else if (children[i].pid > 0 && is_late(&children[i]))
+                end = MOTE_CHILD_TIMEOUT;
+            if (end != MOTE_CHILD_RUNNING) {
+                reap(&children[i], end);
+                *index = i;
+                return MOTE_OK;
+            }
+        }
+    }
 }
 
 mote_status mote_child_run(const char *what, mote_child_work work, void *context,
                            mote_child_limits limits, char **output, size_t *size)
 {
-    int ends[2];
-    if (pipe(ends) != 0)
-        return mote_fail(MOTE_EIO, "%s: no pipe: %s", what, strerror(errno));
-    (void)fflush(NULL); /* or the child would print it again */
-    pid_t parent = getpid();
-    pid_t child = fork();
-    if (child == 0) {
-        (void)close(ends[0]);
-        be_child(work, context, limits.memory_bytes, parent, ends[1]);
+    mote_child child;
+    size_t index;
+    mote_status status = mote_child_start(work, context, limits, &child);
+    if (status != MOTE_OK) {
+        char text[256];
+        (void)snprintf(text, sizeof text, "%s", mote_error_text());
+        return mote_fail(status, "%s: %s", what, text);
     }
-    (void)close(ends[1]);
-    if (child < 0) {
-        (void)close(ends[0]);
-        return mote_fail(MOTE_EIO, "%s: no process: %s", what, strerror(errno));
+    status = mote_child_wait(&child, 1, &index);
+    if (status != MOTE_OK) {
+        mote_child_release(&child);
+        return status;
     }
-    received all = {0};
-    const char *why = NULL;
-    bool finished = receive(ends[0], limits, &all, &why);
-    (void)close(ends[0]);
-    if (!finished)
-        (void)kill(child, SIGKILL);
-    int ended = 0;
-    while (waitpid(child, &ended, 0) < 0 && errno == EINTR)
-        continue;
-    mote_status status =
-        finished ? conclude(what, ended, &all) : mote_fail(MOTE_EIO, "%s: %s", what, why);
+    if (child.end == MOTE_CHILD_CRASHED)
+        status = mote_fail(MOTE_EIO, "%s: crashed: %s", what, child.text);
+    else if (child.end == MOTE_CHILD_TIMEOUT)
+        status = mote_fail(MOTE_EIO, "%s: took too long", what);
+    else if (child.end == MOTE_CHILD_TOO_MUCH)
+        status = mote_fail(MOTE_EIO, "%s: gave more than fits", what);
+    else if (child.status != MOTE_OK)
+        status = mote_fail(child.status, "%s", child.text);
     if (status == MOTE_OK && output) {
-        *output = all.data;
-        *size = all.size;
+        *output = child.output;
+        *size = child.size;
     } else {
-        free(all.data);
+        mote_child_release(&child);
     }
     return status;
 }

@@ -1,11 +1,14 @@
 /* Work done in a child process: what it allocates, leaks, crashes on or waits for for ever does
-   not reach the parent. */
+   not reach the parent. A child ends with its parent; signals that ask the parent to stop
+   (SIGINT, SIGTERM) are the parent's business alone. */
 #ifndef MOTE_HARNESS_CHILD_H
 #define MOTE_HARNESS_CHILD_H
 
 #include "core/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 typedef struct mote_child_limits {
     double seconds;      /* the child is ended after this long; 0: no limit */
@@ -16,9 +19,54 @@ typedef struct mote_child_limits {
 /* What the child does. It hands back bytes with mote_child_put. */
 typedef mote_status (*mote_child_work)(void *context, int output);
 
-/* Runs work in a child process that ends with its parent. Returns its status, its error text
-   becoming ours; MOTE_EIO when it crashed, was out of time, or said too much: the text then
-   begins with `what`. *output (unless NULL) is what it put, freed by the caller. */
+typedef enum mote_child_end {
+    MOTE_CHILD_RUNNING,
+    MOTE_CHILD_DONE,    /* its work returned: see status */
+    MOTE_CHILD_CRASHED, /* it died before */
+    MOTE_CHILD_TIMEOUT, /* it was ended: out of time */
+    MOTE_CHILD_TOO_MUCH /* it was ended: it put more than output_bytes */
+} mote_child_end;
+
+/* A child process, or none where pid is 0. Zero-initialise. */
+typedef struct mote_child {
+    pid_t pid;
+    int input;       /* where its output arrives */
+    double deadline; /* by the monotonic clock; 0: none */
+    size_t limit;    /* of output */
+    mote_child_end end;
+    mote_status status; /* of its work, when DONE */
+    char text[1024];    /* of an error of its work; how it died when CRASHED */
+    char *output;       /* what it put; mote_child_release frees it */
+    size_t size, capacity;
+} mote_child;
+
+/* Starts a child. MOTE_EIO when there is no process to be had. context need not outlive the
+   call. */
+mote_status mote_child_start(mote_child_work work, void *context, mote_child_limits limits,
+                             mote_child *child);
+
+/* At most this many children are waited for at once. */
+#define MOTE_CHILDREN_MAX 256
+
+/* Waits until one of children [count] has ended, or was ended for its limits; *index says
+   which. Its end, status, text and output are then set, and its pid is 0. At least one must be
+   running. MOTE_EIO when a signal asked to stop: all have then been ended. */
+mote_status mote_child_wait(mote_child *children, size_t count, size_t *index);
+
+/* From now on SIGINT and SIGTERM only ask to stop: whoever waits for children ends them. A file
+   beyond the size allowed is an error and no signal. */
+void mote_child_heed_signals(void);
+bool mote_child_stop_asked(void);
+
+/* Ends those that run. */
+void mote_child_stop(mote_child *children, size_t count);
+
+/* Frees the output. */
+void mote_child_release(mote_child *child);
+
+/* Runs work in a child to its end. Returns its status, its error text becoming ours; MOTE_EIO
+   when it crashed, was out of time, or said too much: the text then begins with `what`. *output
+   (unless NULL) is what it put, freed by the caller. */
 mote_status mote_child_run(const char *what, mote_child_work work, void *context,
                            mote_child_limits limits, char **output, size_t *size);
 

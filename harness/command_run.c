@@ -1,3 +1,4 @@
+#include "harness/child.h"
 #include "harness/command.h"
 #include "harness/file.h"
 #include "harness/run.h"
@@ -22,6 +23,9 @@ static const mote_option options[] = {
     {"stride", "auto|K"},
     {"dry-run", NULL},
     {"force", NULL},
+    {"jobs", "N"},
+    {"until-ci", "2%"},
+    {"budget", "SECONDS"},
     {"pair", "A.obj B.obj"},
 };
 enum {
@@ -37,13 +41,16 @@ enum {
     OPTION_STRIDE,
     OPTION_DRY_RUN,
     OPTION_FORCE,
+    OPTION_JOBS,
+    OPTION_UNTIL_CI,
+    OPTION_BUDGET,
     OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
     OPTION_COUNT
 };
 
 #define DEFAULT_REPLICATES 3
 #define DEFAULT_TIMEOUT 1800
-#define REPLICATES_MAX 1000
+#define DEFAULT_BUDGET 600
 
 typedef struct request {
     mote_run_options run;
@@ -95,6 +102,21 @@ static bool read_stride(const char *text, uint32_t *stride)
     return strcmp(text, "auto") == 0 || read_count(text, UINT32_MAX, stride);
 }
 
+/* "2%" */
+static bool read_percent(const char *text, double *share)
+{
+    char number[32];
+    size_t length = strlen(text);
+    if (length < 2 || length > sizeof number || text[length - 1] != '%')
+        return false;
+    memcpy(number, text, length - 1);
+    number[length - 1] = '\0';
+    if (!mote_read_real(number, 1e-3, 100, share))
+        return false;
+    *share /= 100;
+    return true;
+}
+
 /* False: the value is wrong; expected says what would be right. */
 static bool take_option(request *q, int option, const char *value, const char **expected)
 {
@@ -109,7 +131,7 @@ static bool take_option(request *q, int option, const char *value, const char **
         return true;
     case OPTION_REPLICATES:
         *expected = "a whole number from 1 to 1000";
-        return read_count(value, REPLICATES_MAX, &plan->replicates);
+        return read_count(value, MOTE_REPLICATES_MAX, &plan->replicates);
     case OPTION_FRAMES:
         q->frames = value;
         return true;
@@ -130,6 +152,15 @@ static bool take_option(request *q, int option, const char *value, const char **
         return read_cache(value, &plan->cache);
     case OPTION_STRIDE:
         return read_stride(value, &plan->stride);
+    case OPTION_JOBS:
+        *expected = "a whole number from 1 to 256";
+        return read_count(value, MOTE_CHILDREN_MAX, &plan->jobs);
+    case OPTION_UNTIL_CI:
+        *expected = "a percentage from 0.001% to 100%";
+        return read_percent(value, &q->run.until_share);
+    case OPTION_BUDGET:
+        *expected = "seconds";
+        return mote_read_real(value, 0, 1e9, &q->run.budget);
     case OPTION_FORCE:
         q->run.force = true;
         return true;
@@ -180,6 +211,9 @@ static int read_arguments(int argc, char **argv, request *q)
             return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
                                       value, expected);
     }
+    if (q->run.until_share > 0 && q->run.plan.jobs > 1)
+        return mote_command_usage(argv[0], "--until-ci is for times, --jobs for accuracy; "
+                                           "leave out one of them");
     if (q->run.scenario_count == 0)
         return mote_command_usage(argv[0], "no scenario; `mote list scenarios` shows them");
     return MOTE_EXIT_DONE;
@@ -281,6 +315,7 @@ int mote_command_run(int argc, char **argv)
 {
     request q = {.run = {.directory = "results/run",
                          .timeout = DEFAULT_TIMEOUT,
+                         .budget = DEFAULT_BUDGET,
                          .plan = {.replicates = DEFAULT_REPLICATES},
                          .argc = argc,
                          .argv = argv}};

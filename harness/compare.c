@@ -235,6 +235,11 @@ static void compare_accuracy(const json_t *base, const json_t *fresh, mote_chang
                    number_at(fresh, NULL, "false_contacts"), EXACT_SHARE);
 }
 
+static bool times_comparable(const json_t *row)
+{
+    return !json_is_false(json_object_get(row, "times_comparable"));
+}
+
 static void compare_row(const json_t *base, const json_t *fresh, mote_change *change)
 {
     change->name = mote_format("%s/%s/%s", row_text(base, "scenario"), row_text(base, "label"),
@@ -250,7 +255,9 @@ static void compare_row(const json_t *base, const json_t *fresh, mote_change *ch
     }
     if (strcmp(is, "ok") != 0)
         return;
-    if (!change->is_reference)
+    if (!times_comparable(base) || !times_comparable(fresh))
+        mote_text_add(&change->what, "times not comparable: measured with --jobs");
+    else if (!change->is_reference)
         compare_times(base, fresh, change);
     compare_counts(base, fresh, change);
     compare_figure(change, "heap", number_at(base, NULL, "heap_live_bytes"),

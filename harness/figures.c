@@ -24,7 +24,8 @@ static const mote_summary_row *find_row(const mote_summary *summary, const char 
 {
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        if (row->status == MOTE_CELL_OK && strcmp(row->first->scenario, scenario) == 0 &&
+        if (row->status == MOTE_CELL_OK && row->jobs == 1 &&
+            strcmp(row->first->scenario, scenario) == 0 &&
             strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
             strcmp(row->label, label) == 0)
             return row;
@@ -86,10 +87,11 @@ static bool first_of_scenario(const mote_summary *summary, size_t index)
     return true;
 }
 
-/* Whether a row is a point of the scenario's front: hot caches, answers with a distance. */
+/* Whether a row is a point of the scenario's front: hot caches, comparable times, answers with
+   a distance. */
 static bool on_front(const mote_summary_row *row, const char *scenario)
 {
-    return row->status == MOTE_CELL_OK && row->error.p99 == row->error.p99 &&
+    return row->status == MOTE_CELL_OK && row->jobs == 1 && row->error.p99 == row->error.p99 &&
            strcmp(row->first->scenario, scenario) == 0 &&
            strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
 }

@@ -118,36 +118,39 @@ static mote_status make_one(const char *path)
         return MOTE_OK;
     int error = errno;
     struct stat info;
-    if (stat(path, &info) == 0) {
-        if (S_ISDIR(info.st_mode))
-            return MOTE_OK;
-        return mote_fail(MOTE_EIO, "%s: not a directory; name one that can be written to",
-                         path);
-    }
-    return mote_fail(MOTE_EIO, "%s: cannot be made: %s; name a directory that can be written",
-                     path, strerror(error));
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return MOTE_OK;
+    error = error == EEXIST ? ENOTDIR : error;
+    mote_status status =
+        mote_fail(MOTE_EIO, "%s: cannot be made: %s; name a directory that can be written to",
+                  path, strerror(error));
+    errno = error;
+    return status;
 }
 
 mote_status mote_directory_make(const char *path)
 {
-    if (path[0] == '\0')
-        return mote_fail(MOTE_EIO, "an empty directory name; name a directory");
     char *prefix = mote_format("%s", path);
     if (!prefix)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
     mote_status status = MOTE_OK;
-    for (char *slash = strchr(prefix + 1, '/'); slash && status == MOTE_OK;
+    for (char *slash = path[0] ? strchr(prefix + 1, '/') : NULL; slash && status == MOTE_OK;
          slash = strchr(slash + 1, '/')) {
         *slash = '\0';
         status = make_one(prefix);
         *slash = '/';
     }
+    int error = errno;
     free(prefix);
+    errno = error;
     if (status == MOTE_OK)
         status = make_one(path);
-    if (status == MOTE_OK && access(path, W_OK | X_OK) != 0)
+    if (status == MOTE_OK && access(path, W_OK | X_OK) != 0) {
+        error = errno;
         status = mote_fail(MOTE_EIO, "%s: %s; name a directory that can be written to", path,
-                           strerror(errno));
+                           strerror(error));
+        errno = error;
+    }
     return status;
 }
 

@@ -18,7 +18,7 @@ mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *
 mote_status mote_file_write(const char *path, const void *data, size_t size);
 
 /* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no
-   directory, or cannot be written to. */
+   directory, or cannot be written to; errno then says why. */
 mote_status mote_directory_make(const char *path);
 
 /* printf into new memory; NULL when memory ran out. The caller frees it. */

@@ -149,6 +149,7 @@ static void add_group(const mote_plan_options *options, const mote_subject *subj
             .stride = 1,
             .seed = options->seed,
             .cache = options->cache,
+            .jobs = options->jobs,
         };
         mote_cell_name(&cell, options->program);
         plan->cells[plan->count++] = cell;

@@ -20,12 +20,15 @@ typedef struct mote_choices {
 mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles);
 void mote_choices_free(mote_choices *choices);
 
+#define MOTE_REPLICATES_MAX 1000
+
 typedef struct mote_plan_options {
-    uint32_t replicates;  /* >= 1 */
+    uint32_t replicates;  /* 1 .. MOTE_REPLICATES_MAX */
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
     uint64_t seed;
     mote_cache cache;
+    uint32_t jobs;    /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
     uint64_t program; /* mote_program_hash */
 } mote_plan_options;
 

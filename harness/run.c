@@ -1,18 +1,21 @@
-#define _DEFAULT_SOURCE /* flock, getloadavg */
+#define _DEFAULT_SOURCE /* flock, getloadavg, nanosleep */
 #include "harness/run.h"
 
 #include "harness/cell_process.h"
 #include "harness/manifest.h"
 #include "harness/measure.h"
 #include "harness/record.h"
+#include "harness/summary.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <time.h>
 #include <unistd.h>
 
 /* What walking 32 MB between frames costs, roughly; only for the estimate. */
@@ -21,10 +24,13 @@
 /* A load average before anything is measured that is worth a warning. */
 #define BUSY_LOAD 0.7
 
+/* How long to wait for a lock: 1 s. */
+#define LOCK_TRIES 20
+#define LOCK_PAUSE_NS 50000000
+
 /* What is known of a cell of the plan. */
 typedef struct prospect {
     bool done;
-    bool failed;    /* done, and crashed or out of time */
     double seconds; /* expected */
 } prospect;
 
@@ -34,25 +40,12 @@ typedef struct run {
     mote_subject *subjects;
     mote_plan plan;
     prospect *prospects; /* [plan.count] */
+    size_t done;         /* cells of the plan */
+    size_t failed;       /* of these */
     int lock;            /* descriptor, or -1 */
+    bool locked;
+    bool output_failed; /* the directory cannot be written, whatever its name */
 } run;
-
-static volatile sig_atomic_t stop_asked;
-
-static void ask_to_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_asked = 1;
-}
-
-static void watch_signals(void)
-{
-    struct sigaction action;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = ask_to_stop;
-    (void)sigaction(SIGINT, &action, NULL);
-    (void)sigaction(SIGTERM, &action, NULL);
-}
 
 static mote_status load_subjects(run *r)
 {
@@ -62,6 +55,8 @@ static mote_status load_subjects(run *r)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu scenarios", count);
     for (size_t i = 0; i < count; ++i) {
         mote_subject *subject = &r->subjects[i];
+        if (mote_child_stop_asked())
+            return mote_fail(MOTE_EIO, "stopped by a signal");
         mote_status status = mote_scenario_load(r->options->scenarios[i], &subject->scenario);
         if (status == MOTE_OK)
             status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
@@ -71,27 +66,28 @@ static mote_status load_subjects(run *r)
     return MOTE_OK;
 }
 
-/* What an earlier run stored of this cell; false when it has to be measured. */
-static bool stored(const run *r, size_t index)
+/* Notes what an earlier run stored of this cell, if anything. */
+static void look_up(run *r, size_t index)
 {
     mote_cell *cell = &r->plan.cells[index];
     char name[MOTE_CELL_ID_SIZE + 16];
     (void)snprintf(name, sizeof name, "cells/%s.json", cell->id);
     json_t *object = NULL;
     if (mote_record_read_json(r->options->directory, name, &object) != MOTE_OK)
-        return false;
+        return;
     const char *status = json_string_value(json_object_get(object, "status"));
     json_int_t stride = json_integer_value(json_object_get(object, "stride"));
     bool whole = status && stride >= 1 && stride <= UINT32_MAX;
     if (whole) {
         cell->stride = (uint32_t)stride;
-        prospect *known = &r->prospects[index];
-        known->done = true;
-        known->failed = strcmp(status, mote_cell_status_names[MOTE_CELL_CRASHED]) == 0 ||
-                        strcmp(status, mote_cell_status_names[MOTE_CELL_TIMEOUT]) == 0;
+        r->prospects[index].done = true;
+        r->done += 1;
+        r->failed += strcmp(status, mote_cell_status_names[MOTE_CELL_CRASHED]) == 0 ||
+                             strcmp(status, mote_cell_status_names[MOTE_CELL_TIMEOUT]) == 0
+                         ? 1
+                         : 0;
     }
     json_decref(object);
-    return whole;
 }
 
 /* All cells of one configuration on one scenario run with the same stride: the one already
@@ -123,8 +119,7 @@ static double expected_seconds(const mote_cell *cell, const mote_forecast *forec
 static mote_status probe_configuration(run *r, size_t index)
 {
     mote_forecast forecast = {0};
-    mote_cell_status ended;
-    mote_status status = mote_cell_probe(&r->plan.cells[index], &r->process, &ended, &forecast);
+    mote_status status = mote_cell_probe(&r->plan.cells[index], &r->process, &forecast);
     if (status != MOTE_OK)
         return status;
     uint32_t stride = choose_stride(&r->plan.cells[index], forecast.frame_seconds);
@@ -147,7 +142,7 @@ static mote_status look_ahead(run *r)
     if (!r->prospects)
         return mote_fail(MOTE_ENOMEM, "no memory for a plan of %zu cells", r->plan.count);
     for (size_t i = 0; i < r->plan.count && !r->options->force; ++i)
-        (void)stored(r, i);
+        look_up(r, i);
     for (size_t i = 0; i < r->plan.count; ++i) {
         bool first = !r->prospects[i].done;
         for (size_t k = 0; first && k < i; ++k)
@@ -160,12 +155,12 @@ static mote_status look_ahead(run *r)
     return MOTE_OK;
 }
 
-static double seconds_left(const run *r, size_t from)
+static double seconds_left(const run *r)
 {
     double seconds = 0;
-    for (size_t i = from; i < r->plan.count; ++i)
+    for (size_t i = 0; i < r->plan.count; ++i)
         seconds += r->prospects[i].done ? 0 : r->prospects[i].seconds;
-    return seconds;
+    return seconds / r->process.jobs;
 }
 
 static void duration_text(double seconds, char *text, size_t size)
@@ -178,13 +173,15 @@ static void duration_text(double seconds, char *text, size_t size)
 
 static void print_plan(const run *r)
 {
-    size_t done = 0;
-    for (size_t i = 0; i < r->plan.count; ++i)
-        done += r->prospects[i].done ? 1 : 0;
     char left[32];
-    duration_text(seconds_left(r, 0), left, sizeof left);
-    (void)fprintf(stderr, "plan: %zu cells, %zu of them done, about %s\n", r->plan.count, done,
-                  left);
+    duration_text(seconds_left(r), left, sizeof left);
+    (void)fprintf(stderr, "plan: %zu cells, %zu of them done, about %s\n", r->plan.count,
+                  r->done, left);
+    if (r->process.jobs > 1)
+        (void)fprintf(stderr,
+                      "%u cells at a time: their times are marked as not comparable, and no "
+                      "ratio is made of them\n",
+                      r->process.jobs);
     if (!r->options->dry_run)
         return;
     for (size_t i = 0; i < r->plan.count; ++i) {
@@ -196,18 +193,51 @@ static void print_plan(const run *r)
     }
 }
 
-/* Takes away what an interrupted write left beside the cells. */
-static void sweep_parts(const char *cells)
+static void sweep_folder(const char *directory, const char *name)
 {
-    DIR *folder = opendir(cells);
-    if (!folder)
-        return;
-    for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
+    char *path = mote_format("%s/%s", directory, name);
+    DIR *folder = path ? opendir(path) : NULL;
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
+         entry = readdir(folder)) {
         size_t length = strlen(entry->d_name);
         if (length > 5 && strcmp(entry->d_name + length - 5, ".part") == 0)
             (void)unlinkat(dirfd(folder), entry->d_name, 0);
     }
-    (void)closedir(folder);
+    if (folder)
+        (void)closedir(folder);
+    free(path);
+}
+
+/* Takes away what an interrupted write left. */
+static void sweep_parts(const char *directory)
+{
+    sweep_folder(directory, ".");
+    sweep_folder(directory, "cells");
+    sweep_folder(directory, "truth");
+}
+
+/* Opens and locks. A child of a run that was killed holds its lock until the kernel has ended
+   it. */
+static mote_status take_lock(run *r, const char *path)
+{
+    const struct timespec pause = {0, LOCK_PAUSE_NS};
+    r->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (r->lock < 0) {
+        int error = errno;
+        r->output_failed = true;
+        return mote_fail(MOTE_EIO, "%s: %s; name a directory that can be written to", path,
+                         strerror(error));
+    }
+    for (int tries = 1; flock(r->lock, LOCK_EX | LOCK_NB) != 0; ++tries) {
+        if (tries == LOCK_TRIES)
+            return mote_fail(MOTE_EIO,
+                             "%s: another run is measuring into it; wait for its end, or "
+                             "name another directory",
+                             r->options->directory);
+        (void)nanosleep(&pause, NULL);
+    }
+    r->locked = true;
+    return MOTE_OK;
 }
 
 static mote_status open_directory(run *r)
@@ -217,19 +247,12 @@ static mote_status open_directory(run *r)
     char *lock = mote_format("%s/.lock", directory);
     mote_status status = cells && lock ? mote_directory_make(cells)
                                        : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    if (status == MOTE_OK) {
-        r->lock = open(lock, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-        if (r->lock < 0)
-            status = mote_fail(MOTE_EIO, "%s: %s; name a directory that can be written to",
-                               lock, strerror(errno));
-        else if (flock(r->lock, LOCK_EX | LOCK_NB) != 0)
-            status = mote_fail(MOTE_EIO,
-                               "%s: another run is measuring into it; wait for its end, or "
-                               "name another directory",
-                               directory);
-    }
+    /* A disk that is full or read-only, and not a name that no directory can have. */
+    r->output_failed = status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT;
     if (status == MOTE_OK)
-        sweep_parts(cells);
+        status = take_lock(r, lock);
+    if (status == MOTE_OK)
+        sweep_parts(directory);
     free(cells);
     free(lock);
     return status;
@@ -237,33 +260,28 @@ static mote_status open_directory(run *r)
 
 static mote_status load_truth(run *r)
 {
-    for (size_t i = 0; i < r->options->scenario_count; ++i) {
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < r->options->scenario_count && status == MOTE_OK; ++i) {
         mote_subject *subject = &r->subjects[i];
-        mote_status status = mote_truth_load_or_compute(subject->scenario,
-                                                        r->options->directory, &subject->truth);
-        if (status != MOTE_OK)
-            return status;
-        if (subject->truth->fingerprint != subject->fingerprint)
-            return mote_fail(MOTE_ENUMERIC, "%s: two computations of its frames differ",
-                             subject->scenario->name);
+        status = mote_truth_load_or_compute_known(subject->scenario, subject->fingerprint,
+                                                  r->options->directory, &subject->truth);
     }
-    return MOTE_OK;
+    return status;
 }
 
-static void print_progress(const run *r, size_t index, mote_cell_status status,
-                           const char *reason, double seconds)
+static void print_progress(const run *r, const mote_cell *cell, const mote_cell_end *end,
+                           double seconds)
 {
-    const mote_cell *cell = &r->plan.cells[index];
     char left[32];
-    duration_text(seconds_left(r, index + 1), left, sizeof left);
+    duration_text(seconds_left(r), left, sizeof left);
     bool terminal = isatty(STDERR_FILENO) == 1;
-    bool ok = status == MOTE_CELL_OK;
+    bool ok = end->status == MOTE_CELL_OK;
     (void)fprintf(stderr, "%s[%zu/%zu] %s %s r%u %s: %s%s%s, %.1f s, %s left%s",
-                  terminal ? "\r\033[K" : "", index + 1, r->plan.count,
+                  terminal ? "\r\033[K" : "", r->done, r->plan.count,
                   cell->subject->scenario->name, cell->choice->text, cell->replicate,
-                  mote_cache_names[cell->cache], mote_cell_status_names[status], ok ? "" : ": ",
-                  ok ? "" : reason, seconds, left,
-                  terminal && ok && index + 1 < r->plan.count ? "" : "\n");
+                  mote_cache_names[cell->cache], mote_cell_status_names[end->status],
+                  ok ? "" : ": ", ok ? "" : end->reason, seconds, left,
+                  terminal && ok && r->done < r->plan.count ? "" : "\n");
 }
 
 static void warn_of_load(void)
@@ -274,25 +292,158 @@ static void warn_of_load(void)
                       load);
 }
 
-static mote_status measure(run *r, mote_run_outcome *outcome)
+/* The processes that measure at the same time. */
+typedef struct crew {
+    mote_child children[MOTE_CHILDREN_MAX]; /* [jobs] */
+    size_t cells[MOTE_CHILDREN_MAX];        /* what each measures */
+    uint64_t starts[MOTE_CHILDREN_MAX];
+    size_t busy;
+} crew;
+
+/* Gives a free process of the crew its next cell. */
+static mote_status start_cell(run *r, crew *c, size_t index)
 {
-    for (size_t i = 0; i < r->plan.count; ++i) {
-        prospect *known = &r->prospects[i];
-        if (!known->done) {
-            char reason[400];
-            mote_cell_status ended;
-            uint64_t start = mote_clock_ns();
-            mote_status status = mote_cell_measure(&r->plan.cells[i], &r->process, &ended,
-                                                   reason, sizeof reason);
-            if (status != MOTE_OK)
-                return status;
-            known->done = true;
-            known->failed = ended == MOTE_CELL_CRASHED || ended == MOTE_CELL_TIMEOUT;
-            print_progress(r, i, ended, reason, (double)(mote_clock_ns() - start) * 1e-9);
-        }
-        outcome->failed += known->failed ? 1 : 0;
-    }
+    size_t free_place = 0;
+    while (c->children[free_place].pid > 0)
+        ++free_place;
+    c->cells[free_place] = index;
+    c->starts[free_place] = mote_clock_ns();
+    mote_status status =
+        mote_cell_start(&r->plan.cells[index], &r->process, &c->children[free_place]);
+    c->busy += status == MOTE_OK ? 1 : 0;
+    return status;
+}
+
+static mote_status finish_cell(run *r, crew *c)
+{
+    size_t place;
+    mote_cell_end end;
+    mote_status status = mote_child_wait(c->children, r->process.jobs, &place);
+    if (status != MOTE_OK)
+        return status;
+    --c->busy;
+    const mote_cell *cell = &r->plan.cells[c->cells[place]];
+    status = mote_cell_finish(cell, &r->process, &c->children[place], &end);
+    if (status != MOTE_OK)
+        return status;
+    r->prospects[c->cells[place]].done = true;
+    r->done += 1;
+    r->failed += end.status == MOTE_CELL_CRASHED || end.status == MOTE_CELL_TIMEOUT ? 1 : 0;
+    print_progress(r, cell, &end, (double)(mote_clock_ns() - c->starts[place]) * 1e-9);
     return MOTE_OK;
+}
+
+/* Measures the cells from first on that are not done. */
+static mote_status measure(run *r, size_t first)
+{
+    crew c = {0};
+    mote_status status = MOTE_OK;
+    for (size_t next = first; status == MOTE_OK && (next < r->plan.count || c.busy > 0);) {
+        while (next < r->plan.count && r->prospects[next].done)
+            ++next;
+        if (next < r->plan.count && c.busy < r->process.jobs)
+            status = start_cell(r, &c, next++);
+        else if (c.busy > 0)
+            status = finish_cell(r, &c);
+    }
+    mote_child_stop(c.children, r->process.jobs);
+    for (size_t i = 0; i < r->process.jobs; ++i)
+        mote_child_release(&c.children[i]);
+    return status;
+}
+
+/* The half width of the interval of a row's median, as a share of it; endless when there is
+   none yet, 0 when more replicates would not help. */
+static double interval_width(const mote_summary *summary, const mote_cell *cell)
+{
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        for (size_t k = 0; k < row->replicates; ++k) {
+            if (strcmp(row->cells[k].id, cell->id) != 0)
+                continue;
+            if (row->status != MOTE_CELL_OK)
+                return 0;
+            double half = (row->total.high - row->total.low) / 2 / row->total.median;
+            return half == half ? half : HUGE_VAL;
+        }
+    }
+    return 0;
+}
+
+/* Appends a replicate of a cell to the plan; there is room. */
+static void add_replicate(run *r, size_t of, uint32_t replicate)
+{
+    size_t index = r->plan.count++;
+    r->plan.cells[index] = r->plan.cells[of];
+    r->plan.cells[index].replicate = replicate;
+    mote_cell_name(&r->plan.cells[index], r->process.program);
+    prospect fresh = {.seconds = r->prospects[of].seconds};
+    r->prospects[index] = fresh;
+    if (!r->options->force)
+        look_up(r, index);
+}
+
+static mote_status make_room(run *r, size_t more)
+{
+    size_t count = r->plan.count + more;
+    mote_cell *cells = realloc(r->plan.cells, count * sizeof *cells);
+    r->plan.cells = cells ? cells : r->plan.cells;
+    prospect *prospects = realloc(r->prospects, count * sizeof *prospects);
+    r->prospects = prospects ? prospects : r->prospects;
+    return cells && prospects ? MOTE_OK
+                              : mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
+}
+
+/* Plans one more replicate of each configuration whose interval is too wide, and of the rows
+   that ratios are taken to. *widest: of all. Nothing is planned when none is too wide. */
+static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, double *widest)
+{
+    mote_summary summary;
+    mote_status status = mote_summary_make(r->options->directory, &summary);
+    if (status != MOTE_OK)
+        return status;
+    *widest = 0;
+    for (size_t i = 0; i < base; ++i)
+        *widest = fmax(*widest, interval_width(&summary, &r->plan.cells[i]));
+    if (*widest > r->options->until_share)
+        status = make_room(r, base);
+    for (size_t k = 0; k < base && status == MOTE_OK && *widest > r->options->until_share;
+         ++k) {
+        /* In rotated order, as everywhere. */
+        size_t i = (k + replicate - 1) % base;
+        const mote_cell *cell = &r->plan.cells[i];
+        bool is_reference = strcmp(cell->choice->method->name, "fcl-aabb") == 0;
+        if (cell->replicate == 1 &&
+            (is_reference || interval_width(&summary, cell) > r->options->until_share))
+            add_replicate(r, i, replicate);
+    }
+    mote_summary_free(&summary);
+    return status;
+}
+
+/* Adds replicates until every interval is as narrow as asked for, or time runs out. */
+static mote_status add_replicates(run *r)
+{
+    const size_t base = r->plan.count;
+    const uint64_t start = mote_clock_ns();
+    double widest = 0;
+    mote_status status = MOTE_OK;
+    for (uint32_t replicate = r->options->plan.replicates + 1; status == MOTE_OK; ++replicate) {
+        size_t before = r->plan.count;
+        status = plan_replicate(r, base, replicate, &widest);
+        double spent = (double)(mote_clock_ns() - start) * 1e-9;
+        bool enough = widest <= r->options->until_share;
+        if (status != MOTE_OK || enough || replicate > MOTE_REPLICATES_MAX ||
+            spent + seconds_left(r) > r->options->budget) {
+            r->plan.count = before;
+            (void)fprintf(stderr, "after %u replicates the widest interval is +-%.2g %%%s\n",
+                          replicate - 1, 100 * widest,
+                          enough ? "" : ", wider than asked for: the budget ends");
+            break;
+        }
+        status = measure(r, before);
+    }
+    return status;
 }
 
 static void close_run(run *r)
@@ -313,6 +464,7 @@ static mote_status prepare(run *r)
     mote_plan_options plan = r->options->plan;
     mote_status status = mote_program_hash(&plan.program);
     r->process.program = plan.program;
+    r->process.jobs = plan.jobs > 1 ? plan.jobs : 1;
     if (status == MOTE_OK)
         status = load_subjects(r);
     if (status == MOTE_OK)
@@ -325,31 +477,44 @@ static mote_status prepare(run *r)
     return status;
 }
 
+/* Measures the plan, and what it grows by. */
+static mote_status carry_out(run *r, mote_run_outcome *outcome)
+{
+    const mote_run_options *options = r->options;
+    mote_status status = open_directory(r);
+    outcome->started = status == MOTE_OK || r->output_failed;
+    if (status == MOTE_OK)
+        status = mote_manifest_write(options->directory, r->process.program, options->plan.seed,
+                                     options->argc, options->argv);
+    if (status == MOTE_OK)
+        status = load_truth(r);
+    if (status == MOTE_OK) {
+        warn_of_load();
+        status = measure(r, 0);
+    }
+    if (status == MOTE_OK && options->until_share > 0)
+        status = add_replicates(r);
+    if (status != MOTE_OK && r->locked)
+        sweep_parts(options->directory); /* of processes that were ended */
+    return status;
+}
+
 mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
 {
     run r = {.options = options, .lock = -1};
     r.process.directory = options->directory;
     r.process.timeout = options->timeout;
-    r.process.core = mote_process_core();
-    r.process.stop = &stop_asked;
+    /* Of several at once none has a core of its own. */
+    r.process.core = options->plan.jobs > 1 ? -1 : mote_process_core();
     mote_run_outcome none = {0};
     *outcome = none;
-    watch_signals();
+    mote_child_heed_signals();
     mote_status status = prepare(&r);
+    if (status == MOTE_OK && !options->dry_run)
+        status = carry_out(&r, outcome);
+    outcome->started = outcome->started || mote_child_stop_asked();
     outcome->cells = r.plan.count;
-    if (status == MOTE_OK && !options->dry_run) {
-        status = open_directory(&r);
-        if (status == MOTE_OK)
-            status = mote_manifest_write(options->directory, r.process.program,
-                                         options->plan.seed, options->argc, options->argv);
-        if (status == MOTE_OK)
-            status = load_truth(&r);
-        if (status == MOTE_OK) {
-            outcome->started = true;
-            warn_of_load();
-            status = measure(&r, outcome);
-        }
-    }
+    outcome->failed = r.failed;
     close_run(&r);
     return status;
 }

@@ -11,17 +11,20 @@ typedef struct mote_run_options {
     const mote_choices *choices;
     mote_plan_options plan; /* program is filled in by the run */
     const char *directory;
-    double timeout; /* seconds a cell; 0: none */
-    bool dry_run;   /* print the plan, measure and write nothing */
-    bool force;     /* measure also what is there already */
-    int argc;       /* the command line, for the manifest */
+    double timeout;     /* seconds a cell; 0: none */
+    bool dry_run;       /* print the plan, measure and write nothing */
+    bool force;         /* measure also what is there already */
+    double until_share; /* > 0: replicates are added to those planned until every median's
+                           interval is within this share of it to both sides */
+    double budget;      /* seconds for that */
+    int argc;           /* the command line, for the manifest */
     char **argv;
 } mote_run_options;
 
 typedef struct mote_run_outcome {
     size_t cells;  /* in the plan */
     size_t failed; /* of these, crashed or out of time, now or earlier */
-    bool started;  /* measuring had begun: an error is not one of the input */
+    bool started;  /* an error is one of the disk or a signal, and not of the input */
 } mote_run_outcome;
 
 /* Loads the scenarios, prints the plan to stderr and measures what is not yet there.

@@ -448,6 +448,17 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
     return MOTE_OK;
 }
 
+double mote_statistics_detectable(const double *logs, size_t count, size_t comparisons)
+{
+    if (count < 2 || comparisons == 0)
+        return MOTE_NONE;
+    double freedom = (double)count - 1;
+    double error = gsl_stats_sd(logs, 1, count) * sqrt(2 / (double)count);
+    double needed = gsl_cdf_tdist_Qinv(MOTE_SIGNIFICANT / 2 / (double)comparisons, freedom) +
+                    gsl_cdf_tdist_Qinv(0.2, freedom);
+    return exp(needed * error);
+}
+
 const char *const mote_verdict_names[] = {"same", "faster", "slower", "undecided"};
 
 mote_verdict mote_statistics_verdict(double ratio, mote_confidence interval, double p,

@@ -107,6 +107,12 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
    itself is called faster or slower in clearly fewer than 5 % of comparisons. */
 #define MOTE_SIGNIFICANT 0.025
 
+/* The smallest ratio of times that a comparison calls a change four times in five, when both
+   sides are like these logarithms of one side (its processes, or groups of them) and it is one
+   of that many comparisons: from Student's t at MOTE_SIGNIFICANT / comparisons. MOTE_NONE below
+   two values. */
+double mote_statistics_detectable(const double *logs, size_t count, size_t comparisons);
+
 /* What a ratio of times new / old says, given its interval, its p (corrected when it is one of
    many) and the smallest effect that counts (floor: 0.02 for 2 %). */
 typedef enum mote_verdict {

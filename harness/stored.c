@@ -210,9 +210,10 @@ static char *group_name(const mote_stored_cell *cell)
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group = NULL;
     if (parameters && frames)
-        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f on %s", cell->scenario,
+        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f on %s%s", cell->scenario,
                             cell->cache, cell->method, parameters, cell->fingerprint, frames,
-                            cell->stride, mote_stored_number(cell, "seed"), cell->machine);
+                            cell->stride, mote_stored_number(cell, "seed"), cell->machine,
+                            cell->jobs > 1 ? " jobs" : "");
     free(parameters);
     free(frames);
     return group;
@@ -233,16 +234,17 @@ static bool read_status(const char *text, mote_cell_status *status)
 static mote_status read_fields(const char *name, mote_stored_cell *cell)
 {
     const char *status;
-    int replicate, stride, first, last;
-    if (json_unpack(cell->json, "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i]}", "id",
-                    &cell->id, "status", &status, "scenario", &cell->scenario, "fingerprint",
-                    &cell->fingerprint, "method", &cell->method, "cache", &cell->cache,
-                    "parameters", &cell->parameters, "replicate", &replicate, "stride", &stride,
-                    "active", &first, &last) != 0 ||
-        !read_status(status, &cell->status) || replicate < 1 || stride < 1)
+    int replicate, stride, first, last, jobs = 1;
+    if (json_unpack(cell->json, "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i}",
+                    "id", &cell->id, "status", &status, "scenario", &cell->scenario,
+                    "fingerprint", &cell->fingerprint, "method", &cell->method, "cache",
+                    &cell->cache, "parameters", &cell->parameters, "replicate", &replicate,
+                    "stride", &stride, "active", &first, &last, "jobs", &jobs) != 0 ||
+        !read_status(status, &cell->status) || replicate < 1 || stride < 1 || jobs < 1)
         return mote_fail(MOTE_EINVAL, "%s: a field of a cell is missing or wrong", name);
     cell->replicate = (uint32_t)replicate;
     cell->stride = (uint32_t)stride;
+    cell->jobs = (uint32_t)jobs;
     cell->active_first = (uint32_t)first;
     cell->active_last = (uint32_t)last;
     const char *machine = json_string_value(json_object_get(cell->json, "machine"));

@@ -29,6 +29,7 @@ typedef struct mote_stored_cell {
     json_t *parameters;                                       /* likewise */
     mote_cell_status status;
     uint32_t replicate, stride;
+    uint32_t jobs; /* cells that ran at the same time; 1: times are comparable */
     uint32_t active_first, active_last; /* 0, 0 when the scenario names none */
     size_t frames;
     uint32_t *frame; /* numbers, rising */

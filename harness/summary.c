@@ -34,8 +34,8 @@ static int by_place(const void *a, const void *b)
 
 static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK &&
-           strcmp(a->first->scenario, b->first->scenario) == 0 &&
+    return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK && a->jobs == 1 &&
+           b->jobs == 1 && strcmp(a->first->scenario, b->first->scenario) == 0 &&
            strcmp(a->first->fingerprint, b->first->fingerprint) == 0 &&
            strcmp(a->first->cache, b->first->cache) == 0 &&
            strcmp(a->first->machine, b->first->machine) == 0;
@@ -140,6 +140,8 @@ mote_status mote_summary_make(const char *directory, mote_summary *summary)
         status = take_ratios(&made);
     if (status == MOTE_OK)
         status = mote_summary_noise_floor(made.rows, made.count, &made.noise_floor);
+    if (status == MOTE_OK)
+        status = mote_summary_smallest_change(made.rows, made.count, &made.smallest_change);
     if (status == MOTE_OK)
         *summary = made;
     else
@@ -260,6 +262,10 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
 #define SET_TIME(name, key) (void)json_object_set_new(object, key, time_json(&row->name));
     MOTE_TIMES(SET_TIME)
 #undef SET_TIME
+    (void)json_object_set_new(object, "jobs", json_integer(row->jobs));
+    (void)json_object_set_new(object, "times_comparable", json_boolean(row->jobs == 1));
+    (void)json_object_set_new(object, "smallest_change",
+                              mote_json_number(row->smallest_change));
     (void)json_object_set_new(object, "ratio", ratio_json(summary, &row->ratio));
     (void)json_object_set_new(object, "ratio_given", ratio_json(summary, &row->ratio_given));
     (void)json_object_set_new(object, "ratio_best", ratio_json(summary, &row->ratio_best));
@@ -288,9 +294,10 @@ json_t *mote_summary_json(const mote_summary *summary)
     }
     if (!rows)
         return NULL;
-    return json_pack("{s:i, s:i, s:o, s:o}", "schema", 1, "cells_left_out",
+    return json_pack("{s:i, s:i, s:o, s:o, s:o}", "schema", 1, "cells_left_out",
                      (int)summary->stored.left_out, "noise_floor",
-                     mote_json_number(summary->noise_floor), "rows", rows);
+                     mote_json_number(summary->noise_floor), "smallest_change",
+                     mote_json_number(summary->smallest_change), "rows", rows);
 }
 
 mote_status mote_summary_write(const mote_summary *summary, const char *directory)

@@ -29,8 +29,8 @@ typedef struct mote_process {
    frame the fastest of a group of replicates, then the median over frames. Replicates with
    number mod MOTE_QUIET_GROUPS = k make group k; with fewer than MOTE_QUIET_REPLICATES all is
    MOTE_NONE. */
-#define MOTE_QUIET_GROUPS 3
-#define MOTE_QUIET_REPLICATES 6
+#define MOTE_QUIET_GROUPS 5
+#define MOTE_QUIET_REPLICATES 10
 typedef struct mote_quiet {
     double total[MOTE_QUIET_GROUPS]; /* nanoseconds */
     double
@@ -66,7 +66,11 @@ typedef struct mote_summary_row {
     char *label;                   /* "particle-paper:n=5": parameters that are not default */
     double n;                      /* the parameter n, or MOTE_NONE */
     size_t frames;                 /* of one replicate */
-    mote_process *processes;       /* [replicates] */
+    uint32_t
+        jobs; /* cells that ran at the same time; with 2 or more no ratio is made of its times
+               */
+    double smallest_change;  /* mote_statistics_detectable - 1 of its times, or MOTE_NONE */
+    mote_process *processes; /* [replicates] */
     mote_quiet quiet;
 #define MOTE_TIME_FIELD(name, key) mote_time name;
     MOTE_TIMES(MOTE_TIME_FIELD)
@@ -83,7 +87,8 @@ typedef struct mote_summary {
     mote_stored stored;
     mote_summary_row *rows; /* by scenario, caches, machine, method, n */
     size_t count;
-    double noise_floor; /* see mote_summary_noise_floor */
+    double noise_floor;     /* see mote_summary_noise_floor */
+    double smallest_change; /* of rows, not exceeded by nine in ten; MOTE_NONE without any */
 } mote_summary;
 
 /* Reads a run directory and computes its rows. The caller frees *summary. */
@@ -99,6 +104,12 @@ bool mote_summary_machines_differ(const mote_summary *summary);
    where there are enough replicates, else medians. MOTE_NONE when no row has two replicates.
    Part of mote_summary_make. */
 mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor);
+
+/* Sets smallest_change of each row, from its quiet times where there are enough replicates,
+   else its processes; relative to fcl-aabb where the row has a ratio. *smallest: not exceeded
+   by nine rows in ten. Part of mote_summary_make. */
+mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count,
+                                         double *smallest);
 
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);

@@ -105,6 +105,12 @@ static mote_status halves_differ(const mote_summary_row *row, const mote_summary
     return MOTE_OK;
 }
 
+/* Whether anything can be said of a row's times; the reference is always 1 to itself. */
+static bool is_compared(const mote_summary_row *rows, size_t index)
+{
+    return rows[index].ratio.to != index && rows[index].finished > 0 && rows[index].jobs <= 1;
+}
+
 mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor)
 {
     double *shares = malloc((count + 1) * sizeof *shares);
@@ -112,8 +118,8 @@ mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count,
         shares ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for %zu rows", count);
     size_t known = 0;
     for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
-        if (rows[i].ratio.to == i || rows[i].finished == 0)
-            continue; /* the reference is always 1 to itself */
+        if (!is_compared(rows, i))
+            continue;
         double share = MOTE_NONE;
         status = halves_differ(
             &rows[i], rows[i].ratio.to == SIZE_MAX ? NULL : &rows[rows[i].ratio.to], &share);
@@ -125,4 +131,45 @@ mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count,
     *floor = known > 0 ? mote_statistics_quantile(shares, known, 0.9) : MOTE_NONE;
     free(shares);
     return status;
+}
+
+/* The logarithms of what comparisons are made from; returns how many. */
+static size_t take_logs(const mote_summary_row *row, double *logs)
+{
+    size_t count = 0;
+    bool quiet = row->finished >= MOTE_QUIET_REPLICATES;
+    size_t some = quiet ? MOTE_QUIET_GROUPS : row->replicates;
+    for (size_t i = 0; i < some; ++i) {
+        double value = quiet ? better_of(row->quiet.ratio[i], row->quiet.total[i])
+                             : better_of(row->processes[i].ratio, row->processes[i].median);
+        if (value > 0)
+            logs[count++] = log(value);
+    }
+    return count;
+}
+
+mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count, double *smallest)
+{
+    size_t compared = 0, known = 0, most = MOTE_QUIET_GROUPS;
+    for (size_t i = 0; i < count; ++i) {
+        compared += is_compared(rows, i) ? 1 : 0;
+        most = rows[i].replicates > most ? rows[i].replicates : most;
+    }
+    double *logs = malloc((most + count + 1) * sizeof *logs);
+    if (!logs)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu rows", count);
+    double *changes = logs + most;
+    for (size_t i = 0; i < count; ++i) {
+        rows[i].smallest_change = MOTE_NONE;
+        if (is_compared(rows, i))
+            rows[i].smallest_change =
+                mote_statistics_detectable(logs, take_logs(&rows[i], logs), compared) - 1;
+        if (rows[i].smallest_change == rows[i].smallest_change)
+            changes[known++] = rows[i].smallest_change;
+    }
+    if (known > 0)
+        mote_statistics_sort(changes, known);
+    *smallest = known > 0 ? mote_statistics_quantile(changes, known, 0.9) : MOTE_NONE;
+    free(logs);
+    return MOTE_OK;
 }

@@ -291,6 +291,8 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
         }
     }
     made.frames = made.first->frames;
+    made.jobs = made.first->jobs;
+    made.smallest_change = MOTE_NONE;
     made.label = make_label(made.first);
     if (!made.label)
         return mote_fail(MOTE_ENOMEM, "no memory for a label");

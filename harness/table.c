@@ -72,6 +72,8 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
         mote_show_bytes(row->heap_live_bytes, f[14]));
     if (row->first->stride > 1)
         (void)fprintf(out, "  every %uth frame", row->first->stride);
+    if (row->jobs > 1)
+        (void)fprintf(out, "  times not comparable: %u cells at once", row->jobs);
     if (row->finished < row->replicates)
         (void)fprintf(out, "  %zu of %zu replicates ended badly",
                       row->replicates - row->finished, row->replicates);
@@ -104,6 +106,12 @@ void mote_table_print(const mote_summary *summary, FILE *out)
         }
         print_foot(summary, measured, out);
     }
+    if (summary->noise_floor == summary->noise_floor)
+        (void)fprintf(
+            out,
+            "noise floor %.1f %%; a later run's change of %.1f %% can be detected (in "
+            "nine rows of ten)\n",
+            100 * summary->noise_floor, 100 * summary->smallest_change);
     if (summary->stored.left_out > 0)
         (void)fprintf(out, "%zu cells were measured by another build and are left out\n",
                       summary->stored.left_out);

@@ -77,7 +77,7 @@ json_t *mote_gbench_json(const mote_summary *summary, const json_t *manifest)
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
         size_t index = 0;
-        for (size_t r = 0; name && r < row->replicates; ++r) {
+        for (size_t r = 0; name && row->jobs == 1 && r < row->replicates; ++r) {
             if (row->cells[r].frames > 0)
                 (void)json_array_append_new(
                     benchmarks, gbench_replicate(row, &row->cells[r], name, index++));
@@ -94,7 +94,7 @@ json_t *mote_gha_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (name && row->status == MOTE_CELL_OK) {
+        if (name && row->status == MOTE_CELL_OK && row->jobs == 1) {
             json_t *entry = json_pack("{s:s, s:s, s:f}", "name", name, "unit", "ns", "value",
                                       row->total.median);
             char *range = mote_format("%.0f", (row->total.high - row->total.low) / 2);
@@ -114,7 +114,7 @@ json_t *mote_bencher_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (name && row->status == MOTE_CELL_OK) {
+        if (name && row->status == MOTE_CELL_OK && row->jobs == 1) {
             json_t *latency = json_pack("{s:f}", "value", row->total.median);
             if (row->total.low == row->total.low) {
                 (void)json_object_set_new(latency, "lower_value", json_real(row->total.low));

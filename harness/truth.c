@@ -299,13 +299,11 @@ mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth
     return status;
 }
 
-mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
-                                       mote_truth **truth)
+mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
+                                             uint64_t fingerprint, const char *directory,
+                                             mote_truth **truth)
 {
-    uint64_t fingerprint;
-    mote_status status = mote_scenario_fingerprint(scenario, &fingerprint);
-    if (status != MOTE_OK)
-        return status;
+    mote_status status = MOTE_OK;
     char *folder = mote_format("%s/truth", directory);
     char *path =
         mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scenario->name, fingerprint);
@@ -328,5 +326,15 @@ mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char
     }
     free(folder);
     free(path);
+    return status;
+}
+
+mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
+                                       mote_truth **truth)
+{
+    uint64_t fingerprint;
+    mote_status status = mote_scenario_fingerprint(scenario, &fingerprint);
+    if (status == MOTE_OK)
+        status = mote_truth_load_or_compute_known(scenario, fingerprint, directory, truth);
     return status;
 }

@@ -31,6 +31,11 @@ mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth
    destroys *truth. */
 mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
                                        mote_truth **truth);
+
+/* The same where the scenario's fingerprint is known already. */
+mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
+                                             uint64_t fingerprint, const char *directory,
+                                             mote_truth **truth);
 void mote_truth_destroy(mote_truth *truth); /* NULL is allowed */
 
 /* For truth_file.c: an empty truth of that many frames, all distances and witnesses NaN. */

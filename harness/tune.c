@@ -19,7 +19,7 @@ static bool is_right(const mote_summary_row *row)
 
 static void compare(const mote_summary_row *row, mote_tuned *group)
 {
-    if (row->status != MOTE_CELL_OK)
+    if (row->status != MOTE_CELL_OK || row->jobs > 1)
         return;
     group->configurations++;
     bool right = is_right(row);

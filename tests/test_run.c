@@ -209,6 +209,73 @@ static void run_with_a_sweep_makes_every_combination(void **state)
     assert_int_equal(count_cells(".json"), 12);
 }
 
+static void run_with_jobs_marks_times_as_not_comparable(void **state)
+{
+    (void)state;
+    assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 --jobs 3 " TWO_METHODS),
+                     0);
+    assert_non_null(strstr(text, "times not comparable: 3 cells at once"));
+    assert_int_equal(count_cells(".json"), 6);
+    json_t *summary = read_json("summary.json");
+    assert_true(json_is_null(json_object_get(summary, "noise_floor")));
+    const json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_size(rows), 2);
+    for (size_t i = 0; i < 2; ++i) {
+        const json_t *row = json_array_get(rows, i);
+        assert_true(json_is_false(json_object_get(row, "times_comparable")));
+        assert_true(json_is_null(json_object_get(row, "ratio")));
+        assert_true(json_is_number(json_object_get(json_object_get(row, "error"), "max")));
+    }
+    json_decref(summary);
+    /* Measured one at a time, they are other cells. */
+    assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 " TWO_METHODS), 0);
+    assert_int_equal(count_cells(".json"), 12);
+    summary = read_json("summary.json");
+    rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_size(rows), 4);
+    size_t ratios = 0;
+    for (size_t i = 0; i < 4; ++i)
+        ratios += json_is_object(json_object_get(json_array_get(rows, i), "ratio")) ? 1 : 0;
+    assert_int_equal(ratios, 2);
+    json_decref(summary);
+}
+
+/* The widest interval of the summary, half of it as a share of the median, and the replicates.
+ */
+static double widest_interval(json_int_t *replicates)
+{
+    json_t *summary = read_json("summary.json");
+    double widest = 0;
+    *replicates = 0;
+    for (size_t i = 0; i < json_array_size(json_object_get(summary, "rows")); ++i) {
+        const json_t *row = json_array_get(json_object_get(summary, "rows"), i);
+        const json_t *total = json_object_get(row, "total_ns");
+        double half = (json_number_value(json_object_get(total, "ci_high")) -
+                       json_number_value(json_object_get(total, "ci_low"))) /
+                      2 / json_number_value(json_object_get(total, "median"));
+        json_int_t count = json_integer_value(json_object_get(row, "replicates"));
+        widest = half > widest ? half : widest;
+        *replicates = count > *replicates ? count : *replicates;
+    }
+    json_decref(summary);
+    return widest;
+}
+
+#define UNTIL "tt --frames 1-50 --replicates 1 --method aabb-tree --method particle-paper:n=2 "
+
+static void run_until_an_interval_is_narrow_adds_replicates(void **state)
+{
+    (void)state;
+    json_int_t replicates;
+    assert_int_equal(run(UNTIL "--until-ci 100% --budget 60"), 0);
+    double widest = widest_interval(&replicates);
+    assert_true(replicates >= 2 && widest <= 1);
+    assert_non_null(strstr(text, "the widest interval is"));
+    /* Nothing is narrow enough: one more round or none, for a budget of 0. */
+    assert_int_equal(run(UNTIL "--until-ci 0.001% --budget 0"), 0);
+    assert_non_null(strstr(text, "the budget ends"));
+}
+
 static void refused(const char *arguments, int status, const char *part)
 {
     assert_int_equal(run(arguments), status);
@@ -244,6 +311,10 @@ static void run_with_bad_usage_says_what_is_expected(void **state)
     refused("tt --shard 3/2", 2, "--shard 3/2");
     refused("tt --cache cold", 2, "hot|evict");
     refused("tt --stride 0", 2, "--stride 0");
+    refused("tt --jobs 0", 2, "--jobs 0");
+    refused("tt --jobs 257", 2, "1 to 256");
+    refused("tt --until-ci 2", 2, "percentage");
+    refused("tt --until-ci 2% --jobs 2", 2, "--until-ci");
 }
 
 static void run_into_an_impossible_directory_is_bad_input(void **state)
@@ -366,11 +437,12 @@ static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *,
                       .stride = 1};
     mote_cell_name(&cell, 1);
     mote_process_options options = {.directory = directory, .core = -1, .timeout = 60};
-    mote_cell_status ended = MOTE_CELL_OK;
-    assert_int_equal(mote_cell_measure(&cell, &options, &ended, reason, size), MOTE_OK);
+    mote_cell_end end;
+    assert_int_equal(mote_cell_measure(&cell, &options, &end), MOTE_OK);
+    (void)snprintf(reason, size, "%s", end.reason);
     mote_truth_destroy(subject.truth);
     mote_scenario_destroy(subject.scenario);
-    return ended;
+    return end.status;
 }
 
 static void cell_of_a_crashing_method_is_recorded_as_crashed(void **state)
@@ -402,6 +474,8 @@ int main(void)
         TEST(run_summary_has_a_row_a_configuration),
         TEST(run_again_measures_nothing_again),
         TEST(run_with_a_sweep_makes_every_combination),
+        TEST(run_with_jobs_marks_times_as_not_comparable),
+        TEST(run_until_an_interval_is_narrow_adds_replicates),
         TEST_BARE(run_with_bad_input_says_what_and_writes_nothing),
         TEST_BARE(run_with_bad_usage_says_what_is_expected),
         TEST_BARE(run_into_an_impossible_directory_is_bad_input),
