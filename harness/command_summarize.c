@@ -1,5 +1,6 @@
 /* mote summarize DIR: the rows of a run, computed again from its cells. */
 #include "harness/command.h"
+#include "harness/front.h"
 #include "harness/record.h"
 #include "harness/summary.h"
 #include "harness/table.h"
@@ -16,6 +17,17 @@ static int print_json(json_t *object)
     if (mote_json_put(object, stdout) != MOTE_OK)
         return mote_command_fail();
     return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static mote_status print_fronts(const mote_summary *summary)
+{
+    mote_fronts fronts;
+    mote_status status = mote_fronts_make(summary, &fronts);
+    if (status == MOTE_OK) {
+        mote_fronts_print(&fronts, stdout);
+        mote_fronts_free(&fronts);
+    }
+    return status;
 }
 
 static int print_gbench(const mote_summary *summary, const char *directory)
@@ -43,6 +55,8 @@ static int print(const mote_summary *summary, const char *directory, size_t form
         break;
     default:
         mote_table_print(summary, stdout);
+        if (print_fronts(summary) != MOTE_OK)
+            return mote_command_fail();
         break;
     }
     return mote_command_finish(MOTE_EXIT_DONE);

@@ -1,6 +1,7 @@
 #include "harness/figures.h"
 
 #include "harness/data.h"
+#include "harness/front.h"
 #include "harness/record.h"
 #include "harness/spawn.h"
 
@@ -96,22 +97,6 @@ static bool on_front(const mote_summary_row *row, const char *scenario)
            strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
 }
 
-/* What the rows of one block have in common: the label without n. */
-static void block_title(const mote_summary_row *row, char *title, size_t size)
-{
-    (void)snprintf(title, size, "%s", row->label);
-    char *n = strstr(title, ":n=");
-    if (!n)
-        n = strstr(title, ",n=");
-    if (!n)
-        return;
-    const char *rest = n + 3 + strcspn(n + 3, ",");
-    if (*rest == ',' && *n == ':')
-        memmove(n + 1, rest + 1, strlen(rest));
-    else
-        memmove(n, rest, strlen(rest) + 1);
-}
-
 static void add_point(const mote_summary_row *row, mote_text *text)
 {
     const mote_time *time = &row->total;
@@ -133,7 +118,7 @@ static void add_block(const mote_summary *summary, const char *scenario, size_t 
     mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", title);
     for (size_t i = first; i < summary->count; ++i) {
         char other[256];
-        block_title(&summary->rows[i], other, sizeof other);
+        mote_front_title(&summary->rows[i], other, sizeof other);
         if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
             add_point(&summary->rows[i], text);
     }
@@ -145,7 +130,7 @@ static bool in_earlier_block(const mote_summary *summary, const char *scenario, 
 {
     for (size_t i = 0; i < index; ++i) {
         char other[256];
-        block_title(&summary->rows[i], other, sizeof other);
+        mote_front_title(&summary->rows[i], other, sizeof other);
         if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
             return true;
     }
@@ -160,7 +145,7 @@ static mote_status write_front(const mote_summary *summary, const char *scenario
 {
     for (size_t i = 0; i < summary->count; ++i) {
         char title[256];
-        block_title(&summary->rows[i], title, sizeof title);
+        mote_front_title(&summary->rows[i], title, sizeof title);
         if (on_front(&summary->rows[i], scenario) &&
             !in_earlier_block(summary, scenario, i, title))
             add_block(summary, scenario, i, title, text);

@@ -59,22 +59,24 @@ static bool is_fcl(const mote_summary_row *row)
     return strncmp(row->first->method, "fcl-", 4) == 0;
 }
 
-/* The points of a row in every process: [replicates of the run], MOTE_NONE where it has none. */
+/* The points of a row in every process: [replicates of the run], MOTE_NONE where it has none.
+ */
 typedef struct track {
     double *time, *error;
 } track;
 
 /* What an interval is computed from: the rows of a family and of FCL, process by process. */
 typedef struct comparison {
-    const track *tracks;                     /* [rows] */
-    const size_t *rows, *others;             /* of the family; of FCL */
-    size_t row_count, other_count;           /* 0 others: only the time is asked for */
+    const track *tracks;           /* [rows] */
+    const size_t *rows, *others;   /* of the family; of FCL */
+    size_t row_count, other_count; /* 0 others: only the time is asked for */
     double level;
     double *times, *errors, *work; /* [rows], [rows], [replicates] */
 } comparison;
 
 /* Median of the drawn processes that there are. */
-static double drawn_median(const double *values, const size_t *drawn, size_t count, double *work)
+static double drawn_median(const double *values, const size_t *drawn, size_t count,
+                           double *work)
 {
     size_t known = 0;
     for (size_t i = 0; i < count; ++i) {
@@ -139,8 +141,9 @@ static mote_status fill_tracks(workshop *w)
 {
     size_t frames = 0;
     for (size_t i = 0; i < w->summary->stored.count; ++i)
-        frames = w->summary->stored.cells[i].frames > frames ? w->summary->stored.cells[i].frames
-                                                             : frames;
+        frames = w->summary->stored.cells[i].frames > frames
+                     ? w->summary->stored.cells[i].frames
+                     : frames;
     double *work = malloc((frames + 1) * sizeof *work);
     if (!work)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
@@ -193,8 +196,9 @@ static mote_status make_front(const workshop *w, size_t row_count, size_t other_
     mote_status status = MOTE_OK;
     for (size_t k = 0; k < MOTE_FRONT_LEVELS && status == MOTE_OK; ++k) {
         mote_front_speed *speed = &front->speed[k];
-        comparison c = {w->tracks,   w->rows,  w->others, row_count, other_count,
-                        mote_front_levels[k], w->times, w->errors, w->work};
+        comparison c = {w->tracks, w->rows,     w->others,
+                        row_count, other_count, mote_front_levels[k],
+                        w->times,  w->errors,   w->work};
         speed->time_ns = time_of(&c, c.rows, row_count, w->all, w->processes);
         speed->faster = faster(&c, w->all, w->processes);
         const mote_confidence none = {MOTE_NONE, MOTE_NONE};
@@ -206,8 +210,8 @@ static mote_status make_front(const workshop *w, size_t row_count, size_t other_
     return status;
 }
 
-/* Collects the rows of one family, and FCL's at the same place; false when a row before first is
-   of that family. */
+/* Collects the rows of one family, and FCL's at the same place; false when a row before first
+   is of that family. */
 static bool collect(const workshop *w, size_t first, const char *title, size_t *row_count,
                     size_t *other_count)
 {

@@ -1,9 +1,9 @@
 /* Speed at equal error: the fronts of time against error of a run's scenarios. A family is the
-   configurations of one method that differ in n only. Its front at an error e is the time that it
-   needs to be at most so wrong: of its fastest configuration that is, or, towards the next faster
-   one that is not, interpolated between the two on logarithmic scales. Nothing is interpolated
-   from an exact configuration: none lies between. Error is the 99th percentile, in L; time the
-   median total. */
+   configurations of one method that differ in n only. Its front at an error e is the time that
+   it needs to be at most so wrong: of its fastest configuration that is, or, towards the next
+   faster one that is not, interpolated between the two on logarithmic scales. Nothing is
+   interpolated from an exact configuration: none lies between. Error is the 99th percentile, in
+   L; time the median total. */
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 
@@ -17,8 +17,8 @@ extern const double mote_front_levels[MOTE_FRONT_LEVELS]; /* rising; the first: 
 
 /* A family at one level, against the best of all FCL's configurations at that level. */
 typedef struct mote_front_speed {
-    double time_ns; /* MOTE_NONE: no configuration is so exact */
-    double faster;  /* FCL's time / this; MOTE_NONE without FCL in the run */
+    double time_ns;           /* MOTE_NONE: no configuration is so exact */
+    double faster;            /* FCL's time / this; MOTE_NONE without FCL in the run */
     mote_confidence interval; /* of faster: processes drawn again from ten on, else t */
 } mote_front_speed;
 
@@ -32,12 +32,12 @@ typedef struct mote_fronts {
     const mote_summary *summary; /* borrowed */
     mote_front *items;           /* in the order of the summary's rows */
     size_t count;
-    size_t *dominator; /* [summary->count]: the fastest row that is surely faster and no less exact
-                          than this one; SIZE_MAX: none */
+    size_t *dominator; /* [summary->count]: the fastest row that is surely faster and no less
+                          exact than this one; SIZE_MAX: none */
 } mote_fronts;
 
 /* Of rows with a distance and comparable times; others are in no family. The caller frees
-   *fronts. */
+ *fronts. */
 mote_status mote_fronts_make(const mote_summary *summary, mote_fronts *fronts);
 void mote_fronts_free(mote_fronts *fronts);
 

@@ -205,6 +205,63 @@ mote_status mote_statistics_median_interval(const mote_replicate *replicates, si
     return bootstrap(replicates, count, logarithmic, seed, interval);
 }
 
+/* Figures of each process alone, as logarithms; returns how many there are. */
+static size_t single_figures(mote_process_figure figure, void *context, size_t processes,
+                             double *logs)
+{
+    size_t known = 0;
+    for (size_t k = 0; k < processes; ++k) {
+        double value = figure(context, &k, 1);
+        if (value > 0)
+            logs[known++] = log(value);
+    }
+    return known;
+}
+
+/* Figures of resampled processes, sorted; returns how many there are. */
+static size_t drawn_figures(mote_process_figure figure, void *context, size_t processes,
+                            gsl_rng *random, size_t *drawn, double *values)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < RESAMPLES; ++i) {
+        for (size_t k = 0; k < processes; ++k)
+            drawn[k] = gsl_rng_uniform_int(random, processes);
+        double value = figure(context, drawn, processes);
+        if (value > 0)
+            values[known++] = value;
+    }
+    mote_statistics_sort(values, known);
+    return known;
+}
+
+mote_status mote_statistics_process_interval(mote_process_figure figure, void *context,
+                                             size_t processes, uint64_t seed,
+                                             mote_confidence *interval)
+{
+    (void)gsl_set_error_handler_off();
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    double *values = malloc((RESAMPLES + processes) * sizeof *values);
+    size_t *drawn = malloc((processes + 1) * sizeof *drawn);
+    mote_status status = random && values && drawn
+                             ? MOTE_OK
+                             : mote_fail(MOTE_ENOMEM, "no memory for an interval");
+    if (status == MOTE_OK && processes < MOTE_BOOTSTRAP_REPLICATES) {
+        *interval = mote_statistics_t_interval(
+            values, single_figures(figure, context, processes, values));
+        interval->low = exp(interval->low);
+        interval->high = exp(interval->high);
+    } else if (status == MOTE_OK) {
+        gsl_rng_set(random, seed);
+        size_t known = drawn_figures(figure, context, processes, random, drawn, values);
+        interval->low = mote_statistics_quantile(values, known, 0.025);
+        interval->high = mote_statistics_quantile(values, known, 0.975);
+    }
+    free(drawn);
+    free(values);
+    gsl_rng_free(random);
+    return status;
+}
+
 double mote_statistics_mad(double *values, size_t count)
 {
     double median = mote_statistics_median(values, count);

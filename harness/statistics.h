@@ -61,6 +61,17 @@ mote_status mote_statistics_median_interval(const mote_replicate *replicates, si
                                             bool logarithmic, uint64_t seed,
                                             mote_confidence *interval);
 
+/* A positive figure of some processes, drawn[count] of them, numbered from 0; a process may be
+   drawn more than once. MOTE_NONE when it cannot be had from these. */
+typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t count);
+
+/* Interval of a figure of processes: below MOTE_BOOTSTRAP_REPLICATES processes the t interval
+   of the logarithms of the figure of each alone; from there on percentiles of 1,000 resamples
+   of the processes, drawn from seed. MOTE_NONE when too few of them give a figure. */
+mote_status mote_statistics_process_interval(mote_process_figure figure, void *context,
+                                             size_t processes, uint64_t seed,
+                                             mote_confidence *interval);
+
 /* Median of the absolute distances to the median, times 1.4826: a standard deviation for normal
    values. values are reordered. */
 double mote_statistics_mad(double *values, size_t count);

@@ -1,5 +1,6 @@
 #include "harness/summary.h"
 
+#include "harness/front.h"
 #include "harness/record.h"
 #include "harness/summary_quiet.h"
 #include "harness/summary_row.h"
@@ -283,24 +284,48 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
     return object;
 }
 
-json_t *mote_summary_json(const mote_summary *summary)
+static json_t *summary_json(const mote_summary *summary, const mote_fronts *fronts)
 {
     json_t *rows = json_array();
     for (size_t i = 0; rows && i < summary->count; ++i) {
-        if (json_array_append_new(rows, row_json(summary, &summary->rows[i])) != 0) {
+        json_t *row = row_json(summary, &summary->rows[i]);
+        size_t by = fronts->dominator[i];
+        if (row && by != SIZE_MAX)
+            (void)json_object_set_new(row, "dominated_by",
+                                      json_string(summary->rows[by].label));
+        if (json_array_append_new(rows, row) != 0) {
             json_decref(rows);
             rows = NULL;
         }
     }
     if (!rows)
         return NULL;
-    return json_pack("{s:i, s:i, s:o, s:o, s:o}", "schema", 1, "cells_left_out",
+    return json_pack("{s:i, s:i, s:o, s:o, s:o, s:o}", "schema", 1, "cells_left_out",
                      (int)summary->stored.left_out, "noise_floor",
                      mote_json_number(summary->noise_floor), "smallest_change",
-                     mote_json_number(summary->smallest_change), "rows", rows);
+                     mote_json_number(summary->smallest_change), "rows", rows, "fronts",
+                     mote_fronts_json(fronts));
+}
+
+json_t *mote_summary_json(const mote_summary *summary)
+{
+    mote_fronts fronts;
+    if (mote_fronts_make(summary, &fronts) != MOTE_OK)
+        return NULL;
+    json_t *object = summary_json(summary, &fronts);
+    mote_fronts_free(&fronts);
+    return object;
 }
 
 mote_status mote_summary_write(const mote_summary *summary, const char *directory)
 {
-    return mote_record_json(directory, "summary.json", mote_summary_json(summary));
+    mote_fronts fronts;
+    mote_status status = mote_fronts_make(summary, &fronts);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_fronts_write(&fronts, directory);
+    if (status == MOTE_OK)
+        status = mote_record_json(directory, "summary.json", summary_json(summary, &fronts));
+    mote_fronts_free(&fronts);
+    return status;
 }

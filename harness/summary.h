@@ -114,7 +114,7 @@ mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count,
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);
 
-/* Writes directory/summary.json. */
+/* Writes directory/summary.json, and fronts.csv and speed.csv (harness/front.h). */
 mote_status mote_summary_write(const mote_summary *summary, const char *directory);
 
 #endif
