@@ -19,6 +19,7 @@
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make claims [OUT=DIR]                             measure the claims of the paper
 #   make test-library                               the library alone: gcc, clang, musl-gcc
+#   make test-stranger                              a method, field, scenario from README.md alone
 #   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make lint, make deps, make build, make clean
 
@@ -124,11 +125,14 @@ lint: format build
 clean:
 	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz
 
-.PHONY: test-library install
+.PHONY: test-library test-stranger install
 
 test-library: deps
 	@cmake/deps.sh tests/packages-library.txt || echo "going on with the compilers at hand"
 	@tests/core_only.sh
+
+test-stranger: deps
+	@tests/stranger.sh
 
 PREFIX ?= /usr/local
 

@@ -1,36 +1,48 @@
-# mote_registry(OUT NAME SOURCE...): writes NAME.c, the table of all methods that the sources define
-# with MOTE_METHOD(identifier), sorted by file, so that a new method is one new file.
+# mote_registry(OUT NAME SOURCE...): writes NAME.c, the tables of all methods and fields that the
+# sources define with MOTE_METHOD(identifier) and MOTE_FIELD(identifier), sorted by file, so that a
+# new one is one new file.
 function(mote_registry out name)
-  set(declarations "")
-  set(entries "")
+  foreach(type method field_maker)
+    set(${type}_declarations "")
+    set(${type}_entries "")
+  endforeach()
   foreach(source ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-    file(STRINGS ${source} lines REGEX "^MOTE_METHOD\\([a-z0-9_]+\\)")
+    file(STRINGS ${source} lines REGEX "^MOTE_(METHOD|FIELD)\\([a-z0-9_]+\\)")
     foreach(line ${lines})
-      string(REGEX REPLACE "^MOTE_METHOD\\(([a-z0-9_]+)\\).*" "\\1" id "${line}")
-      string(APPEND declarations "extern const mote_method mote_method_${id};\n")
-      string(APPEND entries "    &mote_method_${id},\n")
+      string(REGEX REPLACE "^MOTE_[A-Z]+\\(([a-z0-9_]+)\\).*" "\\1" id "${line}")
+      set(type method)
+      if(line MATCHES "^MOTE_FIELD")
+        set(type field_maker)
+      endif()
+      string(APPEND ${type}_declarations "extern const mote_${type} mote_${type}_${id};\n")
+      string(APPEND ${type}_entries "    &mote_${type}_${id},\n")
     endforeach()
   endforeach()
-  set(file ${CMAKE_BINARY_DIR}/${name}.c)
-  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
-#include \"core/method.h\"
-
-#include <string.h>
-
-${declarations}
-const mote_method *const mote_methods[] = {
-${entries}    NULL,
+  set(tables "")
+  foreach(type method field_maker)
+    string(APPEND tables "
+${${type}_declarations}
+const mote_${type} *const mote_${type}s[] = {
+${${type}_entries}    NULL,
 };
 
-const mote_method *mote_method_find(const char *name)
+const mote_${type} *mote_${type}_find(const char *name)
 {
-    for (size_t i = 0; mote_methods[i]; ++i) {
-        if (strcmp(mote_methods[i]->name, name) == 0)
-            return mote_methods[i];
+    for (size_t i = 0; mote_${type}s[i]; ++i) {
+        if (strcmp(mote_${type}s[i]->name, name) == 0)
+            return mote_${type}s[i];
     }
     return NULL;
 }
 ")
+  endforeach()
+  set(file ${CMAKE_BINARY_DIR}/${name}.c)
+  file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
+#include \"core/field_maker.h\"
+#include \"core/method.h\"
+
+#include <string.h>
+${tables}")
   set(${out} ${file} PARENT_SCOPE)
 endfunction()

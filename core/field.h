@@ -5,7 +5,7 @@
    c_j| / support (paper section 4) modes   per-vertex displacement vectors with one scalar
    weight s each; a mode is three basis functions (its x, y and z column) with weights (s,0,0),
    (0,s,0), (0,0,s) Immutable once made. A new kind is a new source file that fills the struct
-   below. */
+   below; field_maker.h gives it a name in scenarios. */
 #ifndef MOTE_CORE_FIELD_H
 #define MOTE_CORE_FIELD_H
 
@@ -66,7 +66,8 @@ typedef struct mote_field_kind {
                       size_t count, const float *weights, float sum[MOTE_LANES]);
 
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
-       the padding. For modes: the least-squares gradient over the one-ring. */
+       the padding. For modes: the least-squares gradient over the one-ring. NULL: not offered.
+     */
     void (*gradient)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                      mote_vec3 *gradient);
 

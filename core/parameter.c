@@ -86,7 +86,7 @@ static mote_status unknown_key(const mote_parameter *table, size_t count, const 
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
                                  table[i].key);
     if (count == 0)
-        return mote_fail(MOTE_EINVAL, "unknown key \"%.*s\"; this method has no parameters",
+        return mote_fail(MOTE_EINVAL, "unknown key \"%.*s\"; nothing can be set here",
                          (int)length, key);
     return mote_fail(MOTE_EINVAL, "unknown key \"%.*s\"; the keys are %s", (int)length, key,
                      known);

@@ -33,7 +33,7 @@ _mote()
         *SCENARIO*)
             words="$words $("$program" list scenarios 2>/dev/null | cut -d ' ' -f 1)"
             ;;
-        *'list methods'*) words="$words methods scenarios" ;;
+        *'list methods'*) words="$words methods scenarios fields" ;;
         esac
         compopt -o default
     fi

@@ -17,7 +17,8 @@ typedef enum mote_exit {
 /* Every sub-command, X(name, usage, summary): a line here, and mote_command_NAME(argc, argv) in
    harness/command_NAME.c. argv[0] is the sub-command's name; the result is a mote_exit. */
 #define MOTE_COMMANDS(X)                                                                       \
-    X(list, "list methods|scenarios [--json]", "the methods and scenarios that there are")     \
+    X(list, "list methods|scenarios|fields [--json]",                                          \
+      "the methods, scenarios and kinds of fields that there are")                             \
     X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")                  \
     X(check, "check SCENARIO [--json] [--out DIR]",                                            \
       "fingerprint; whether the active interval is what it says")                              \

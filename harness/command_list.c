@@ -1,4 +1,5 @@
-/* mote list methods|scenarios [--json] */
+/* mote list methods|scenarios|fields [--json] */
+#include "core/field_maker.h"
 #include "harness/catalog.h"
 #include "harness/command.h"
 
@@ -18,12 +19,12 @@ static int print_json(json_t *value)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-static json_t *parameters_json(const mote_method *method)
+static json_t *parameters_json(const mote_parameter *table, size_t count)
 {
     static const char *const kinds[] = {"integer", "real", "choice"};
     json_t *list = json_array();
-    for (size_t i = 0; i < method->parameter_count; ++i) {
-        const mote_parameter *parameter = &method->parameters[i];
+    for (size_t i = 0; i < count; ++i) {
+        const mote_parameter *parameter = &table[i];
         json_t *row = json_pack("{s:s, s:s, s:s, s:s}", "key", parameter->key, "kind",
                                 kinds[parameter->kind], "default", parameter->fallback, "help",
                                 parameter->help);
@@ -34,26 +35,41 @@ static json_t *parameters_json(const mote_method *method)
     return list;
 }
 
+/* A method or a field with its parameters: added to list, or printed where that is NULL. */
+static void show(json_t *list, const char *name, const char *summary,
+                 const mote_parameter *table, size_t count)
+{
+    if (list) {
+        (void)json_array_append_new(list, json_pack("{s:s, s:s, s:o}", "name", name, "summary",
+                                                    summary, "parameters",
+                                                    parameters_json(table, count)));
+        return;
+    }
+    (void)printf("%s: %s\n", name, summary);
+    for (size_t p = 0; p < count; ++p) {
+        const mote_parameter *parameter = &table[p];
+        (void)printf("    %s=%s  %s%s%s%s\n", parameter->key, parameter->fallback,
+                     parameter->help, parameter->choices ? " (" : "",
+                     parameter->choices ? parameter->choices : "",
+                     parameter->choices ? ")" : "");
+    }
+}
+
 static int list_methods(bool json)
 {
     json_t *list = json ? json_array() : NULL;
-    for (size_t i = 0; mote_methods[i]; ++i) {
-        const mote_method *method = mote_methods[i];
-        if (json) {
-            (void)json_array_append_new(list, json_pack("{s:s, s:s, s:o}", "name", method->name,
-                                                        "summary", method->summary,
-                                                        "parameters", parameters_json(method)));
-            continue;
-        }
-        (void)printf("%s: %s\n", method->name, method->summary);
-        for (size_t p = 0; p < method->parameter_count; ++p) {
-            const mote_parameter *parameter = &method->parameters[p];
-            (void)printf("    %s=%s  %s%s%s%s\n", parameter->key, parameter->fallback,
-                         parameter->help, parameter->choices ? " (" : "",
-                         parameter->choices ? parameter->choices : "",
-                         parameter->choices ? ")" : "");
-        }
-    }
+    for (size_t i = 0; mote_methods[i]; ++i)
+        show(list, mote_methods[i]->name, mote_methods[i]->summary, mote_methods[i]->parameters,
+             mote_methods[i]->parameter_count);
+    return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int list_fields(bool json)
+{
+    json_t *list = json ? json_array() : NULL;
+    for (size_t i = 0; mote_field_makers[i]; ++i)
+        show(list, mote_field_makers[i]->name, mote_field_makers[i]->summary,
+             mote_field_makers[i]->parameters, mote_field_makers[i]->parameter_count);
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }
 
@@ -89,12 +105,15 @@ int mote_command_list(int argc, char **argv)
         else if (!what)
             what = value;
         else
-            return mote_command_usage("list", "%s: one thing at a time; methods or scenarios",
-                                      value);
+            return mote_command_usage(
+                "list", "%s: one thing at a time; methods, scenarios or fields", value);
     }
     if (what && strcmp(what, "methods") == 0)
         return list_methods(json);
     if (what && strcmp(what, "scenarios") == 0)
         return list_scenarios(json);
-    return mote_command_usage("list", "%s: list methods or scenarios", what ? what : "nothing");
+    if (what && strcmp(what, "fields") == 0)
+        return list_fields(json);
+    return mote_command_usage("list", "%s: list methods, scenarios or fields",
+                              what ? what : "nothing");
 }

@@ -28,7 +28,7 @@ typedef struct mote_body_motion {
     mote_wave *waves;     /* added to it */
     uint32_t wave_count;
     uint32_t control_count; /* J; 0: nothing deforms */
-    mote_csrbf_fit *fit;    /* NULL when J is 0 */
+    mote_csrbf_fit *fit;    /* NULL: displacements are the weights (J is 0, or no CSRBF) */
     bool has_velocity, has_spin;
     mote_vec3 velocity; /* of the centre at frame 1, absolute, a frame */
     mote_vec3 spin;     /* angular, at frame 1, radians a frame, world axes */

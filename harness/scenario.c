@@ -87,15 +87,19 @@ static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer
     if (field->count == 0)
         return;
     mote_motion_displacements(motion, place, buffer->displacement[i]);
-    mote_status status =
-        mote_csrbf_fit_solve(motion->fit, buffer->displacement[i], buffer->solution[i]);
-    assert(status == MOTE_OK); /* every number of a scenario was range-checked */
-    (void)status;
+    const mote_vec3 *solution = buffer->displacement[i];
+    if (motion->fit) {
+        mote_status status =
+            mote_csrbf_fit_solve(motion->fit, buffer->displacement[i], buffer->solution[i]);
+        assert(status == MOTE_OK); /* every number of a scenario was range-checked */
+        (void)status;
+        solution = buffer->solution[i];
+    }
     double *x = buffer->weights[i];
     double *y = x + field->padded;
     double *z = y + field->padded;
     for (uint32_t j = 0; j < field->count; ++j) {
-        const mote_vec3 w = mote_rotate(&state->pose.rotation, buffer->solution[i][j]);
+        const mote_vec3 w = mote_rotate(&state->pose.rotation, solution[j]);
         x[j] = w.x;
         y[j] = w.y;
         z[j] = w.z;

@@ -1,9 +1,12 @@
 /* The field of a body and the displacement of its control points. */
 #include "harness/scenario_read.h"
 
+#include "core/field_maker.h"
+#include "harness/file.h"
 #include "harness/spread.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define AMPLITUDE_MAX 1e3 /* of L */
 
@@ -176,28 +179,92 @@ static mote_status read_displacement(const mote_json *node, double length,
     return read_keyframes(&keyframes, length, motion);
 }
 
+static mote_status unknown_kind(const mote_json *node, const char *name)
+{
+    mote_text known = {0};
+    for (size_t i = 0; mote_field_makers[i]; ++i)
+        mote_text_add(&known, ", %s", mote_field_makers[i]->name);
+    mote_status status = mote_json_fail(node, "unknown kind %s; known are csrbf%s", name,
+                                        known.data ? known.data : "");
+    free(known.data);
+    return status;
+}
+
+/* The members that are parameters of a kind, as "key=value,...". */
+static void parameter_text(const mote_json *node, mote_text *text)
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(node->value, key, value)
+    {
+        if (strcmp(key, "kind") == 0 || strcmp(key, "displacement") == 0)
+            continue;
+        mote_text_add(text, "%s%s=", text->size ? "," : "", key);
+        if (json_is_string(value))
+            mote_text_add(text, "%s", json_string_value(value));
+        else
+            mote_text_add(text, "%.17g", json_number_value(value));
+    }
+}
+
+/* A field of a kind that field_maker.h knows. */
+static mote_status read_made(const mote_json *node, const mote_json *kind,
+                             const mote_mesh *mesh, mote_field **field)
+{
+    const char *name = NULL;
+    mote_status status = mote_json_string(kind, &name);
+    if (status != MOTE_OK)
+        return status;
+    const mote_field_maker *maker = mote_field_maker_find(name);
+    if (!maker)
+        return unknown_kind(kind, name);
+    double values[MOTE_PARAMETERS_MAX];
+    mote_text text = {0};
+    parameter_text(node, &text);
+    mote_parameters_default(maker->parameters, maker->parameter_count, values);
+    status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for the keys of a field")
+                         : mote_parameters_parse(maker->parameters, maker->parameter_count,
+                                                 text.data ? text.data : "", values);
+    free(text.data);
+    if (status == MOTE_OK)
+        status = maker->create(mesh, values, field);
+    return status == MOTE_EINVAL ? mote_json_fail(node, "%s", mote_error_text()) : status;
+}
+
+static mote_status read_csrbf(const mote_json *node, const mote_mesh *mesh, mote_field **field,
+                              mote_csrbf_fit **fit)
+{
+    mote_vec3 centres[MOTE_FIELD_MAX];
+    uint32_t count = 0;
+    double support = 0;
+    mote_status status = mote_json_object(node, "kind|centres|count|support|displacement");
+    if (status == MOTE_OK)
+        status = read_centres(node, mesh, centres, &count);
+    mote_json key = mote_json_member(node, "support");
+    if (status == MOTE_OK)
+        status = mote_json_real(&key, 1e-6, 1e6, &support);
+    if (status != MOTE_OK)
+        return status;
+    if (mote_field_create_csrbf(centres, count, support * mesh->diagonal, field) != MOTE_OK ||
+        mote_csrbf_fit_create(*field, fit, NULL) != MOTE_OK)
+        return mote_json_fail(node, "%s", mote_error_text());
+    return MOTE_OK;
+}
+
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,
                                      mote_field **field, mote_body_motion *motion)
 {
     mote_json node = mote_json_member(body, "field");
     if (!node.value)
         return mote_field_create_static(field);
-    mote_vec3 centres[MOTE_FIELD_MAX];
-    uint32_t count = 0;
-    double support = 0;
-    mote_status status = mote_json_object(&node, "centres|count|support|displacement");
-    if (status == MOTE_OK)
-        status = read_centres(&node, mesh, centres, &count);
-    mote_json key = mote_json_member(&node, "support");
-    if (status == MOTE_OK)
-        status = mote_json_real(&key, 1e-6, 1e6, &support);
+    mote_json kind = mote_json_member(&node, "kind");
+    const char *name = json_string_value(kind.value);
+    mote_status status = kind.value && (!name || strcmp(name, "csrbf") != 0)
+                             ? read_made(&node, &kind, mesh, field)
+                             : read_csrbf(&node, mesh, field, &motion->fit);
     if (status != MOTE_OK)
         return status;
-    if (mote_field_create_csrbf(centres, count, support * mesh->diagonal, field) != MOTE_OK)
-        return mote_json_fail(&node, "%s", mote_error_text());
-    if (mote_csrbf_fit_create(*field, &motion->fit, NULL) != MOTE_OK)
-        return mote_json_fail(&node, "%s", mote_error_text());
-    motion->control_count = count;
-    key = mote_json_member(&node, "displacement");
-    return read_displacement(&key, mesh->diagonal, motion);
+    motion->control_count = (*field)->count;
+    mote_json displacement = mote_json_member(&node, "displacement");
+    return read_displacement(&displacement, mesh->diagonal, motion);
 }

@@ -172,7 +172,7 @@ static void parse_of_an_unknown_key_lists_the_keys(void **unused)
     expect_error(" n=3", "unknown key \" n\"; the keys are n, reff, law, nmax, share");
     double value = 1;
     assert_int_equal(mote_parameters_parse(NULL, 0, "n=1", &value), MOTE_EINVAL);
-    assert_string_equal(mote_error_text(), "unknown key \"n\"; this method has no parameters");
+    assert_string_equal(mote_error_text(), "unknown key \"n\"; nothing can be set here");
 }
 
 static void parse_of_a_key_given_twice_is_an_error(void **unused)
