@@ -114,6 +114,6 @@ int mote_command_list(int argc, char **argv)
         return list_scenarios(json);
     if (what && strcmp(what, "fields") == 0)
         return list_fields(json);
-    return mote_command_usage("list", "%s: list methods, scenarios or fields",
+    return mote_command_usage("list", "%s: list fields, methods or scenarios",
                               what ? what : "nothing");
 }
