@@ -3,6 +3,7 @@
 #
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
 #   make test                                         release tests, then ASan and UBSan
+#   make test-page                                    the report's page, in headless Chromium
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
@@ -49,7 +50,7 @@ test: build
 	cmake --build build-asan -j $(JOBS)
 	cd build-asan && $(SANITIZER) ctest --output-on-failure -j $(JOBS)
 
-bench: build
+bench: build page
 	@harness/bench.sh $(MOTE) $(PROFILE) $(OUT)
 
 oracle: build
@@ -111,8 +112,20 @@ figures: build
 	@$(MOTE) figures $(OUT)
 
 .PHONY: report
-report: build
+report: build page
 	@$(MOTE) report $(OUT)
+
+# The replay of reports: bundled where npm is, left out where it is not.
+.PHONY: page page-deps test-page
+page:
+	@plots/page/build.sh $(BUILD)/page
+
+page-deps:
+	@cmake/deps.sh packages-page.txt
+
+test-page: build page-deps
+	@plots/page/build.sh $(BUILD)/page
+	@node tests/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
 
 SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp')
 

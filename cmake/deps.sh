@@ -1,15 +1,20 @@
 #!/bin/sh
 # deps.sh FILE: installs the Debian packages that FILE lists and that are missing, when it may
-# (root, or sudo without a password); else prints the one command to run and exits 1.
+# (root, or sudo without a password); else prints the one command to run and exits 1. A line is
+# PACKAGE, or PACKAGE PROGRAM: then the package is not needed where the program is found.
 set -eu
 missing=
-for package in $(cat "$1"); do
+while read -r package program; do
+    [ -n "$package" ] || continue
+    if [ -n "$program" ] && command -v "$program" >/dev/null; then
+        continue
+    fi
     state=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
     case $state in
     ii*) ;;
     *) missing="$missing $package" ;;
     esac
-done
+done <"$1"
 [ -n "$missing" ] || exit 0
 if [ "$(id -u)" = 0 ]; then
     run=

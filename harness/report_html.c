@@ -57,6 +57,7 @@ static mote_status add_top(const mote_report *report, mote_text *text)
     free(subtitle);
     add_link(text, true, "asked", "Asked");
     add_link(text, json_array_size(report->missing) > 0, "missing", "Missing");
+    add_link(text, report->has_cells, "replay", "Replay");
     add_link(text, report->summary != NULL, "results", "Results");
     add_link(text, report->figure_count > 0, "figures", "Figures");
     add_link(text, report->claims || report->requirements, "claims", "Claims");
@@ -191,6 +192,9 @@ mote_status mote_report_html(const mote_report *report, mote_text *text)
         status = add_asked(report, text);
     if (status == MOTE_OK) {
         add_missing(report, text);
+        status = mote_report_html_replay(report, text);
+    }
+    if (status == MOTE_OK) {
         mote_report_html_results(report, text);
         status = mote_report_html_figures(report, text);
     }

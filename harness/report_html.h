@@ -6,6 +6,7 @@
 
 /* Each appends a section, or nothing where the report has nothing for it. */
 void mote_report_html_results(const mote_report *report, mote_text *text);
+mote_status mote_report_html_replay(const mote_report *report, mote_text *text);
 mote_status mote_report_html_figures(const mote_report *report, mote_text *text);
 void mote_report_html_claims(const mote_report *report, mote_text *text);
 void mote_report_html_cells(const mote_report *report, mote_text *text);

@@ -16,7 +16,7 @@
 #define EVIL_HTML "&#39;; system(&quot;x&quot;)&lt;script&gt;"
 
 static char base[] = "/tmp/mote-test-report-XXXXXX";
-static char run_directory[96], page[1 << 20], said[1 << 14];
+static char run_directory[96], page[1 << 23], said[1 << 14];
 
 /* Runs the program with these arguments, which may hold blanks; its exit status. */
 static int program(const char *const arguments[])

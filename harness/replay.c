@@ -1,0 +1,250 @@
+#include "harness/replay.h"
+
+#include "harness/escape.h"
+#include "harness/report_rows.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Whether an argument of a command names the scenario file NAME.json, or a pair of meshes. */
+static bool may_name(const char *word, const char *name)
+{
+    char *file = mote_format("%s.json", name);
+    if (!file)
+        return false;
+    size_t length = strlen(word), size = strlen(file);
+    bool ends = length >= size && strcmp(word + length - size, file) == 0 &&
+                (length == size || word[length - size - 1] == '/');
+    free(file);
+    return ends || strncmp(word, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0;
+}
+
+/* Whether the file that a word names is the scenario with this fingerprint; keeps it if so. */
+static bool try_word(const char *word, const char *fingerprint, mote_scenario **scenario)
+{
+    mote_scenario *loaded = NULL;
+    uint64_t found = 0;
+    char text[20] = "";
+    if (mote_scenario_load(word, &loaded) != MOTE_OK)
+        return false;
+    bool small = loaded->body[0].mesh->vertex_count <= MOTE_REPLAY_VERTICES &&
+                 loaded->body[1].mesh->vertex_count <= MOTE_REPLAY_VERTICES;
+    if (small && mote_scenario_fingerprint(loaded, &found) == MOTE_OK)
+        (void)snprintf(text, sizeof text, "%016" PRIx64, found);
+    if (strcmp(text, fingerprint) == 0) {
+        *scenario = loaded;
+        return true;
+    }
+    mote_scenario_destroy(loaded);
+    return false;
+}
+
+/* Finds the scenario of a cell: by its name, or by what the run's commands named. */
+static mote_status find_scenario(const mote_report *report, const mote_stored_cell *cell,
+                                 mote_scenario **scenario)
+{
+    size_t i, k;
+    const json_t *session, *word;
+    const json_t *vertices = json_object_get(cell->json, "vertices");
+    if (json_integer_value(json_array_get(vertices, 0)) > MOTE_REPLAY_VERTICES ||
+        json_integer_value(json_array_get(vertices, 1)) > MOTE_REPLAY_VERTICES)
+        return mote_fail(MOTE_EUNSUPPORTED, "%s: its meshes have more than %u vertices",
+                         cell->scenario, MOTE_REPLAY_VERTICES);
+    if (try_word(cell->scenario, cell->fingerprint, scenario))
+        return MOTE_OK;
+    json_array_foreach(json_object_get(report->manifest, "sessions"), i, session)
+    {
+        json_array_foreach(json_object_get(session, "command"), k, word)
+        {
+            const char *text = json_string_value(word);
+            if (text && may_name(text, cell->scenario) &&
+                try_word(text, cell->fingerprint, scenario))
+                return MOTE_OK;
+        }
+    }
+    return mote_fail(MOTE_EUNSUPPORTED,
+                     "%s: no scenario with the fingerprint of its cells is found; it was moved "
+                     "or changed",
+                     cell->scenario);
+}
+
+/* Whether a row is replayed: answers of its own, hot caches. */
+static bool is_shown(const mote_summary_row *row)
+{
+    return row->status == MOTE_CELL_OK && row->first->frames > 0 &&
+           strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+           !strstr(row->label, "positions=given");
+}
+
+/* The truth as the tracks' cells have it, with the points of its own file where it is there. */
+static mote_status read_truth(const mote_report *report, mote_replay_scene *scene)
+{
+    const size_t frames = scene->last - scene->first + 1;
+    scene->truth = malloc(frames * sizeof *scene->truth);
+    scene->pair = malloc(2 * frames * sizeof *scene->pair);
+    if (!scene->truth || !scene->pair)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    for (size_t k = 0; k < frames; ++k) {
+        scene->truth[k] = MOTE_NONE;
+        scene->pair[2 * k] = scene->pair[2 * k + 1] =
+            mote_vec3_make(MOTE_NONE, MOTE_NONE, MOTE_NONE);
+    }
+    for (size_t t = 0; t < scene->count; ++t) {
+        const mote_stored_cell *cell = scene->tracks[t].cell;
+        for (size_t k = 0; k < cell->frames; ++k)
+            scene->truth[cell->frame[k] - scene->first] = cell->truth[k];
+    }
+    uint64_t fingerprint = strtoull(scene->tracks[0].cell->fingerprint, NULL, 16);
+    mote_truth *truth = NULL;
+    char *path = mote_format("%s/truth/%s-%016" PRIx64 ".csv", report->directory,
+                             scene->scenario->name, fingerprint);
+    if (!path || mote_truth_read(scene->scenario, fingerprint, path, &truth) != MOTE_OK) {
+        free(path);
+        return json_array_append_new(scene->notes,
+                                     json_string("the true closest points: the run's truth "
+                                                 "is not there")) == 0
+                   ? MOTE_OK
+                   : mote_fail(MOTE_ENOMEM, "no memory for a note");
+    }
+    for (size_t k = 0; k < frames; ++k) {
+        scene->pair[2 * k] = truth->witness_a[k + scene->first - 1];
+        scene->pair[2 * k + 1] = truth->witness_b[k + scene->first - 1];
+    }
+    mote_truth_destroy(truth);
+    free(path);
+    return MOTE_OK;
+}
+
+/* Where surfaces intersect, the truth has no points: many pairs are at distance 0. Any pair
+   that a method found there is one. */
+static void fill_contacts(mote_replay_scene *scene)
+{
+    for (size_t t = 0; t < scene->count; ++t) {
+        const mote_replay_track *track = &scene->tracks[t];
+        for (size_t k = 0; k < track->rows; ++k) {
+            mote_vec3 *pair = scene->pair + 2 * (track->cell->frame[k] - scene->first);
+            if (track->distance[k] == 0 && track->cell->truth[k] == 0 && pair->x != pair->x) {
+                pair[0] = track->pair[2 * k];
+                pair[1] = track->pair[2 * k + 1];
+            }
+        }
+    }
+}
+
+static mote_status add_track(const mote_report *report, const mote_summary_row *row,
+                             mote_replay_scene *scene)
+{
+    mote_replay_track *tracks =
+        realloc(scene->tracks, (scene->count + 1) * sizeof *scene->tracks);
+    if (!tracks)
+        return mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    scene->tracks = tracks;
+    mote_replay_track *track = &tracks[scene->count++];
+    *track = (mote_replay_track){.row = row, .cell = row->first};
+    const uint32_t last = track->cell->frame[track->cell->frames - 1];
+    if (scene->first == 0 || track->cell->frame[0] < scene->first)
+        scene->first = track->cell->frame[0];
+    scene->last = last > scene->last ? last : scene->last;
+    return mote_replay_read_cell(report->directory, track);
+}
+
+mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
+                             mote_replay_scene *scene)
+{
+    mote_replay_scene made = {.notes = json_array()};
+    mote_status status = made.notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for notes");
+    for (size_t i = first; i < end && status == MOTE_OK; ++i) {
+        if (is_shown(&report->cells.rows[i]))
+            status = add_track(report, &report->cells.rows[i], &made);
+    }
+    if (status == MOTE_OK && made.count == 0)
+        status = mote_fail(MOTE_EUNSUPPORTED, "%s: no answers with hot caches",
+                           report->cells.rows[first].first->scenario);
+    if (status == MOTE_OK)
+        status = find_scenario(report, made.tracks[0].cell, &made.scenario);
+    if (status == MOTE_OK)
+        status = read_truth(report, &made);
+    if (status == MOTE_OK)
+        fill_contacts(&made);
+    for (size_t t = 0; t < made.count && status == MOTE_OK; ++t)
+        status = mote_replay_particles(&made, &made.tracks[t]);
+    if (status == MOTE_OK)
+        *scene = made;
+    else
+        mote_replay_free(&made);
+    return status;
+}
+
+void mote_replay_free(mote_replay_scene *scene)
+{
+    for (size_t t = 0; t < scene->count; ++t) {
+        free(scene->tracks[t].distance);
+        free(scene->tracks[t].pair);
+        free(scene->tracks[t].place);
+    }
+    free(scene->tracks);
+    free(scene->truth);
+    free(scene->pair);
+    json_decref(scene->notes);
+    mote_scenario_destroy(scene->scenario);
+}
+
+/* Whether this is the first row of a block of hot caches. */
+static bool starts_block(const mote_report *report, size_t i)
+{
+    const json_t *row = mote_report_row(report, i);
+    return strcmp(mote_report_text(row, "cache"), mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+           (i == 0 || !mote_report_same_block(row, mote_report_row(report, i - 1)));
+}
+
+static mote_status add_scene(const mote_report *report, size_t first, mote_text *text,
+                             size_t *shown, json_t *notes)
+{
+    mote_replay_scene scene;
+    size_t end = mote_report_block_end(report, first);
+    const size_t used = text->size;
+    size_t budget = used < MOTE_REPLAY_PAGE_BYTES ? MOTE_REPLAY_PAGE_BYTES - used : 0;
+    mote_text one = {0};
+    mote_status status = mote_replay_load(report, first, end, &scene);
+    if (status == MOTE_OK) {
+        if (budget > MOTE_REPLAY_SCENARIO_BYTES)
+            budget = MOTE_REPLAY_SCENARIO_BYTES;
+        status = mote_replay_write(&scene, budget, &one);
+        mote_replay_free(&scene);
+    }
+    if (status == MOTE_OK) {
+        mote_text_add(text, "%s%s", *shown > 0 ? ",\n" : "", one.data);
+        ++*shown;
+    } else if (status == MOTE_EUNSUPPORTED) {
+        status = json_array_append_new(notes, json_string(mote_error_text())) == 0
+                     ? MOTE_OK
+                     : mote_fail(MOTE_ENOMEM, "no memory for a note");
+    }
+    free(one.data);
+    return status;
+}
+
+mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t *shown)
+{
+    json_t *notes = json_array();
+    mote_status status = notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    *shown = 0;
+    mote_text_add(text, "{\"scenes\": [\n");
+    for (size_t i = 0; report->has_cells && i < report->cells.count && status == MOTE_OK; ++i) {
+        if (starts_block(report, i))
+            status = add_scene(report, i, text, shown, notes);
+    }
+    char *list = notes ? json_dumps(notes, JSON_COMPACT) : NULL;
+    if (status == MOTE_OK && !list)
+        status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    if (status == MOTE_OK) {
+        mote_text_add(text, "],\n\"notes\": ");
+        mote_escape_script(text, list);
+        mote_text_add(text, "}\n");
+    }
+    free(list);
+    json_decref(notes);
+    return status;
+}

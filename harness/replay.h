@@ -1,0 +1,64 @@
+/* What the page's replay shows of a run: its scenarios with meshes, poses and weights, from
+   which the page computes the deformed surfaces itself, and the stored answers of each method.
+ */
+#ifndef MOTE_HARNESS_REPLAY_H
+#define MOTE_HARNESS_REPLAY_H
+
+#include "harness/file.h"
+#include "harness/report.h"
+
+/* Base-64 bytes that one scenario may take, and all of a page. What does not fit is left out
+   and named. */
+#define MOTE_REPLAY_SCENARIO_BYTES 4500000u
+#define MOTE_REPLAY_PAGE_BYTES 10000000u
+
+/* Meshes above this are not replayed: indices have 16 bits. */
+#define MOTE_REPLAY_VERTICES 65535u
+
+/* The stored answers of one configuration, from its first cell that ended well. */
+typedef struct mote_replay_track {
+    const mote_summary_row *row;  /* borrowed */
+    const mote_stored_cell *cell; /* borrowed */
+    size_t rows;                  /* answered frames: first + k * stride */
+    double *distance;             /* [rows], MOTE_NONE without one */
+    mote_vec3 *pair;              /* [2 * rows], the points of distance; x MOTE_NONE: none */
+    size_t particles;             /* per body; 0: not shown */
+    mote_vec3 *place;             /* [rows * 2 * particles], by frame, then body */
+} mote_replay_track;
+
+/* A scenario with what is known of its frames. */
+typedef struct mote_replay_scene {
+    mote_scenario *scenario;
+    uint32_t first, last; /* the frames that any track has */
+    double *truth;        /* [last - first + 1] */
+    mote_vec3 *pair;      /* [2 * (last - first + 1)] */
+    mote_replay_track *tracks;
+    size_t count;
+    json_t *notes; /* texts: what is not shown, and why */
+} mote_replay_scene;
+
+/* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot caches,
+   and reads the answers of each. MOTE_EUNSUPPORTED, the text saying why, where it cannot be
+   shown: the scenario's file is not to be found or is another one now, or a mesh is too large.
+   The caller frees *scene. */
+mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
+                             mote_replay_scene *scene);
+void mote_replay_free(mote_replay_scene *scene);
+
+/* Reads the answers of a track from its CSV file: distance and pair. */
+mote_status mote_replay_read_cell(const char *directory, mote_replay_track *track);
+
+/* Asks the method of a track once more, untimed, for where its particles are; keeps them when
+   its distances are the stored ones to the bit, notes it in scene->notes when not. Nothing for
+   a method that has none to show. */
+mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *track);
+
+/* Appends the scene as JSON: see plots/page/data.js, which reads it. Left out, and noted, is
+   what would exceed `budget` bytes. */
+mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, mote_text *text);
+
+/* Appends every scenario of the report that can be shown, {"scenes": [...], "notes": [...]}.
+ *shown: how many. */
+mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t *shown);
+
+#endif
