@@ -10,6 +10,22 @@
 
 #define SIZE_LIMIT ((size_t)16 << 20)
 
+mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
+                            json_t **root)
+{
+    json_error_t error;
+    json_t *parsed = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    /* Jansson tells a place of whatever is wrong with the text, and none when memory ran out.
+     */
+    if (!parsed && (error.line < 0 || json_error_code(&error) == json_error_out_of_memory))
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its JSON", path);
+    if (!parsed)
+        return mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; %s", path, error.line, error.column,
+                         error.text, advice);
+    *root = parsed;
+    return MOTE_OK;
+}
+
 mote_status mote_json_open(const char *path, mote_json_file *file)
 {
     mote_json_file opened = {0};
@@ -17,14 +33,9 @@ mote_status mote_json_open(const char *path, mote_json_file *file)
     mote_status status = mote_file_read(path, SIZE_LIMIT, &opened.text, &size);
     if (status != MOTE_OK)
         return status;
-    json_error_t error;
-    opened.root = json_loadb(opened.text, size, JSON_REJECT_DUPLICATES, &error);
-    if (!opened.root) {
-        status = mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; correct the JSON there", path,
-                           error.line, error.column, error.text);
-    } else if (!(opened.path = mote_format("%s", path))) {
+    status = mote_json_parse(path, opened.text, size, "correct the JSON there", &opened.root);
+    if (status == MOTE_OK && !(opened.path = mote_format("%s", path)))
         status = mote_fail(MOTE_ENOMEM, "%s: no memory for its name", path);
-    }
     if (status == MOTE_OK)
         *file = opened;
     else
@@ -56,6 +67,13 @@ mote_status mote_json_fail(const mote_json *node, const char *format, ...)
     return mote_fail(MOTE_EINVAL, "%s:%d: %s%s%s", node->file->path,
                      mote_json_line(node->file->text, node->path), node->path,
                      node->path[0] ? ": " : "", text);
+}
+
+mote_status mote_json_blame(const mote_json *node, mote_status status)
+{
+    if (status == MOTE_OK || status == MOTE_ENOMEM)
+        return status;
+    return mote_json_fail(node, "%s", mote_error_text());
 }
 
 mote_json mote_json_member(const mote_json *object, const char *key)

@@ -22,6 +22,11 @@ typedef struct mote_json {
     char path[160];             /* "bodies[1].field.support"; "" at the root */
 } mote_json;
 
+/* Parses a whole JSON text; a key that stands twice is an error. path is for the message:
+   MOTE_EINVAL with "PATH:LINE:COLUMN: what; ADVICE", MOTE_ENOMEM. The caller decrefs *root. */
+mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
+                            json_t **root);
+
 /* Reads and parses a file of at most 16 MiB; a key that stands twice is an error. MOTE_EINVAL
    with "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
 mote_status mote_json_open(const char *path, mote_json_file *file);
@@ -30,6 +35,10 @@ mote_json mote_json_root(const mote_json_file *file);
 
 /* MOTE_EINVAL with "FILE:LINE: PATH: TEXT", the line being that of the value. */
 mote_status mote_json_fail(const mote_json *node, const char *format, ...) MOTE_PRINTF(2, 3);
+
+/* Puts the node's place before the text of a failure that its value caused, which becomes
+   MOTE_EINVAL; MOTE_OK and MOTE_ENOMEM stay as they are. */
+mote_status mote_json_blame(const mote_json *node, mote_status status);
 
 /* The member of an object, or a node without a value. */
 mote_json mote_json_member(const mote_json *object, const char *key);

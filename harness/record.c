@@ -1,5 +1,7 @@
 #include "harness/record.h"
 
+#include "harness/json_read.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,15 +50,8 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
     size_t size = 0;
     mote_status status = path ? mote_file_read(path, FILE_LIMIT, &data, &size)
                               : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
-    if (status == MOTE_OK) {
-        json_error_t error;
-        json_t *read = json_loadb(data, size, JSON_REJECT_DUPLICATES, &error);
-        if (read)
-            *object = read;
-        else
-            status = mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; expected JSON that mote wrote", path,
-                               error.line, error.column, error.text);
-    }
+    if (status == MOTE_OK)
+        status = mote_json_parse(path, data, size, "expected JSON that mote wrote", object);
     free(data);
     free(path);
     return status;

@@ -21,8 +21,8 @@ static mote_status read_centres(const mote_json *node, const mote_mesh *mesh,
     if (number.value) {
         int64_t wanted;
         mote_status status = mote_json_integer(&number, 1, MOTE_FIELD_MAX, &wanted);
-        if (status == MOTE_OK && mote_spread(mesh, (uint32_t)wanted, centres) != MOTE_OK)
-            status = mote_json_fail(&number, "%s", mote_error_text());
+        if (status == MOTE_OK)
+            status = mote_json_blame(&number, mote_spread(mesh, (uint32_t)wanted, centres));
         *count = (uint32_t)wanted;
         return status;
     }
@@ -152,9 +152,8 @@ static mote_status read_keyframes(const mote_json *node, double length,
                                &values[k * width]);
     }
     if (status == MOTE_OK) {
-        status = mote_curve_create(frames, values, (uint32_t)count, width, &motion->keyed);
-        if (status == MOTE_EINVAL)
-            status = mote_json_fail(node, "%s", mote_error_text());
+        status = mote_json_blame(
+            node, mote_curve_create(frames, values, (uint32_t)count, width, &motion->keyed));
     }
     free(frames);
     free(values);
@@ -245,10 +244,10 @@ static mote_status read_csrbf(const mote_json *node, const mote_mesh *mesh, mote
         status = mote_json_real(&key, 1e-6, 1e6, &support);
     if (status != MOTE_OK)
         return status;
-    if (mote_field_create_csrbf(centres, count, support * mesh->diagonal, field) != MOTE_OK ||
-        mote_csrbf_fit_create(*field, fit, NULL) != MOTE_OK)
-        return mote_json_fail(node, "%s", mote_error_text());
-    return MOTE_OK;
+    status = mote_field_create_csrbf(centres, count, support * mesh->diagonal, field);
+    if (status == MOTE_OK)
+        status = mote_csrbf_fit_create(*field, fit, NULL);
+    return mote_json_blame(node, status);
 }
 
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,

@@ -67,7 +67,7 @@ mote_status mote_scenario_merge_like(mote_json_file *file)
     status = mote_json_open(path, &base);
     free(path);
     if (status != MOTE_OK)
-        return mote_json_fail(&like, "%s", mote_error_text());
+        return mote_json_blame(&like, status);
     if (json_object_get(base.root, "like")) {
         status =
             mote_json_fail(&like, "%s is like another one itself; name one that is not", name);

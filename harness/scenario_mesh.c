@@ -21,7 +21,7 @@ static mote_status read_letter(const mote_json *letter, const mote_json *body, m
     if (status != MOTE_OK)
         return status;
     status = mote_letter_create(name[0], (size_t)triangles, mesh);
-    return status == MOTE_EINVAL ? mote_json_fail(letter, "%s", mote_error_text()) : status;
+    return mote_json_blame(letter, status);
 }
 
 /* A path that is not absolute starts from the scenario's folder. */
@@ -38,7 +38,7 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
     status = mote_mesh_import(path, mesh, NULL);
     free(path);
-    return status == MOTE_OK ? MOTE_OK : mote_json_fail(file, "%s", mote_error_text());
+    return mote_json_blame(file, status);
 }
 
 /* Replaces *mesh by itself with each coordinate multiplied. */
@@ -68,7 +68,7 @@ static mote_status scale_mesh(const mote_json *scale, mote_mesh **mesh)
                               old->triangle_count, &scaled);
     free(xyz);
     if (status != MOTE_OK)
-        return mote_json_fail(scale, "%s", mote_error_text());
+        return mote_json_blame(scale, status);
     mote_mesh_destroy(*mesh);
     *mesh = scaled;
     return MOTE_OK;

@@ -92,9 +92,7 @@ static mote_status make_curves(const mote_json *node, key_list *keys, mote_body_
         status = mote_curve_create(keys->rotation_frames, &keys->rotations->w,
                                    keys->rotation_count, 4, &motion->rotation);
     }
-    if (status == MOTE_EINVAL)
-        status = mote_json_fail(node, "%s", mote_error_text());
-    return status;
+    return mote_json_blame(node, status);
 }
 
 /* Between far apart keys the curve could come near the origin, where it has no direction. */

@@ -292,16 +292,18 @@ static mote_status read_cell(const char *directory, const char *file, const char
 }
 
 /* The program that measured last; "" without a manifest. */
-static void manifest_program(const char *directory, char *program, size_t size)
+static mote_status manifest_program(const char *directory, char *program, size_t size)
 {
     json_t *manifest = NULL;
     program[0] = '\0';
-    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
-        return;
+    const mote_status status = mote_record_read_json(directory, "manifest.json", &manifest);
+    if (status != MOTE_OK)
+        return status == MOTE_ENOMEM ? status : MOTE_OK;
     const char *text = json_string_value(json_object_get(manifest, "program"));
     if (text && strlen(text) < size)
         memcpy(program, text, strlen(text) + 1);
     json_decref(manifest);
+    return MOTE_OK;
 }
 
 static int by_group(const void *a, const void *b)
@@ -345,13 +347,16 @@ mote_status mote_stored_read(const char *directory, mote_stored *stored)
 {
     mote_stored read = {0};
     char program[32];
-    manifest_program(directory, program, sizeof program);
+    mote_status status = manifest_program(directory, program, sizeof program);
+    if (status != MOTE_OK)
+        return status;
     char *path = mote_format("%s/cells", directory);
     DIR *folder = path ? opendir(path) : NULL;
-    mote_status status = folder
-                             ? MOTE_OK
-                             : mote_fail(MOTE_EIO, "%s/cells: %s; name the directory of a run",
-                                         directory, path ? strerror(errno) : "no memory");
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", directory);
+    status = folder ? MOTE_OK
+                    : mote_fail(MOTE_EIO, "%s/cells: %s; name the directory of a run",
+                                directory, strerror(errno));
     for (const struct dirent *entry = folder ? readdir(folder) : NULL;
          entry && status == MOTE_OK; entry = readdir(folder)) {
         if (is_cell_file(entry->d_name))

@@ -1,0 +1,312 @@
+/* What happens when the n-th allocation, or the n-th write, sync or rename, fails, for every n:
+   an error with a text, nothing leaked (under AddressSanitizer), nothing half-written. The
+   linker puts the functions below in the place of libc's (--wrap), for our own objects. */
+#include "core/method.h"
+#include "harness/file.h"
+#include "harness/probe.h"
+#include "harness/summary.h"
+#include "tests/shapes.h"
+
+#include <errno.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+/* Calls until one fails; below 0: none does. */
+static long allocations_left = -1, writes_left = -1;
+
+static bool is_due(long *left)
+{
+    if (*left < 0)
+        return false;
+    return (*left)-- == 0;
+}
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
+ssize_t __real_write(int file, const void *data, size_t size);
+int __real_fsync(int file);
+int __real_rename(const char *from, const char *to);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
+ssize_t __wrap_write(int file, const void *data, size_t size);
+int __wrap_fsync(int file);
+int __wrap_rename(const char *from, const char *to);
+
+void *__wrap_malloc(size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_malloc(size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_calloc(count, size);
+}
+
+void *__wrap_realloc(void *old, size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_realloc(old, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_aligned_alloc(alignment, size);
+}
+
+ssize_t __wrap_write(int file, const void *data, size_t size)
+{
+    if (is_due(&writes_left)) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return __real_write(file, data, size);
+}
+
+int __wrap_fsync(int file)
+{
+    if (is_due(&writes_left)) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_fsync(file);
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    if (is_due(&writes_left)) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_rename(from, to);
+}
+
+static const long never = -1;
+
+/* Runs work with its n-th allocation failing, for every n until none is left to fail. Each time
+   it must have failed and said so, or have gone well all the same (memory is not given back
+   when a block cannot be made smaller); without a failing one it must have gone well. */
+static void fail_each_allocation(mote_status (*work)(void *), void *context, const char *what)
+{
+    for (long n = 0;; ++n) {
+        assert_int_equal(mote_fail(MOTE_OK, "nothing said"), MOTE_OK);
+        allocations_left = n;
+        const mote_status status = work(context);
+        const bool failed = allocations_left < 0;
+        allocations_left = never;
+        if (!failed) {
+            if (status != MOTE_OK)
+                fail_msg("%s: %s", what, mote_error_text());
+            assert_true(n > 0);
+            return;
+        }
+        if (status == MOTE_OK)
+            continue;
+        if (status != MOTE_ENOMEM)
+            fail_msg("%s: allocation %ld failed, status %s: %s", what, n,
+                     mote_status_text(status), mote_error_text());
+        if (strcmp(mote_error_text(), "nothing said") == 0)
+            fail_msg("%s: allocation %ld failed without a text", what, n);
+    }
+}
+
+typedef struct method_work {
+    scene *scene;
+    mote_method_choice choice;
+    mote_answer answer; /* where none fails */
+} method_work;
+
+static mote_status answer_twice(const method_work *w, mote_answer *answer)
+{
+    mote_probe *probe = NULL;
+    mote_status status = mote_probe_create(&w->scene->body[0], &w->scene->body[1], &w->choice,
+                                           MOTE_ASK_DISTANCE, 0, 1, &probe);
+    if (status == MOTE_OK)
+        status = mote_probe_answer(probe, &w->scene->frame, answer);
+    if (status == MOTE_OK)
+        status = mote_probe_answer(probe, &w->scene->frame, answer);
+    mote_probe_destroy(probe);
+    return status;
+}
+
+/* Goes well only with the answer that it has when nothing fails. */
+static mote_status answer_again(void *context)
+{
+    const method_work *w = context;
+    mote_answer answer;
+    const mote_status status = answer_twice(w, &answer);
+    if (status == MOTE_OK)
+        assert_true(answer.distance == w->answer.distance);
+    return status;
+}
+
+static void method_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "certified",          "certified:seed=tracked",           "particle:n=8",
+        "particle-paper:n=5", "particle-paper:n=8,far_cache=0.1", "aabb-tree",
+        "brute-force"};
+    scene s;
+    scene_init(&s, 8, 6, 1.1, true);
+    scene_next(&s, 1.2, false);
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        method_work work = {.scene = &s};
+        assert_int_equal(mote_method_choice_read(names[k], &work.choice), MOTE_OK);
+        assert_int_equal(answer_twice(&work, &work.answer), MOTE_OK);
+        fail_each_allocation(answer_again, &work, names[k]);
+    }
+    scene_free(&s);
+}
+
+static mote_status make_mesh(void *context)
+{
+    const mote_mesh *like = context;
+    mote_mesh *mesh = NULL;
+    const mote_status status =
+        mote_mesh_create(&like->positions[0].x, like->vertex_count, &like->triangles[0][0],
+                         like->triangle_count, &mesh);
+    mote_mesh_destroy(mesh);
+    return status;
+}
+
+static void mesh_create_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    mote_mesh *like = make_torus(5, 4, 1);
+    fail_each_allocation(make_mesh, like, "mote_mesh_create");
+    mote_mesh_destroy(like);
+}
+
+static mote_status load_scenario(void *context)
+{
+    mote_scenario *scenario = NULL;
+    mote_frame_buffer *buffer = NULL;
+    mote_status status = mote_scenario_load(context, &scenario);
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(scenario, &buffer);
+    if (status == MOTE_OK)
+        (void)mote_scenario_frame(scenario, buffer, 2, 1);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(scenario);
+    return status;
+}
+
+static void scenario_load_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    char path[] = MOTE_SOURCE_DIR "/tests/corpus/fuzz_scenario/sines.json";
+    fail_each_allocation(load_scenario, path, "mote_scenario_load");
+}
+
+static char folder[] = "/tmp/mote-faults-XXXXXX";
+
+static void write_cell(const char *name, const char *text)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/cells/%s", folder, name);
+    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+}
+
+static mote_status make_summary(void *context)
+{
+    mote_summary summary;
+    const mote_status status = mote_summary_make(context, &summary);
+    if (status == MOTE_OK)
+        mote_summary_free(&summary);
+    return status;
+}
+
+static void summary_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    assert_int_equal(
+        mote_file_read(MOTE_SOURCE_DIR "/tests/corpus/fuzz_cell/whole", 1 << 20, &text, &size),
+        MOTE_OK);
+    char *cut = strstr(text, "\n====\n");
+    assert_non_null(cut);
+    *cut = '\0';
+    write_cell("fuzz.json", text);
+    write_cell("fuzz.csv", cut + 6);
+    free(text);
+    fail_each_allocation(make_summary, folder, "mote_summary_make");
+}
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+static void file_write_when_a_step_fails_leaves_the_file_whole(void **state)
+{
+    (void)state;
+    char path[128], beside[160];
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    (void)snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid());
+    assert_int_equal(mote_file_write(path, "old", 3), MOTE_OK);
+    for (long n = 0;; ++n) {
+        writes_left = n;
+        const mote_status status = mote_file_write(path, "new!", 4);
+        const bool failed = writes_left < 0;
+        writes_left = never;
+        assert_false(exists(beside));
+        char *text = NULL;
+        size_t size;
+        assert_int_equal(mote_file_read(path, 100, &text, &size), MOTE_OK);
+        assert_true(strcmp(text, "old") == 0 || strcmp(text, "new!") == 0);
+        if (!failed)
+            assert_string_equal(text, "new!");
+        free(text);
+        assert_int_equal(status, failed ? MOTE_EIO : MOTE_OK);
+        if (!failed) {
+            assert_int_equal(n, 4); /* write, fsync, rename, fsync of the directory */
+            break;
+        }
+    }
+    assert_int_equal(remove(path), 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    char path[128];
+    if (!mkdtemp(folder))
+        return -1;
+    (void)snprintf(path, sizeof path, "%s/cells", folder);
+    return mkdir(path, 0700);
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char path[128];
+    static const char *const names[] = {"cells/fuzz.json", "cells/fuzz.csv", "cells", ""};
+    for (int k = 0; k < 4; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        (void)remove(path);
+    }
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mesh_create_when_an_allocation_fails_says_so),
+        cmocka_unit_test(method_when_an_allocation_fails_says_so),
+        cmocka_unit_test(scenario_load_when_an_allocation_fails_says_so),
+        cmocka_unit_test(summary_when_an_allocation_fails_says_so),
+        cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
