@@ -1,5 +1,6 @@
-/* The experiments on the paper's claims a to m, and on what this implementation must show. Each
-   fills the figures of one claim; its text and thresholds stand in the experiment's file. */
+/* The experiments on the paper's claims a to m and in the closed loop, and on what this
+   implementation must show. Each fills the figures of one claim; its text and thresholds stand
+   in the experiment's file. */
 #ifndef MOTE_HARNESS_CLAIMS_H
 #define MOTE_HARNESS_CLAIMS_H
 
@@ -18,7 +19,8 @@
     X(few_particles)    /* j */                                                                \
     X(hierarchy_memory) /* k */                                                                \
     X(hierarchy_update) /* l */                                                                \
-    X(deformed_parts)   /* m */
+    X(deformed_parts)   /* m */                                                                \
+    X(closed_loop)      /* dynamics */
 
 /* What must be so on any machine, whatever the paper says. */
 #define MOTE_REQUIREMENTS(X)                                                                   \

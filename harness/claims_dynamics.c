@@ -1,0 +1,43 @@
+/* What the paper claims of motion that depends on the answers: the closed loop. */
+#include "harness/claims.h"
+
+#include "harness/dynamics.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* 3 to 5 particles decide; more, and a control, stand beside. */
+static bool is_told(const mote_dynamics_row *row)
+{
+    if (row->law)
+        return strcmp(row->law, "log") == 0 && row->n >= 3;
+    return strncmp(row->method, "fcl", 3) != 0;
+}
+
+mote_status mote_claim_closed_loop(mote_study *study, mote_claim *claim)
+{
+    mote_dynamics_claim(claim);
+    const mote_dynamics_size size = {.quick = true, .approaches = study->quick ? 100 : 400};
+    mote_dynamics_row *rows;
+    size_t count;
+    mote_status status = mote_dynamics_plan(&size, &rows, &count);
+    if (status != MOTE_OK)
+        return status;
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        const mote_subject *subject;
+        mote_dynamics_row *row = &rows[i];
+        if (!is_told(row))
+            continue;
+        status = mote_study_scene(study, row->scene, &subject);
+        if (status == MOTE_OK)
+            status = mote_approaches_simulate(subject->scenario, row->method, row->wanted,
+                                              &row->sum);
+        const char *failure = status == MOTE_OK ? mote_dynamics_failure(row) : NULL;
+        if (failure)
+            status = mote_fail(MOTE_ENUMERIC, "%s, %s: %s", row->scene, row->method, failure);
+        if (status == MOTE_OK)
+            status = mote_dynamics_claim_add(claim, row);
+    }
+    free(rows);
+    return status;
+}
