@@ -2,7 +2,6 @@
 
 #include "harness/motion.h"
 #include "harness/penetration.h"
-#include "harness/probe.h"
 #include "harness/statistics.h"
 
 #include <stdlib.h>
@@ -29,9 +28,10 @@ typedef struct run {
     const mote_simulation_start *start;
     mote_rigid_state state[2], previous[2];
     mote_simulation_result *result;
-    double lower;    /* of the true distance, proven */
-    double lost;     /* energy lost in impacts */
-    bool has_normal; /* witnesses of a separated frame are known */
+    double lower;       /* of the true distance, proven */
+    double lost;        /* energy lost in impacts */
+    mote_answer answer; /* the method's last */
+    bool has_normal;    /* witnesses of a separated frame are known */
     mote_vec3 witness[2];
     bool in_contact, reported; /* the run of contacts that goes on */
     uint32_t began;
@@ -257,12 +257,12 @@ static double now_ns(void)
 static mote_status ask_method(run *r, const mote_frame *frame, bool *contact)
 {
     const mote_simulator *s = r->simulator;
-    mote_answer answer = {0};
     const double from = now_ns();
-    const mote_status status = mote_probe_answer(s->probe, frame, &answer);
+    const mote_status status = mote_probe_answer(s->probe, frame, &r->answer);
     r->query_ns += now_ns() - from;
     if (status != MOTE_OK)
         return status;
+    const mote_answer answer = r->answer;
     if (!answer.has_contact && !answer.has_distance)
         return mote_fail(MOTE_EUNSUPPORTED, "%s says neither distance nor contact",
                          s->choice.text);
@@ -453,6 +453,14 @@ static mote_status step(run *r, uint32_t k)
                          r->simulator->options.tolerance);
     if (status == MOTE_OK)
         status = book(r, &frame, k, truth, said, distance);
+    const mote_simulation_view view = {.step = k,
+                                       .frame = &frame,
+                                       .said = &r->answer,
+                                       .method = r->simulator->probe,
+                                       .contact = said,
+                                       .truth = truth};
+    if (status == MOTE_OK && r->start->watch)
+        status = r->start->watch(r->start->context, &view);
     if (status == MOTE_OK && said)
         status = respond(r);
     return status;

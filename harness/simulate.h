@@ -6,6 +6,7 @@
 
 #include "core/response.h"
 #include "harness/command.h"
+#include "harness/probe.h"
 #include "harness/scenario.h"
 
 /* Truth is not asked where a lower bound of the distance exceeds this part of L. */
@@ -27,6 +28,19 @@ typedef struct mote_simulation_options {
    frame a step. */
 mote_simulation_options mote_default_simulation_options(const mote_scenario *scenario);
 
+/* A step, before the bodies respond: for pictures. Borrowed for the call. */
+typedef struct mote_simulation_view {
+    uint32_t step;            /* from 0 */
+    const mote_frame *frame;  /* where the bodies are; vertices are NULL */
+    const mote_answer *said;  /* the method's answer */
+    const mote_probe *method; /* asked just now: mote_probe_particles */
+    bool contact;             /* the method says contact */
+    bool truth;               /* the bodies are in contact */
+} mote_simulation_view;
+
+/* Sees every step; a status other than MOTE_OK ends the simulation with it. */
+typedef mote_status (*mote_simulation_watch)(void *context, const mote_simulation_view *view);
+
 /* Where a simulation begins and how long it lasts. */
 typedef struct mote_simulation_start {
     mote_rigid_state state[2];
@@ -38,6 +52,8 @@ typedef struct mote_simulation_start {
     uint64_t seed;  /* of the method */
     bool
         depth_unreported; /* measure depth only until a contact is reported: it takes longest */
+    mote_simulation_watch watch; /* or NULL */
+    void *context;               /* what watch is called with */
 } mote_simulation_start;
 
 typedef struct mote_simulation_result {
