@@ -21,6 +21,8 @@
 #   make claims [OUT=DIR]                             measure the claims of the paper
 #   make test-library                               the library alone: gcc, clang, musl-gcc
 #   make test-stranger                              a method, field, scenario from README.md alone
+#   make test-cluster                               a Slurm of one node here: array, kill, merge
+#   make test-exports                               exports read by jq, pandas, scipy
 #   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make lint, make deps, make build, make clean
 
@@ -138,7 +140,7 @@ lint: format build
 clean:
 	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz
 
-.PHONY: test-library test-stranger install
+.PHONY: test-library test-stranger test-cluster test-exports install
 
 test-library: deps
 	@cmake/deps.sh tests/packages-library.txt || echo "going on with the compilers at hand"
@@ -146,6 +148,15 @@ test-library: deps
 
 test-stranger: deps
 	@tests/stranger.sh
+
+test-cluster: build
+	@cmake/deps.sh tests/packages-cluster.txt
+	@tests/cluster.sh $(MOTE)
+
+test-exports: build
+	@cmake/deps.sh tests/packages-exports.txt
+	@cmake --build $(BUILD) -j $(JOBS) --target mann_whitney
+	@/usr/bin/python3 tests/exports.py $(MOTE) $(BUILD)/tests/mann_whitney results/schema
 
 PREFIX ?= /usr/local
 

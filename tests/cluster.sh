@@ -1,0 +1,191 @@
+#!/bin/bash
+# cluster.sh MOTE: starts a Slurm of one node on the loopback interface, out of a folder of its own;
+# submits harness/cluster/bench.sbatch as an array of 4; kills the program of one task, which is then
+# queued again; waits for the dependent merge; and compares all cells with a run of one process. Stops
+# what it started. Needs root, munge and slurm-wlm; no systemd, no cgroups.
+set -euo pipefail
+mote=$(realpath "$1")
+root=$(realpath "$(dirname "$0")/..")
+work=$(mktemp -d /tmp/mote-cluster-XXXXXX)
+pids=()
+fail()
+{
+    echo "cluster.sh: $*" >&2
+    tail -n 20 "$work"/*.log "$work"/out/*.log >&2 || true
+    exit 1
+}
+# Only what was started here, by its number; the controller first, so that it starts nothing more.
+stop()
+{
+    local pid
+    if [ -n "${job:-}" ]; then
+        scancel --user=root 2> /dev/null || true
+        for _ in $(seq 40); do
+            [ -n "$(squeue -h 2> /dev/null)" ] || break
+            sleep 0.5
+        done
+    fi
+    for pid in "${pids[@]}"; do
+        kill "$pid" 2> /dev/null || true
+        wait "$pid" 2> /dev/null || true
+    done
+    rm -rf "$work"
+}
+trap stop EXIT
+
+# free_port FROM: the first port of the loopback interface on which nobody listens.
+free_port()
+{
+    local port=$1
+    while (: < "/dev/tcp/127.0.0.1/$port") 2> /dev/null; do port=$((port + 1)); done
+    echo "$port"
+}
+
+start_slurm()
+{
+    local host
+    host=$(hostname -s)
+    mkdir -m 700 "$work"/{munge,state,spool}
+    head -c 128 /dev/urandom > "$work/munge/key"
+    chmod 600 "$work/munge/key"
+    chmod 755 "$work"
+    munged --foreground --key-file="$work/munge/key" --socket="$work/munge/socket" \
+        --pid-file="$work/munge/pid" --log-file="$work/munge/log" --seed-file="$work/munge/seed" \
+        --origin=127.0.0.1 --force > "$work/munged.log" 2>&1 &
+    pids+=($!)
+    cat > "$work/slurm.conf" <<CONF
+ClusterName=mote
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=$(free_port 16817)
+SlurmdPort=$(free_port 16917)
+CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/munge
+AuthInfo=socket=$work/munge/socket,cred_expire=10
+CredType=cred/munge
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+AccountingStorageType=accounting_storage/none
+MpiDefault=none
+SelectType=select/linear
+SchedulerType=sched/backfill
+SchedulerParameters=batch_sched_delay=1,sched_interval=2,bf_interval=2
+StateSaveLocation=$work/state
+SlurmdSpoolDir=$work/spool
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
+SlurmctldLogFile=$work/slurmctld.log
+SlurmdLogFile=$work/slurmd.log
+ReturnToService=2
+KillWait=5
+MinJobAge=600
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
+CONF
+    export SLURM_CONF=$work/slurm.conf
+    slurmctld -D > "$work/slurmctld.out.log" 2>&1 &
+    pids=($! "${pids[@]}")
+    slurmd -D > "$work/slurmd.out.log" 2>&1 &
+    pids=("${pids[0]}" $! "${pids[@]:1}")
+    for _ in $(seq 60); do
+        [ "$(sinfo -h -o %T 2> /dev/null)" != idle ] || return 0
+        sleep 0.5
+    done
+    fail "no node became idle"
+}
+
+cells() { find "$1/cells" -name '*.json' 2> /dev/null | sort; }
+
+# state TASK: of a task of the array, or "" when Slurm no longer knows it.
+state() { scontrol show job "${job}_$1" 2> /dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | sed 1q; }
+
+# Whether all who listen on a port do so on 127.0.0.1 only; somebody must.
+on_loopback()
+{
+    local port
+    port=$(printf %04X "$(sed -n "s/^$1=//p" "$work/slurm.conf")")
+    cat /proc/net/tcp /proc/net/tcp6 | awk -v port="$port" '
+        $4 == "0A" && $2 ~ ":" port "$" { ++found; if ($2 != "0100007F:" port) exit 1 }
+        END { exit !found }' || fail "$1 is not on the loopback interface alone"
+}
+
+start_slurm
+on_loopback SlurmctldPort
+on_loopback SlurmdPort
+# More scenarios than tasks, so that one task has two; slow enough to be killed in time.
+arguments=(tt mv tw islands rigid-mv --frames 1-400 --replicates 3 --stride 1 --seed 7
+    --method fcl-aabb --method certified --method particle:n=8 --method aabb-tree)
+mkdir "$work/out"
+cd "$root"
+job=$(MOTE=$mote sbatch --parsable --array=1-4 --output="$work/out/task-%a.log" \
+    harness/cluster/bench.sbatch "$work/out" "${arguments[@]}")
+echo "array of 4: job $job"
+
+# Task 1 has two scenarios: 24 cells. Its program is killed while it measures.
+shard=$work/out/shards/1
+for _ in $(seq 2400); do
+    [ "$(cells "$shard" | wc -l)" -lt 5 ] || break
+    sleep 0.05
+done
+ids=$(scontrol show job "${job}_1" | sed -n 's/^JobId=\([0-9]*\).*/\1/p' | sed 1q)
+victim=
+for pid in $(scontrol listpids "$ids" | awk 'NR > 1 { print $1 }'); do
+    # The parent of the cell that is being measured: its child dies with it.
+    if [ "$(readlink "/proc/$pid/exe" 2> /dev/null)" = "$mote" ] &&
+        tr '\0' ' ' < "/proc/$pid/cmdline" | grep -q " run " &&
+        [ "$(ps -o comm= -p "$(ps -o ppid= -p "$pid" | tr -d ' ')")" != mote ]; then
+        victim=$pid
+    fi
+done
+[ -n "$victim" ] || fail "no program to be killed"
+kill -STOP "$victim"
+before=$(cells "$shard" | wc -l)
+cells "$shard" | xargs stat -c '%i %Y %s %n' > "$work/before"
+kill -KILL "$victim"
+echo "killed task 1 with $before of 24 cells measured"
+[ "$before" -lt 24 ] || fail "task 1 was done before it could be killed"
+
+for _ in $(seq 600); do
+    if [ -e "$work/out/summary.json" ] && [ -z "$(squeue -h)" ]; then break; fi
+    sleep 0.5
+done
+[ -e "$work/out/summary.json" ] || { squeue >&2; fail "the merge never ran"; }
+[ "$(scontrol show job "$ids" | sed -n 's/.*Restarts=\([0-9]*\).*/\1/p')" = 1 ] ||
+    fail "task 1 was not queued again"
+for task in 1 2 3 4; do
+    [ "$(state $task)" = COMPLETED ] || fail "task $task: $(state $task)"
+done
+
+# What was there stayed as it was; all else was measured in the second attempt, nothing twice.
+stat -c '%i %Y %s %n' $(awk '{ print $4 }' "$work/before") | cmp - "$work/before" ||
+    fail "cells were measured again"
+grep -q "plan: 24 cells, $before of them done" "$work/out/task-1.log" ||
+    fail "the second attempt did not go on from $before cells"
+echo "requeued: went on from $before cells; the killed task lost only its unfinished cell"
+
+"$mote" run "${arguments[@]}" --out "$work/whole" > "$work/whole.log" 2>&1 || fail "the whole run"
+compared=0
+for shard in "$work"/out/shards/*; do
+    [ "$(cells "$shard" | sed 's|.*/||; s/-r[0-9].*//' | sort -u | wc -l)" -ge 4 ] ||
+        fail "$shard has not all methods of its scenario"
+done
+diff <(cells "$work/whole" | sed 's|.*/||') <(cells "$work/out" | sed 's|.*/||') ||
+    fail "other cells than the whole run"
+# Every column but the three times.
+for csv in "$work"/whole/cells/*.csv; do
+    cmp <(cut -d , -f 1,5- "$csv") <(cut -d , -f 1,5- "$work/out/cells/${csv##*/}") ||
+        fail "${csv##*/}: other answers"
+    compared=$((compared + 1))
+done
+[ $compared -eq 60 ] || fail "$compared cells compared, not 60"
+# And of the summary: errors, contacts, replicates.
+answers()
+{
+    "$mote" summarize "$1" --format csv | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i)
+        if ($i !~ /_ns_|ratio|heap|rss/) keep[i] = 1 } { line = ""
+        for (i = 1; i <= NF; ++i) if (i in keep) line = line $i ","; print line }'
+}
+diff <(answers "$work/whole") <(answers "$work/out") || fail "other summaries"
+echo "60 cells of 20 configurations: the same as unsharded, times aside"
