@@ -20,6 +20,10 @@ void mote_escape_path(mote_text *text, const char *path);
    \u003c, which within JSON strings, the only place where it stands, is the same. */
 void mote_escape_script(mote_text *text, const char *json);
 
+/* Appends an SVG drawing as the rest of a "data:image/svg+xml;charset=utf-8," address within a
+   quoted attribute. */
+void mote_escape_drawing(mote_text *text, const char *svg);
+
 /* Appends size bytes in base 64, padded. */
 void mote_base64(mote_text *text, const void *data, size_t size);
 

@@ -43,6 +43,11 @@ static void add_inline(mote_text *text, const char *line, size_t length)
         mote_text_add(text, "</code>");
 }
 
+void mote_markdown_inline(mote_text *text, const char *line)
+{
+    add_inline(text, line, strlen(line));
+}
+
 static void close_block(writer *w)
 {
     if (w->open == BLOCK_PARAGRAPH)

@@ -9,7 +9,10 @@
    title, # at its beginning, is left out. Everything else is text, and escaped. */
 void mote_markdown_html(mote_text *text, const char *markdown);
 
-/* Appends the same for a text of its own below a heading of level 2: every heading one level
+/* Appends one line of text with `code` in it as HTML. */
+void mote_markdown_inline(mote_text *text, const char *line);
+
+/* Appends Markdown as Markdown below a heading of level 2: every heading one level
    lower, the title left out. */
 void mote_markdown_nested(mote_text *text, const char *markdown);
 

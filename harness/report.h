@@ -9,7 +9,6 @@
 
 /* A drawn figure of the run. */
 typedef struct mote_report_figure {
-    char *name;     /* "front-ww": the file's name without its end */
     char *file;     /* "figures/front-ww.svg", relative to the run */
     char *title;    /* what it shows: a few words */
     char *caption;  /* what can be read from it; "" where nothing is known of it */
@@ -37,8 +36,8 @@ typedef struct mote_report {
 mote_status mote_report_gather(const char *directory, mote_report *report);
 void mote_report_free(mote_report *report);
 
-/* Fills figures from directory/figures and names those that a run should have and this one does
-   not. Part of mote_report_gather. */
+/* Fills figures from directory/figures; adds to missing what its list names as missing. Part of
+   mote_report_gather. */
 mote_status mote_report_figures(mote_report *report);
 
 /* The page and the text. `text` is to be written by mote_record_text. */

@@ -1,73 +1,12 @@
-/* The drawn figures of a run, found by their files. */
+/* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
+#include "harness/record.h"
 #include "harness/report.h"
+#include "harness/report_rows.h"
 
 #include <dirent.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A kind of figure: drawn as NAME.svg, or as NAME-SCENARIO.svg for each scenario. */
-typedef struct kind {
-    const char *name, *title, *caption;
-} kind;
-
-static const kind kinds[] = {
-    {"fig3", "Query time over query number, W-W (the paper's Figure 3)",
-     "Total time of each query, all deformation included: particles with n = 5 against FCL, "
-     "and "
-     "the paper's average and maximum. Median of the replicates."},
-    {"front", "Speed against error",
-     "Every configuration a point, the number of particles beside it: what one more particle "
-     "costs and gives. Whiskers are 95 % intervals."},
-};
-#define KIND_COUNT (sizeof kinds / sizeof kinds[0])
-
-/* The kind of a figure's name, or KIND_COUNT; *rest: the scenario's part, "" without one. */
-static size_t kind_of(const char *name, const char **rest)
-{
-    for (size_t k = 0; k < KIND_COUNT; ++k) {
-        size_t length = strlen(kinds[k].name);
-        if (strncmp(name, kinds[k].name, length) != 0)
-            continue;
-        if (name[length] == '\0' || name[length] == '-') {
-            *rest = name[length] ? name + length + 1 : "";
-            return k;
-        }
-    }
-    *rest = "";
-    return KIND_COUNT;
-}
-
-static mote_status add_figure(mote_report *report, const char *file, bool animation)
-{
-    mote_report_figure *figures =
-        realloc(report->figures, (report->figure_count + 1) * sizeof *figures);
-    if (!figures)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    report->figures = figures;
-    mote_report_figure *figure = &figures[report->figure_count++];
-    const char *rest = "";
-    figure->animation = animation;
-    figure->name = mote_format("%.*s", (int)strlen(file) - 4, file);
-    figure->file = mote_format("figures/%s", file);
-    size_t k = figure->name ? kind_of(figure->name, &rest) : KIND_COUNT;
-    figure->title = k == KIND_COUNT
-                        ? mote_format("%s", figure->name ? figure->name : "")
-                        : mote_format("%s%s%s", kinds[k].title, rest[0] ? ": " : "", rest);
-    figure->caption = mote_format("%s", k == KIND_COUNT ? "" : kinds[k].caption);
-    if (!figure->name || !figure->file || !figure->title || !figure->caption)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    return MOTE_OK;
-}
-
-/* By kind, in the order above, then by name. */
-static int by_kind(const void *a, const void *b)
-{
-    const mote_report_figure *first = a, *second = b;
-    const char *rest;
-    size_t k = kind_of(first->name, &rest), l = kind_of(second->name, &rest);
-    return k != l ? (k < l ? -1 : 1) : strcmp(first->file, second->file);
-}
+#include <sys/stat.h>
 
 static bool ends_in(const char *name, const char *end)
 {
@@ -75,28 +14,83 @@ static bool ends_in(const char *name, const char *end)
     return length > size && name[0] != '.' && strcmp(name + length - size, end) == 0;
 }
 
-static mote_status name_missing(mote_report *report)
+static bool exists(const mote_report *report, const char *file)
 {
-    for (size_t k = 0; k < KIND_COUNT; ++k) {
-        bool found = false;
-        for (size_t i = 0; i < report->figure_count; ++i) {
-            const char *rest;
-            found = found || kind_of(report->figures[i].name, &rest) == k;
-        }
-        char *text = found ? NULL
-                           : mote_format("figure \"%s\": not drawn, or the run has no data "
-                                         "for it; `make figures OUT=...` draws it",
-                                         kinds[k].title);
-        if (!found && json_array_append_new(report->missing, json_string(text)) != 0) {
-            free(text);
-            return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-        }
-        free(text);
+    struct stat info;
+    char *path = mote_format("%s/figures/%s", report->directory, file);
+    bool found = path && stat(path, &info) == 0;
+    free(path);
+    return found;
+}
+
+/* Adds a figure; title is taken over. */
+static mote_status add_figure(mote_report *report, const char *file, char *title,
+                              const char *caption)
+{
+    mote_report_figure *figures =
+        realloc(report->figures, (report->figure_count + 1) * sizeof *figures);
+    if (!figures || !title) {
+        free(title);
+        report->figures = figures ? figures : report->figures;
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     }
+    report->figures = figures;
+    mote_report_figure *figure = &figures[report->figure_count++];
+    figure->animation = ends_in(file, ".gif");
+    figure->file = mote_format("figures/%s", file);
+    figure->title = title;
+    figure->caption = mote_format("%s", caption);
+    if (!figure->file || !figure->caption)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     return MOTE_OK;
 }
 
-mote_status mote_report_figures(mote_report *report)
+/* One entry of figures.json: the drawing that a page shows. */
+static mote_status add_entry(mote_report *report, const json_t *entry)
+{
+    size_t i;
+    const json_t *item;
+    const char *scenario = mote_report_text(entry, "scenario");
+    mote_status status = MOTE_OK;
+    json_array_foreach(json_object_get(entry, "files"), i, item)
+    {
+        const char *file = json_is_string(item) ? json_string_value(item) : "";
+        bool shown = ends_in(file, ".svg") || ends_in(file, ".gif");
+        if (status != MOTE_OK || !shown || strchr(file, '/') || !exists(report, file))
+            continue;
+        char *title =
+            mote_format("Figure %.0f. %s%s%s", mote_report_number(entry, NULL, "number"),
+                        mote_report_text(entry, "title"), scenario[0] ? ": " : "", scenario);
+        status = add_figure(report, file, title, mote_report_text(entry, "caption"));
+    }
+    return status;
+}
+
+static mote_status read_list(mote_report *report, const json_t *list)
+{
+    size_t i;
+    json_t *item;
+    mote_status status = MOTE_OK;
+    json_array_foreach(json_object_get(list, "figures"), i, item)
+    {
+        if (status == MOTE_OK)
+            status = add_entry(report, item);
+    }
+    json_array_foreach(json_object_get(list, "missing"), i, item)
+    {
+        if (json_is_string(item) && json_array_append(report->missing, item) != 0)
+            status = mote_fail(MOTE_ENOMEM, "no memory for a report");
+    }
+    return status;
+}
+
+static int by_file(const void *a, const void *b)
+{
+    const mote_report_figure *first = a, *second = b;
+    return strcmp(first->file, second->file);
+}
+
+static mote_status read_folder(mote_report *report)
 {
     char *path = mote_format("%s/figures", report->directory);
     DIR *folder = path ? opendir(path) : NULL;
@@ -104,13 +98,32 @@ mote_status mote_report_figures(mote_report *report)
     mote_status status = MOTE_OK;
     for (const struct dirent *entry = folder ? readdir(folder) : NULL;
          entry && status == MOTE_OK; entry = readdir(folder)) {
-        bool animation = ends_in(entry->d_name, ".gif");
-        if (animation || ends_in(entry->d_name, ".svg"))
-            status = add_figure(report, entry->d_name, animation);
+        const char *file = entry->d_name;
+        if (ends_in(file, ".svg") || ends_in(file, ".gif"))
+            status =
+                add_figure(report, file, mote_format("%.*s", (int)strlen(file) - 4, file), "");
     }
     if (folder)
         (void)closedir(folder);
-    if (status == MOTE_OK && report->figure_count > 0)
-        qsort(report->figures, report->figure_count, sizeof *report->figures, by_kind);
-    return status == MOTE_OK ? name_missing(report) : status;
+    if (report->figure_count > 0)
+        qsort(report->figures, report->figure_count, sizeof *report->figures, by_file);
+    return status;
+}
+
+mote_status mote_report_figures(mote_report *report)
+{
+    json_t *list = NULL;
+    mote_status status = MOTE_OK;
+    if (mote_record_read_json(report->directory, "figures/figures.json", &list) == MOTE_OK) {
+        status = read_list(report, list);
+        json_decref(list);
+        return status;
+    }
+    char *text = mote_format("figures: no list of them (figures/figures.json); `mote figures "
+                             "%s` draws them",
+                             report->directory);
+    if (!text || json_array_append_new(report->missing, json_string(text)) != 0)
+        status = mote_fail(MOTE_ENOMEM, "no memory for a report");
+    free(text);
+    return status == MOTE_OK ? read_folder(report) : status;
 }

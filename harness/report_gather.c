@@ -162,7 +162,6 @@ void mote_report_free(mote_report *report)
     json_decref(report->requirements);
     json_decref(report->missing);
     for (size_t i = 0; i < report->figure_count; ++i) {
-        free(report->figures[i].name);
         free(report->figures[i].file);
         free(report->figures[i].title);
         free(report->figures[i].caption);

@@ -142,7 +142,7 @@ static void add_missing(const mote_report *report, mote_text *text)
     json_array_foreach(report->missing, i, what)
     {
         mote_text_add(text, "<li>");
-        mote_escape_html(text, json_string_value(what));
+        mote_markdown_inline(text, json_string_value(what));
         mote_text_add(text, "</li>\n");
     }
     mote_text_add(text, "</ul>\n</section>\n");

@@ -20,8 +20,8 @@ static mote_status add_image(const mote_report *report, const mote_report_figure
         mote_escape_path(text, figure->file);
         mote_text_add(text, "\"><img alt=\"");
         mote_escape_html(text, figure->title);
-        mote_text_add(text, "\" src=\"data:image/svg+xml;base64,");
-        mote_base64(text, svg, size);
+        mote_text_add(text, "\" src=\"data:image/svg+xml;charset=utf-8,");
+        mote_escape_drawing(text, svg);
         mote_text_add(text, "\"></a>\n");
     }
     free(svg);

@@ -188,7 +188,7 @@ static void report_html_loads_nothing(void **state)
     assert_null(strstr(page, "src=\"http"));
     assert_null(strstr(page, "@import"));
     assert_non_null(strstr(page, "default-src 'none'"));
-    assert_non_null(strstr(page, "src=\"data:image/svg+xml;base64,"));
+    assert_non_null(strstr(page, "src=\"data:image/svg+xml;charset=utf-8,%3C?xml"));
     assert_non_null(strstr(page, "<h3>1. FCL: the sum of two rectangle swept spheres"));
 }
 
@@ -204,9 +204,9 @@ static void report_of_what_is_missing_names_it(void **state)
     (void)snprintf(run_directory, sizeof run_directory, "%s", partial);
     read_page("report.html");
     (void)snprintf(run_directory, sizeof run_directory, "%s", saved);
-    static const char *const missing[] = {"manifest.json: not there",
-                                          "cells: ", "summary.json: not there",
-                                          "requirements.json: not there", "figure &quot;"};
+    static const char *const missing[] = {
+        "manifest.json: not there", "cells: ", "summary.json: not there",
+        "requirements.json: not there", "figures: no list of them"};
     for (size_t i = 0; i < sizeof missing / sizeof missing[0]; ++i)
         assert_non_null(strstr(page, missing[i]));
 }
@@ -257,6 +257,15 @@ static void escape_html_keeps_lines_and_drops_controls(void **state)
     mote_text text = {0};
     mote_escape_html(&text, "a\n\t\x01<b> & 'c' \"d\"\x7f");
     assert_string_equal(text.data, "a\n\t &lt;b&gt; &amp; &#39;c&#39; &quot;d&quot; ");
+    free(text.data);
+}
+
+static void escape_drawing_stays_within_its_attribute(void **state)
+{
+    (void)state;
+    mote_text text = {0};
+    mote_escape_drawing(&text, "<a b=\"#1\">\n5 % &lt; \xc2\xb7 'x'</a>");
+    assert_string_equal(text.data, "%3Ca b=%22%231%22%3E 5 %25 &amp;lt; \xc2\xb7 'x'%3C/a%3E");
     free(text.data);
 }
 
@@ -329,6 +338,7 @@ int main(void)
         cmocka_unit_test(report_of_nothing_fails_with_4),
         cmocka_unit_test(escape_path_leaves_no_scheme_and_no_quote),
         cmocka_unit_test(escape_html_keeps_lines_and_drops_controls),
+        cmocka_unit_test(escape_drawing_stays_within_its_attribute),
         cmocka_unit_test(escape_script_cannot_end_the_element),
         cmocka_unit_test(base64_of_the_standards_vectors_is_theirs),
         cmocka_unit_test(markdown_html_folds_code_and_escapes),
