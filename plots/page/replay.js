@@ -6,7 +6,7 @@ import { Timeline } from "./timeline.js";
 
 const MARKUP = `
 <div class="stage">
-  <canvas tabindex="0" aria-label="The two bodies in three dimensions. Drag to turn. Space plays
+  <canvas tabindex="0" role="img" aria-label="The two bodies in three dimensions. Drag to turn. Space plays
     and pauses, arrow keys step."></canvas>
   <p class="badge" id="replay-contact"></p>
 </div>
@@ -107,6 +107,14 @@ function chooseFamily(family) {
     chooseTrack(same.find((other) => other.n === track.n) ?? same[0]);
 }
 
+// The paper's W-W has 5 particles; of several such configurations the plainest.
+function firstTrack() {
+    const particles = scene.tracks.filter((other) => other.particles);
+    const five = particles.filter((other) => other.n === 5);
+    const choice = [five, particles, scene.tracks].find((list) => list.length > 0);
+    return choice.reduce((a, b) => (b.label.length < a.label.length ? b : a));
+}
+
 function chooseScene(index) {
     scene = scenes[index].scene;
     surfaces = scene.bodies.map((body) => new Surface(body));
@@ -119,8 +127,7 @@ function chooseScene(index) {
         ...scene.notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })),
     );
     frame = Math.max(scene.first, scene.active[0]);
-    const paper = scene.tracks.filter((other) => other.particles);
-    chooseTrack(paper.find((other) => other.n === 5) ?? paper[0] ?? scene.tracks[0]);
+    chooseTrack(firstTrack());
 }
 
 function number(output, value) {
