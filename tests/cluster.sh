@@ -1,8 +1,9 @@
 #!/bin/bash
 # cluster.sh MOTE: starts a Slurm of one node on the loopback interface, out of a folder of its own;
-# submits harness/cluster/bench.sbatch as an array of 4; kills the program of one task, which is then
-# queued again; waits for the dependent merge; and compares all cells with a run of one process. Stops
-# what it started. Needs root, munge and slurm-wlm; no systemd, no cgroups.
+# submits harness/cluster/bench.sbatch as an array of 4; stops the programs of two tasks, one by
+# SIGKILL and one by SIGTERM, which are then queued again; waits for the dependent merge; and
+# compares all cells with a run of one process. Stops what it started. Needs root, munge and
+# slurm-wlm; no systemd, no cgroups.
 set -euo pipefail
 mote=$(realpath "$1")
 root=$(realpath "$(dirname "$0")/..")
@@ -123,47 +124,59 @@ job=$(MOTE=$mote sbatch --parsable --array=1-4 --output="$work/out/task-%a.log" 
     harness/cluster/bench.sbatch "$work/out" "${arguments[@]}")
 echo "array of 4: job $job"
 
-# Task 1 has two scenarios: 24 cells. Its program is killed while it measures.
-shard=$work/out/shards/1
-for _ in $(seq 2400); do
-    [ "$(cells "$shard" | wc -l)" -lt 5 ] || break
-    sleep 0.05
-done
-ids=$(scontrol show job "${job}_1" | sed -n 's/^JobId=\([0-9]*\).*/\1/p' | sed 1q)
-victim=
-for pid in $(scontrol listpids "$ids" | awk 'NR > 1 { print $1 }'); do
-    # The parent of the cell that is being measured: its child dies with it.
-    if [ "$(readlink "/proc/$pid/exe" 2> /dev/null)" = "$mote" ] &&
-        tr '\0' ' ' < "/proc/$pid/cmdline" | grep -q " run " &&
-        [ "$(ps -o comm= -p "$(ps -o ppid= -p "$pid" | tr -d ' ')")" != mote ]; then
-        victim=$pid
-    fi
-done
-[ -n "$victim" ] || fail "no program to be killed"
-kill -STOP "$victim"
-before=$(cells "$shard" | wc -l)
-cells "$shard" | xargs stat -c '%i %Y %s %n' > "$work/before"
-kill -KILL "$victim"
-echo "killed task 1 with $before of 24 cells measured"
-[ "$before" -lt 24 ] || fail "task 1 was done before it could be killed"
+# stop_task TASK SIGNAL AFTER: sends a signal to the task's program once so many cells are there, and
+# remembers them.
+stop_task()
+{
+    local shard=$work/out/shards/$1 victim='' pid id
+    for _ in $(seq 2400); do
+        [ "$(cells "$shard" | wc -l)" -lt "$3" ] || break
+        sleep 0.05
+    done
+    id=$(scontrol show job "${job}_$1" | sed -n 's/^JobId=\([0-9]*\).*/\1/p' | sed 1q)
+    for pid in $(scontrol listpids "$id" | awk 'NR > 1 { print $1 }'); do
+        # Not the process of the cell that is being measured, but its parent: both die.
+        if [ "$(readlink "/proc/$pid/exe" 2> /dev/null)" = "$mote" ] &&
+            [ "$(ps -o comm= -p "$(ps -o ppid= -p "$pid" | tr -d ' ')")" != mote ]; then
+            victim=$pid
+        fi
+    done
+    [ -n "$victim" ] || fail "task $1 has no program to be stopped"
+    kill -STOP "$victim"
+    cells "$shard" | xargs stat -c '%i %Y %s %n' > "$work/before-$1"
+    kill "-$2" "$victim"
+    kill -CONT "$victim" 2> /dev/null || true
+    echo "task $1: SIG$2 with $(wc -l < "$work/before-$1") cells measured"
+}
+
+# went_on TASK CELLS: what was there stayed as it was, and the second attempt went on from it.
+went_on()
+{
+    local log=$work/out/task-$1.log before done
+    before=$(wc -l < "$work/before-$1")
+    done=$(sed -n "s/^plan: $2 cells, \([0-9]*\) of them done.*/\1/p" "$log" | tail -n 1)
+    [ "$before" -lt "$2" ] || fail "task $1 was done before it could be stopped"
+    scontrol show job "${job}_$1" | grep -q 'Restarts=1' || fail "task $1 was not queued again"
+    stat -c '%i %Y %s %n' $(awk '{ print $4 }' "$work/before-$1") | cmp - "$work/before-$1" ||
+        fail "task $1: cells were measured again"
+    [ "$done" = "$before" ] || fail "task $1 went on from $done cells, not from $before"
+    echo "task $1: queued again, went on from $done of $2 cells; only the unfinished one was lost"
+}
+
+# Task 1 has two scenarios, 24 cells; task 2 has 12.
+stop_task 1 KILL 5
+stop_task 2 TERM 3
 
 for _ in $(seq 600); do
     if [ -e "$work/out/summary.json" ] && [ -z "$(squeue -h)" ]; then break; fi
     sleep 0.5
 done
 [ -e "$work/out/summary.json" ] || { squeue >&2; fail "the merge never ran"; }
-[ "$(scontrol show job "$ids" | sed -n 's/.*Restarts=\([0-9]*\).*/\1/p')" = 1 ] ||
-    fail "task 1 was not queued again"
 for task in 1 2 3 4; do
     [ "$(state $task)" = COMPLETED ] || fail "task $task: $(state $task)"
 done
-
-# What was there stayed as it was; all else was measured in the second attempt, nothing twice.
-stat -c '%i %Y %s %n' $(awk '{ print $4 }' "$work/before") | cmp - "$work/before" ||
-    fail "cells were measured again"
-grep -q "plan: 24 cells, $before of them done" "$work/out/task-1.log" ||
-    fail "the second attempt did not go on from $before cells"
-echo "requeued: went on from $before cells; the killed task lost only its unfinished cell"
+went_on 1 24
+went_on 2 12
 
 "$mote" run "${arguments[@]}" --out "$work/whole" > "$work/whole.log" 2>&1 || fail "the whole run"
 compared=0

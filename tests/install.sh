@@ -60,6 +60,15 @@ export PKG_CONFIG_PATH=$library/pkgconfig
 LD_LIBRARY_PATH=$library ./shared > out-shared
 ./static > out-static
 
+# From C++ as well.
+cat > use.cpp <<'CPP'
+#include <mote/mote.h>
+int main() { return mote_method_find("certified") && mote_error_text()[0] == 0 ? 0 : 1; }
+CPP
+# shellcheck disable=SC2046
+c++ -std=c++17 -Wall -Wextra -Werror use.cpp $(pkg-config --cflags --libs mote) -o use
+LD_LIBRARY_PATH=$library ./use || fail "a program in C++ finds no method"
+
 mkdir package
 cat > package/CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
