@@ -93,7 +93,9 @@ if(NOT MOTE_CORE_ONLY)
   install(TARGETS mote)
   install(DIRECTORY datasets/scenarios datasets/meshes
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets PATTERN "*.py" EXCLUDE)
-  install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/mote)
+  install(FILES datasets/defects.md DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets)
+  install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/mote
+          PATTERN node_modules EXCLUDE PATTERN "*.sh" EXCLUDE PATTERN "package*.json" EXCLUDE)
   install(FILES docs/mote.bash RENAME mote
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   # The commands as the program itself tells them.

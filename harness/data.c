@@ -1,6 +1,9 @@
 #include "harness/data.h"
 
+#include "harness/file.h"
+
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -24,4 +27,14 @@ const char *mote_data_directory(void)
     if (directory[0] == '\0')
         (void)snprintf(directory, sizeof directory, "%s", MOTE_SOURCE_DIR);
     return directory;
+}
+
+mote_status mote_data_read(const char *name, size_t limit, char **text, size_t *size)
+{
+    char *path = mote_format("%s/%s", mote_data_directory(), name);
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its name", name);
+    mote_status status = mote_file_read(path, limit, text, size);
+    free(path);
+    return status;
 }

@@ -2,8 +2,15 @@
 #ifndef MOTE_HARNESS_DATA_H
 #define MOTE_HARNESS_DATA_H
 
+#include "core/status.h"
+
+#include <stddef.h>
+
 /* The folder that holds datasets/ and plots/: ../share/mote beside the folder of an installed
    program, else the sources that it was built from. Never NULL; lives on. Not for threads. */
 const char *mote_data_directory(void);
+
+/* mote_file_read of a file in there: "plots/page/report.css". */
+mote_status mote_data_read(const char *name, size_t limit, char **text, size_t *size);
 
 #endif

@@ -1,4 +1,5 @@
 #include "harness/record.h"
+#include "harness/data.h"
 #include "harness/report.h"
 
 #include <errno.h>
@@ -94,8 +95,8 @@ static mote_status read_claims(mote_report *report)
 static mote_status read_defects(mote_report *report)
 {
     size_t size;
-    if (mote_file_read(MOTE_SOURCE_DIR "/datasets/defects.md", DEFECTS_LIMIT, &report->defects,
-                       &size) == MOTE_OK)
+    if (mote_data_read("datasets/defects.md", DEFECTS_LIMIT, &report->defects, &size) ==
+        MOTE_OK)
         return MOTE_OK;
     return add_missing(report, mote_format("known defects: %s", mote_error_text()));
 }

@@ -1,13 +1,14 @@
 /* The page: its frame, what was asked, the machine, the defects. */
 #include "harness/report_html.h"
 
+#include "harness/data.h"
 #include "harness/escape.h"
 #include "harness/markdown_html.h"
 #include "harness/report_facts.h"
 
 #include <stdlib.h>
 
-#define STYLE_FILE MOTE_SOURCE_DIR "/plots/page/report.css"
+#define STYLE_FILE "plots/page/report.css"
 #define STYLE_LIMIT ((size_t)1 << 20)
 
 void mote_report_html_section(mote_text *text, const char *id, const char *title)
@@ -21,7 +22,7 @@ static mote_status add_head(const mote_report *report, mote_text *text)
 {
     char *style = NULL;
     size_t size;
-    mote_status status = mote_file_read(STYLE_FILE, STYLE_LIMIT, &style, &size);
+    mote_status status = mote_data_read(STYLE_FILE, STYLE_LIMIT, &style, &size);
     if (status != MOTE_OK)
         return status;
     mote_text_add(text,
