@@ -15,10 +15,12 @@ int mote_command_figures(int argc, char **argv)
     }
     if (!directory)
         return mote_command_usage(argv[0], "no directory; write `mote figures results/paper`");
-    mote_summary summary;
-    if (mote_summary_make(directory, &summary) != MOTE_OK)
+    size_t drawn = 0;
+    if (mote_figures_draw(directory, &drawn) != MOTE_OK)
         return mote_command_fail();
-    mote_status status = mote_figures_draw(&summary, directory);
-    mote_summary_free(&summary);
-    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+    if (drawn == 0) {
+        (void)mote_fail(MOTE_EINVAL, "%s: no figure can be drawn of this run", directory);
+        return mote_command_fail();
+    }
+    return mote_command_finish(MOTE_EXIT_DONE);
 }

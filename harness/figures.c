@@ -1,81 +1,224 @@
 #include "harness/figures.h"
 
-#include "harness/data.h"
-#include "harness/front.h"
+#include "harness/figure.h"
 #include "harness/record.h"
-#include "harness/spawn.h"
 
+#include <errno.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
-/* Writes what a figure is drawn from; nothing when the run has no such rows. */
-typedef mote_status (*figure_data)(const mote_summary *summary, const char *scenario,
-                                   mote_text *text);
+/* Of which scenarios a figure is. */
+typedef enum figure_scope {
+    SCOPE_ONE,  /* of the one that is named */
+    SCOPE_EACH, /* of every one of the run */
+    SCOPE_RUN   /* of the run as a whole */
+} figure_scope;
 
-/* Drawn by plots/NAME.gp from figures/NAME.dat, or, with scenario NULL, from
-   figures/NAME-SCENARIO.dat for every scenario of the run. */
-typedef struct figure {
-    const char *name, *scenario;
-    figure_data write;
-} figure;
+/* Drawn by plots/NAME.gp as figures/NAME, or NAME-SCENARIO for every one. */
+typedef struct figure_kind {
+    int number;
+    const char *name, *title;
+    figure_scope scope;
+    const char *scenario;
+    mote_figure_writer *write;
+    const char *formats;
+} figure_kind;
 
-static const mote_summary_row *find_row(const mote_summary *summary, const char *scenario,
-                                        const char *label)
+#define PAPER "svg png pdf"
+
+static const figure_kind kinds[] = {
+    {1, "fig1", "Particles on two letters T", SCOPE_ONE, "tt", mote_figure_particles, PAPER},
+    {2, "fig2", "M against V, deforming", SCOPE_ONE, "mv", mote_figure_deformed, PAPER},
+    {2, "animation", "M against V, moving", SCOPE_ONE, "mv", mote_figure_animation, "gif"},
+    {3, "fig3", "Time of each query", SCOPE_ONE, "ww", mote_figure_queries, PAPER},
+    {4, "front", "Speed against error", SCOPE_EACH, NULL, mote_figure_front, PAPER},
+    {5, "errors", "Error over particles", SCOPE_EACH, NULL, mote_figure_errors, PAPER},
+    {6, "size-time", "Time over triangles", SCOPE_RUN, NULL, mote_figure_size_time, PAPER},
+    {7, "size-bytes", "Memory over triangles", SCOPE_RUN, NULL, mote_figure_size_bytes, PAPER},
+    {8, "shares", "Where the time goes", SCOPE_EACH, NULL, mote_figure_shares, PAPER},
+    {9, "ratios", "Against the best FCL", SCOPE_EACH, NULL, mote_figure_ratios, PAPER},
+    {11, "claims", "The paper's claims", SCOPE_RUN, NULL, mote_figure_claims, PAPER},
+    {12, "error-time", "Error in time", SCOPE_EACH, NULL, mote_figure_history, PAPER},
+};
+
+/* What is needed while a run's figures are drawn. */
+typedef struct drawing {
+    mote_figure_run run;
+    char identity[160]; /* of the run, as in the footer */
+    char *folder;       /* DIRECTORY/figures */
+    json_t *index;      /* figures.json's figures */
+    json_t *missing;    /* and what is missing, a line each */
+    size_t drawn, failed;
+} drawing;
+
+/* "20261121T104057Z-320b2871, commit 3b32655+": when the run began, with which program, from
+   which sources (+: changed since); "unknown" without a manifest. */
+static void run_identity(const char *directory, char *text, size_t size)
 {
-    for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        if (row->status == MOTE_CELL_OK && row->jobs == 1 &&
-            strcmp(row->first->scenario, scenario) == 0 &&
-            strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
-            strcmp(row->label, label) == 0)
-            return row;
+    json_t *manifest = NULL;
+    (void)snprintf(text, size, "unknown");
+    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
+        return;
+    const json_t *session = json_array_get(json_object_get(manifest, "sessions"), 0);
+    const char *started = json_string_value(json_object_get(session, "started"));
+    const char *program = json_string_value(json_object_get(manifest, "program"));
+    const char *commit = json_string_value(json_object_get(manifest, "commit"));
+    char when[32] = "";
+    size_t used = 0;
+    for (const char *p = started ? started : ""; *p && used + 1 < sizeof when; ++p) {
+        if (*p != '-' && *p != ':')
+            when[used++] = *p;
     }
-    return NULL;
+    when[used] = '\0';
+    (void)snprintf(text, size, "%s-%.8s, commit %.7s%s", when, program ? program : "",
+                   commit ? commit : "unknown",
+                   json_is_true(json_object_get(manifest, "dirty")) ? "+" : "");
+    json_decref(manifest);
 }
 
-/* The median over replicates of each frame's total: a block of "frame milliseconds" below a
-   title. */
-static mote_status add_frames(const mote_summary_row *row, const char *title, mote_text *text)
+static void make_footer(const char *identity, uint64_t data, char *footer, size_t size)
 {
-    double *work = malloc((row->replicates + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", title);
-    for (size_t k = 0; k < row->first->frames; ++k) {
-        size_t count = 0;
-        for (size_t r = 0; r < row->replicates; ++r) {
-            const mote_stored_cell *cell = &row->cells[r];
-            if (k < cell->frames && cell->frame[k] == row->first->frame[k])
-                work[count++] = cell->total_ns[k];
-        }
-        mote_text_add(text, "%u %.17g\n", row->first->frame[k],
-                      mote_statistics_median(work, count) * 1e-6);
+    (void)snprintf(footer, size, "run %s \xc2\xb7 data %016" PRIx64, identity, data);
+}
+
+/* A file's name that any program can take: letters, digits, '-' and '_'; a hash of the whole
+   behind it where something had to be replaced. */
+static char *file_name(const figure_kind *kind, const char *scenario)
+{
+    if (kind->scope != SCOPE_EACH)
+        return mote_format("%s", kind->name);
+    char safe[64];
+    size_t length = 0;
+    bool same = true;
+    for (const char *p = scenario; *p; ++p) {
+        const bool good = (*p >= 'a' && *p <= 'z') || (*p >= 'A' && *p <= 'Z') ||
+                          (*p >= '0' && *p <= '9') || *p == '-' || *p == '_';
+        same = same && good && length + 1 < sizeof safe;
+        if (length + 1 < sizeof safe)
+            safe[length++] = good ? *p : '_';
     }
-    free(work);
+    safe[length] = '\0';
+    if (same)
+        return mote_format("%s-%s", kind->name, safe);
+    return mote_format(
+        "%s-%s-%08" PRIx32, kind->name, safe,
+        (uint32_t)mote_figure_hash(MOTE_FIGURE_HASH, scenario, strlen(scenario)));
+}
+
+/* "ww, 11,920 triangles", "mv, 2,968 and 1,764 triangles"; the title of a figure of the run. */
+static void make_heading(const drawing *d, const figure_kind *kind, const char *scenario,
+                         char *heading, size_t size)
+{
+    const json_t *triangles = NULL;
+    const mote_summary *summary = d->run.summary;
+    for (size_t i = 0; scenario && i < summary->count && !triangles; ++i) {
+        if (strcmp(summary->rows[i].first->scenario, scenario) == 0)
+            triangles = json_object_get(summary->rows[i].first->json, "triangles");
+    }
+    char a[MOTE_FIGURE_NUMBER], b[MOTE_FIGURE_NUMBER];
+    (void)mote_figure_number(json_number_value(json_array_get(triangles, 0)), a);
+    (void)mote_figure_number(json_number_value(json_array_get(triangles, 1)), b);
+    if (!triangles)
+        (void)snprintf(heading, size, "%s", scenario ? scenario : kind->title);
+    else if (strcmp(a, b) == 0)
+        (void)snprintf(heading, size, "%s, %s triangles each", scenario, a);
+    else
+        (void)snprintf(heading, size, "%s, %s and %s triangles", scenario, a, b);
+}
+
+/* Appends the figure to figures.json, and prints its files. */
+static mote_status add_index(drawing *d, const figure_kind *kind, const char *scenario,
+                             const char *name, const mote_figure *figure, uint64_t data)
+{
+    char hash[20], formats[32];
+    (void)snprintf(hash, sizeof hash, "%016" PRIx64, data);
+    (void)snprintf(formats, sizeof formats, "%s", kind->formats);
+    json_t *files = json_array();
+    char *rest = formats;
+    for (const char *format; (format = strtok_r(rest, " ", &rest)) != NULL;) {
+        char *file = mote_format("%s.%s", name, format);
+        (void)json_array_append_new(files, json_string(file ? file : ""));
+        (void)printf("%s/figures/%s\n", d->run.directory, file ? file : "");
+        free(file);
+    }
+    json_t *entry =
+        json_pack("{s:i, s:s, s:s?, s:s, s:s, s:s, s:s, s:o}", "number", kind->number, "name",
+                  name, "scenario", scenario, "title", kind->title, "caption",
+                  figure->caption.data ? figure->caption.data : "", "run", d->identity, "data",
+                  hash, "files", files);
+    ++d->drawn;
+    if (!entry || json_array_append_new(d->index, entry) != 0)
+        return mote_fail(MOTE_ENOMEM, "no memory for the list of figures");
     return MOTE_OK;
 }
 
-/* Figure 3 of the paper: query time against query number. */
-static mote_status write_fig3(const mote_summary *summary, const char *scenario,
-                              mote_text *text)
+/* Writes the data and draws it. */
+static mote_status draw_data(drawing *d, const figure_kind *kind, const char *scenario,
+                             mote_figure *figure)
 {
-    static const struct {
-        const char *label, *title;
-    } series[] = {
-        {"particle-paper:n=5", "particles, n = 5"},
-        {"fcl-aabb", "FCL AABB"},
-        {"fcl-aabb:queue=64,seed=previous", "FCL AABB, queue 64, seeded"},
-        {"fcl-obbrss", "FCL OBBRSS, every 16th query"},
-    };
-    mote_status status = MOTE_OK;
-    if (!find_row(summary, scenario, series[0].label))
-        return MOTE_OK;
-    for (size_t i = 0; i < sizeof series / sizeof series[0] && status == MOTE_OK; ++i) {
-        const mote_summary_row *row = find_row(summary, scenario, series[i].label);
-        if (row)
-            status = add_frames(row, series[i].title, text);
+    char heading[160], footer[256];
+    const uint64_t data =
+        mote_figure_hash(MOTE_FIGURE_HASH, figure->data.data, figure->data.size);
+    char *name = file_name(kind, scenario);
+    char *file = name ? mote_format("figures/%s.dat", name) : NULL;
+    mote_status status =
+        file ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    if (status == MOTE_OK)
+        status = mote_record_text(d->run.directory, file, &figure->data);
+    make_heading(d, kind, scenario, heading, sizeof heading);
+    make_footer(d->identity, data, footer, sizeof footer);
+    if (status == MOTE_OK)
+        status =
+            mote_figure_gnuplot(d->folder, kind->name, name, heading, footer, kind->formats);
+    if (status == MOTE_OK)
+        status = add_index(d, kind, scenario, name, figure, data);
+    free(file);
+    free(name);
+    return status;
+}
+
+static void say_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
+                        bool some)
+{
+    char *text = mote_format("figure %d (%s) is %s; missing: %s", kind->number, kind->name,
+                             some ? "not whole" : "not drawn",
+                             figure->missing.data ? figure->missing.data : "");
+    (void)fprintf(stderr, "mote: %s: %s\n", d->run.directory, text ? text : kind->name);
+    (void)json_array_append_new(d->missing, json_string(text ? text : kind->name));
+    free(text);
+}
+
+/* One figure; *done: it was drawn. quiet: nothing is said when its rows are missing. */
+static mote_status draw(drawing *d, const figure_kind *kind, const char *scenario, bool quiet,
+                        bool *done)
+{
+    mote_figure figure = {0};
+    mote_status status = kind->write(&d->run, scenario, &figure);
+    const bool some = status == MOTE_OK && figure.data.size > 0;
+    if (status == MOTE_EINVAL) { /* what the run names is not what there is: only this figure */
+        mote_text_add(&figure.missing, "%s", mote_error_text());
+        status = MOTE_OK;
     }
+    if (status == MOTE_OK && (figure.data.failed || figure.caption.failed))
+        status = mote_fail(MOTE_ENOMEM, "no memory for figure %d", kind->number);
+    if (status == MOTE_OK && figure.missing.size > 0 && (some || !quiet))
+        say_missing(d, kind, &figure, some);
+    if (status == MOTE_OK && some)
+        status = draw_data(d, kind, scenario, &figure);
+    if (status == MOTE_EIO) { /* gnuplot's: the others are drawn all the same */
+        figure.missing.size = 0;
+        mote_text_add(&figure.missing, "%s", mote_error_text());
+        say_missing(d, kind, &figure, false);
+        ++d->failed;
+        status = MOTE_OK;
+    }
+    *done = some;
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
     return status;
 }
 
@@ -88,131 +231,130 @@ static bool first_of_scenario(const mote_summary *summary, size_t index)
     return true;
 }
 
-/* Whether a row is a point of the scenario's front: hot caches, comparable times, answers with
-   a distance. */
-static bool on_front(const mote_summary_row *row, const char *scenario)
+/* A figure of every scenario whose rows allow it; what is missing is said when none does. */
+static mote_status draw_each(drawing *d, const figure_kind *kind)
 {
-    return row->status == MOTE_CELL_OK && row->jobs == 1 && row->error.p99 == row->error.p99 &&
-           strcmp(row->first->scenario, scenario) == 0 &&
-           strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
-}
-
-static void add_point(const mote_summary_row *row, mote_text *text)
-{
-    const mote_time *time = &row->total;
-    bool interval = time->low == time->low;
-    if (row->n == row->n)
-        mote_text_add(text, "%.0f ", row->n);
-    else
-        mote_text_add(text, "\"\" ");
-    mote_text_add(text, "%.17g %.17g %.17g %.17g %.17g %.17g\n", time->median * 1e-3,
-                  (interval ? time->low : time->median) * 1e-3,
-                  (interval ? time->high : time->median) * 1e-3, row->error.p99,
-                  row->error.median, row->missed);
-}
-
-/* The rows from first on that have this title, which is in no row before. */
-static void add_block(const mote_summary *summary, const char *scenario, size_t first,
-                      const char *title, mote_text *text)
-{
-    mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", title);
-    for (size_t i = first; i < summary->count; ++i) {
-        char other[256];
-        mote_front_title(&summary->rows[i], other, sizeof other);
-        if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
-            add_point(&summary->rows[i], text);
-    }
-}
-
-/* Whether a row before this one has the same title. */
-static bool in_earlier_block(const mote_summary *summary, const char *scenario, size_t index,
-                             const char *title)
-{
-    for (size_t i = 0; i < index; ++i) {
-        char other[256];
-        mote_front_title(&summary->rows[i], other, sizeof other);
-        if (on_front(&summary->rows[i], scenario) && strcmp(title, other) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* Time against error, every configuration a point: what a particle more costs and gives. A
-   block of "n median low high error-p99 error-median missed", times in microseconds, below a
-   title, for the configurations that differ in n only. */
-static mote_status write_front(const mote_summary *summary, const char *scenario,
-                               mote_text *text)
-{
-    for (size_t i = 0; i < summary->count; ++i) {
-        char title[256];
-        mote_front_title(&summary->rows[i], title, sizeof title);
-        if (on_front(&summary->rows[i], scenario) &&
-            !in_earlier_block(summary, scenario, i, title))
-            add_block(summary, scenario, i, title, text);
-    }
-    return MOTE_OK;
-}
-
-static const figure figures[] = {
-    {"fig3", "ww", write_fig3},
-    {"front", NULL, write_front},
-};
-
-mote_status mote_figures_plot(const char *directory, const char *name, const char *script_name)
-{
-    char *plots = mote_format("%s/plots", mote_data_directory());
-    char *script = mote_format("%s/plots/%s.gp", mote_data_directory(), script_name);
-    char *base = mote_format("%s/figures/%s", directory, name);
+    const mote_summary *summary = d->run.summary;
     mote_status status = MOTE_OK;
-    if (plots && script && base) {
-        const char *const argv[] = {"gnuplot", "-c", script, plots, base, NULL};
-        status = mote_spawn(argv, NULL, NULL, 0);
-    } else {
-        status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    bool any = false, done;
+    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
+        if (!first_of_scenario(summary, i))
+            continue;
+        status = draw(d, kind, summary->rows[i].first->scenario, true, &done);
+        any = any || done;
     }
-    free(plots);
-    free(script);
-    free(base);
+    if (status == MOTE_OK && !any)
+        status =
+            draw(d, kind, summary->count ? summary->rows[0].first->scenario : "any scenario",
+                 false, &done);
     return status;
 }
 
-static mote_status draw(const figure *f, const mote_summary *summary, const char *scenario,
-                        const char *directory)
+static mote_status draw_kind(drawing *d, const figure_kind *kind)
 {
-    mote_text text = {0};
-    mote_status status = f->write(summary, scenario, &text);
-    char *name =
-        f->scenario ? mote_format("%s", f->name) : mote_format("%s-%s", f->name, scenario);
-    char *file = name ? mote_format("figures/%s.dat", name) : NULL;
-    if (status == MOTE_OK && !file)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
-    if (status == MOTE_OK && text.size > 0) {
-        status = mote_record_text(directory, file, &text);
-        if (status == MOTE_OK)
-            status = mote_figures_plot(directory, name, f->name);
-        if (status == MOTE_OK)
-            (void)printf("%s/figures/%s.svg\n%s/figures/%s.png\n", directory, name, directory,
-                         name);
+    bool done;
+    if (kind->scope == SCOPE_EACH)
+        return draw_each(d, kind);
+    return draw(d, kind, kind->scenario, false, &done);
+}
+
+static mote_status draw_all(drawing *d)
+{
+    d->folder = mote_format("%s/figures", d->run.directory);
+    mote_status status = d->folder ? mote_directory_make(d->folder)
+                                   : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    d->index = json_array();
+    d->missing = json_array();
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0] && status == MOTE_OK; ++k) {
+        status = draw_kind(d, &kinds[k]);
+        if (kinds[k].write == mote_figure_animation)
+            mote_figure_animation_clear(d->run.directory);
     }
-    free(text.data);
-    free(file);
-    free(name);
+    free(d->folder);
+    if (status != MOTE_OK) {
+        json_decref(d->index);
+        json_decref(d->missing);
+        return status;
+    }
+    return mote_record_json(
+        d->run.directory, "figures/figures.json",
+        json_pack("{s:o, s:o}", "figures", d->index, "missing", d->missing));
+}
+
+static bool is_file(const char *directory, const char *name)
+{
+    struct stat info;
+    char *path = mote_format("%s/%s", directory, name);
+    const bool found = path && stat(path, &info) == 0;
+    free(path);
+    return found;
+}
+
+/* The run's rows; without cells, none, which is said. */
+static mote_status read_run(const char *directory, mote_summary *summary)
+{
+    mote_text damaged = {0};
+    memset(summary, 0, sizeof *summary);
+    if (!is_file(directory, "cells")) {
+        (void)fprintf(stderr, "mote: %s/cells: not there; no cell of a run\n", directory);
+        return MOTE_OK;
+    }
+    const mote_status status = mote_summary_make_whole(directory, &damaged, summary);
+    if (status == MOTE_OK && damaged.size)
+        (void)fprintf(stderr, "%s", damaged.data);
+    free(damaged.data);
     return status;
 }
 
-mote_status mote_figures_draw(const mote_summary *summary, const char *directory)
+mote_status mote_figures_draw(const char *directory, size_t *drawn)
 {
+    if (!is_file(directory, "."))
+        return mote_fail(MOTE_EIO, "%s: %s; name the directory of a run", directory,
+                         strerror(errno));
+    mote_summary summary;
+    json_t *claims = NULL;
+    mote_status status = read_run(directory, &summary);
+    if (status == MOTE_OK && is_file(directory, "claims.json") &&
+        mote_record_read_json(directory, "claims.json", &claims) != MOTE_OK)
+        (void)fprintf(stderr, "mote: %s\n", mote_error_text());
+    if (status == MOTE_OK && !is_file(directory, "manifest.json"))
+        (void)fprintf(stderr, "mote: %s/manifest.json: not there; figures name no run\n",
+                      directory);
+    drawing d = {.run = {directory, &summary, claims}};
+    if (status == MOTE_OK && summary.count == 0 && !claims)
+        status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
+                           directory);
+    if (status == MOTE_OK) {
+        run_identity(directory, d.identity, sizeof d.identity);
+        status = draw_all(&d);
+    }
+    if (status == MOTE_OK && d.failed > 0)
+        status = mote_fail(MOTE_EIO, "%s: %zu figures could not be drawn", directory, d.failed);
+    if (status == MOTE_OK)
+        *drawn = d.drawn;
+    json_decref(claims);
+    mote_summary_free(&summary);
+    return status;
+}
+
+mote_status mote_figures_plot(const char *directory, const char *name, const char *script)
+{
+    char identity[160], footer[256];
     char *folder = mote_format("%s/figures", directory);
-    mote_status status =
-        folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    free(folder);
-    for (size_t k = 0; k < sizeof figures / sizeof figures[0]; ++k) {
-        for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
-            const char *scenario = summary->rows[i].first->scenario;
-            bool wanted = !figures[k].scenario || strcmp(figures[k].scenario, scenario) == 0;
-            if (wanted && first_of_scenario(summary, i))
-                status = draw(&figures[k], summary, scenario, directory);
-        }
+    char *path = mote_format("%s/figures/%s.dat", directory, name);
+    char *text = NULL;
+    size_t size = 0;
+    mote_status status = path && folder
+                             ? mote_file_read(path, (size_t)1 << 30, &text, &size)
+                             : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    if (status == MOTE_OK) {
+        run_identity(directory, identity, sizeof identity);
+        make_footer(identity, mote_figure_hash(MOTE_FIGURE_HASH, text, size), footer,
+                    sizeof footer);
+        status = mote_figure_gnuplot(folder, script, name, "", footer, PAPER);
     }
+    free(folder);
+    free(text);
+    free(path);
     return status;
 }

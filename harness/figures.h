@@ -1,15 +1,21 @@
-/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. */
+/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. Nothing
+   is measured; the same cells give the same data and, but for PDF's date, the same drawings. */
 #ifndef MOTE_HARNESS_FIGURES_H
 #define MOTE_HARNESS_FIGURES_H
 
-#include "harness/summary.h"
+#include "core/status.h"
 
-/* Writes the data of every figure whose rows are in the summary and draws it as SVG and PNG;
-   prints the names of the files to stdout. MOTE_EIO when gnuplot is missing or refuses. */
-mote_status mote_figures_draw(const mote_summary *summary, const char *directory);
+#include <stddef.h>
 
-/* Draws directory/figures/NAME.dat by plots/SCRIPT.gp as SVG and PNG beside it. MOTE_EIO as
-   above. */
+/* Draws what can be drawn of the run in a directory: SVG, PNG and PDF (the animation: GIF) in
+   directory/figures, and figures.json: "figures", a list of {number, name, scenario, title,
+   caption, run, data, files}, and "missing", lines. Prints the files' names to stdout, and a
+   line for what is missing (cells that cannot be read, figures whose rows the run has not, and
+   why) to stderr. *drawn is the number of figures. MOTE_EIO when gnuplot is missing or refuses.
+ */
+mote_status mote_figures_draw(const char *directory, size_t *drawn);
+
+/* Draws directory/figures/NAME.dat by plots/SCRIPT.gp beside it. MOTE_EIO as above. */
 mote_status mote_figures_plot(const char *directory, const char *name, const char *script);
 
 #endif

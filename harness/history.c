@@ -1,11 +1,11 @@
 #include "harness/history.h"
 
 #include "harness/command.h"
-#include "harness/data.h"
+#include "harness/figure.h"
 #include "harness/record.h"
-#include "harness/spawn.h"
 #include "harness/summary.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -229,15 +229,13 @@ static mote_status add_series(const points *p, const char *row, mote_text *text)
     return MOTE_OK;
 }
 
-static mote_status plot(const char *base)
+static mote_status plot(const char *base, const mote_text *series)
 {
-    char *plots = mote_format("%s/plots", mote_data_directory());
-    char *script = mote_format("%s/plots/history.gp", mote_data_directory());
-    const char *const argv[] = {"gnuplot", "-c", script, plots, base, NULL};
-    mote_status status = plots && script ? mote_spawn(argv, NULL, NULL, 0)
-                                         : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    free(plots);
-    free(script);
+    char footer[64];
+    (void)snprintf(footer, sizeof footer, "data %016" PRIx64,
+                   mote_figure_hash(MOTE_FIGURE_HASH, series->data, series->size));
+    mote_status status =
+        mote_figure_gnuplot(NULL, "history", base, "Accepted references", footer, "svg png");
     if (status == MOTE_OK)
         (void)printf("%s.svg\n%s.png\n", base, base);
     return status;
@@ -268,7 +266,7 @@ mote_status mote_history_draw(const char *file)
     if (status == MOTE_OK)
         status = mote_file_write(data, series.data, series.size);
     if (status == MOTE_OK)
-        status = plot(base);
+        status = plot(base, &series);
     free(base);
     free(data);
     free(series.data);

@@ -78,7 +78,7 @@ static mote_status merge_manifest(const char *directory, const char *run)
 mote_status mote_merge(const char *directory, const char *run, mote_merged *merged)
 {
     mote_stored stored;
-    mote_status status = mote_stored_read(run, &stored);
+    mote_status status = mote_stored_read(run, NULL, &stored);
     if (status != MOTE_OK)
         return status;
     char *cells = mote_format("%s/cells", directory);

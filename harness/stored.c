@@ -34,22 +34,25 @@ static const char *const column_names[COLUMN_COUNTS] = {"frame",    "deform_ns",
                                                         "query_ns", "truth",        "error",
                                                         "contact",  "contact_truth"};
 
+static void free_cell(mote_stored_cell *cell)
+{
+    json_decref(cell->json);
+    free(cell->group);
+    free(cell->frame);
+    free(cell->deform_ns);
+    free(cell->update_ns);
+    free(cell->query_ns);
+    free(cell->total_ns);
+    free(cell->error);
+    free(cell->truth);
+    free(cell->contact);
+    free(cell->contact_truth);
+}
+
 void mote_stored_free(mote_stored *stored)
 {
-    for (size_t i = 0; i < stored->count; ++i) {
-        mote_stored_cell *cell = &stored->cells[i];
-        json_decref(cell->json);
-        free(cell->group);
-        free(cell->frame);
-        free(cell->deform_ns);
-        free(cell->update_ns);
-        free(cell->query_ns);
-        free(cell->total_ns);
-        free(cell->error);
-        free(cell->truth);
-        free(cell->contact);
-        free(cell->contact_truth);
-    }
+    for (size_t i = 0; i < stored->count; ++i)
+        free_cell(&stored->cells[i]);
     free(stored->cells);
     mote_stored none = {0};
     *stored = none;
@@ -321,8 +324,9 @@ static bool is_cell_file(const char *name)
     return length > 5 && name[0] != '.' && strcmp(name + length - 5, ".json") == 0;
 }
 
+/* A file that cannot be read is an error, or, with damaged, a line there. */
 static mote_status add_file(const char *directory, const char *file, const char *program,
-                            mote_stored *stored)
+                            mote_text *damaged, mote_stored *stored)
 {
     mote_stored_cell *cells =
         realloc(stored->cells, (stored->count + 1) * sizeof *stored->cells);
@@ -334,16 +338,20 @@ static mote_status add_file(const char *directory, const char *file, const char 
     ++stored->count;
     bool wanted = true;
     mote_status status = read_cell(directory, file, program, cell, &wanted);
-    if (status == MOTE_OK && !wanted) {
-        json_decref(cell->json);
-        free(cell->group);
+    const bool left_out = damaged && status != MOTE_OK && status != MOTE_ENOMEM;
+    if (left_out) {
+        mote_text_add(damaged, "mote: %s; left out\n", mote_error_text());
+        status = MOTE_OK;
+    }
+    if (status == MOTE_OK && (!wanted || left_out)) {
+        free_cell(cell);
         --stored->count;
-        ++stored->left_out;
+        stored->left_out += left_out ? 0 : 1;
     }
     return status;
 }
 
-mote_status mote_stored_read(const char *directory, mote_stored *stored)
+mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored)
 {
     mote_stored read = {0};
     char program[32];
@@ -360,7 +368,7 @@ mote_status mote_stored_read(const char *directory, mote_stored *stored)
     for (const struct dirent *entry = folder ? readdir(folder) : NULL;
          entry && status == MOTE_OK; entry = readdir(folder)) {
         if (is_cell_file(entry->d_name))
-            status = add_file(directory, entry->d_name, program, &read);
+            status = add_file(directory, entry->d_name, program, damaged, &read);
     }
     if (folder)
         (void)closedir(folder);

@@ -5,6 +5,7 @@
 
 #include "core/method.h"
 #include "harness/cell.h"
+#include "harness/file.h"
 
 /* A count and its sum and largest value over the frames of a cell. */
 typedef struct mote_stored_count {
@@ -50,8 +51,9 @@ typedef struct mote_stored {
 
 /* Reads directory/cells. Cells of another program than the one that manifest.json names are
    counted and left out. MOTE_EIO without a run there, MOTE_EINVAL with file and line when a
-   file is not what mote wrote. The caller frees *stored. */
-mote_status mote_stored_read(const char *directory, mote_stored *stored);
+   file is not what mote wrote; unless damaged is given, to which such a file is a line, and the
+   others are read. The caller frees *stored. */
+mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored);
 void mote_stored_free(mote_stored *stored);
 
 /* A number of a cell's file, or MOTE_NONE where it is null or missing. */

@@ -129,8 +129,14 @@ static mote_status make_rows(mote_summary *summary)
 
 mote_status mote_summary_make(const char *directory, mote_summary *summary)
 {
+    return mote_summary_make_whole(directory, NULL, summary);
+}
+
+mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
+                                    mote_summary *summary)
+{
     mote_summary made = {0};
-    mote_status status = mote_stored_read(directory, &made.stored);
+    mote_status status = mote_stored_read(directory, damaged, &made.stored);
     if (status != MOTE_OK)
         return status;
     made.rows = calloc(made.stored.count + 1, sizeof *made.rows);

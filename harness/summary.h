@@ -93,6 +93,9 @@ typedef struct mote_summary {
 
 /* Reads a run directory and computes its rows. The caller frees *summary. */
 mote_status mote_summary_make(const char *directory, mote_summary *summary);
+/* The same of what is whole: a cell that cannot be read is left out, and a line of damaged. */
+mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
+                                    mote_summary *summary);
 void mote_summary_free(mote_summary *summary);
 
 /* Whether rows were measured on more than one machine. Those of different machines are never

@@ -1,7 +1,8 @@
 # Claim c: how much of the motion a number of particles tracks, over particles a convex part. Blocks
 # of BASE.dat are shapes: n, n / parts, share tracked and its interval, error's 99th percentile.
-load ARG1."/style.gp"
-data = ARG2.".dat"
+wide = 760
+high = 480
+load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
 
@@ -16,11 +17,6 @@ set label 1 "the paper's 2" at 2.1,0.06 textcolor rgb ink
 array colour[5] = [dark, blue, orange, grey, "#c05030"]
 array shape[5] = [7, 5, 9, 13, 11]
 
-do for [format in "svg png"] {
-    eval "set terminal ".value(format."_terminal")
-    set output ARG2.".".format
-    plot for [i=0:blocks-1] data index i using 2:3:4:5 with yerrorbars pt shape[i+1] ps 1 lw 1.5 \
-             lc rgb colour[i+1] title columnheader(1), \
-         for [i=0:blocks-1] data index i using 2:3 with lines lw 1.5 lc rgb colour[i+1] notitle
-    unset output
-}
+plot for [i=0:blocks-1] data index i using 2:3:4:5 with yerrorbars pt shape[i+1] ps 1 lw 1.5 \
+         lc rgb colour[i+1] title columnheader(1), \
+     for [i=0:blocks-1] data index i using 2:3 with lines lw 1.5 lc rgb colour[i+1] notitle

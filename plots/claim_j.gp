@@ -1,8 +1,9 @@
 # Claim j: error and missed contacts over n on W-W. Blocks of BASE.dat: families (law, moves, exact
 # check), three laws each of: vertices, surface, vertices checked, surface checked; n, error's 95th
 # percentile and its interval, 99th percentile, share missed and its interval.
-load ARG1."/style.gp"
-data = ARG2.".dat"
+wide = 760
+high = 480
+load plots."/style.gp"
 
 floor_error = 1e-4
 shown(e) = e > floor_error ? e : floor_error
@@ -18,28 +19,23 @@ array colour[4] = [dark, blue, orange, grey]
 array shape[3] = [7, 9, 5]
 array dashes[3] = [1, 2, 3]
 
-do for [format in "svg png"] {
-    eval "set terminal ".value(format."_terminal")
-    set output ARG2.".".format
-    set multiplot layout 1,2 margins 0.09,0.98,0.34,0.97 spacing 0.1
-    set logscale y
-    set format y "10^{%L}"
-    set ylabel "error, 95th percentile, L"
-    set yrange [floor_error/2:2]
-    unset key
-    plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:(shown($2)) with linespoints \
-             pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
-    set ylabel "share of contacts missed"
-    set yrange [floor_share/2:2]
-    set key at screen 0.52,0.11 center center vertical maxrows 3 samplen 3 width 1
-    plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:($6 > floor_share ? $6 : floor_share) \
-             with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle, \
-         for [k=0:1] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
-         keyentry with lines lc rgb "white" title " ", \
-         for [k=2:3] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
-         keyentry with lines lc rgb "white" title " ", \
-         for [l=0:2] keyentry with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] \
-             lc rgb ink title laws[l+1]
-    unset multiplot
-    unset output
-}
+set multiplot layout 1,2 margins 0.09,0.98,0.34,0.97 spacing 0.1
+set logscale y
+set format y "10^{%L}"
+set ylabel "error, 95th percentile, L"
+set yrange [floor_error/2:2]
+unset key
+plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:(shown($2)) with linespoints \
+         pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle
+set ylabel "share of contacts missed"
+set yrange [floor_share/2:2]
+set key at screen 0.52,0.11 center center vertical maxrows 3 samplen 3 width 1
+plot for [k=0:3] for [l=0:2] data index 3*k+l using 1:($6 > floor_share ? $6 : floor_share) \
+         with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] lc rgb colour[k+1] notitle, \
+     for [k=0:1] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
+     keyentry with lines lc rgb "white" title " ", \
+     for [k=2:3] keyentry with lines lw 3 lc rgb colour[k+1] title kinds[k+1], \
+     keyentry with lines lc rgb "white" title " ", \
+     for [l=0:2] keyentry with linespoints pt shape[l+1] ps 0.7 lw 1.5 dt dashes[l+1] \
+         lc rgb ink title laws[l+1]
+unset multiplot

@@ -1,8 +1,9 @@
 # Share of random approaches in which a body passes through the other one, over n, in the closed loop.
 # Blocks of BASE.dat, one a scene: n, share, its interval, approaches. The first three, the paper's,
 # on the left, others on the right.
-load ARG1."/style.gp"
-data = ARG2.".dat"
+wide = 760
+high = 480
+load plots."/style.gp"
 stats data using 1 nooutput
 blocks = STATS_blocks
 left = blocks < 3 ? blocks : 3
@@ -23,22 +24,17 @@ array dashes[7] = [1, 2, 3, 4, 5, 2, 1]
 beside(k) = 1.02**(k - 1)
 set object 1 rectangle from graph 0,0 to graph 1,first none*1.4 behind fc rgb pale fs noborder
 
-do for [format in "svg png"] {
-    eval "set terminal ".value(format."_terminal")
-    set output ARG2.".".format
-    set multiplot layout 1,panels margins 0.09,0.98,0.3,0.97 spacing 0.09
-    do for [p=1:panels] {
-        first = p == 1 ? 0 : left
-        last = p == 1 ? left - 1 : blocks - 1
-        set ylabel (p == 1 ? "approaches with a pass through" : "")
-        set key outside bottom center horizontal maxcols (p == 1 ? 3 : 4)
-        plot for [k=first:last] data index k \
-                 using ($1*beside(k - first)):(shown($2)):(shown($3)):(shown($4)) \
-                 with yerrorbars pt shape[k-first+1] ps 0.9 lw 1.5 lc rgb colour[k-first+1] notitle, \
-             for [k=first:last] data index k using ($1*beside(k - first)):(shown($2)) \
-                 with linespoints pt shape[k-first+1] ps 0.9 lw 2 dt dashes[k-first+1] \
-                 lc rgb colour[k-first+1] title columnheader(1)
-    }
-    unset multiplot
-    unset output
+set multiplot layout 1,panels margins 0.09,0.98,0.3,0.97 spacing 0.09
+do for [p=1:panels] {
+    first = p == 1 ? 0 : left
+    last = p == 1 ? left - 1 : blocks - 1
+    set ylabel (p == 1 ? "approaches with a pass through" : "")
+    set key outside bottom center horizontal maxcols (p == 1 ? 3 : 4)
+    plot for [k=first:last] data index k \
+             using ($1*beside(k - first)):(shown($2)):(shown($3)):(shown($4)) \
+             with yerrorbars pt shape[k-first+1] ps 0.9 lw 1.5 lc rgb colour[k-first+1] notitle, \
+         for [k=first:last] data index k using ($1*beside(k - first)):(shown($2)) \
+             with linespoints pt shape[k-first+1] ps 0.9 lw 2 dt dashes[k-first+1] \
+             lc rgb colour[k-first+1] title columnheader(1)
 }
+unset multiplot

@@ -1,8 +1,8 @@
-# Speed against error on one scenario: a point is a configuration, with its n where it has one; blocks
-# of BASE.dat are the configurations that differ in n only: n, median total in us and its interval,
-# 99th percentile and median of the error in L, missed contacts.
-load ARG1."/style.gp"
-data = ARG2.".dat"
+# Speed against error on one scenario: a point is a configuration, a line the configurations of a
+# method that differ in n only, with n beside. Blocks of BASE.dat are such lines, the last one may be
+# "others": n, median total in us and its interval, 99th percentile of the error in L and its.
+high = 480
+load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
 
@@ -14,21 +14,28 @@ set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
 set ytics add ("exact" floor_error)
-set grid x y lc rgb "#d5d5d5" lw 1
-set xlabel "median total time of a query, {/Symbol m}s" offset 0,0.4
-set ylabel "99th percentile of the error, L"
+set xlabel "median total time of a query, µs"
+set ylabel "error, 99th percentile, L"
 set yrange [floor_error / 3 : 2]
-set key outside below center maxcols 3 samplen 1.5 font ",11"
+set grid x y lc rgb "#d5d5d5" lw 1
+set lmargin at screen 0.15
+set rmargin at screen 0.97
+set bmargin at screen 0.37
+set tmargin at screen 0.93
+set bars 0.4
+set key at screen 0.5,0.155 center center vertical maxrows 6 samplen 1 font ",11"
 
-array colour[4] = [dark, blue, orange, grey]
-array shape[8] = [7, 5, 9, 13, 6, 4, 8, 12]
+array colour[12] = [orange, blue, "#5aa9a0", dark, "#8a2f1c", grey, "#a8a035", "#b58ac4", "#444444", \
+    "#c05030", "#2f6f3a", "#aaaaaa"]
+array shape[12] = [7, 5, 9, 13, 3, 6, 4, 8, 12, 11, 10, 1]
 
-do for [format in "svg png"] {
-    eval "set terminal ".value(format."_terminal")
-    set output ARG2.".".format
-    plot for [i=0:blocks-1] data index i using 2:(shown($5)):3:4 with xerrorbars \
-             pt shape[i % 8 + 1] ps 1 lw 1.5 lc rgb colour[i % 4 + 1] title columnheader(1), \
-         for [i=0:blocks-1] data index i using 2:(shown($5)):1 with labels offset 1,0.7 \
-             textcolor rgb colour[i % 4 + 1] notitle
-    unset output
-}
+# Apart where two methods lie upon each other.
+array right[12] = [-0.9, 0.8, 0.9, 0.1, 0, 0, 0, 0, 0, 0, 0.1, 0.8]
+array above[12] = [-0.7, 0.6, 0.3, -0.9, 0, 0, 0, 0, 0, 0, 0.8, 0.6]
+
+plot for [i=0:blocks-1] data index i using 2:(shown($5)):3:4:(shown($6)):(shown($7)) with xyerrorbars \
+         pt 0 lw 0.6 lc rgb colour[i+1] notitle, \
+     for [i=0:blocks-1] data index i using 2:(shown($5)) with linespoints pt shape[i+1] ps 0.9 lw 1.5 \
+         lc rgb colour[i+1] title columnheader(1), \
+     for [i=0:blocks-1] data index i using 2:(shown($5)):1 with labels \
+         offset right[i+1],above[i+1] font ",10" textcolor rgb colour[i+1] notitle

@@ -1,7 +1,8 @@
 # Accepted references, oldest first: the time of each row relative to its first, change points marked.
 # Blocks of BASE.dat are rows: reference, relative time, 1 at a change point, commit.
-load ARG1."/style.gp"
-data = ARG2.".dat"
+wide = 760
+high = 480
+load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
 stats data using 1 nooutput
@@ -16,12 +17,7 @@ set xrange [0.5:STATS_max + 0.5]
 
 array colour[4] = [dark, blue, orange, grey]
 
-do for [format in "svg png"] {
-    eval "set terminal ".value(format."_terminal")
-    set output ARG2.".".format
-    plot for [i=0:blocks-1] data index i using 1:2 with linespoints pt 7 ps 0.6 lw 1.5 \
-             dt i / 4 + 1 lc rgb colour[i % 4 + 1] title columnheader(1), \
-         for [i=0:blocks-1] data index i using 1:($3 == 1 ? $2 : NaN) with points pt 6 ps 2.5 lw 2 \
-             lc rgb "black" notitle
-    unset output
-}
+plot for [i=0:blocks-1] data index i using 1:2 with linespoints pt 7 ps 0.6 lw 1.5 \
+         dt i / 4 + 1 lc rgb colour[i % 4 + 1] title columnheader(1), \
+     for [i=0:blocks-1] data index i using 1:($3 == 1 ? $2 : NaN) with points pt 6 ps 2.5 lw 2 \
+         lc rgb "black" notitle

@@ -1,0 +1,191 @@
+#include "harness/figure.h"
+
+#include "harness/data.h"
+#include "harness/front.h"
+#include "harness/spawn.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+uint64_t mote_figure_hash(uint64_t hash, const char *text, size_t size)
+{
+    for (size_t i = 0; i < size; ++i)
+        hash = (hash ^ (unsigned char)text[i]) * 1099511628211u;
+    return hash;
+}
+
+void mote_figure_quote(mote_text *text, const char *string)
+{
+    mote_text_add(text, "\"");
+    for (const char *p = string; *p; ++p) {
+        if (*p == '"')
+            mote_text_add(text, "\xe2\x80\x9d"); /* a typographic quote */
+        else
+            mote_text_add(text, "%c", (unsigned char)*p < ' ' ? ' ' : *p);
+    }
+    mote_text_add(text, "\"");
+}
+
+void mote_figure_block(mote_text *text, const char *title)
+{
+    if (text->size)
+        mote_text_add(text, "\n\n");
+    mote_figure_quote(text, title);
+    mote_text_add(text, "\n");
+}
+
+const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER])
+{
+    char digits[MOTE_FIGURE_NUMBER];
+    (void)snprintf(digits, sizeof digits, "%.0f", value);
+    const size_t count = strlen(digits);
+    size_t used = 0;
+    for (size_t i = 0; i < count && used + 2 < MOTE_FIGURE_NUMBER; ++i) {
+        if (i > 0 && (count - i) % 3 == 0)
+            text[used++] = ',';
+        text[used++] = digits[i];
+    }
+    text[used] = '\0';
+    return text;
+}
+
+static bool usable(const mote_summary_row *row, const char *scenario)
+{
+    return row->status == MOTE_CELL_OK && row->jobs == 1 &&
+           strcmp(row->first->scenario, scenario) == 0 &&
+           strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
+}
+
+static void frame_range(const mote_summary_row *row, json_int_t range[2])
+{
+    const json_t *frames = json_object_get(row->first->json, "frames");
+    for (size_t i = 0; i < 2; ++i)
+        range[i] = json_integer_value(json_array_get(frames, i));
+}
+
+bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
+                       const char *scenario)
+{
+    if (!usable(row, scenario))
+        return false;
+    json_int_t widest[2] = {0, -1}, range[2];
+    const char *machine = NULL;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        if (!usable(other, scenario))
+            continue;
+        frame_range(other, range);
+        if (range[1] - range[0] > widest[1] - widest[0])
+            memcpy(widest, range, sizeof widest);
+        machine = machine ? machine : other->first->machine;
+    }
+    frame_range(row, range);
+    return range[0] == widest[0] && range[1] == widest[1] &&
+           strcmp(row->first->machine, machine) == 0;
+}
+
+const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,
+                                        const char *label)
+{
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (strcmp(row->label, label) == 0 && mote_figure_shows(summary, row, scenario))
+            return row;
+    }
+    return NULL;
+}
+
+const mote_summary_row *mote_figure_near(const mote_summary *summary, const char *scenario,
+                                         const char *family, double n)
+{
+    const mote_summary_row *best = NULL;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        char other[MOTE_FIGURE_FAMILY];
+        mote_front_title(row, other, sizeof other);
+        if (strcmp(family, other) == 0 && mote_figure_shows(summary, row, scenario) &&
+            (!best || fabs(row->n - n) < fabs(best->n - n)))
+            best = row;
+    }
+    return best;
+}
+
+bool mote_figure_first(const mote_summary *summary, const mote_summary_row *row,
+                       const char *scenario)
+{
+    char family[MOTE_FIGURE_FAMILY], other[MOTE_FIGURE_FAMILY];
+    mote_front_title(row, family, sizeof family);
+    for (const mote_summary_row *before = summary->rows; before < row; ++before) {
+        mote_front_title(before, other, sizeof other);
+        if (strcmp(family, other) == 0 && mote_figure_shows(summary, before, scenario))
+            return false;
+    }
+    return true;
+}
+
+static const double *times_of(const mote_stored_cell *cell, mote_figure_part part)
+{
+    switch (part) {
+    case MOTE_FIGURE_DEFORM:
+        return cell->deform_ns;
+    case MOTE_FIGURE_UPDATE:
+        return cell->update_ns;
+    case MOTE_FIGURE_QUERY:
+        return cell->query_ns;
+    case MOTE_FIGURE_TOTAL:
+        break;
+    }
+    return cell->total_ns;
+}
+
+mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
+                               double *values)
+{
+    double *work = malloc((row->replicates + 1) * sizeof *work);
+    if (!work)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    for (size_t k = 0; k < row->first->frames; ++k) {
+        size_t count = 0;
+        for (size_t r = 0; r < row->replicates; ++r) {
+            const mote_stored_cell *cell = &row->cells[r];
+            if (k < cell->frames && cell->frame[k] == row->first->frame[k])
+                work[count++] = times_of(cell, part)[k];
+        }
+        values[k] = mote_statistics_median(work, count);
+    }
+    free(work);
+    return MOTE_OK;
+}
+
+double mote_figure_length(const mote_summary_row *row)
+{
+    const double length = mote_stored_number(row->first, "length");
+    return length > 0 ? length : 1;
+}
+
+double mote_figure_triangles(const mote_summary_row *row)
+{
+    const json_t *triangles = json_object_get(row->first->json, "triangles");
+    const double a = json_number_value(json_array_get(triangles, 0));
+    const double b = json_number_value(json_array_get(triangles, 1));
+    return a > b ? a : b;
+}
+
+mote_status mote_figure_gnuplot(const char *folder, const char *script, const char *base,
+                                const char *heading, const char *footer, const char *formats)
+{
+    /* gnuplot takes a file's name that begins with '<' or '|' for a command. */
+    char *file = mote_format("%s%s", base[0] == '/' ? "" : "./", base);
+    char *plots = mote_format("%s/plots", mote_data_directory());
+    char *draw = mote_format("%s/plots/draw.gp", mote_data_directory());
+    mote_status status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    if (file && plots && draw) {
+        const char *const argv[] = {"gnuplot", "-c",    draw,   plots,   script,
+                                    file,      heading, footer, formats, NULL};
+        status = mote_spawn(argv, folder, NULL, 0);
+    }
+    free(file);
+    free(plots);
+    free(draw);
+    return status;
+}

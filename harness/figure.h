@@ -1,0 +1,105 @@
+/* Writers of figures' data, one a figure, and what they share; used by figures.c. */
+#ifndef MOTE_HARNESS_FIGURE_H
+#define MOTE_HARNESS_FIGURE_H
+
+#include "harness/summary.h"
+
+/* What figures are made from. */
+typedef struct mote_figure_run {
+    const char *directory;
+    const mote_summary *summary; /* without rows where the run has no cell */
+    const json_t *claims;        /* claims.json, or NULL */
+} mote_figure_run;
+
+/* What a writer makes. data is what gnuplot reads: columns between blanks, text in quotes,
+   blocks two empty lines apart, each below its title. It stays empty where the run has not what
+   the figure needs; missing then says what that is. */
+typedef struct mote_figure {
+    mote_text data;
+    mote_text caption; /* a paragraph: what is shown, how sure it is */
+    mote_text missing; /* also of a figure that is drawn in part */
+} mote_figure;
+
+/* Fills a zeroed figure; the caller frees its texts. scenario is one of the run's, or NULL for
+   a figure of the whole run. An error status is ours or the machine's, never the run's. */
+typedef mote_status mote_figure_writer(const mote_figure_run *run, const char *scenario,
+                                       mote_figure *figure);
+
+mote_figure_writer mote_figure_particles;  /* 1: two letters T and their particles */
+mote_figure_writer mote_figure_deformed;   /* 2: four frames of M and V */
+mote_figure_writer mote_figure_queries;    /* 3: time of each query */
+mote_figure_writer mote_figure_front;      /* 4: speed against error */
+mote_figure_writer mote_figure_errors;     /* 5: error over the number of particles */
+mote_figure_writer mote_figure_size_time;  /* 6: time over triangles */
+mote_figure_writer mote_figure_size_bytes; /* 7: memory over triangles */
+mote_figure_writer mote_figure_shares;     /* 8: deform, update, query */
+mote_figure_writer mote_figure_ratios;     /* 9: against the best FCL */
+mote_figure_writer mote_figure_claims;     /* 11: the claims table */
+mote_figure_writer mote_figure_history;    /* 12: distance and error over frames */
+
+/* 2, moving: every few frames of the whole scenario. Writes the frames' geometry to
+   DIRECTORY/figures/frames, 20 MB that mote_figure_animation_clear deletes after drawing; the
+   data is a line a frame with the geometry's hash. */
+mote_figure_writer mote_figure_animation;
+void mote_figure_animation_clear(const char *directory);
+
+/* 64-bit FNV-1a of text, going on from hash: MOTE_FIGURE_HASH to begin with. */
+#define MOTE_FIGURE_HASH 14695981039346656037u
+uint64_t mote_figure_hash(uint64_t hash, const char *text, size_t size);
+
+/* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: this one), where BASE.dat
+   is: all text reaches gnuplot as arguments that are never run. formats: "svg png pdf", or
+   "gif". MOTE_EIO when gnuplot is missing or refuses. */
+mote_status mote_figure_gnuplot(const char *folder, const char *script, const char *base,
+                                const char *heading, const char *footer, const char *formats);
+
+/* Appends text in quotes: what would end them or the line is replaced by its like. */
+void mote_figure_quote(mote_text *text, const char *string);
+
+/* Starts a block below a title, after two empty lines unless it is the first. */
+void mote_figure_block(mote_text *text, const char *title);
+
+/* 11920: "11,920". */
+#define MOTE_FIGURE_NUMBER 32
+const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER]);
+
+/* Whether a row is shown in figures of its scenario: it ran alone, with hot caches, on the
+   machine and over the frames of most of the scenario's rows (the widest frames there are). */
+bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
+                       const char *scenario);
+
+/* The row shown that has this label; NULL when there is none. */
+const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,
+                                        const char *label);
+
+/* Room for a family: a row's label without its n (mote_front_title). */
+#define MOTE_FIGURE_FAMILY 256
+
+/* The row shown of a family whose n is nearest to n, or that has none; NULL: no such family. */
+const mote_summary_row *mote_figure_near(const mote_summary *summary, const char *scenario,
+                                         const char *family, double n);
+
+/* Whether no row before this one is shown that has the same family. */
+bool mote_figure_first(const mote_summary *summary, const mote_summary_row *row,
+                       const char *scenario);
+
+/* A frame's times. */
+typedef enum mote_figure_part {
+    MOTE_FIGURE_TOTAL,
+    MOTE_FIGURE_DEFORM,
+    MOTE_FIGURE_UPDATE,
+    MOTE_FIGURE_QUERY
+} mote_figure_part;
+
+/* Nanoseconds of each frame of row->first, the median over replicates, into values[frames of
+   row->first]. */
+mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
+                               double *values);
+
+/* L of the pair of a stored cell; 1 where the file has none. */
+double mote_figure_length(const mote_summary_row *row);
+
+/* The triangles of the larger body. */
+double mote_figure_triangles(const mote_summary_row *row);
+
+#endif

@@ -1,0 +1,249 @@
+#include "harness/figure_scene.h"
+
+#include "core/deform.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the directions to look from, those that are not too steep, and look across the line
+   between the bodies: sines of angles. */
+#define DIRECTIONS 400
+#define GOLDEN 2.399963229728653
+#define STEEP 0.7
+#define ACROSS 0.3
+
+/* How many points seen are worth as much as surfaces of L times L / 2. */
+#define AREA 4
+
+/* How far a surface must lie before a point to hide it, over L: particles lie on surfaces. */
+#define BEFORE 0.005
+
+mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scene *scene)
+{
+    const char *name = row->first->scenario;
+    uint64_t fingerprint;
+    char text[20];
+    memset(scene, 0, sizeof *scene);
+    mote_status status = mote_scenario_load(name, &scene->scenario);
+    if (status == MOTE_OK)
+        status = mote_scenario_fingerprint(scene->scenario, &fingerprint);
+    if (status == MOTE_OK) {
+        (void)snprintf(text, sizeof text, "%016" PRIx64, fingerprint);
+        if (strcmp(text, row->first->fingerprint) != 0)
+            status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", name);
+    }
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(scene->scenario, &scene->buffer);
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        const mote_body *body = &scene->scenario->body[i];
+        scene->world[i] = malloc(body->mesh->vertex_count * sizeof(mote_vec3));
+        status = scene->world[i] ? mote_deform_create(body, &scene->deform[i])
+                                 : mote_fail(MOTE_ENOMEM, "no memory for a body's vertices");
+    }
+    return status;
+}
+
+void mote_figure_scene_close(mote_figure_scene *scene)
+{
+    for (int i = 0; i < 2; ++i) {
+        mote_deform_destroy(scene->deform[i]);
+        free(scene->world[i]);
+    }
+    mote_frame_buffer_destroy(scene->buffer);
+    mote_scenario_destroy(scene->scenario);
+}
+
+void mote_figure_scene_show(mote_figure_scene *scene, uint32_t frame)
+{
+    scene->frame = mote_scenario_frame(scene->scenario, scene->buffer, frame, 0);
+    for (int i = 0; i < 2; ++i)
+        mote_deform_all(scene->deform[i], &scene->frame->body[i], scene->world[i]);
+}
+
+mote_vec3 mote_figure_see(const mote_figure_camera *camera, mote_vec3 point)
+{
+    const mote_vec3 p = mote_sub(point, camera->centre);
+    return mote_scale(mote_vec3_make(mote_dot(p, camera->right), mote_dot(p, camera->up),
+                                     mote_dot(p, camera->toward)),
+                      camera->scale);
+}
+
+static const mote_mesh *mesh_of(const mote_figure_scene *scene, int i)
+{
+    return scene->scenario->body[i].mesh;
+}
+
+/* A triangle's corners in the picture; twice its area there, > 0 where it faces the camera. */
+static double see_triangle(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                           int i, uint32_t triangle, mote_vec3 corner[3])
+{
+    for (int k = 0; k < 3; ++k)
+        corner[k] =
+            mote_figure_see(camera, scene->world[i][mesh_of(scene, i)->triangles[triangle][k]]);
+    return (corner[1].x - corner[0].x) * (corner[2].y - corner[0].y) -
+           (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
+}
+
+/* How far the triangle lies before p, where it covers p; else -infinity. */
+static double covers(const mote_vec3 corner[3], double area, mote_vec3 p)
+{
+    double depth = 0;
+    for (int k = 0; k < 3; ++k) {
+        const mote_vec3 a = corner[(k + 1) % 3], b = corner[(k + 2) % 3];
+        const double share = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / area;
+        if (share < 0)
+            return -HUGE_VAL;
+        depth += share * corner[k].z;
+    }
+    return depth - p.z;
+}
+
+bool mote_figure_hidden(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                        mote_vec3 point)
+{
+    const mote_vec3 p = mote_figure_see(camera, point);
+    const double before = BEFORE * scene->scenario->length * camera->scale;
+    for (int i = 0; i < 2; ++i) {
+        for (uint32_t t = 0; t < mesh_of(scene, i)->triangle_count; ++t) {
+            mote_vec3 corner[3];
+            const double area = see_triangle(scene, camera, i, t, corner);
+            if (area > 0 && covers(corner, area, p) > before)
+                return true;
+        }
+    }
+    return false;
+}
+
+static double seen_area(const mote_figure_scene *scene, const mote_figure_camera *camera)
+{
+    double sum = 0;
+    for (int i = 0; i < 2; ++i) {
+        for (uint32_t t = 0; t < mesh_of(scene, i)->triangle_count; ++t) {
+            mote_vec3 corner[3];
+            const double area = see_triangle(scene, camera, i, t, corner);
+            sum += area > 0 ? area : 0;
+        }
+    }
+    return sum;
+}
+
+static mote_vec3 middle_of(const mote_figure_scene *scene, int i)
+{
+    mote_vec3 sum = {0, 0, 0};
+    const uint32_t count = mesh_of(scene, i)->vertex_count;
+    for (uint32_t v = 0; v < count; ++v)
+        sum = mote_add(sum, scene->world[i][v]);
+    return mote_scale(sum, 1.0 / count);
+}
+
+/* Direction number k of DIRECTIONS, spread evenly over the sphere (a spiral). */
+static mote_vec3 direction(int k)
+{
+    const double y = 1 - (2 * k + 1.0) / DIRECTIONS, around = k * GOLDEN;
+    const double radius = sqrt(1 - y * y);
+    return mote_vec3_make(radius * cos(around), y, radius * sin(around));
+}
+
+/* Looks along a direction, the world's y upwards. */
+static mote_figure_camera look_from(mote_vec3 toward)
+{
+    mote_figure_camera camera = {.toward = toward, .scale = 1};
+    const mote_vec3 right = mote_cross(mote_vec3_make(0, 1, 0), toward);
+    camera.right = mote_scale(right, 1 / mote_length(right));
+    camera.up = mote_cross(toward, camera.right);
+    return camera;
+}
+
+mote_figure_camera mote_figure_camera_aim(const mote_figure_scene *scene,
+                                          const mote_vec3 *points, size_t count)
+{
+    const mote_vec3 line = mote_sub(middle_of(scene, 1), middle_of(scene, 0));
+    const double square = scene->scenario->length * scene->scenario->length;
+    mote_figure_camera best = look_from(mote_vec3_make(0, 0, 1));
+    double best_seen = -1;
+    for (int k = 0; k < DIRECTIONS; ++k) {
+        const mote_vec3 toward = direction(k);
+        if (fabs(toward.y) > STEEP || fabs(mote_dot(toward, line)) > ACROSS * mote_length(line))
+            continue;
+        const mote_figure_camera camera = look_from(toward);
+        if (mote_dot(camera.right, line) < 0)
+            continue; /* the second body on the right */
+        double seen = AREA * seen_area(scene, &camera) / square;
+        for (size_t i = 0; i < count; ++i)
+            seen += mote_figure_hidden(scene, &camera, points[i]) ? 0 : 1;
+        if (seen > best_seen) {
+            best_seen = seen;
+            best = camera;
+        }
+    }
+    return best;
+}
+
+void mote_figure_box_add(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                         mote_figure_box *box)
+{
+    for (int i = 0; i < 2; ++i) {
+        for (uint32_t v = 0; v < mesh_of(scene, i)->vertex_count; ++v) {
+            const mote_vec3 p = mote_figure_see(camera, scene->world[i][v]);
+            box->low[0] = fmin(box->low[0], p.x);
+            box->low[1] = fmin(box->low[1], p.y);
+            box->high[0] = fmax(box->high[0], p.x);
+            box->high[1] = fmax(box->high[1], p.y);
+        }
+    }
+}
+
+void mote_figure_camera_fit(mote_figure_camera *camera, const mote_figure_box *box,
+                            double aspect)
+{
+    const double x = (box->low[0] + box->high[0]) / 2, y = (box->low[1] + box->high[1]) / 2;
+    camera->centre = mote_add_scaled(camera->centre, x / camera->scale, camera->right);
+    camera->centre = mote_add_scaled(camera->centre, y / camera->scale, camera->up);
+    camera->scale *=
+        fmin(2 / (box->high[0] - box->low[0]), 2 * aspect / (box->high[1] - box->low[1]));
+}
+
+static void add_corner(mote_vec3 p, mote_text *text)
+{
+    mote_text_add(text, "%.4f %.4f %.4f\n", p.x, p.y, p.z);
+}
+
+void mote_figure_add_body(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                          int i, mote_text *text)
+{
+    if (text->size)
+        mote_text_add(text, "\n\n");
+    for (uint32_t t = 0; t < mesh_of(scene, i)->triangle_count; ++t) {
+        mote_vec3 corner[3];
+        if (!(see_triangle(scene, camera, i, t, corner) > 0))
+            continue;
+        for (int k = 0; k < 4; ++k)
+            add_corner(corner[k % 3], text);
+        mote_text_add(text, "\n");
+    }
+}
+
+void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                              int i, mote_text *text)
+{
+    const mote_field *field = scene->scenario->body[i].field;
+    const mote_body_state *state = &scene->frame->body[i];
+    mote_vec3 centre[MOTE_FIELD_MAX];
+    /* The centres as a mesh of points: all that a CSRBF's displacement looks at. */
+    const mote_mesh points = {.vertex_count = field->count, .positions = centre};
+    mote_figure_camera direction = *camera;
+    direction.centre = mote_vec3_make(0, 0, 0);
+    direction.scale *= MOTE_FIGURE_LONGER;
+    if (text->size)
+        mote_text_add(text, "\n\n");
+    for (uint32_t j = 0; j < field->count && field->centre_x; ++j) {
+        centre[j] = mote_vec3_make(field->centre_x[j], field->centre_y[j], field->centre_z[j]);
+        const mote_vec3 rest =
+            mote_figure_see(camera, mote_pose_apply(&state->pose, centre[j]));
+        const mote_vec3 moved = mote_figure_see(
+            &direction, mote_field_displacement(field, &points, j, &state->weights));
+        mote_text_add(text, "%.4f %.4f %.4f %.4f %.4f %.4f\n", rest.x, rest.y, rest.z, moved.x,
+                      moved.y, moved.z);
+    }
+}

@@ -1,0 +1,65 @@
+/* A scenario's frames as pictures: deformed bodies seen from a camera, as data for gnuplot. */
+#ifndef MOTE_HARNESS_FIGURE_SCENE_H
+#define MOTE_HARNESS_FIGURE_SCENE_H
+
+#include "harness/figure.h"
+#include "harness/scenario.h"
+
+typedef struct mote_figure_scene {
+    mote_scenario *scenario;
+    mote_frame_buffer *buffer;
+    struct mote_deform *deform[2];
+    mote_vec3 *world[2];     /* the vertices of the frame shown */
+    const mote_frame *frame; /* the frame shown */
+} mote_figure_scene;
+
+/* Loads the scenario that a row was measured on, by its name. MOTE_EINVAL when its frames are
+   not those that were measured. Close also after a failure. */
+mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scene *scene);
+void mote_figure_scene_close(mote_figure_scene *scene);
+
+/* Deforms both bodies: frame 1 .. scenario->frames. */
+void mote_figure_scene_show(mote_figure_scene *scene, uint32_t frame);
+
+/* Axes of the picture in the world, orthonormal; toward points at who looks. The picture's
+   coordinates are (p - centre) * scale along them. */
+typedef struct mote_figure_camera {
+    mote_vec3 right, up, toward, centre;
+    double scale;
+} mote_figure_camera;
+
+/* Looks across the line between the bodies' middles, from where most of the points (count may
+   be 0) and of the surfaces are seen. scale 1, centre 0. */
+mote_figure_camera mote_figure_camera_aim(const mote_figure_scene *scene,
+                                          const mote_vec3 *points, size_t count);
+
+/* A rectangle of the picture: low and high x, y. */
+typedef struct mote_figure_box {
+    double low[2], high[2];
+} mote_figure_box;
+
+/* Widens box by the frame shown. */
+void mote_figure_box_add(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                         mote_figure_box *box);
+
+/* Moves and scales the camera so that the box fills a picture of width 2, height 2 * aspect. */
+void mote_figure_camera_fit(mote_figure_camera *camera, const mote_figure_box *box,
+                            double aspect);
+
+mote_vec3 mote_figure_see(const mote_figure_camera *camera, mote_vec3 point);
+
+/* Whether a surface of the frame shown lies before the point, by more than 0.5 % of L. */
+bool mote_figure_hidden(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                        mote_vec3 point);
+
+/* A block of the triangles of body i that face the camera, closed, a blank line after each. */
+void mote_figure_add_body(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                          int i, mote_text *text);
+
+/* A block of the control vectors of body i: where each control point is at rest, x y z, and
+   what the field adds there, MOTE_FIGURE_LONGER times as long, dx dy dz. */
+#define MOTE_FIGURE_LONGER 3
+void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_camera *camera,
+                              int i, mote_text *text);
+
+#endif

@@ -1,0 +1,163 @@
+/* Figures over triangles: time with fitted exponents (6), memory (7). Their rows are the
+   scenarios that are ww at other sizes: ww, ww-1k, ww-100k, ww-1m. */
+#include "harness/figure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZES_MAX 16
+#define SERIES_MAX 8
+#define SIZES_LEAST 3
+
+/* "ww", or "ww-" and a size: digits, then k or m or nothing. */
+static bool is_size(const char *scenario)
+{
+    if (strcmp(scenario, "ww") == 0)
+        return true;
+    if (strncmp(scenario, "ww-", 3) != 0)
+        return false;
+    const size_t digits = strspn(scenario + 3, "0123456789");
+    const char *rest = scenario + 3 + digits;
+    return digits > 0 && (*rest == '\0' || ((*rest == 'k' || *rest == 'm') && rest[1] == '\0'));
+}
+
+/* One method's rows by triangles, one a size: of several the one with the fewest frames, which
+   is the one over the frames that all sizes have. */
+typedef struct size_series {
+    const char *label;
+    const mote_summary_row *rows[SIZES_MAX];
+    size_t count;
+} size_series;
+
+static void put_row(const mote_summary_row *row, size_series *series)
+{
+    for (size_t i = 0; i < series->count; ++i) {
+        if (strcmp(series->rows[i]->first->scenario, row->first->scenario) != 0)
+            continue;
+        if (row->frames < series->rows[i]->frames)
+            series->rows[i] = row;
+        return;
+    }
+    if (series->count == SIZES_MAX)
+        return;
+    size_t at = series->count++;
+    for (; at > 0 && mote_figure_triangles(series->rows[at - 1]) > mote_figure_triangles(row);
+         --at)
+        series->rows[at] = series->rows[at - 1];
+    series->rows[at] = row;
+}
+
+static size_t find_series(const mote_summary *summary, size_series series[SERIES_MAX])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < summary->count && count < SERIES_MAX; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        size_series made = {.label = row->label};
+        for (size_t k = 0; k < count && made.label; ++k)
+            made.label = strcmp(series[k].label, row->label) == 0 ? NULL : made.label;
+        for (size_t k = 0; k < summary->count && made.label; ++k) {
+            const mote_summary_row *other = &summary->rows[k];
+            if (other->status == MOTE_CELL_OK && other->jobs == 1 &&
+                is_size(other->first->scenario) && strcmp(other->label, made.label) == 0 &&
+                strcmp(other->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+                strcmp(other->first->machine, row->first->machine) == 0)
+                put_row(other, &made);
+        }
+        if (made.count >= SIZES_LEAST)
+            series[count++] = made;
+    }
+    return count;
+}
+
+static void say_missing(mote_figure *figure)
+{
+    mote_text_add(
+        &figure->missing,
+        "a method on %d sizes of ww (ww-1k, ww-10k, ww, ww-100k, ...); run `make sweep`",
+        SIZES_LEAST);
+}
+
+/* "certified  t^0.35": the fitted exponent, where there is one; the interval goes into the
+   caption. */
+static mote_status fit_title(const size_series *series, char *title, size_t size,
+                             mote_text *caption)
+{
+    double x[SIZES_MAX], y[SIZES_MAX], exponent;
+    mote_confidence interval;
+    for (size_t i = 0; i < series->count; ++i) {
+        x[i] = mote_figure_triangles(series->rows[i]);
+        y[i] = series->rows[i]->total.median;
+    }
+    (void)snprintf(title, size, "%s", series->label);
+    const mote_status status =
+        mote_statistics_exponent(x, y, series->count, &exponent, &interval);
+    if (status != MOTE_OK && status != MOTE_ENUMERIC)
+        return status;
+    if (status == MOTE_ENUMERIC || exponent != exponent)
+        return MOTE_OK;
+    (void)snprintf(title, size, "%s ~ t^%.2f", series->label, exponent);
+    mote_text_add(caption, " %s: %.2f (%.2f to %.2f).", series->label, exponent, interval.low,
+                  interval.high);
+    return MOTE_OK;
+}
+
+mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenario,
+                                  mote_figure *figure)
+{
+    (void)scenario;
+    size_series series[SERIES_MAX];
+    const size_t count = find_series(run->summary, series);
+    mote_status status = MOTE_OK;
+    if (count == 0)
+        say_missing(figure);
+    mote_text_add(&figure->caption,
+                  "Time over triangles: two letters W, median time of a query, deformation and "
+                  "refit included, with 95 %% intervals. Exponents of triangles t, by robust "
+                  "fits, with 95 %% intervals:");
+    for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
+        char title[320];
+        status = fit_title(&series[s], title, sizeof title, &figure->caption);
+        mote_figure_block(&figure->data, title);
+        for (size_t i = 0; i < series[s].count; ++i) {
+            const mote_time *time = &series[s].rows[i]->total;
+            const bool interval = time->low == time->low;
+            mote_text_add(&figure->data, "%.0f %.17g %.17g %.17g\n",
+                          mote_figure_triangles(series[s].rows[i]), time->median * 1e-3,
+                          (interval ? time->low : time->median) * 1e-3,
+                          (interval ? time->high : time->median) * 1e-3);
+        }
+    }
+    return status;
+}
+
+static double vertices_of(const mote_summary_row *row)
+{
+    const json_t *vertices = json_object_get(row->first->json, "vertices");
+    return json_number_value(json_array_get(vertices, 0)) +
+           json_number_value(json_array_get(vertices, 1));
+}
+
+mote_status mote_figure_size_bytes(const mote_figure_run *run, const char *scenario,
+                                   mote_figure *figure)
+{
+    (void)scenario;
+    size_series series[SERIES_MAX];
+    const size_t count = find_series(run->summary, series);
+    for (size_t s = 0; s < count; ++s) {
+        mote_figure_block(&figure->data, series[s].label);
+        for (size_t i = 0; i < series[s].count; ++i) {
+            const mote_summary_row *row = series[s].rows[i];
+            const double vertices = vertices_of(row);
+            if (row->heap_live_bytes > 0 && vertices > 0)
+                mote_text_add(&figure->data, "%.0f %.17g %.17g\n", mote_figure_triangles(row),
+                              row->heap_live_bytes, row->heap_live_bytes / vertices);
+        }
+    }
+    if (count == 0)
+        say_missing(figure);
+    mote_text_add(&figure->caption,
+                  "Memory over triangles: two letters W, live heap of a method after its run, "
+                  "meshes and fields left out, and the same over the vertices of both bodies. "
+                  "Counted, not sampled: no interval.");
+    return MOTE_OK;
+}

@@ -1,0 +1,296 @@
+/* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
+#include "harness/figure.h"
+#include "harness/front.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Mean and largest of the frames from first to last. */
+typedef struct span {
+    double mean, max;
+} span;
+
+static span over_frames(const mote_summary_row *row, const double *values, uint32_t first,
+                        uint32_t last)
+{
+    span found = {0, 0};
+    double count = 0;
+    for (size_t k = 0; k < row->first->frames; ++k) {
+        if (row->first->frame[k] < first || row->first->frame[k] > last)
+            continue;
+        found.mean += values[k];
+        found.max = values[k] > found.max ? values[k] : found.max;
+        ++count;
+    }
+    found.mean = count > 0 ? found.mean / count : MOTE_NONE;
+    return found;
+}
+
+/* The frames that the paper's Figure 3 averages over. */
+#define WARM_LAST 49u
+#define ACTIVE_FIRST 950u
+#define ACTIVE_LAST 1984u
+
+static mote_status add_queries(const mote_summary_row *row, const char *title,
+                               mote_figure *figure)
+{
+    const mote_stored_cell *first = row->first;
+    double *values = malloc((first->frames + 1) * sizeof *values);
+    if (!values)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    const mote_status status = mote_figure_frames(row, MOTE_FIGURE_TOTAL, values);
+    if (status == MOTE_OK) {
+        mote_figure_block(&figure->data, title);
+        for (size_t k = 0; k < first->frames; ++k)
+            mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
+        const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
+        const span warm = over_frames(row, values, 1, WARM_LAST);
+        mote_text_add(&figure->caption,
+                      " %s: active interval %.3g ms on average, %.3g ms at most; warming "
+                      "queries %.3g ms, %.3g ms.",
+                      title, active.mean * 1e-6, active.max * 1e-6, warm.mean * 1e-6,
+                      warm.max * 1e-6);
+    }
+    free(values);
+    return status;
+}
+
+mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario,
+                                mote_figure *figure)
+{
+    static const struct {
+        const char *label, *title;
+    } series[] = {
+        {"particle-paper:n=5", "particles, n = 5"},
+        {"fcl-aabb", "FCL AABB"},
+        {"fcl-aabb:queue=64,seed=previous", "FCL AABB, seeded"},
+        {"fcl-obbrss", "FCL OBBRSS"},
+    };
+    enum { SERIES = sizeof series / sizeof series[0] };
+    const mote_summary_row *rows[SERIES];
+    for (int i = 0; i < SERIES; ++i) {
+        rows[i] = mote_figure_row(run->summary, scenario, series[i].label);
+        if (!rows[i])
+            mote_text_add(&figure->missing, "%s%s", figure->missing.size ? ", " : "",
+                          series[i].label);
+    }
+    if (figure->missing.size)
+        mote_text_add(&figure->missing, " on %s", scenario);
+    if (!rows[0])
+        return MOTE_OK;
+    mote_text_add(
+        &figure->caption,
+        "The paper's Figure 3: collision detection between two letters W of 11,920 "
+        "triangles with 5 particles on each. Time of each query, all deformation and "
+        "refit included, against its number; median of %zu processes. Active interval: "
+        "queries 950-1984 (shaded), warming: queries 1-49. The paper (Pentium 4, 2.53 "
+        "GHz): active interval 12.67 ms on average, 47 ms at most; warming queries "
+        "12.06 ms, 47 ms.",
+        rows[0]->finished);
+    mote_status status = MOTE_OK;
+    for (int i = 0; i < SERIES && status == MOTE_OK; ++i) {
+        if (rows[i])
+            status = add_queries(rows[i], series[i].title, figure);
+    }
+    return status;
+}
+
+/* One configuration's mean times, each frame's the median over replicates. */
+typedef struct share {
+    const char *label;
+    double part[3], total; /* deform, update, query; nanoseconds */
+} share;
+
+#define SHARES_MAX 16
+
+static mote_status take_share(const mote_summary_row *row, share *made)
+{
+    static const mote_figure_part parts[3] = {MOTE_FIGURE_DEFORM, MOTE_FIGURE_UPDATE,
+                                              MOTE_FIGURE_QUERY};
+    const size_t frames = row->first->frames;
+    double *values = malloc((frames + 1) * sizeof *values);
+    if (!values)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    mote_status status = MOTE_OK;
+    made->label = row->label;
+    made->total = 0;
+    for (int p = 0; p < 3 && status == MOTE_OK; ++p) {
+        status = mote_figure_frames(row, parts[p], values);
+        made->part[p] = status == MOTE_OK ? mote_statistics_mean(values, frames) : 0;
+        made->total += made->part[p];
+    }
+    free(values);
+    return status;
+}
+
+static int by_total(const void *a, const void *b)
+{
+    const share *first = a, *second = b;
+    if (first->total < second->total || first->total > second->total)
+        return first->total < second->total ? -1 : 1;
+    return strcmp(first->label, second->label);
+}
+
+/* n that stands for a method: the paper's own for its method. */
+static double usual_n(const mote_summary_row *row)
+{
+    return strcmp(row->first->method, "particle-paper") == 0 ? 5 : 8;
+}
+
+static mote_status collect_shares(const mote_summary *summary, const char *scenario,
+                                  share *shares, size_t *count)
+{
+    mote_status status = MOTE_OK;
+    *count = 0;
+    for (size_t i = 0; i < summary->count && *count < SHARES_MAX && status == MOTE_OK; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        char family[MOTE_FIGURE_FAMILY];
+        mote_front_title(row, family, sizeof family);
+        if (!mote_figure_shows(summary, row, scenario) || row->first->frames == 0 ||
+            !mote_figure_first(summary, row, scenario))
+            continue;
+        row = mote_figure_near(summary, scenario, family, usual_n(row));
+        status = take_share(row, &shares[(*count)++]);
+    }
+    if (status == MOTE_OK)
+        qsort(shares, *count, sizeof *shares, by_total);
+    return status;
+}
+
+static void add_share(const share *s, size_t place, mote_text *text)
+{
+    const double d = s->part[0] / s->total, u = s->part[1] / s->total;
+    mote_text_add(text, "%zu %.17g %.17g 1 ", place, d, d + u);
+    mote_figure_quote(text, s->label);
+    char number[MOTE_FIGURE_NUMBER];
+    if (s->total < 1e6)
+        mote_text_add(text, " \"%.3g\"\n", s->total * 1e-3);
+    else
+        mote_text_add(text, " \"%s\"\n", mote_figure_number(s->total * 1e-3, number));
+}
+
+mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
+                               mote_figure *figure)
+{
+    share shares[SHARES_MAX];
+    size_t count;
+    const mote_status status = collect_shares(run->summary, scenario, shares, &count);
+    if (status != MOTE_OK)
+        return status;
+    for (size_t i = 0; i < count; ++i) {
+        if (shares[i].total > 0)
+            add_share(&shares[i], i + 1, &figure->data);
+    }
+    if (count == 0)
+        mote_text_add(&figure->missing, "a method that ran on %s", scenario);
+    mote_text_add(&figure->caption,
+                  "Where the time goes on %s: shares of deforming all vertices, bringing the "
+                  "structure up to date (refit), and the query, of the mean time of a frame, "
+                  "which stands at the right. Of each frame the median over processes. Of "
+                  "configurations that differ in n only, the one nearest to n = 5 (the paper's "
+                  "method) or n = 8.",
+                  scenario);
+    return MOTE_OK;
+}
+
+/* The frames are cut into this many parts; each has a ratio and its interval. */
+#define PARTS 48
+
+/* The median over frames first .. last of ln(other's total / ours), within one replicate;
+   MOTE_NONE without a common frame. */
+static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *other,
+                        double first, double last, double *work)
+{
+    size_t count = 0;
+    for (size_t i = 0, j = 0; i < ours->frames && j < other->frames;) {
+        if (ours->frame[i] != other->frame[j]) {
+            if (ours->frame[i] < other->frame[j])
+                ++i;
+            else
+                ++j;
+            continue;
+        }
+        if (ours->frame[i] >= first && ours->frame[i] < last && ours->total_ns[i] > 0 &&
+            other->total_ns[j] > 0)
+            work[count++] = log(other->total_ns[j] / ours->total_ns[i]);
+        ++i;
+        ++j;
+    }
+    return count ? mote_statistics_median(work, count) : MOTE_NONE;
+}
+
+/* One part's line: middle frame, ratio, its interval over replicates (or the ratio twice). */
+static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
+                      double last, double *work, mote_text *text)
+{
+    double values[64];
+    size_t count = 0;
+    for (size_t r = 0; r < row->replicates && r < other->replicates && count < 64; ++r) {
+        const double value = log_ratio(&row->cells[r], &other->cells[r], first, last, work);
+        if (value == value)
+            values[count++] = value;
+    }
+    if (count == 0)
+        return;
+    const double mean = mote_statistics_mean(values, count);
+    mote_confidence interval = mote_statistics_t_interval(values, count);
+    if (interval.low != interval.low)
+        interval = (mote_confidence){mean, mean};
+    mote_text_add(text, "%.17g %.17g %.17g %.17g\n", (first + last - 1) / 2, exp(mean),
+                  exp(interval.low), exp(interval.high));
+}
+
+static mote_status add_ratios(const mote_summary_row *row, const mote_summary_row *other,
+                              const char *title, mote_text *text)
+{
+    const mote_stored_cell *cell = row->first;
+    double *work = malloc((cell->frames + 1) * sizeof *work);
+    if (!work)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    mote_figure_block(text, title);
+    const double from = cell->frame[0];
+    const double width = (cell->frame[cell->frames - 1] + 1 - from) / PARTS;
+    for (int p = 0; p < PARTS; ++p)
+        add_ratio(row, other, from + p * width, from + (p + 1) * width, work, text);
+    free(work);
+    return MOTE_OK;
+}
+
+mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
+                               mote_figure *figure)
+{
+    static const struct {
+        const char *family, *title;
+        double n;
+    } series[] = {{"particle-paper:refine=no", "paper mode", 5},
+                  {"particle", "tracked", 8},
+                  {"certified", "certified", 0}};
+    mote_status status = MOTE_OK;
+    size_t least = SIZE_MAX;
+    for (size_t i = 0; i < sizeof series / sizeof series[0] && status == MOTE_OK; ++i) {
+        const mote_summary_row *row =
+            mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
+        if (!row || row->ratio_best.to == SIZE_MAX || row->first->frames == 0)
+            continue;
+        const mote_summary_row *best = &run->summary->rows[row->ratio_best.to];
+        if (figure->caption.size == 0)
+            mote_text_add(&figure->caption,
+                          "How many times faster than %s, the best FCL of this run on %s, over "
+                          "the frames: paired within each process, median of %d parts of the "
+                          "frames, with 95 %% intervals over processes. Below 1 FCL wins.",
+                          best->label, scenario, PARTS);
+        char title[64];
+        (void)snprintf(title, sizeof title, "%s", series[i].title);
+        if (row->n == row->n)
+            (void)snprintf(title, sizeof title, "%s, n = %.0f", series[i].title, row->n);
+        least = row->finished < least ? row->finished : least;
+        status = add_ratios(row, best, title, &figure->data);
+    }
+    if (figure->data.size == 0)
+        mote_text_add(&figure->missing,
+                      "a method of ours and one of FCL's on the same frames of %s", scenario);
+    else if (least < 2)
+        mote_text_add(&figure->missing, "intervals on %s, for which two replicates are needed",
+                      scenario);
+    return status;
+}

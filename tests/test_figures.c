@@ -1,0 +1,320 @@
+/* mote figures: what a small stored run gives, what is missing, names that would be commands.
+ */
+#include "harness/figure.h"
+#include "harness/record.h"
+#include "tests/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <sys/stat.h>
+
+static char base[] = "/tmp/mote-test-figures-XXXXXX";
+static char text[1 << 18];
+
+/* A scenario whose name is a command to gnuplot and to a shell, were it ever run. */
+#define HOSTILE "'; system(\"touch HACKED\") `touch HACKED` $(touch HACKED)"
+
+static void path_of(const char *name, char path[256])
+{
+    (void)snprintf(path, 256, "%s/%s", base, name);
+}
+
+/* mote COMMAND BASE/DIRECTORY; what it said is in text. */
+static int run(const char *command, const char *directory)
+{
+    char line[512], said[256];
+    path_of("said", said);
+    (void)snprintf(line, sizeof line, "%s %s/%s", command, base, directory);
+    const int status = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    return status;
+}
+
+static bool exists(const char *name)
+{
+    char path[256];
+    struct stat info;
+    path_of(name, path);
+    return stat(path, &info) == 0 && info.st_size > 0;
+}
+
+/* Makes one small run: two scenarios, some n, two replicates. */
+static int make_run(void **state)
+{
+    (void)state;
+    return mkdtemp(base) &&
+                   run("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "
+                       "particle-paper:refine=no|near --method fcl-aabb --out",
+                       "run") == 0 &&
+                   run("figures", "run") == 0
+               ? 0
+               : -1;
+}
+
+static int remove_run(void **state)
+{
+    (void)state;
+    char command[256];
+    (void)snprintf(command, sizeof command, "rm -r %s", base);
+    return system(command);
+}
+
+static json_t *read_list(const char *directory, const char *key)
+{
+    char folder[256];
+    json_t *object = NULL;
+    path_of(directory, folder);
+    assert_int_equal(mote_record_read_json(folder, "figures/figures.json", &object), MOTE_OK);
+    json_t *list = json_incref(json_object_get(object, key));
+    json_decref(object);
+    return list;
+}
+
+static void figures_of_a_run_are_there_in_every_format(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"fig1",      "front-tt",  "errors-tt",
+                                        "shares-tt", "ratios-tt", "error-time-tt"};
+    static const char *const formats[] = {"svg", "png", "pdf"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        for (size_t f = 0; f < 3; ++f) {
+            char name[128];
+            (void)snprintf(name, sizeof name, "run/figures/%s.%s", names[i], formats[f]);
+            if (!exists(name))
+                fail_msg("%s: not there, or empty", name);
+        }
+    }
+    json_t *list = read_list("run", "figures");
+    assert_int_equal(json_array_size(list), sizeof names / sizeof names[0]);
+    json_decref(list);
+}
+
+static void figures_that_cannot_be_drawn_are_named(void **state)
+{
+    (void)state;
+    assert_int_equal(run("figures", "run"), 0);
+    static const int numbers[] = {2, 3, 6, 7, 11};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+        char line[64];
+        (void)snprintf(line, sizeof line, "figure %d (", numbers[i]);
+        if (!strstr(text, line))
+            fail_msg("%s is not named in: %s", line, text);
+    }
+    assert_null(strstr(text, "figure 1 ("));
+    json_t *missing = read_list("run", "missing");
+    assert_int_equal(json_array_size(missing), 6); /* of figure 2, both */
+    json_decref(missing);
+}
+
+/* The footer's run is the manifest's, its data the hash of the file that is drawn. */
+static void footers_name_run_and_data(void **state)
+{
+    (void)state;
+    char folder[256], path[256], expected[128];
+    json_t *manifest = NULL;
+    path_of("run", folder);
+    assert_int_equal(mote_record_read_json(folder, "manifest.json", &manifest), MOTE_OK);
+    const char *program = json_string_value(json_object_get(manifest, "program"));
+    path_of("run/figures/shares-tt.dat", path);
+    program_read(path, text, sizeof text);
+    (void)snprintf(expected, sizeof expected, "data %016llx",
+                   (unsigned long long)mote_figure_hash(MOTE_FIGURE_HASH, text, strlen(text)));
+    path_of("run/figures/shares-tt.svg", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, expected));
+    (void)snprintf(expected, sizeof expected, "-%.8s, commit", program);
+    assert_non_null(strstr(text, expected));
+    json_decref(manifest);
+}
+
+/* The published FNV-1a of "" and "foobar". */
+static void hash_is_fnv_1a(void **state)
+{
+    (void)state;
+    assert_true(mote_figure_hash(MOTE_FIGURE_HASH, "", 0) == 0xcbf29ce484222325u);
+    assert_true(mote_figure_hash(MOTE_FIGURE_HASH, "foobar", 6) == 0x85944171f73967e8u);
+}
+
+static void drawing_again_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    static char again[1 << 20], before[1 << 20];
+    static const char *const names[] = {"fig1.svg", "front-tt.svg", "errors-tt.svg",
+                                        "figures.json"};
+    char path[256];
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        (void)snprintf(path, sizeof path, "%s/run/figures/%s", base, names[i]);
+        program_read(path, before, sizeof before);
+        if (i == 0)
+            assert_int_equal(run("figures", "run"), 0);
+        program_read(path, again, sizeof again);
+        assert_true(strlen(again) > 100);
+        assert_string_equal(before, again);
+    }
+}
+
+/* Changes what begins with `from` to `to` in a file of the copy. */
+static void rewrite(const char *path, const char *from, const char *to)
+{
+    program_read(path, text, sizeof text);
+    char *at = strstr(text, from);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    if (at)
+        (void)fprintf(out, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    else
+        (void)fputs(text, out);
+    (void)fclose(out);
+}
+
+/* Copies the run; calls change with each cell's JSON file. */
+static void copy_run(const char *to, void (*change)(const char *path))
+{
+    char command[600], folder[256];
+    (void)snprintf(command, sizeof command, "cp -r %s/run %s/%s && rm -r %s/%s/figures", base,
+                   base, to, base, to);
+    assert_int_equal(system(command), 0);
+    (void)snprintf(folder, sizeof folder, "%s/%s/cells", base, to);
+    DIR *cells = opendir(folder);
+    assert_non_null(cells);
+    for (const struct dirent *entry = readdir(cells); entry; entry = readdir(cells)) {
+        char path[600];
+        (void)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (strstr(entry->d_name, ".json"))
+            change(path);
+    }
+    (void)closedir(cells);
+}
+
+static void rename_scenario(const char *path)
+{
+    rewrite(path, "\"scenario\": \"tt\"",
+            "\"scenario\": \"'; system(\\\"touch HACKED\\\") `touch HACKED` $(touch HACKED)\"");
+}
+
+static void scenario_that_is_a_command_is_drawn_and_never_run(void **state)
+{
+    (void)state;
+    copy_run("hostile", rename_scenario);
+    assert_int_equal(run("figures", "hostile"), 0);
+    assert_false(exists("hostile/figures/HACKED"));
+    assert_int_equal(access("HACKED", F_OK), -1);
+    json_t *list = read_list("hostile", "figures");
+    assert_int_equal(json_array_size(list), 5);
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        const json_t *entry = json_array_get(list, i);
+        const char *name = json_string_value(json_object_get(entry, "name"));
+        char path[512];
+        assert_int_equal(strspn(name, "abcdefghijklmnopqrstuvwxyzACDEHKT0123456789-_"),
+                         strlen(name));
+        assert_string_equal(json_string_value(json_object_get(entry, "scenario")), HOSTILE);
+        (void)snprintf(path, sizeof path, "%s/hostile/figures/%s.svg", base, name);
+        program_read(path, text, sizeof text);
+        if (!strstr(text, HOSTILE))
+            fail_msg("%s does not show the scenario's name", path);
+    }
+    json_decref(list);
+}
+
+static int damaged;
+
+static void damage_some(const char *path)
+{
+    if (damaged++ % 4 == 0)
+        rewrite(path, "\"scenario\"", "\"scen");
+}
+
+static void damaged_cells_are_named_and_the_rest_is_drawn(void **state)
+{
+    (void)state;
+    copy_run("damaged", damage_some);
+    assert_int_equal(run("figures", "damaged"), 0);
+    assert_non_null(strstr(text, "left out"));
+    assert_true(exists("damaged/figures/shares-tt.svg"));
+}
+
+static void remove_csv(const char *path)
+{
+    char csv[600];
+    (void)snprintf(csv, sizeof csv, "%.*scsv", (int)strlen(path) - 4, path);
+    assert_int_equal(unlink(csv), 0);
+}
+
+static void run_of_which_nothing_can_be_drawn_is_bad_input(void **state)
+{
+    (void)state;
+    copy_run("bare", remove_csv);
+    assert_int_equal(run("figures", "bare"), 4);
+    assert_non_null(strstr(text, "left out"));
+    assert_int_equal(run("figures", "nowhere"), 4);
+    assert_non_null(strstr(text, "nowhere: No such file"));
+    assert_int_equal(run("figures", "said"), 4);
+    char path[256];
+    path_of("empty", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    assert_int_equal(run("figures", "empty"), 4);
+    assert_non_null(strstr(text, "nothing to draw"));
+}
+
+static void claims_alone_are_drawn(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("claims", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    path_of("claims/claims.json", path);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    (void)fputs("[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
+                "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
+                "\"values\": [{\"name\": \"n = 3\"}]}]",
+                out);
+    (void)fclose(out);
+    assert_int_equal(run("figures", "claims"), 0);
+    path_of("claims/figures/claims.svg", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, "two is enough"));
+    assert_non_null(strstr(text, "n = 3: 2 [1.5, 2.5] L"));
+    assert_non_null(strstr(text, "within limits"));
+}
+
+static void quoted_text_has_no_quote_nor_line_end_inside(void **state)
+{
+    (void)state;
+    mote_text made = {0};
+    mote_figure_quote(&made, "a\"b\nc\\");
+    assert_string_equal(made.data, "\"a\xe2\x80\x9d"
+                                   "b c\\\"");
+    free(made.data);
+}
+
+static void numbers_have_commas(void **state)
+{
+    (void)state;
+    char number[MOTE_FIGURE_NUMBER];
+    assert_string_equal(mote_figure_number(7, number), "7");
+    assert_string_equal(mote_figure_number(11920, number), "11,920");
+    assert_string_equal(mote_figure_number(1234567, number), "1,234,567");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_of_a_run_are_there_in_every_format),
+        cmocka_unit_test(figures_that_cannot_be_drawn_are_named),
+        cmocka_unit_test(footers_name_run_and_data),
+        cmocka_unit_test(hash_is_fnv_1a),
+        cmocka_unit_test(drawing_again_gives_the_same_bytes),
+        cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
+        cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
+        cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
+        cmocka_unit_test(claims_alone_are_drawn),
+        cmocka_unit_test(quoted_text_has_no_quote_nor_line_end_inside),
+        cmocka_unit_test(numbers_have_commas),
+    };
+    return cmocka_run_group_tests(tests, make_run, remove_run);
+}
