@@ -134,8 +134,11 @@ mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_
     now_text(started, sizeof started);
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     json_t *sessions = old_sessions(directory);
-    json_t *session = json_pack("{s:s, s:s, s:I, s:o}", "started", started, "program", hash,
-                                "seed", (json_int_t)seed, "command", command_line(argc, argv));
+    char machine[MOTE_MACHINE_SIZE];
+    mote_machine_name(machine, sizeof machine);
+    json_t *session =
+        json_pack("{s:s, s:s, s:I, s:s, s:o}", "started", started, "program", hash, "seed",
+                  (json_int_t)seed, "machine", machine, "command", command_line(argc, argv));
     if (!sessions || !session || json_array_append_new(sessions, session) != 0) {
         json_decref(sessions);
         return mote_fail(MOTE_ENOMEM, "%s/manifest.json: no memory", directory);

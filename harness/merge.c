@@ -53,7 +53,27 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     return status;
 }
 
-/* The manifest of the first run is the directory's; the others must be of the same program. */
+/* Adds those sessions of a manifest that another one has not: when and where was measured. */
+static mote_status add_sessions(const char *directory, json_t *here, const json_t *there)
+{
+    json_t *mine = json_object_get(here, "sessions");
+    const json_t *sessions = json_object_get(there, "sessions");
+    size_t before = json_array_size(mine);
+    for (size_t i = 0; i < json_array_size(sessions); ++i) {
+        json_t *session = json_array_get(sessions, i);
+        bool known = false;
+        for (size_t k = 0; k < before && !known; ++k)
+            known = json_equal(json_array_get(mine, k), session);
+        if (!known && json_array_append(mine, session) != 0)
+            return mote_fail(MOTE_ENOMEM, "%s/manifest.json: no memory", directory);
+    }
+    if (json_array_size(mine) == before)
+        return MOTE_OK;
+    return mote_record_json(directory, "manifest.json", json_incref(here));
+}
+
+/* The manifest of the first run is the directory's; the others must be of the same program, and
+   add their sessions. */
 static mote_status merge_manifest(const char *directory, const char *run)
 {
     json_t *here = NULL, *there = NULL;
@@ -69,6 +89,8 @@ static mote_status merge_manifest(const char *directory, const char *run)
             status = mote_fail(
                 MOTE_EINVAL, "%s: measured by another build than %s; merge runs of one program",
                 run, directory);
+        if (status == MOTE_OK)
+            status = add_sessions(directory, here, there);
     }
     json_decref(here);
     json_decref(there);

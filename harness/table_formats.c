@@ -1,16 +1,39 @@
 #include "harness/file.h"
 #include "harness/table.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Whether another row differs from this one in frames, stride or seed only. */
+static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *row)
+{
+    size_t same = 0;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
+        same += strcmp(other->first->scenario, row->first->scenario) == 0 &&
+                strcmp(other->first->cache, row->first->cache) == 0 &&
+                strcmp(other->first->machine, row->first->machine) == 0 &&
+                strcmp(other->label, row->label) == 0;
+    }
+    return same > 1;
+}
+
 /* "scenario/method:key=value/evict": the name of a row in other tools; with "/machine" where
-   there are several. */
+   there are several, and with frames, stride and seed where these tell rows apart. */
 static char *row_name(const mote_summary *summary, const mote_summary_row *row)
 {
     bool several = mote_summary_machines_differ(summary);
-    return mote_format("%s/%s/%s%s%s", row->first->scenario, row->label, row->first->cache,
-                       several ? "/" : "", several ? row->first->machine : "");
+    char apart[96] = "";
+    if (is_ambiguous(summary, row)) {
+        const json_t *frames = json_object_get(row->first->json, "frames");
+        (void)snprintf(apart, sizeof apart, "/frames:%d-%d/stride:%u/seed:%.0f",
+                       (int)json_integer_value(json_array_get(frames, 0)),
+                       (int)json_integer_value(json_array_get(frames, 1)), row->first->stride,
+                       mote_stored_number(row->first, "seed"));
+    }
+    return mote_format("%s/%s/%s%s%s%s", row->first->scenario, row->label, row->first->cache,
+                       apart, several ? "/" : "", several ? row->first->machine : "");
 }
 
 /* Sets a member to what is known; leaves it out when there is nothing. */

@@ -144,6 +144,24 @@ static void csv_leaves_empty_what_there_is_not(void **state)
     assert_int_equal(lines, 4);
 }
 
+/* The last of the tests: it adds a run of fewer frames. */
+static void names_tell_rows_of_other_frames_apart(void **state)
+{
+    (void)state;
+    char line[512];
+    (void)snprintf(line, sizeof line,
+                   "run %s/few.json --replicates 3 --frames 1-3 --method certified"
+                   " --out %s/run",
+                   base, base);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    json_t *bencher = export("bencher");
+    assert_int_equal(json_object_size(bencher), 3);
+    assert_non_null(json_object_get(bencher, "few/certified/hot/frames:1-3/stride:1/seed:0"));
+    assert_non_null(json_object_get(bencher, "few/certified/hot/frames:1-5/stride:1/seed:0"));
+    assert_non_null(json_object_get(bencher, "few/fcl-aabb/hot"));
+    json_decref(bencher);
+}
+
 static void summarize_with_an_unknown_format_lists_those_that_there_are(void **state)
 {
     (void)state;
@@ -158,6 +176,7 @@ int main(void)
         cmocka_unit_test(trackers_get_the_median_of_each_row_with_figures),
         cmocka_unit_test(csv_leaves_empty_what_there_is_not),
         cmocka_unit_test(summarize_with_an_unknown_format_lists_those_that_there_are),
+        cmocka_unit_test(names_tell_rows_of_other_frames_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
 }

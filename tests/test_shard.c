@@ -199,6 +199,11 @@ static void merge_of_shards_is_the_whole_run(void **state)
     }
     json_decref(whole);
     json_decref(merged);
+    json_t *manifest = NULL; /* a session each shard, though one was merged twice */
+    (void)snprintf(line, sizeof line, "%s/merged", base);
+    assert_int_equal(mote_record_read_json(line, "manifest.json", &manifest), MOTE_OK);
+    assert_int_equal(json_array_size(json_object_get(manifest, "sessions")), 2);
+    json_decref(manifest);
     (void)snprintf(line, sizeof line, "merge %s/merged %s/no-such-run", base, base);
     assert_int_equal(program(line), 4);
 }
