@@ -12,6 +12,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
+#   make reliability [PROFILE=quick|full] [PLANT=1]  what was tried, how often, what failed
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
@@ -36,7 +37,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak dynamics claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak reliability dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -73,6 +74,17 @@ certify: build
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
+
+# PLANT=1 plants a wrong answer, a lost row and a leak, which must be found.
+PLANT ?=
+reliability: build
+	cmake --build $(BUILD) -j $(JOBS) --target kills > /dev/null
+	cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) --target test_faults > /dev/null
+	cmake --preset fuzz > /dev/null && cmake --build build-fuzz -j $(JOBS) \
+	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell > /dev/null
+	@mkdir -p results
+	@tests/reliability.sh $(BUILD) build-asan build-fuzz $(if $(filter quick,$(PROFILE)),quick,full) \
+	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) $(if $(PLANT),plant)
 
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1

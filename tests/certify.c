@@ -1,9 +1,10 @@
 /* make certify: is a proven lower bound ever above the truth, and how far is the distance from
    it? Many frames of small deforming bodies, in small steps and in leaps, near and far, each
    answered by certified queries with and without memory, slack and budget, and by all pairs of
-   triangles. Usage: certify [--queries N] [--out FILE]. Exit status 1 where a bound is above
-   the truth or an unstopped query is wrong by more than 1e-12 L. */
+   triangles. Usage: certify [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where a
+   bound is above the truth or an unstopped query is wrong by more than 1e-12 L. */
 #include "core/certificate.h"
+#include "tests/checks.h"
 #include "tests/shapes.h"
 
 #include <math.h>
@@ -117,7 +118,21 @@ static bool write_json(const char *path, const variant v[VARIANTS])
     return fclose(file) == 0;
 }
 
-static int report(const variant v[VARIANTS], const char *out)
+static bool add_checks(const char *path, const variant v[VARIANTS])
+{
+    uint64_t above = 0, exact = 0, wrong = 0;
+    for (int i = 0; i < VARIANTS; ++i) {
+        above += v[i].above;
+        wrong += v[i].wrong;
+        exact += v[i].exact ? v[i].queries : 0;
+    }
+    return checks_add(path, "small scenes: a lower bound above the truth", all_queries(v),
+                      above) &&
+           checks_add(path, "small scenes: certified beyond 1e-12 L of brute force", exact,
+                      wrong);
+}
+
+static int report(const variant v[VARIANTS], const char *out, const char *checks)
 {
     bool good = true;
     printf("%-10s %10s %12s %8s %8s %14s %14s\n", "variant", "queries", "above truth", "wrong",
@@ -129,7 +144,7 @@ static int report(const variant v[VARIANTS], const char *out)
                v[i].least_margin, v[i].most_error);
         good = good && v[i].above == 0 && v[i].wrong == 0;
     }
-    if (out && !write_json(out, v))
+    if ((out && !write_json(out, v)) || !add_checks(checks, v))
         return 1;
     return good ? 0 : 1;
 }
@@ -137,14 +152,16 @@ static int report(const variant v[VARIANTS], const char *out)
 int main(int argc, char **argv)
 {
     unsigned long long wanted = 25000;
-    const char *out = NULL;
+    const char *out = NULL, *checks = NULL;
     for (int i = 1; i < argc; ++i) {
         if (strcmp(argv[i], "--queries") == 0 && i + 1 < argc) {
             wanted = strtoull(argv[++i], NULL, 10);
         } else if (strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
             out = argv[++i];
+        } else if (strcmp(argv[i], "--checks") == 0 && i + 1 < argc) {
+            checks = argv[++i];
         } else {
-            fprintf(stderr, "usage: certify [--queries N] [--out FILE]\n");
+            fprintf(stderr, "usage: certify [--queries N] [--out FILE] [--checks FILE]\n");
             return 2;
         }
     }
@@ -155,5 +172,5 @@ int main(int argc, char **argv)
         if (!run_scene(v, index))
             return 1;
     }
-    return report(v, out);
+    return report(v, out, checks);
 }

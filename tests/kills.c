@@ -4,7 +4,9 @@
    were planned, and with the summary of an uninterrupted one, times aside. Takes minutes, and
    so is no part of make test.
 
-   kills DIR [KILLS [SEED]] */
+   kills DIR [KILLS [SEED [plant]]]: plant takes a row out of a finished cell, which must be
+   found.
+   */
 #include "harness/command.h"
 #include "harness/record.h"
 #include "tests/program.h"
@@ -25,6 +27,7 @@ typedef struct study {
     uint64_t random;
     uint64_t longest_us; /* kills come so long after the start at most */
     unsigned kills, sweeps;
+    bool plant;
     size_t survived; /* cells that were finished before a kill */
     run_files finished;
 } study;
@@ -105,6 +108,22 @@ static bool same_summaries(const char *a, const char *b)
     return same;
 }
 
+/* Takes the last row from the first finished cell, once. */
+static bool plant_lost_row(study *s)
+{
+    if (!s->plant || s->finished.count == 0)
+        return true;
+    const run_file *cell = &s->finished.items[0];
+    char path[640];
+    (void)snprintf(path, sizeof path, "%s/cells/%.*s.csv", s->directory,
+                   (int)(strlen(cell->name) - strlen(".json")), cell->name);
+    size_t size = strlen(cell->csv) - 1;
+    while (size > 0 && cell->csv[size - 1] != '\n')
+        --size;
+    s->plant = false;
+    return mote_file_write(path, cell->csv, size) == MOTE_OK || fail(s, "no row to take away");
+}
+
 /* Starts the sweep and kills it at a random time; *done: it had ended by itself. */
 static bool kill_once(study *s, bool *done)
 {
@@ -120,6 +139,8 @@ static bool kill_once(study *s, bool *done)
     if (*done && WEXITSTATUS(status) != 0)
         return fail(s, "a sweep that went on ended badly");
     s->kills += *done ? 0 : 1;
+    if (!plant_lost_row(s))
+        return false;
     const char *wrong = run_files_check(s->directory, FRAMES, &s->finished);
     return wrong ? fail(s, wrong) : true;
 }
@@ -189,13 +210,14 @@ static bool run_whole(study *s)
 int main(int argc, char **argv)
 {
     uint64_t kills = 200, seed = 1;
-    if (argc < 2 || argc > 4 || (argc > 2 && !mote_read_unsigned(argv[2], 1, 100000, &kills)) ||
-        (argc > 3 && !mote_read_unsigned(argv[3], 0, UINT32_MAX, &seed))) {
-        (void)fprintf(stderr, "usage: kills DIR [KILLS [SEED]]\n");
+    if (argc < 2 || argc > 5 || (argc > 2 && !mote_read_unsigned(argv[2], 1, 100000, &kills)) ||
+        (argc > 3 && !mote_read_unsigned(argv[3], 0, UINT32_MAX, &seed)) ||
+        (argc > 4 && strcmp(argv[4], "plant") != 0)) {
+        (void)fprintf(stderr, "usage: kills DIR [KILLS [SEED [plant]]]\n");
         return MOTE_EXIT_USAGE;
     }
     char whole[256];
-    study s = {.base = argv[1], .random = seed};
+    study s = {.base = argv[1], .random = seed, .plant = argc > 4};
     if (mote_directory_make(argv[1]) != MOTE_OK)
         return mote_command_fail();
     bool good = run_whole(&s);

@@ -2,10 +2,11 @@
    only by a known factor. Scaled by a power of two, every method answers with the same bits;
    with the bodies swapped, in another order, wound differently, moved rigidly or refined, exact
    methods agree to 1e-12 L, and the errors of the others keep their quantiles.
-   Usage: metamorphic [--queries N] [--out FILE]: N queries a change. Exit status 1 where
-   something broke. */
+   Usage: metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit
+   status 1 where something broke. */
 #include "harness/probe.h"
 #include "harness/statistics.h"
+#include "tests/checks.h"
 #include "tests/twin.h"
 
 #include <stdio.h>
@@ -220,14 +221,16 @@ static bool run_relation(relation *r, unsigned long long wanted)
 int main(int argc, char **argv)
 {
     unsigned long long wanted = 20000;
-    const char *out = NULL;
+    const char *out = NULL, *checks = NULL;
     for (int i = 1; i < argc; ++i) {
         if (strcmp(argv[i], "--queries") == 0 && i + 1 < argc) {
             wanted = strtoull(argv[++i], NULL, 10);
         } else if (strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
             out = argv[++i];
+        } else if (strcmp(argv[i], "--checks") == 0 && i + 1 < argc) {
+            checks = argv[++i];
         } else {
-            fprintf(stderr, "usage: metamorphic [--queries N] [--out FILE]\n");
+            fprintf(stderr, "usage: metamorphic [--queries N] [--out FILE] [--checks FILE]\n");
             return 2;
         }
     }
@@ -247,6 +250,10 @@ int main(int argc, char **argv)
         if (!run_relation(&relations[i], wanted))
             return 1;
         failed += relations[i].failed;
+        char name[64];
+        (void)snprintf(name, sizeof name, "metamorphic: %s", relations[i].name);
+        if (!checks_add(checks, name, relations[i].tried, relations[i].failed))
+            return 1;
     }
     if (out && !write_json(out, relations, count))
         return 1;

@@ -1,8 +1,10 @@
 /* make soak: random scenarios, each frame answered by our methods and judged by the truth. A
-   case that fails is shrunk and kept as DIR/cases/SEED.json; put it into tests/cases, and it is
-   a test. Usage: soak [--hours H | --cases N] [--seed S] [--out DIR] [--plant]: S is the first
-   case's seed; --plant alters one answer of the first case, which must then be found. Exit
-   status 1 where something failed. */
+   case that fails is shrunk and kept as DIR/cases/SEED.json; put it into tests/cases, with
+   paths of meshes from there, and it is a test. Usage: soak [--hours H | --cases N] [--seed S]
+   [--out DIR] [--checks FILE] [--plant], or soak --replay FILE...: S is the first case's seed;
+   --plant alters one answer of the first case, which must then be found. Exit status 1 where
+   something failed. */
+#include "tests/checks.h"
 #include "tests/soak_case.h"
 #include "tests/soak_judge.h"
 #include "tests/soak_shrink.h"
@@ -18,7 +20,7 @@
 typedef struct soak {
     double hours;
     uint64_t cases, seed;
-    const char *out;
+    const char *out, *checks;
     bool plant;
     uint64_t tried, refused, failed, settled;
     soak_tally sum[SOAK_METHODS];
@@ -97,6 +99,17 @@ static soak_tally certified_sum(const soak *s)
     return sum;
 }
 
+static bool add_checks(const soak *s)
+{
+    const soak_tally certified = certified_sum(s);
+    return checks_add(s->checks, "random scenarios: certified beyond 1e-12 L of the truth",
+                      certified.queries, certified.wrong) &&
+           checks_add(s->checks, "random scenarios: a lower bound above the truth",
+                      certified.queries, certified.violated) &&
+           checks_add(s->checks, "random scenarios: crashes, hangs, answers below the truth",
+                      s->tried, s->failed);
+}
+
 static mote_status write_json(const soak *s)
 {
     json_t *methods = json_array();
@@ -165,6 +178,8 @@ static bool read_options(int argc, char **argv, soak *s)
             s->seed = strtoull(value, &end, 10);
         else if (strcmp(argv[i], "--out") == 0)
             s->out = value;
+        else if (strcmp(argv[i], "--checks") == 0)
+            s->checks = value;
         else
             return false;
         if (end && (end == value || *end != '\0'))
@@ -172,6 +187,22 @@ static bool read_options(int argc, char **argv, soak *s)
         ++i;
     }
     return s->hours > 0 || s->cases > 0;
+}
+
+/* Judges kept cases again. */
+static int replay(int count, char **paths)
+{
+    int failed = 0;
+    for (int i = 0; i < count; ++i) {
+        soak_verdict verdict;
+        const mote_status status = soak_judge(paths[i], NULL, false, &verdict);
+        const bool bad = status != MOTE_OK || verdict.failed_frame > 0;
+        printf("%s: %s\n", paths[i], bad ? "fails" : "right");
+        if (status != MOTE_OK)
+            fprintf(stderr, "soak: %s\n", mote_error_text());
+        failed += bad;
+    }
+    return failed == 0 ? 0 : 1;
 }
 
 static mote_status make_folder(const char *path)
@@ -184,8 +215,11 @@ static mote_status make_folder(const char *path)
 int main(int argc, char **argv)
 {
     soak s = {.seed = 1, .out = "."};
+    if (argc > 2 && strcmp(argv[1], "--replay") == 0)
+        return replay(argc - 2, argv + 2);
     if (!read_options(argc, argv, &s)) {
-        fprintf(stderr, "usage: soak --hours H | --cases N [--seed S] [--out DIR] [--plant]\n");
+        fprintf(stderr, "usage: soak --hours H | --cases N [--seed S] [--out DIR] [--checks "
+                        "FILE] [--plant]\n       soak --replay FILE...\n");
         return 2;
     }
     char cases[4096];
@@ -206,5 +240,7 @@ int main(int argc, char **argv)
         return 4;
     }
     print(&s);
+    if (!add_checks(&s))
+        return 4;
     return s.failed == 0 ? 0 : 1;
 }

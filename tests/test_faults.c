@@ -19,12 +19,16 @@
 
 /* Calls until one fails; below 0: none does. */
 static long allocations_left = -1, writes_left = -1;
+static long calls_failed; /* in all */
 
 static bool is_due(long *left)
 {
     if (*left < 0)
         return false;
-    return (*left)-- == 0;
+    if ((*left)-- > 0)
+        return false;
+    ++calls_failed;
+    return true;
 }
 
 void *__real_malloc(size_t size);
@@ -299,8 +303,18 @@ static int remove_folder(void **state)
     return 0;
 }
 
+/* make reliability PLANT=1: what AddressSanitizer must find. */
+static void plant_leak(void)
+{
+    volatile char *lost = __real_malloc(16);
+    if (lost)
+        lost[0] = 1;
+}
+
 int main(void)
 {
+    if (getenv("MOTE_PLANT_LEAK"))
+        plant_leak();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mesh_create_when_an_allocation_fails_says_so),
         cmocka_unit_test(method_when_an_allocation_fails_says_so),
@@ -308,5 +322,7 @@ int main(void)
         cmocka_unit_test(summary_when_an_allocation_fails_says_so),
         cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
+    printf("%ld calls failed\n", calls_failed);
+    return failed;
 }
