@@ -22,8 +22,9 @@ typedef struct mote_replay_track {
     size_t rows;                  /* answered frames: first + k * stride */
     double *distance;             /* [rows], MOTE_NONE without one */
     mote_vec3 *pair;              /* [2 * rows], the points of distance; x MOTE_NONE: none */
-    size_t particles;             /* per body; 0: not shown */
-    mote_vec3 *place;             /* [rows * 2 * particles], by frame, then body */
+    size_t particles;             /* the most on a body; 0: not shown */
+    mote_vec3 *place;             /* [rows * 2 * particles], by frame, then body; x MOTE_NONE:
+                                     none */
 } mote_replay_track;
 
 /* A scenario with what is known of its frames. */

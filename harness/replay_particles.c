@@ -24,25 +24,27 @@ static bool same_answer(const mote_answer *answer, double stored)
     return memcmp(&answer->distance, &stored, sizeof stored) == 0;
 }
 
-/* Keeps the particles of both bodies after the answer of row k; false: not two equal numbers,
-   or too many. */
+/* Keeps the particles of both bodies after the answer of row k; false: too many. */
 static bool keep(const mote_probe *probe, mote_replay_track *track, size_t k)
 {
-    mote_vec3 places[2][PARTICLES_MAX];
-    size_t a = mote_probe_particles(probe, 0, places[0], PARTICLES_MAX);
-    size_t b = mote_probe_particles(probe, 1, places[1], PARTICLES_MAX);
-    if (k == 0 && a <= PARTICLES_MAX)
-        track->particles = a;
-    if (a != track->particles || b != track->particles || a == 0)
-        return false;
-    if (k == 0)
-        track->place = malloc(track->rows * 2 * a * sizeof *track->place);
-    if (!track->place)
-        return false;
-    mote_vec3 *here = track->place + k * 2 * a;
-    memcpy(here, places[0], a * sizeof *here);
-    memcpy(here + a, places[1], a * sizeof *here);
+    for (size_t i = 0; i < 2; ++i) {
+        mote_vec3 *here = track->place + (2 * k + i) * PARTICLES_MAX;
+        size_t count = mote_probe_particles(probe, (int)i, here, PARTICLES_MAX);
+        if (count > PARTICLES_MAX)
+            return false;
+        track->particles = count > track->particles ? count : track->particles;
+        for (size_t j = count; j < PARTICLES_MAX; ++j)
+            here[j] = mote_vec3_make(MOTE_NONE, MOTE_NONE, MOTE_NONE);
+    }
     return true;
+}
+
+/* Takes out the places that no frame uses. */
+static void close_up(mote_replay_track *track)
+{
+    for (size_t k = 0; k < 2 * track->rows; ++k)
+        memmove(track->place + k * track->particles, track->place + k * PARTICLES_MAX,
+                track->particles * sizeof *track->place);
 }
 
 /* Answers all frames of the track again. *why: what went wrong, or NULL. */
@@ -53,6 +55,9 @@ static mote_status answer_again(const mote_replay_scene *scene, mote_probe *prob
     mote_status status = mote_frame_buffer_create(scene->scenario, &buffer);
     uint32_t previous = 0;
     *why = NULL;
+    track->place = malloc(track->rows * 2 * PARTICLES_MAX * sizeof *track->place);
+    if (status == MOTE_OK && !track->place)
+        status = mote_fail(MOTE_ENOMEM, "no memory for particles");
     for (size_t k = 0; k < track->rows && status == MOTE_OK && !*why; ++k) {
         const uint32_t number = track->cell->frame[k];
         mote_answer answer;
@@ -64,6 +69,8 @@ static mote_status answer_again(const mote_replay_scene *scene, mote_probe *prob
         else if (status == MOTE_OK && !keep(probe, track, k))
             *why = "more than a picture shows";
     }
+    if (status == MOTE_OK && !*why)
+        close_up(track);
     mote_frame_buffer_destroy(buffer);
     return status;
 }
@@ -89,5 +96,7 @@ mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *t
     free(track->place);
     track->place = NULL;
     track->particles = 0;
+    if (status == MOTE_ENOMEM)
+        return status;
     return note(scene, label, why ? why : mote_error_text());
 }

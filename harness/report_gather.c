@@ -38,15 +38,19 @@ static mote_status read_json(mote_report *report, const char *name, const char *
 {
     if (!exists(report->directory, name))
         return add_missing(report, mote_format("%s: not there; %s", name, remedy));
-    if (mote_record_read_json(report->directory, name, object) == MOTE_OK)
-        return MOTE_OK;
+    mote_status status = mote_record_read_json(report->directory, name, object);
+    if (status == MOTE_OK || status == MOTE_ENOMEM)
+        return status;
     return add_missing(report, mote_format("%s: %s", name, mote_error_text()));
 }
 
 /* The rows: from the cells, or else as they were stored. */
 static mote_status read_rows(mote_report *report)
 {
-    if (mote_summary_make(report->directory, &report->cells) == MOTE_OK) {
+    mote_status status = mote_summary_make(report->directory, &report->cells);
+    if (status == MOTE_ENOMEM)
+        return status;
+    if (status == MOTE_OK) {
         if (report->cells.count > 0) {
             report->has_cells = true;
             report->summary = mote_summary_json(&report->cells);
@@ -56,7 +60,7 @@ static mote_status read_rows(mote_report *report)
         (void)mote_fail(MOTE_EIO, "no cell is there; `mote run --out %s` measures some",
                         report->directory);
     }
-    mote_status status = add_missing(report, mote_format("cells: %s", mote_error_text()));
+    status = add_missing(report, mote_format("cells: %s", mote_error_text()));
     if (status != MOTE_OK)
         return status;
     return read_json(report, "summary.json", "`mote summarize` writes it from the cells",

@@ -50,7 +50,7 @@ static mote_status add_top(const mote_report *report, mote_text *text)
     char *subtitle = mote_report_subtitle(report);
     if (!subtitle)
         return mote_fail(MOTE_ENOMEM, "no memory for a report");
-    mote_text_add(text, "<header>\n<h1>");
+    mote_text_add(text, "<header>\n<p>mote, report of a run</p>\n<h1>");
     mote_escape_html(text, report->name);
     mote_text_add(text, "</h1>\n<p>");
     mote_escape_html(text, subtitle);

@@ -144,7 +144,7 @@ static void add_right(const mote_report *report, size_t i, mote_text *text)
 {
     const json_t *row = mote_report_row(report, i);
     const char *best = mote_report_text(json_object_get(row, "ratio_best"), "to");
-    mote_text_add(text, "Fastest with no wrong answer: ");
+    mote_text_add(text, "Fastest without a wrong answer in any frame: ");
     add_label(row, text);
     mote_text_add(text, ", ");
     add_linked(report, i, "total_ns", "median", mote_show_time, text);

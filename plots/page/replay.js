@@ -139,12 +139,15 @@ function pairOf(points, index) {
     return points.read(2 * index, pair, 0) && points.read(2 * index + 1, pair, 3) ? pair : null;
 }
 
+// Coordinates of the particles on either body.
 function particlesOf(row) {
     if (!track.particles || row < 0) return [[], []];
     return [0, 1].map((body) => {
-        const places = new Float64Array(3 * track.perBody);
+        const places = [];
+        const place = [0, 0, 0];
         const start = (2 * row + body) * track.perBody;
-        for (let i = 0; i < track.perBody; ++i) track.particles.read(start + i, places, 3 * i);
+        for (let i = 0; i < track.perBody; ++i)
+            if (track.particles.read(start + i, place)) places.push(...place);
         return places;
     });
 }
