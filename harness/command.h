@@ -39,7 +39,7 @@ typedef enum mote_exit {
     X(simulate,                                                                                \
       "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \
       "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
-      "           [--time-step H] [--trace FILE.json]",                                        \
+      "           [--time-step H] [--trace FILE.json] [--film FILE.gif]",                      \
       "closed loop: bodies move freely and collide where the method says so")                  \
     X(dynamics, "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K]",   \
       "how often n particles let a body pass through, in the closed loop")                     \

@@ -1,4 +1,5 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line. */
+#include "harness/film.h"
 #include "harness/json_print.h"
 #include "harness/simulate.h"
 #include "harness/statistics.h"
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 
 typedef struct request {
-    const char *scenario, *method, *trace;
+    const char *scenario, *method, *trace, *film;
     mote_method_choice choice;
     bool json;
     double density, restitution, tolerance, time_step; /* MOTE_NONE: the default */
@@ -86,8 +87,18 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
     mote_rigid_state(*trace)[2] = NULL;
     if (wish->trace && !(trace = calloc((size_t)start.steps + 1, sizeof *trace)))
         status = mote_fail(MOTE_ENOMEM, "no memory for a trace of %u steps", start.steps);
+    mote_film *film = NULL;
+    if (status == MOTE_OK && wish->film)
+        status = mote_film_create(scenario, wish->choice.text, start.steps, wish->film, &film);
+    if (film) {
+        start.watch = mote_film_watch;
+        start.context = film;
+    }
     if (status == MOTE_OK)
         status = mote_simulator_run(simulator, &start, trace, result);
+    if (status == MOTE_OK && film)
+        status = mote_film_draw(film);
+    mote_film_destroy(film);
     if (status == MOTE_OK && trace)
         status = mote_trace_write(scenario, mote_simulator_masses(simulator),
                                   (const mote_rigid_state(*)[2])trace, result->steps + 1,
@@ -113,7 +124,8 @@ static const mote_option options[] = {{"method", "NAME[:key=value,...]"},
                                       {"tolerance", "T"},
                                       {"gravity", "X,Y,Z"},
                                       {"time-step", "H"},
-                                      {"trace", "FILE.json"}};
+                                      {"trace", "FILE.json"},
+                                      {"film", "FILE.gif"}};
 
 /* False, told on stderr, when the value is not right for the option. */
 static bool read_option(request *wish, int option, const char *value)
@@ -127,6 +139,7 @@ static bool read_option(request *wish, int option, const char *value)
                                          "give a number, of L",
                                          "give x,y,z, in L a frame squared",
                                          "give a number, of frames",
+                                         "",
                                          ""};
     bool good = true;
     switch (option) {
@@ -157,8 +170,11 @@ static bool read_option(request *wish, int option, const char *value)
     case 8:
         good = mote_read_real(value, -1e300, 1e300, &wish->time_step);
         break;
-    default:
+    case 9:
         wish->trace = value;
+        break;
+    default:
+        wish->film = value;
     }
     if (!good)
         (void)mote_command_usage("simulate", "--%s %s: %s", options[option].name, value,

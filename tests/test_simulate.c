@@ -14,6 +14,7 @@
 #define FILE_NAME FOLDER "/s.json"
 #define TRACE FOLDER "/trace.json"
 #define SAID FOLDER "/said"
+#define FILM FOLDER "/film.gif"
 
 /* A deforming V flies at a turning T; %s: what more the V has, what the scenario has. */
 static const char form[] =
@@ -422,6 +423,28 @@ static void command_simulate_json_has_the_keys(void **state)
     assert_non_null(strstr(said, "\"passes_through\": 0,"));
 }
 
+/* A GIF of nine pictures, and nothing beside it. */
+static void command_simulate_film_is_a_gif(void **state)
+{
+    (void)state;
+    static const unsigned char control[] = {0x21, 0xf9, 0x04};
+    char said[8192], *gif;
+    size_t size, pictures = 0;
+    mote_scenario_destroy(load("", "1.1, 0.1, 0", FLYING));
+    assert_int_equal(run_line("simulate " FILE_NAME " --method particle-paper:n=3 --steps 8 "
+                              "--film " FILM,
+                              said, sizeof said),
+                     0);
+    assert_int_equal(mote_file_read(FILM, 1 << 24, &gif, &size), MOTE_OK);
+    assert_memory_equal(gif, "GIF89a", 6);
+    for (size_t i = 0; i + sizeof control <= size; ++i)
+        pictures += memcmp(gif + i, control, sizeof control) == 0;
+    assert_true(pictures >= 9);
+    free(gif);
+    assert_int_equal(unlink(FILM), 0);
+    assert_int_not_equal(access(FILM ".frames", F_OK), 0);
+}
+
 typedef struct bad_line {
     const char *line;
     int status;
@@ -442,6 +465,7 @@ static void command_simulate_bad_line_exit_status_and_reason(void **state)
         {"simulate tt --method magic", 4, "magic"},
         {"simulate nothing --method certified", 4, "nothing"},
         {"simulate teapot --method certified", 4, "open"},
+        {"simulate tt --method certified --steps 2 --film /proc/x.gif", 4, "/proc/x.gif"},
         {"simulate tt --method certified --time-step x", 2, "--time-step x"},
         {"simulate tt --method certified --time-step nan", 2, "--time-step nan"},
         {"simulate tt --method certified --time-step 0", 4, "time step 0"},
@@ -485,6 +509,7 @@ int main(void)
         cmocka_unit_test(penetration_depth_random_poses_as_by_solid_angles),
         cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),
         cmocka_unit_test(command_simulate_json_has_the_keys),
+        cmocka_unit_test(command_simulate_film_is_a_gif),
         cmocka_unit_test(command_simulate_bad_line_exit_status_and_reason),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -1,0 +1,27 @@
+/* An animation of a simulation: both bodies lit, the method's particles, its closest pair, and
+   where it reports a contact. A GIF, drawn by gnuplot from plots/simulation.gp. */
+#ifndef MOTE_HARNESS_FILM_H
+#define MOTE_HARNESS_FILM_H
+
+#include "harness/simulate.h"
+
+/* Pictures, about; besides, one where a contact is first reported, twice as many in all at
+   most. */
+#define MOTE_FILM_PICTURES 120u
+
+typedef struct mote_film mote_film;
+
+/* Of a simulation of so many steps of a scenario (borrowed) by a method (its name as shown),
+   into the GIF file path. Geometry is kept in the folder path.frames, up to some 200 bytes a
+   triangle and picture, until the film is destroyed. MOTE_EIO, MOTE_ENOMEM. */
+mote_status mote_film_create(const mote_scenario *scenario, const char *method, uint32_t steps,
+                             const char *path, mote_film **film);
+void mote_film_destroy(mote_film *film); /* NULL is allowed */
+
+/* A mote_simulation_watch: the film is its context. */
+mote_status mote_film_watch(void *film, const mote_simulation_view *view);
+
+/* Draws it. MOTE_EIO when gnuplot is missing or refuses. */
+mote_status mote_film_draw(const mote_film *film);
+
+#endif
