@@ -1,9 +1,11 @@
 #include "harness/film.h"
 
 #include "core/deform.h"
+#include "harness/figure.h"
 #include "harness/record.h"
-#include "harness/spawn.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -61,18 +63,27 @@ static char *picture_file(const mote_film *film, uint32_t picture)
     return mote_format("%s/%03u.dat", film->folder, picture);
 }
 
-void mote_film_destroy(mote_film *film)
+/* With all that was written to it. */
+static void remove_folder(const mote_film *film)
 {
-    if (!film)
-        return;
-    for (uint32_t k = 0; k < film->pictures; ++k) {
-        char *file = picture_file(film, k);
+    static const char *const others[] = {"film.dat", "film.gif"};
+    for (uint32_t k = 0; k < film->pictures + 2; ++k) {
+        char *file = k < film->pictures
+                         ? picture_file(film, k)
+                         : mote_format("%s/%s", film->folder, others[k - film->pictures]);
         if (file)
             (void)unlink(file);
         free(file);
     }
     if (film->folder)
         (void)rmdir(film->folder);
+}
+
+void mote_film_destroy(mote_film *film)
+{
+    if (!film)
+        return;
+    remove_folder(film);
     for (int i = 0; i < 2; ++i) {
         mote_deform_destroy(film->deform[i]);
         free(film->world[i]);
@@ -193,22 +204,26 @@ mote_status mote_film_watch(void *film, const mote_simulation_view *view)
     return status;
 }
 
+/* Where the pictures are: their number, and the box. */
+static mote_status write_index(const mote_film *film)
+{
+    mote_text text = {0};
+    mote_text_add(&text, "%u %.4f %.4f %.4f %.4f\n", film->pictures, film->box[0], film->box[1],
+                  film->box[2], film->box[3]);
+    return mote_record_text(film->folder, "film.dat", &text);
+}
+
 mote_status mote_film_draw(const mote_film *film)
 {
-    char *box = mote_format("%.4f %.4f %.4f %.4f", film->box[0], film->box[1], film->box[2],
-                            film->box[3]);
-    char *count = mote_format("%u", film->pictures);
-    char *title = mote_format("%s, %s", film->scenario->name, film->method);
+    char *heading = mote_format("%s, %s", film->scenario->name, film->method);
+    char *made = mote_format("%s/film.gif", film->folder);
     mote_status status =
-        box && count && title ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a film");
-    const char *const argv[] = {
-        "gnuplot",    "-c",       MOTE_SOURCE_DIR "/plots/simulation.gp",
-        film->folder, film->path, count,
-        box,          title,      NULL};
+        heading && made ? write_index(film) : mote_fail(MOTE_ENOMEM, "no memory for a film");
     if (status == MOTE_OK)
-        status = mote_spawn(argv, NULL, NULL, 0);
-    free(box);
-    free(count);
-    free(title);
+        status = mote_figure_gnuplot(film->folder, "simulation", "film", heading, "", "gif");
+    if (status == MOTE_OK && rename(made, film->path) != 0)
+        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", film->path, strerror(errno));
+    free(heading);
+    free(made);
     return status;
 }
