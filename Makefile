@@ -2,6 +2,7 @@
 # clone is enough.
 #
 #   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
+#   make sweep [OUT=DIR]                              time and memory over triangles, 1k to 1M
 #   make test                                         release tests, then ASan and UBSan
 #   make test-page                                    the report's page, in headless Chromium
 #   make figures [OUT=DIR]                            draw again from what is stored
@@ -55,6 +56,10 @@ test: build
 
 bench: build page
 	@harness/bench.sh $(MOTE) $(PROFILE) $(OUT)
+
+.PHONY: sweep
+sweep: build
+	@harness/bench.sh $(MOTE) sweep $(if $(filter file,$(origin OUT)),results/sweep,$(OUT))
 
 oracle: build
 	@mkdir -p $(OUT)

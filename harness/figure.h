@@ -34,6 +34,7 @@ mote_figure_writer mote_figure_size_time;  /* 6: time over triangles */
 mote_figure_writer mote_figure_size_bytes; /* 7: memory over triangles */
 mote_figure_writer mote_figure_shares;     /* 8: deform, update, query */
 mote_figure_writer mote_figure_ratios;     /* 9: against the best FCL */
+mote_figure_writer mote_figure_extremes;   /* 10: methods on numerical extremes */
 mote_figure_writer mote_figure_claims;     /* 11: the claims table */
 mote_figure_writer mote_figure_history;    /* 12: distance and error over frames */
 

@@ -1,8 +1,9 @@
-/* Figure 11: the claims table, drawn. */
+/* Figures of studies: the numerical extremes (10), the claims table (11). */
 #include "harness/figure.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Characters in a line of a claim, beside which its verdict stands, and of what was measured.
  */
@@ -121,4 +122,31 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
         "interval, and the verdict, which follows from all of its figures and their "
         "thresholds in claims.json.");
     return MOTE_OK;
+}
+
+mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenario,
+                                 mote_figure *figure)
+{
+    (void)scenario;
+    char *path = mote_format("%s/figures/extremes.dat", run->directory);
+    char *text = NULL;
+    size_t size = 0;
+    mote_status status = MOTE_OK;
+    if (!path)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    if (access(path, F_OK) != 0) {
+        mote_text_add(&figure->missing,
+                      "figures/extremes.dat; `make extremes OUT=%s` measures it",
+                      run->directory);
+    } else {
+        status = mote_file_read(path, (size_t)1 << 26, &text, &size);
+        if (status == MOTE_OK)
+            mote_text_add(&figure->data, "%s", text);
+        mote_text_add(&figure->caption,
+                      "Numerical extremes: a row is a method, a column a case, coloured by the "
+                      "verdict. Cases of one family stand together.");
+    }
+    free(text);
+    free(path);
+    return status;
 }

@@ -110,10 +110,11 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
     mote_status status = MOTE_OK;
     if (count == 0)
         say_missing(figure);
-    mote_text_add(&figure->caption,
-                  "Time over triangles: two letters W, median time of a query, deformation and "
-                  "refit included, with 95 %% intervals. Exponents of triangles t, by robust "
-                  "fits, with 95 %% intervals:");
+    mote_text_add(
+        &figure->caption,
+        "Time over triangles: two letters W, median time of a query, deformation and "
+        "refit included, with 95 %% intervals; `make sweep` takes the same frames at all "
+        "sizes. Exponents of triangles t, by robust fits, with 95 %% intervals:");
     for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
         char title[320];
         status = fit_title(&series[s], title, sizeof title, &figure->caption);

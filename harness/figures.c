@@ -40,6 +40,7 @@ static const figure_kind kinds[] = {
     {7, "size-bytes", "Memory over triangles", SCOPE_RUN, NULL, mote_figure_size_bytes, PAPER},
     {8, "shares", "Where the time goes", SCOPE_EACH, NULL, mote_figure_shares, PAPER},
     {9, "ratios", "Against the best FCL", SCOPE_EACH, NULL, mote_figure_ratios, PAPER},
+    {10, "extremes", "Numerical extremes", SCOPE_RUN, NULL, mote_figure_extremes, PAPER},
     {11, "claims", "The paper's claims", SCOPE_RUN, NULL, mote_figure_claims, PAPER},
     {12, "error-time", "Error in time", SCOPE_EACH, NULL, mote_figure_history, PAPER},
 };
