@@ -154,7 +154,7 @@ mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index)
     const mote_vec3 position = mote_body_position(lazy->body, lazy->state, vertex);
     ++lazy->evaluated;
     if (lazy->filled >= lazy->limit) {
-        if (!grow(lazy))
+        if (lazy->fixed || !grow(lazy))
             return position;
         index = free_index(lazy, vertex);
     }
@@ -202,7 +202,7 @@ mote_vec3 mote_lazy_position_single(mote_lazy *lazy, uint32_t vertex)
     const mote_lazy_slot_single slot = evaluate_single(lazy, vertex);
     ++lazy->evaluated;
     if (lazy->filled >= lazy->limit) {
-        if (!grow_single(lazy))
+        if (lazy->fixed || !grow_single(lazy))
             return widened(slot.position);
         index = free_index_single(lazy, vertex);
     }

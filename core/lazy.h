@@ -30,8 +30,9 @@ typedef struct mote_lazy {
     float *weights_single; /* x, y, z of the frame's weights rounded, [3][padded], or NULL */
     uint32_t mask, shift;
     uint32_t stamp;
-    uint32_t filled;    /* slots filled in this frame */
-    uint32_t limit;     /* the table grows when filled reaches it */
+    uint32_t filled; /* slots filled in this frame */
+    uint32_t limit;  /* the table grows when filled reaches it */
+    bool fixed; /* the table does not grow: positions beyond the limit are not remembered */
     uint64_t evaluated; /* positions evaluated since creation */
 } mote_lazy;
 

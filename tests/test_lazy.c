@@ -126,6 +126,35 @@ static void growth_keeps_values_and_counts(void **unused)
     test_body_free(&b);
 }
 
+/* A fixed table gives the same positions, and evaluates again what it has no room for. */
+static void fixed_table_keeps_its_size_and_the_values(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 4;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 9, &seed);
+    for (int single = 0; single <= 1; ++single) {
+        mote_lazy grown, fixed;
+        init_lazy(&grown, &b.body, 1, single);
+        init_lazy(&fixed, &b.body, 1, single);
+        fixed.fixed = true;
+        const mote_body_state state = test_body_state(&b, 1, &seed);
+        mote_lazy_begin(&grown, &state, false);
+        mote_lazy_begin(&fixed, &state, false);
+        for (uint32_t v = 0; v < 2 * b.mesh->vertex_count; ++v) {
+            const mote_vec3 x = mote_lazy_position(&grown, v / 2);
+            const mote_vec3 y = mote_lazy_position(&fixed, v / 2);
+            assert_memory_equal(&x, &y, sizeof x);
+        }
+        assert_int_equal(fixed.mask, 15);
+        assert_int_equal(fixed.filled, 8);
+        assert_int_equal(fixed.evaluated, 2 * b.mesh->vertex_count - 8);
+        mote_lazy_free(&grown);
+        mote_lazy_free(&fixed);
+    }
+    test_body_free(&b);
+}
+
 /* A table grown in one frame forgets all the same. */
 static void growth_then_begin_evaluates_anew(void **unused)
 {
@@ -225,6 +254,7 @@ int main(void)
         cmocka_unit_test(position_after_begin_is_never_stale),
         cmocka_unit_test(position_after_the_stamp_wraps_is_not_stale),
         cmocka_unit_test(growth_keeps_values_and_counts),
+        cmocka_unit_test(fixed_table_keeps_its_size_and_the_values),
         cmocka_unit_test(growth_then_begin_evaluates_anew),
         cmocka_unit_test(init_expecting_more_than_the_mesh_is_sized_by_the_mesh),
         cmocka_unit_test(given_positions_are_read_and_not_evaluated),
