@@ -37,16 +37,15 @@ static mote_status side_create(mote_cert_side *side, const mote_body *body,
 {
     mote_status status = mote_cert_tree_create(body, options, &side->tree);
     const uint32_t vertices = body->mesh->vertex_count;
-    const uint32_t expected = at_most(64 + vertices / 16, 2048);
+    const uint32_t expected = at_most(128 + vertices / 8, 2048);
     if (status == MOTE_OK)
         status = mote_lazy_init(&side->lazy, body, expected);
     if (status != MOTE_OK)
         return status;
+    side->lazy.fixed = true;
     side->node_room = at_most(side->tree->block_count, at_most(24 + vertices / 64, 4096));
-    side->point_room = at_most(side->tree->leaf_count, at_most(32 + vertices / 64, 4096));
     side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
-    side->points = allocate_aligned(side->point_room, sizeof *side->points);
-    if (!side->nodes || !side->points)
+    if (!side->nodes)
         return mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
     return MOTE_OK;
 }
@@ -89,7 +88,6 @@ void mote_certificate_destroy(mote_certificate *certificate)
         mote_cert_tree_destroy(certificate->side[s].tree);
         mote_lazy_free(&certificate->side[s].lazy);
         free(certificate->side[s].nodes);
-        free(certificate->side[s].points);
     }
     free(certificate->spare);
     free(certificate);
@@ -102,8 +100,7 @@ size_t mote_certificate_bytes(const mote_certificate *certificate)
         const mote_cert_side *side = &certificate->side[s];
         bytes += mote_cert_tree_bytes(side->tree) +
                  (side->lazy.mask + (size_t)1) * sizeof(mote_lazy_slot) +
-                 side->node_room * sizeof *side->nodes +
-                 side->point_room * sizeof *side->points;
+                 side->node_room * sizeof *side->nodes;
     }
     return bytes;
 }

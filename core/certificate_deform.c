@@ -27,7 +27,7 @@
 #define WIDTH MOTE_CERT_WIDTH
 /* A box that crosses the plane by more than this part of its extent is not worth opening: most
    of what is inside crosses it too. Leaves cost less to open. */
-#define CROSSING 0.35F
+#define CROSSING 0.4F
 #define CROSSING_LEAF 0.5F
 
 #define FLOAT_ROUNDING 0x1p-24
@@ -60,6 +60,7 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->translation[1] = (float)t.y;
     side->translation[2] = (float)t.z;
     mote_vec3 field = {0, 0, 0};
+    mote_vec3 sum = {0, 0, 0};
     const uint32_t functions = tree->body->field->count;
     for (uint32_t j = 0; j < functions; ++j) {
         const double scale = tree->scale / tree->basis_scale[j];
@@ -68,6 +69,11 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
         side->weight[0][j] = (float)w.x;
         side->weight[1][j] = (float)w.y;
         side->weight[2][j] = (float)w.z;
+        const double own = tree->basis_scale[j];
+        side->single[0][j] = (float)(w.x * own);
+        side->single[1][j] = (float)(w.y * own);
+        side->single[2][j] = (float)(w.z * own);
+        sum = mote_add(sum, mote_vec3_make(fabs(w.x) * own, fabs(w.y) * own, fabs(w.z) * own));
         field.x += fabs(w.x) * tree->reach[j];
         field.y += fabs(w.y) * tree->reach[j];
         field.z += fabs(w.z) * tree->reach[j];
@@ -79,9 +85,13 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->margin_base =
         rounded_up(40 * FLOAT_ROUNDING * side->bound + tree->leak + side->exact);
     side->reach_margin = rounded_up(4 * FLOAT_ROUNDING * side->bound);
+    side->leaf_margin = rounded_up(32 * FLOAT_ROUNDING * side->bound);
+    side->single_sum[0] = rounded_up(sum.x);
+    side->single_sum[1] = rounded_up(sum.y);
+    side->single_sum[2] = rounded_up(sum.z);
     side->node_count = 0;
-    side->point_count = 0;
-    side->spare.leaf = UINT32_MAX;
+    for (size_t i = 0; i < MOTE_CERT_HULLS; ++i)
+        side->hulls[i].leaf = NULL;
 }
 
 void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshold)
@@ -90,18 +100,17 @@ void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshol
     const mote_weights *w = &side->state->weights;
     const mote_vec3 rest = mote_rotate_back(&side->state->pose.rotation, facing);
     side->facing = facing;
-    side->facing_rest = rest;
     side->facing_f[0] = (float)rest.x;
     side->facing_f[1] = (float)rest.y;
     side->facing_f[2] = (float)rest.z;
+    side->facing_world[0] = (float)facing.x;
+    side->facing_world[1] = (float)facing.y;
+    side->facing_world[2] = (float)facing.z;
     side->shift = (float)mote_dot(side->exact_translation, facing);
-    side->pushed_sum = 0;
     for (uint32_t j = 0; j < tree->body->field->count; ++j) {
         const double push =
             tree->scale * (w->x[j] * facing.x + w->y[j] * facing.y + w->z[j] * facing.z);
         side->along[j] = (float)(push / tree->basis_scale[j]);
-        side->pushed[j] = (float)push;
-        side->pushed_sum += fabs(push);
     }
     side->threshold = threshold;
     side->threshold_f = (float)threshold;
@@ -298,193 +307,6 @@ static void deform_block(const mote_cert_side *restrict side,
     measure(node);
 }
 
-/* World positions of one group of MOTE_LANES places of a leaf, as mote_body_position gives. */
-MOTE_CLONES
-static void place_group(const mote_body *body, const mote_body_state *state,
-                        const uint32_t vertices[MOTE_LANES], const uint8_t *active,
-                        size_t active_count, double *restrict x, double *restrict y,
-                        double *restrict z)
-{
-    double p[3][MOTE_LANES];
-    for (size_t v = 0; v < MOTE_LANES; ++v) {
-        const mote_vec3 rest = body->mesh->positions[vertices[v]];
-        p[0][v] = rest.x;
-        p[1][v] = rest.y;
-        p[2][v] = rest.z;
-    }
-    double moved[3][MOTE_LANES] = {{0}};
-    if (active_count > 0)
-        body->field->kind->group(body->field, body->mesh, vertices, active, active_count,
-                                 &state->weights, moved);
-    const double(*m)[3] = state->pose.rotation.m;
-    const mote_vec3 t = state->pose.translation;
-    MOTE_LANE_LOOP
-    for (size_t v = 0; v < MOTE_LANES; ++v) {
-        x[v] = m[0][0] * p[0][v] + m[0][1] * p[1][v] + m[0][2] * p[2][v] + t.x + moved[0][v];
-        y[v] = m[1][0] * p[0][v] + m[1][1] * p[1][v] + m[1][2] * p[2][v] + t.y + moved[1][v];
-        z[v] = m[2][0] * p[0][v] + m[2][1] * p[1][v] + m[2][2] * p[2][v] + t.z + moved[2][v];
-    }
-}
-
-/* MOTE_LANES of a leaf's vertices from place `first` on, padded with copies of the last. */
-static inline void take_vertices(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
-                                 uint32_t first, uint32_t v[MOTE_LANES])
-{
-    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
-    for (uint32_t i = 0; i < MOTE_LANES; ++i) {
-        const uint32_t k = first + i;
-        v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
-    }
-}
-
-/* Where the field is linear, sum_k z_k slant_k = g.(x - centre) with one g for a box. Vertices
-   stick out of it by the leak at most, which g turns into no more than leak * stretch. */
-void mote_cert_leaf_linear(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
-                           double range[2])
-{
-    const mote_cert_tree *tree = side->tree;
-    const mote_cert_block *block = node->block;
-    const mote_vec3 *rest = tree->body->mesh->positions;
-    mote_vec3 g = {0, 0, 0};
-    double stretch = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const mote_vec3 h = {(double)block->half[k][0][lane], (double)block->half[k][1][lane],
-                             (double)block->half[k][2][lane]};
-        const double slant = (double)node->slant[k][lane];
-        const double inverse = 1 / mote_length_squared(h);
-        g = mote_add_scaled(g, slant * inverse, h);
-        stretch += slant * slant * inverse;
-    }
-    const mote_vec3 centre = {(double)block->centre[0][lane], (double)block->centre[1][lane],
-                              (double)block->centre[2][lane]};
-    const mote_vec3 scaled = mote_scale(g, tree->scale);
-    const mote_cert_leaf *leaf = &tree->leaves[~block->child[lane]];
-    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
-    double most = -HUGE_VAL;
-    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
-        const double at = mote_dot(mote_sub(rest[vertices[i]], tree->origin), scaled);
-        most = at > most ? at : most;
-    }
-    most += (double)node->middle[lane] - mote_dot(centre, g);
-    /* sqrt(3 sum s^2) >= sum |s| */
-    const double loose = (double)node->loose[lane] + tree->leak * sqrt(3 * stretch);
-    range[0] = most - loose;
-    range[1] = most + loose;
-}
-
-/* The largest coordinate along facing of `count` rigidly moved vertices plus what the field
-   adds. */
-static double reach_of_group(const mote_cert_side *side, const uint32_t *vertices,
-                             uint32_t count, const float *field)
-{
-    const mote_cert_tree *tree = side->tree;
-    const mote_vec3 *rest = tree->body->mesh->positions;
-    const mote_vec3 u = mote_scale(side->facing_rest, tree->scale);
-    double most = -HUGE_VAL;
-    for (uint32_t i = 0; i < count; ++i) {
-        const double at =
-            mote_dot(mote_sub(rest[vertices[i]], tree->origin), u) + (double)field[i];
-        most = at > most ? at : most;
-    }
-    return most + mote_dot(side->exact_translation, side->facing);
-}
-
-bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double range[2])
-{
-    const mote_cert_tree *tree = side->tree;
-    const mote_body *body = tree->body;
-    const mote_cert_leaf *l = &tree->leaves[leaf];
-    const mote_cert_block *block = &tree->blocks[l->block];
-    if (body->field->count > 0 && !body->field->kind->estimate)
-        return false;
-    double most = -HUGE_VAL;
-    float factor = 0;
-    for (uint32_t first = 0; first < l->vertex_count; first += MOTE_LANES) {
-        uint32_t v[MOTE_LANES];
-        float moved[MOTE_LANES] = {0};
-        take_vertices(tree, l, first, v);
-        if (block->active_count > 0) {
-            const float f = body->field->kind->estimate(
-                body->field, body->mesh, v, tree->active + block->first_active,
-                block->active_count, side->pushed, moved);
-            factor = f > factor ? f : factor;
-        }
-        const uint32_t left = l->vertex_count - first;
-        const double reach =
-            reach_of_group(side, v, left < MOTE_LANES ? left : MOTE_LANES, moved);
-        most = reach > most ? reach : most;
-    }
-    const double error =
-        ((double)factor + 0x1p-23) * side->pushed_sum + 0x1p-44 * side->bound + side->exact;
-    range[0] = most - error;
-    range[1] = most + error;
-    return true;
-}
-
-static void place_leaf(const mote_cert_side *side, uint32_t id, mote_cert_points *points)
-{
-    const mote_cert_tree *tree = side->tree;
-    const mote_body *body = tree->body;
-    const mote_cert_leaf *leaf = &tree->leaves[id];
-    const mote_cert_block *block = &tree->blocks[leaf->block];
-    points->leaf = id;
-    points->generation = 0;
-    points->padded = (leaf->vertex_count + 7u) & ~7u;
-    const bool groups = body->field->count == 0 || body->field->kind->group;
-    for (uint32_t first = 0; first < points->padded; first += MOTE_LANES) {
-        uint32_t v[MOTE_LANES];
-        take_vertices(tree, leaf, first, v);
-        if (groups) {
-            place_group(body, side->state, v, tree->active + block->first_active,
-                        block->active_count, points->x[0] + first, points->x[1] + first,
-                        points->x[2] + first);
-            continue;
-        }
-        for (uint32_t i = 0; i < MOTE_LANES; ++i) {
-            const mote_vec3 p = mote_body_position(body, side->state, v[i]);
-            points->x[0][first + i] = p.x;
-            points->x[1][first + i] = p.y;
-            points->x[2][first + i] = p.z;
-        }
-    }
-}
-
-/* Least and largest of a group's coordinates. */
-MOTE_INLINE void range_of_group(const double *restrict x, const double *restrict y,
-                                const double *restrict z, mote_vec3 d, mote_vec3 o,
-                                double range[2])
-{
-    double p[8], low[4], high[4];
-    MOTE_LANE_LOOP
-    for (size_t v = 0; v < 8; ++v)
-        p[v] = (x[v] - o.x) * d.x + (y[v] - o.y) * d.y + (z[v] - o.z) * d.z;
-    MOTE_LANE_LOOP
-    for (size_t v = 0; v < 4; ++v) {
-        low[v] = p[v] < p[v + 4] ? p[v] : p[v + 4];
-        high[v] = p[v] > p[v + 4] ? p[v] : p[v + 4];
-    }
-    const double low0 = low[0] < low[2] ? low[0] : low[2];
-    const double low1 = low[1] < low[3] ? low[1] : low[3];
-    const double high0 = high[0] > high[2] ? high[0] : high[2];
-    const double high1 = high[1] > high[3] ? high[1] : high[3];
-    range[0] = low0 < low1 ? low0 : low1;
-    range[1] = high0 > high1 ? high0 : high1;
-}
-
-MOTE_CLONES
-void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_vec3 origin,
-                     double range[2])
-{
-    range_of_group(points->x[0], points->x[1], points->x[2], direction, origin, range);
-    if (points->padded > MOTE_LANES) {
-        double more[2];
-        range_of_group(points->x[0] + 8, points->x[1] + 8, points->x[2] + 8, direction, origin,
-                       more);
-        range[0] = more[0] < range[0] ? more[0] : range[0];
-        range[1] = more[1] > range[1] ? more[1] : range[1];
-    }
-}
-
 /* Projects a node onto the plane's normal. */
 static mote_cert_node *face_node(mote_certificate *c, int s, mote_cert_node *node)
 {
@@ -538,32 +360,4 @@ mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node
         return new_node(c, s, block, &c->spare[depth]);
     node->child[lane] = (int32_t)side->node_count;
     return new_node(c, s, block, &side->nodes[side->node_count++]);
-}
-
-mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_node *node,
-                                       size_t lane)
-{
-    mote_cert_side *side = &c->side[s];
-    const uint32_t id = (uint32_t)~node->block->child[lane];
-    mote_cert_points *points;
-    if (node->child[lane] >= 0) {
-        points = &side->points[node->child[lane]];
-    } else if (side->point_count < side->point_room) {
-        node->child[lane] = (int32_t)side->point_count;
-        points = &side->points[side->point_count++];
-        points->leaf = UINT32_MAX;
-    } else {
-        points = &side->spare;
-    }
-    if (points->leaf != id) {
-        place_leaf(side, id, points);
-        c->counters.positions += side->tree->leaves[id].vertex_count;
-    }
-    if (points->generation != c->generation) {
-        double range[2];
-        mote_cert_range(points, side->facing, c->origin, range);
-        points->reach = range[1] * c->scale;
-        points->generation = c->generation;
-    }
-    return points;
 }

@@ -103,6 +103,13 @@ static inline void inverse_squares(const mote_cert_box *box, double inverse[3])
         inverse[k] = 1 / mote_length_squared(box->half[k]);
 }
 
+void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3])
+{
+    double inverse[3];
+    inverse_squares(box, inverse);
+    box_coordinates(box, inverse, x, z);
+}
+
 /* What the rounding of the box's centre and axes leaves outside: measured, not estimated. */
 static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                          const mote_cert_box *box)
@@ -124,12 +131,58 @@ static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t 
     tree->leak = worst > tree->leak ? worst : tree->leak;
 }
 
+/* The area of the rectangle along u and v around (some of) the vertices. */
+static double area_along(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                         mote_vec3 u, mote_vec3 v)
+{
+    const size_t stride = (count + MOTE_CERT_FIT_CHUNK - 1) / MOTE_CERT_FIT_CHUNK;
+    double low[2] = {DBL_MAX, DBL_MAX};
+    double high[2] = {-DBL_MAX, -DBL_MAX};
+    for (size_t i = 0; i < count; i += stride) {
+        const mote_vec3 x = mote_cert_tree_position(tree, vertices[i]);
+        const double p[2] = {mote_dot(x, u), mote_dot(x, v)};
+        for (int k = 0; k < 2; ++k) {
+            low[k] = p[k] < low[k] ? p[k] : low[k];
+            high[k] = p[k] > high[k] ? p[k] : high[k];
+        }
+    }
+    return (high[0] - low[0]) * (high[1] - low[1]);
+}
+
+/* Turns the two main axes about the third to where the box is smallest: the main axes of a
+   patch that is about as wide as long point anywhere. */
+static void turn_axes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                      mote_vec3 axes[3])
+{
+    /* cosine and sine of 9, 18 ... 81 degrees: written out, for the same bits everywhere */
+    static const double turns[9][2] = {
+        {0.98768834059513777, 0.15643446504023087}, {0.95105651629515353, 0.3090169943749474},
+        {0.89100652418836779, 0.45399049973954675}, {0.80901699437494745, 0.58778525229247314},
+        {0.70710678118654757, 0.70710678118654757}, {0.58778525229247314, 0.80901699437494745},
+        {0.45399049973954675, 0.89100652418836779}, {0.3090169943749474, 0.95105651629515353},
+        {0.15643446504023087, 0.98768834059513777}};
+    const mote_vec3 a = axes[0];
+    const mote_vec3 b = axes[1];
+    double least = area_along(tree, vertices, count, a, b);
+    for (int i = 0; i < 9; ++i) {
+        const mote_vec3 u = mote_add_scaled(mote_scale(a, turns[i][0]), turns[i][1], b);
+        const mote_vec3 v = mote_add_scaled(mote_scale(b, turns[i][0]), -turns[i][1], a);
+        const double area = area_along(tree, vertices, count, u, v);
+        if (area < 0.98 * least) {
+            least = area;
+            axes[0] = u;
+            axes[1] = v;
+        }
+    }
+}
+
 mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, size_t count)
 {
     double matrix[3][3];
     mote_vec3 axes[3];
     spread(tree, vertices, count, matrix);
     mote_cert_principal_axes(matrix, axes);
+    turn_axes(tree, vertices, count, axes);
     double low[3] = {DBL_MAX, DBL_MAX, DBL_MAX};
     double high[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
     for (size_t i = 0; i < count; ++i) {

@@ -26,6 +26,9 @@ void mote_cert_principal_axes(double matrix[3][3], mote_vec3 axes[3]);
    tree->leak. */
 mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, size_t count);
 
+/* z of a vertex in a box, held within -1 .. 1. */
+void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3]);
+
 /* The slopes of every basis function over the vertices of a box, by least squares. phi holds
    MOTE_FIELD_MAX doubles. */
 void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,

@@ -1,245 +1,365 @@
 /* Two leaves: directions that keep them apart, then their triangles. */
 #include "core/certificate_state.h"
+#include "core/clones.h"
 #include "core/triangle.h"
 
-/* Whether the gap along a unit direction, or one a little shorter, is at least the limit. */
-static bool separates(const mote_certificate *c, const mote_cert_points *const points[2],
-                      mote_vec3 direction)
+#include <string.h>
+
+#define WIDTH MOTE_CERT_WIDTH
+
+/* Steps of the search for a direction that separates two leaves. */
+#define STEPS 3
+
+/* Two leaves' hulls, and by how much a difference of a vertex of each may be wrong in each
+   coordinate. */
+typedef struct pair {
+    const mote_cert_leaf *leaf[2];
+    const mote_cert_hull *hull[2];
+    float loose[3];
+    float nearest[3]; /* about the direction from the first to the second where they are nearest
+                       */
+} pair;
+
+/* Projections of a hull's vertices on a direction. */
+MOTE_INLINE void project(const mote_cert_hull *restrict hull, const float d[3],
+                         float p[MOTE_CERT_LEAF_VERTICES])
 {
-    double range[2][2];
-    mote_cert_range(points[0], direction, c->origin, range[0]);
-    mote_cert_range(points[1], direction, c->origin, range[1]);
-    return (range[1][0] - range[0][1]) * c->scale >= c->limit;
+    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            p[g + l] =
+                hull->x[0][g + l] * d[0] + hull->x[1][g + l] * d[1] + hull->x[2][g + l] * d[2];
+    }
+}
+
+/* The largest of eight, in a fixed order. */
+MOTE_INLINE float largest_of(const float x[WIDTH])
+{
+    float four[4], two[2];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 4; ++l)
+        four[l] = x[l] > x[l + 4] ? x[l] : x[l + 4];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 2; ++l)
+        two[l] = four[l] > four[l + 2] ? four[l] : four[l + 2];
+    return two[0] > two[1] ? two[0] : two[1];
+}
+
+MOTE_INLINE float largest(const mote_cert_hull *hull, const float p[MOTE_CERT_LEAF_VERTICES])
+{
+    float most[WIDTH];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        most[l] = p[l];
+    for (size_t g = WIDTH; g < hull->groups * WIDTH; g += WIDTH) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            most[l] = most[l] > p[g + l] ? most[l] : p[g + l];
+    }
+    return largest_of(most);
+}
+
+/* The first vertex whose projection is `most`. */
+MOTE_INLINE size_t first_at(const mote_cert_hull *hull, const float p[MOTE_CERT_LEAF_VERTICES],
+                            float most)
+{
+    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
+        uint32_t bits = 0;
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            bits |= p[g + l] >= most ? 1u << l : 0;
+        if (bits)
+            return g + mote_lowest_bit(bits);
+    }
+    return 0;
+}
+
+/* Along w, from body 0 to body 1: whether the gap, less what the hulls may be off, is at least
+   need times |w|; the vertices that bound it. */
+MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float need, size_t at[2])
+{
+    const float back[3] = {-w[0], -w[1], -w[2]};
+    float along0[MOTE_CERT_LEAF_VERTICES] = {0}, along1[MOTE_CERT_LEAF_VERTICES] = {0};
+    project(p->hull[0], w, along0);
+    project(p->hull[1], back, along1);
+    const float most0 = largest(p->hull[0], along0);
+    const float most1 = largest(p->hull[1], along1);
+    const float gap =
+        -(most0 + most1) -
+        (p->loose[0] * fabsf(w[0]) + p->loose[1] * fabsf(w[1]) + p->loose[2] * fabsf(w[2]));
+    if (at) {
+        at[0] = first_at(p->hull[0], along0, most0);
+        at[1] = first_at(p->hull[1], along1, most1);
+    }
+    const float ww = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    return gap > 0 && gap * gap >= need * need * (1 + 0x1p-18F) * ww;
+}
+
+/* Gilbert's search for the least difference of two hulls: w, the difference of a point in each,
+   is moved towards that of the vertices that bound the gap along it. True once w separates. */
+MOTE_CLONES
+static bool search_direction(const pair *restrict p, float need, float w[3])
+{
+    for (int i = 0; i < STEPS; ++i) {
+        size_t at[2];
+        if (apart_along(p, w, need, at))
+            return true;
+        float d[3];
+        float dd = 0x1p-100F;
+        float along = 0;
+        for (size_t r = 0; r < 3; ++r) {
+            d[r] = (p->hull[1]->x[r][at[1]] - p->hull[0]->x[r][at[0]]) - w[r];
+            dd += d[r] * d[r];
+            along -= d[r] * w[r];
+        }
+        const float part = along / dd;
+        const float share = part < 1 ? part : 1;
+        if (!(share > 0))
+            return false;
+        for (size_t r = 0; r < 3; ++r)
+            w[r] += share * d[r];
+        if (w[0] * w[0] + w[1] * w[1] + w[2] * w[2] < need * need)
+            return false; /* two points of the hulls are nearer than that */
+    }
+    return false;
+}
+
+MOTE_CLONES
+static bool direction_separates(const pair *restrict p, const float w[3], float need)
+{
+    return apart_along(p, w, need, NULL);
 }
 
 /* Puts a direction that separated first, and those before `place` behind it. */
-static void remember(mote_certificate *c, mote_vec3 direction, uint32_t place)
+static void remember(mote_certificate *c, const float direction[3], uint32_t place)
 {
+    const float d[3] = {direction[0], direction[1], direction[2]};
     for (uint32_t i = place; i > 0; --i)
-        c->direction[i] = c->direction[i - 1];
-    c->direction[0] = direction;
+        memcpy(c->direction[i], c->direction[i - 1], sizeof c->direction[i]);
+    memcpy(c->direction[0], d, sizeof d);
 }
 
-static void remember_new(mote_certificate *c, mote_vec3 direction)
-{
-    if (c->direction_count < MOTE_CERT_DIRECTIONS)
-        ++c->direction_count;
-    remember(c, direction, c->direction_count - 1);
-}
-
-/* One box in double precision. */
-typedef struct box {
-    mote_vec3 centre, axis[3];
-    double inverse[3]; /* 1 / |axis|^2 */
-} box;
-
-static mote_vec3 lane_vector(const float v[3][MOTE_CERT_WIDTH], size_t lane)
-{
-    return mote_vec3_make((double)v[0][lane], (double)v[1][lane], (double)v[2][lane]);
-}
-
-static void take_box(const mote_cert_node *node, size_t lane, box *b)
-{
-    b->centre = lane_vector(node->centre, lane);
-    for (int k = 0; k < 3; ++k) {
-        b->axis[k] = lane_vector(node->axis[k], lane);
-        b->inverse[k] = 1 / (mote_length_squared(b->axis[k]) + 1e-60);
-    }
-}
-
-/* A point of the box near x: the nearest where the axes are orthogonal. */
-static mote_vec3 clamp_to(const box *b, mote_vec3 x)
-{
-    const mote_vec3 d = mote_sub(x, b->centre);
-    mote_vec3 p = b->centre;
-    for (int k = 0; k < 3; ++k) {
-        const double z = mote_dot(d, b->axis[k]) * b->inverse[k];
-        p = mote_add_scaled(p, z < -1 ? -1 : z > 1 ? 1 : z, b->axis[k]);
-    }
-    return p;
-}
-
-/* The direction between near points of two boxes. */
-static bool box_direction(const box *a, const box *b, mote_vec3 *direction)
-{
-    mote_vec3 q = clamp_to(b, a->centre);
-    mote_vec3 p = clamp_to(a, q);
-    q = clamp_to(b, p);
-    p = clamp_to(a, q);
-    const mote_vec3 d = mote_sub(q, p);
-    const double length = mote_length(d);
-    if (!(length > 0))
-        return false;
-    *direction = mote_scale(d, 1 / length);
-    return true;
-}
-
-/* The thin direction of box `lane`, from body 0 to body 1. */
-static bool normal_direction(const mote_cert_node *node, size_t lane, mote_vec3 towards,
-                             mote_vec3 *direction)
-{
-    const mote_vec3 n = lane_vector(node->normal, lane);
-    const double length = mote_length(n);
-    if (!(length > 0))
-        return false;
-    *direction = mote_scale(n, (mote_dot(n, towards) < 0 ? -1 : 1) / length);
-    return true;
-}
-
-static bool separated(mote_certificate *c, const mote_cert_points *const points[2],
-                      const mote_cert_node *const nodes[2], const size_t lanes[2])
+static bool separated(mote_certificate *c, pair *p)
 {
     for (uint32_t i = 0; i < c->direction_count; ++i) {
-        if (separates(c, points, c->direction[i])) {
+        if (direction_separates(p, c->direction[i], c->need)) {
             if (i > 0)
                 remember(c, c->direction[i], i);
             return true;
         }
     }
-    box a, b;
-    take_box(nodes[0], lanes[0], &a);
-    take_box(nodes[1], lanes[1], &b);
-    mote_vec3 direction;
-    if (box_direction(&a, &b, &direction) && separates(c, points, direction)) {
-        remember_new(c, direction);
-        return true;
-    }
-    const mote_vec3 towards = mote_sub(b.centre, a.centre);
-    for (int s = 0; s < 2; ++s) {
-        if (normal_direction(nodes[s], lanes[s], towards, &direction) &&
-            separates(c, points, direction)) {
-            remember_new(c, direction);
-            return true;
+    if (!search_direction(p, c->need, p->nearest))
+        return false;
+    if (c->direction_count < MOTE_CERT_DIRECTIONS)
+        ++c->direction_count;
+    remember(c, p->nearest, c->direction_count - 1);
+    return true;
+}
+
+/* The vertices of a leaf's face. */
+static void face_vertices(const mote_cert_tree *tree, const mote_cert_leaf *leaf, size_t face,
+                          uint32_t vertices[3])
+{
+    const uint8_t *places = tree->corners[leaf->first_corner + face];
+    for (int k = 0; k < 3; ++k)
+        vertices[k] = tree->leaf_vertices[leaf->first_vertex + places[k]];
+}
+
+/* A face of a leaf, exactly. */
+typedef struct exact_face {
+    mote_vec3 corner[3];
+    uint32_t vertex[3];
+    double reach; /* towards the other body, in the trees' units */
+} exact_face;
+
+/* Exact corners of the faces in `wanted`. */
+static void place_faces(mote_certificate *c, int s, const pair *p, uint32_t wanted,
+                        exact_face exact[MOTE_CERT_LEAF_TRIANGLES])
+{
+    mote_cert_side *side = &c->side[s];
+    for (; wanted; wanted &= wanted - 1) {
+        const size_t l = mote_lowest_bit(wanted);
+        exact_face *face = &exact[l];
+        face->reach = -HUGE_VAL;
+        face_vertices(side->tree, p->leaf[s], l, face->vertex);
+        for (int k = 0; k < 3; ++k) {
+            face->corner[k] = mote_lazy_position(&side->lazy, face->vertex[k]);
+            const mote_vec3 d = mote_sub(face->corner[k], c->origin);
+            const double reach = mote_dot(d, side->facing) * c->scale;
+            face->reach = reach > face->reach ? reach : face->reach;
         }
     }
-    return false;
 }
 
-/* A leaf's triangle with what rules it out cheaply. */
-typedef struct face {
-    mote_vec3 corner[3];
-    mote_vec3 low, high;   /* bounding box */
-    double reach;          /* towards the other body, in the trees' units */
-    const uint8_t *places; /* of its corners in the leaf */
-} face;
-
-static double least(double a, double b, double c)
-{
-    const double d = a < b ? a : b;
-    return c < d ? c : d;
-}
-
-static double most(double a, double b, double c)
-{
-    const double d = a > b ? a : b;
-    return c > d ? c : d;
-}
-
-static void take_face(const mote_cert_points *points, face *f)
-{
-    for (int k = 0; k < 3; ++k)
-        f->corner[k] = mote_cert_point(points, f->places[k]);
-    const mote_vec3 *x = f->corner;
-    f->low = mote_vec3_make(least(x[0].x, x[1].x, x[2].x), least(x[0].y, x[1].y, x[2].y),
-                            least(x[0].z, x[1].z, x[2].z));
-    f->high = mote_vec3_make(most(x[0].x, x[1].x, x[2].x), most(x[0].y, x[1].y, x[2].y),
-                             most(x[0].z, x[1].z, x[2].z));
-}
-
-/* The faces of a leaf that reach far enough to be nearer to the other leaf than the limit. */
-static uint32_t near_faces(const mote_certificate *c, int s,
-                           const mote_cert_points *const points[2],
-                           face faces[MOTE_CERT_LEAF_TRIANGLES])
-{
-    const mote_cert_side *side = &c->side[s];
-    const mote_cert_leaf *leaf = &side->tree->leaves[points[s]->leaf];
-    const mote_vec3 direction = mote_scale(side->facing, c->scale);
-    double along[MOTE_CERT_LEAF_VERTICES];
-    for (uint32_t i = 0; i < leaf->vertex_count; ++i)
-        along[i] = mote_dot(mote_sub(mote_cert_point(points[s], i), c->origin), direction);
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < leaf->triangle_count; ++i) {
-        const uint8_t *places = side->tree->corners[leaf->first_corner + i];
-        const double reach = most(along[places[0]], along[places[1]], along[places[2]]);
-        if (-(reach + points[1 - s]->reach) >= c->limit)
-            continue;
-        faces[count].reach = reach;
-        faces[count].places = places;
-        take_face(points[s], &faces[count++]);
-    }
-    return count;
-}
-
-static inline double gap(double low_a, double high_a, double low_b, double high_b)
-{
-    const double g = low_b - high_a > low_a - high_b ? low_b - high_a : low_a - high_b;
-    return g > 0 ? g : 0;
-}
-
-/* Squared distance of the bounding boxes. */
-static double box_gap_squared(const face *s, const face *t)
-{
-    const double x = gap(s->low.x, s->high.x, t->low.x, t->high.x);
-    const double y = gap(s->low.y, s->high.y, t->low.y, t->high.y);
-    const double z = gap(s->low.z, s->high.z, t->low.z, t->high.z);
-    return x * x + y * y + z * z;
-}
-
-static void corners_of(const mote_cert_tree *tree, const mote_cert_points *points,
-                       const face *f, uint32_t vertices[3])
-{
-    const mote_cert_leaf *leaf = &tree->leaves[points->leaf];
-    for (int k = 0; k < 3; ++k)
-        vertices[k] = tree->leaf_vertices[leaf->first_vertex + f->places[k]];
-}
-
-/* Measures two triangles unless they are far; true when they are nearer than any before. */
-static bool measure(mote_certificate *c, const mote_cert_points *const points[2], const face *s,
-                    const face *t)
+/* Measures two faces; true when they are nearer than any before. */
+static bool measure(mote_certificate *c, const exact_face *s, const exact_face *t)
 {
     if (-(s->reach + t->reach) >= c->limit)
         return false;
     const double limit = c->limit / c->scale;
-    const double squared_limit = limit * limit;
-    if (box_gap_squared(s, t) >= squared_limit)
-        return false;
     mote_vec3 p, q;
     ++c->counters.triangle_tests;
     const double squared =
-        mote_triangle_triangle_below(s->corner, t->corner, squared_limit, &p, &q);
-    if (!(squared < squared_limit && squared < c->best.squared))
+        mote_triangle_triangle_below(s->corner, t->corner, limit * limit, &p, &q);
+    if (!(squared < limit * limit && squared < c->best.squared))
         return false;
     c->best.witness[0] = p;
     c->best.witness[1] = q;
-    corners_of(c->side[0].tree, points[0], s, c->best.triangle[0]);
-    corners_of(c->side[1].tree, points[1], t, c->best.triangle[1]);
+    memcpy(c->best.triangle[0], s->vertex, sizeof s->vertex);
+    memcpy(c->best.triangle[1], t->vertex, sizeof t->vertex);
     mote_cert_set_best(c, squared);
     return true;
 }
 
-/* Measures all pairs of triangles of two leaves; true when the upper bound improved. */
-static bool measure_all(mote_certificate *c, const mote_cert_points *const points[2])
+/* Of the pairs in `open` (by face of the first leaf), keeps those that reach far enough towards
+   each other along a direction from the first leaf to the second; returns the faces of the
+   first that have any left. */
+static uint32_t filter_along(const mote_cert_faces faces[2], const float direction[3],
+                             float need, const float loose[3], uint32_t used,
+                             uint32_t open[MOTE_CERT_LEAF_TRIANGLES])
 {
-    face faces[2][MOTE_CERT_LEAF_TRIANGLES];
-    const uint32_t count0 = near_faces(c, 0, points, faces[0]);
-    const uint32_t count1 = count0 > 0 ? near_faces(c, 1, points, faces[1]) : 0;
+    const float *d = direction;
+    const float back[3] = {-d[0], -d[1], -d[2]};
+    mote_cert_reaches reaches[2];
+    mote_cert_reach_faces(&faces[0], d, &reaches[0]);
+    mote_cert_reach_faces(&faces[1], back, &reaches[1]);
+    const float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const float slack =
+        loose[0] * fabsf(d[0]) + loose[1] * fabsf(d[1]) + loose[2] * fabsf(d[2]);
+    /* the sum of two reaches that is not far yet */
+    const float least = -(need * length + slack) * (1 + 0x1p-19F);
+    uint32_t kept = 0;
+    used &= mote_cert_reaching(&reaches[0], least - reaches[1].farthest);
+    for (; used; used &= used - 1) {
+        const size_t i = mote_lowest_bit(used);
+        open[i] &= mote_cert_reaching(&reaches[1], least - reaches[0].reach[i]);
+        kept |= open[i] ? 1u << i : 0;
+    }
+    return kept;
+}
+
+/* Pairs of faces that are left: bit k of open[i] is face i of the first leaf and k of the
+   second. */
+typedef struct left_pairs {
+    uint32_t used; /* faces i that have any */
+    uint32_t open[MOTE_CERT_LEAF_TRIANGLES];
+} left_pairs;
+
+static void add_pair(const mote_cert_faces faces[2], size_t i, size_t k,
+                     mote_cert_face_pairs *pairs)
+{
+    const uint32_t l = pairs->count++;
+    pairs->face[0][l] = (uint8_t)i;
+    pairs->face[1][l] = (uint8_t)k;
+    for (size_t corner = 0; corner < 3; ++corner) {
+        for (size_t r = 0; r < 3; ++r) {
+            pairs->s[corner][r][l] = faces[0].corner[corner][r][i];
+            pairs->t[corner][r][l] = faces[1].corner[corner][r][k];
+        }
+    }
+}
+
+/* Moves the near ones of the pairs gathered to `near`. */
+static void sift(const mote_certificate *c, const pair *p, mote_cert_face_pairs *pairs,
+                 left_pairs *near)
+{
+    uint32_t left = pairs->count > 0 ? mote_cert_near_pairs(pairs, c->need, p->loose) : 0;
+    for (; left; left &= left - 1) {
+        const size_t l = mote_lowest_bit(left);
+        near->open[pairs->face[0][l]] |= 1u << pairs->face[1][l];
+        near->used |= 1u << pairs->face[0][l];
+    }
+    pairs->count = 0;
+}
+
+/* The pairs of faces of two leaves that may be nearer than the limit. */
+static void find_near(const mote_certificate *c, const pair *p, left_pairs *near)
+{
+    mote_cert_faces faces[2];
+    left_pairs far_enough;
+    for (int s = 0; s < 2; ++s)
+        mote_cert_take_faces(c->side[s].tree, p->leaf[s], p->hull[s], &faces[s]);
+    for (size_t i = 0; i < p->leaf[0]->triangle_count; ++i) {
+        far_enough.open[i] = faces[1].mask;
+        near->open[i] = 0;
+    }
+    near->used = 0;
+    uint32_t used = filter_along(faces, c->side[0].facing_world, c->need, p->loose,
+                                 faces[0].mask, far_enough.open);
+    if (used)
+        used = filter_along(faces, p->nearest, c->need, p->loose, used, far_enough.open);
+    mote_cert_face_pairs pairs = {.count = 0};
+    for (; used; used &= used - 1) {
+        const size_t i = mote_lowest_bit(used);
+        for (uint32_t left = far_enough.open[i]; left; left &= left - 1) {
+            add_pair(faces, i, mote_lowest_bit(left), &pairs);
+            if (pairs.count == 8)
+                sift(c, p, &pairs, near);
+        }
+    }
+    sift(c, p, &pairs, near);
+}
+
+/* Measures the pairs of faces of two leaves that may be nearer than the limit; true when the
+   upper bound improved. */
+static bool measure_all(mote_certificate *c, const pair *p)
+{
+    left_pairs near;
+    exact_face exact[2][MOTE_CERT_LEAF_TRIANGLES];
+    find_near(c, p, &near);
+    uint32_t wanted = 0;
+    for (uint32_t left = near.used; left; left &= left - 1)
+        wanted |= near.open[mote_lowest_bit(left)];
+    place_faces(c, 0, p, near.used, exact[0]);
+    place_faces(c, 1, p, wanted, exact[1]);
     bool improved = false;
-    for (uint32_t i = 0; i < count0; ++i) {
-        for (uint32_t k = 0; k < count1 && !c->done; ++k)
-            improved = measure(c, points, &faces[0][i], &faces[1][k]) || improved;
+    for (; near.used; near.used &= near.used - 1) {
+        const size_t i = mote_lowest_bit(near.used);
+        for (uint32_t left = near.open[i]; left && !c->done; left &= left - 1)
+            improved = measure(c, &exact[0][i], &exact[1][mote_lowest_bit(left)]) || improved;
     }
     return improved;
 }
 
-void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_points *points[2],
-                         const mote_cert_node *const nodes[2], const size_t lanes[2])
+static void set_loose(pair *p)
 {
+    for (size_t r = 0; r < 3; ++r)
+        p->loose[r] = (p->hull[0]->width[r] + p->hull[1]->width[r]) * (1 + 0x1p-22F);
+}
+
+/* Takes the hulls with the field evaluated; false when there are none. */
+static bool take_near_hulls(mote_certificate *c, pair *p, const mote_cert_node *const nodes[2],
+                            const size_t lanes[2])
+{
+    for (int s = 0; s < 2; ++s) {
+        const mote_cert_hull *hull = mote_cert_leaf_near_hull(&c->side[s], nodes[s], lanes[s]);
+        if (!hull)
+            return false;
+        p->hull[s] = hull;
+    }
+    set_loose(p);
+    return true;
+}
+
+void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[2],
+                         const size_t lanes[2])
+{
+    pair p;
+    mote_cert_hull hulls[2];
     ++c->counters.leaf_pairs;
-    if (-(points[0]->reach + points[1]->reach) >= c->limit)
+    for (int s = 0; s < 2; ++s) {
+        mote_cert_leaf_hull(&c->side[s], nodes[s], lanes[s], &hulls[s]);
+        p.leaf[s] = hulls[s].leaf;
+        p.hull[s] = &hulls[s];
+    }
+    set_loose(&p);
+    for (size_t r = 0; r < 3; ++r)
+        p.nearest[r] = nodes[1]->centre[r][lanes[1]] - nodes[0]->centre[r][lanes[0]];
+    if (c->options.directions && separated(c, &p))
         return;
-    if (c->options.directions && separated(c, points, nodes, lanes))
+    if (take_near_hulls(c, &p, nodes, lanes) && c->options.directions && separated(c, &p))
         return;
-    if (measure_all(c, points) && c->restarts < c->options.restarts) {
+    if (measure_all(c, &p) && c->restarts < c->options.restarts) {
         c->improved = true;
         c->done = true;
     }

@@ -8,30 +8,6 @@
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
-/* Whether a leaf is clear of the plane, by the cheapest means that decides; its reach. */
-static bool clear_leaf(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
-                       double *reach)
-{
-    const mote_cert_side *side = &c->side[s];
-    double range[2];
-    mote_cert_leaf_linear(side, node, lane, range);
-    *reach = range[1];
-    if (range[1] <= side->threshold)
-        return true;
-    if (range[0] > side->threshold)
-        return false;
-    if (mote_cert_leaf_estimate(side, (uint32_t)~node->block->child[lane], range)) {
-        *reach = range[1];
-        if (range[1] <= side->threshold)
-            return true;
-        if (range[0] > side->threshold)
-            return false;
-    }
-    const mote_cert_points *points = mote_cert_leaf_child(c, s, node, lane);
-    *reach = points->reach;
-    return points->reach <= side->threshold + c->noise;
-}
-
 /* Whether a leaf has a vertex of the best pair's face: where such a leaf crosses the plane, a
    descent from the pair is likely to come nearer. */
 static bool touches_witness(const mote_certificate *c, int s, const mote_cert_node *node,
@@ -56,7 +32,7 @@ static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t 
     bool clear;
     if (node->block->child[lane] < 0) {
         double exact;
-        clear = clear_leaf(c, s, node, lane, &exact);
+        clear = mote_cert_leaf_clear(c, s, node, lane, &exact);
         reach = (float)exact + c->side[s].reach_margin;
         c->crossed = c->unrefined && !clear && touches_witness(c, s, node, lane);
     } else {
@@ -124,16 +100,13 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
     const bool leaf = r.node->block->child[r.lane] < 0;
     const bool other_leaf = r.other->block->child[k] < 0;
     if (leaf && other_leaf) {
-        const mote_cert_points *points[2];
         const mote_cert_node *nodes[2];
         size_t lanes[2];
-        points[r.s] = mote_cert_leaf_child(c, r.s, r.node, r.lane);
-        points[1 - r.s] = mote_cert_leaf_child(c, 1 - r.s, r.other, k);
         nodes[r.s] = r.node;
         nodes[1 - r.s] = r.other;
         lanes[r.s] = r.lane;
         lanes[1 - r.s] = k;
-        mote_cert_leaf_pair(c, points, nodes, lanes);
+        mote_cert_leaf_pair(c, nodes, lanes);
     } else if (other_leaf || (!leaf && r.node->size[r.lane] > r.other->size[k])) {
         mote_cert_node *child = mote_cert_child(c, r.s, r.node, r.lane, depth);
         visit_row(c, (row){1 - r.s, r.other, k, child}, depth + 1);

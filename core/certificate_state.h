@@ -30,14 +30,18 @@ typedef struct mote_cert_node {
     uint32_t generation; /* the plane that reach, extent and clear belong to */
 } mote_cert_node;
 
-/* A leaf's vertices at this frame: world positions, padded with copies of the last. */
-typedef struct mote_cert_points {
-    double x[3][MOTE_CERT_LEAF_VERTICES];
-    double reach; /* largest coordinate towards the other body, in the trees' units */
-    uint32_t leaf;
-    uint32_t generation;
-    uint32_t padded; /* 8 or 16 of the places are used */
-} mote_cert_points;
+/* A leaf's vertices at this frame as far as the field is linear in its box, relative to the
+   query's origin, in the trees' units. In each coordinate no vertex is farther than `width`
+   from its place here, rounding included. */
+typedef struct mote_cert_hull {
+    float x[3][MOTE_CERT_LEAF_VERTICES]; /* filled up with copies of the last */
+    float width[3];
+    uint32_t groups; /* of MOTE_CERT_WIDTH vertices */
+    const mote_cert_leaf *leaf;
+} mote_cert_hull;
+
+/* Hulls of leaves kept in a query, each in the place that its leaf's number gives. */
+#define MOTE_CERT_HULLS 16
 
 /* One body of a query. Its coordinate "towards the other body" is along u on body 0 and along
    -u on body 1, where u points from witness 0 to witness 1: the two bodies are then treated
@@ -54,21 +58,20 @@ typedef struct mote_cert_side {
     double bound;                /* bound of every coordinate that occurs */
     float margin_unit; /* margin of a box: margin_base + margin_unit * its functions */
     float margin_base;
-    float reach_margin;           /* for a reach that was computed in double precision */
-    mote_vec3 facing;             /* u or -u */
-    mote_vec3 facing_rest;        /* the same in the rest mesh's axes */
-    float facing_f[3];            /* the latter as floats */
-    float shift;                  /* translation along facing */
-    float along[MOTE_FIELD_MAX];  /* weight along facing, in the trees' units */
-    float pushed[MOTE_FIELD_MAX]; /* the same for basis functions that are not scaled */
-    double pushed_sum;            /* of absolute values */
-    double threshold;             /* the plane, as a coordinate towards the other body */
+    float leaf_margin;  /* for what is added up from places in a leaf's box */
+    float reach_margin; /* for a reach that was computed in double precision */
+    mote_vec3 facing;   /* u or -u */
+    float facing_f[3];  /* the same in the rest mesh's axes */
+    float facing_world[3];
+    float shift;                 /* translation along facing */
+    float along[MOTE_FIELD_MAX]; /* weight along facing, in the trees' units */
+    double threshold;            /* the plane, as a coordinate towards the other body */
     float threshold_f;
-    mote_cert_node *nodes; /* [node_room]; the root is the first */
+    float single[3][MOTE_FIELD_MAX];       /* weights in the trees' units */
+    float single_sum[3];                   /* of their absolute values */
+    mote_cert_hull hulls[MOTE_CERT_HULLS]; /* with the field evaluated */
+    mote_cert_node *nodes;                 /* [node_room]; the root is the first */
     uint32_t node_room, node_count;
-    mote_cert_points *points; /* [point_room] */
-    uint32_t point_room, point_count;
-    mote_cert_points spare; /* used when point_room is not enough */
 } mote_cert_side;
 
 /* Directions that separated leaf pairs, the latest first. */
@@ -102,7 +105,7 @@ struct mote_certificate {
     bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
     bool has_last;
     uint32_t last[2][3]; /* faces of the last query's witnesses */
-    mote_vec3 direction[MOTE_CERT_DIRECTIONS];
+    float direction[MOTE_CERT_DIRECTIONS][3];
     uint32_t direction_count;
     mote_counters counters;
 };
@@ -131,33 +134,29 @@ void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshol
 /* The root of a side. */
 mote_cert_node *mote_cert_root(mote_certificate *c, int s);
 
-/* The deformed block or leaf that is child `lane` of a node. depth: of the recursion, for the
-   place of a node that has to be forgotten again. */
+/* The deformed block that is child `lane` of a node. depth: of the recursion, for the place of
+   a node that has to be forgotten again. */
 mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                                 uint32_t depth);
-mote_cert_points *mote_cert_leaf_child(mote_certificate *c, int s, mote_cert_node *node,
-                                       size_t lane);
 
 /* Makes the boxes of a node known. */
 void mote_cert_make_boxes(mote_certificate *c, int s, mote_cert_node *node);
 
-/* How far the vertices of leaf `lane` of a node reach towards the other body if the field is
-   taken to be linear in its box: range[0] <= reach <= range[1]. */
-void mote_cert_leaf_linear(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
-                           double range[2]);
+/* certificate_leaf.c */
 
-/* Estimates how far a leaf reaches towards the other body: range[0] <= reach <= range[1]. False
-   when its field offers no estimate. */
-bool mote_cert_leaf_estimate(const mote_cert_side *side, uint32_t leaf, double range[2]);
+/* Whether leaf `lane` of a node is clear of the plane, by the cheapest means that decides.
+ *reach: what it reaches at most. */
+bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node, size_t lane,
+                          double *reach);
 
-/* Least and largest coordinate of points, relative to origin, along a direction. */
-void mote_cert_range(const mote_cert_points *points, mote_vec3 direction, mote_vec3 origin,
-                     double range[2]);
+/* The hull of leaf `lane` of a node whose boxes are known. */
+void mote_cert_leaf_hull(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
+                         mote_cert_hull *hull);
 
-static inline mote_vec3 mote_cert_point(const mote_cert_points *points, size_t i)
-{
-    return mote_vec3_make(points->x[0][i], points->x[1][i], points->x[2][i]);
-}
+/* The same with the field evaluated, to the precision of floats: NULL when its kind does not
+   offer that. Valid until another leaf of the side is asked for. */
+const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
+                                               size_t lane);
 
 /* certificate_row.c */
 
@@ -172,10 +171,48 @@ uint32_t mote_cert_row_boxes(const mote_cert_node *d, size_t lane, const mote_ce
 
 /* certificate_pair.c */
 
-/* Measures what two leaves leave open; lowers the upper bound where they are nearer. a, b:
-   their boxes, for the direction of the closest points. */
-void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_points *points[2],
-                         const mote_cert_node *const nodes[2], const size_t lanes[2]);
+/* Measures what two leaves, children `lanes` of nodes whose boxes are known, leave open; lowers
+   the upper bound where they are nearer. */
+void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[2],
+                         const size_t lanes[2]);
+
+/* certificate_triangles.c */
+
+/* The faces of one leaf in lanes: corners of its hull, the lanes filled up with copies of the
+   last. */
+typedef struct mote_cert_faces {
+    float corner[3][3][MOTE_CERT_LEAF_TRIANGLES]; /* [corner][coordinate][face] */
+    size_t lanes;                                 /* in use: a multiple of 8 */
+    uint32_t mask;                                /* bit l: lane l has a face */
+} mote_cert_faces;
+
+void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
+                          const mote_cert_hull *hull, mote_cert_faces *faces);
+
+/* How far faces reach along a direction. */
+typedef struct mote_cert_reaches {
+    float reach[MOTE_CERT_LEAF_TRIANGLES];
+    float farthest;
+    size_t lanes;
+} mote_cert_reaches;
+
+void mote_cert_reach_faces(const mote_cert_faces *faces, const float direction[3],
+                           mote_cert_reaches *reaches);
+
+/* Which lanes reach farther than `least`. */
+uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least);
+
+/* Up to eight pairs of faces, one of each leaf. */
+typedef struct mote_cert_face_pairs {
+    float s[3][3][8], t[3][3][8]; /* [corner][coordinate][pair] */
+    uint32_t count;
+    uint8_t face[2][8];
+} mote_cert_face_pairs;
+
+/* Which pairs are not proven to be at least `need` apart. loose: half width of the box by which
+   a difference of two corners may be wrong. */
+uint32_t mote_cert_near_pairs(const mote_cert_face_pairs *pairs, float need,
+                              const float loose[3]);
 
 /* certificate_search.c */
 

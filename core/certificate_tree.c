@@ -27,7 +27,7 @@ typedef struct builder {
     double *phi;
     mote_cert_fit fit;
     draft *draft;
-    size_t block_room, leaf_room, row_room, vertex_room;
+    size_t block_room, leaf_room, row_room, vertex_room, group_room;
     uint32_t corner_count;
     uint32_t bits; /* binary levels a block */
     mote_status status;
@@ -167,8 +167,33 @@ static void *make_room(builder *b, void *array, size_t *room, size_t used, size_
     return moved;
 }
 
+/* Appends the places of the vertices in b->list in their box. */
+static bool add_groups(builder *b, const mote_cert_box *box, uint32_t vertex_count)
+{
+    mote_cert_tree *tree = b->tree;
+    const uint32_t count = (vertex_count + MOTE_CERT_WIDTH - 1) / MOTE_CERT_WIDTH;
+    void *groups = make_room(b, tree->groups, &b->group_room, tree->group_count, count,
+                             sizeof *tree->groups);
+    if (!groups)
+        return false;
+    tree->groups = groups;
+    for (uint32_t i = 0; i < count * MOTE_CERT_WIDTH; ++i) {
+        const uint32_t v = b->list[i < vertex_count ? i : vertex_count - 1];
+        double z[3];
+        mote_cert_box_coordinates(box, mote_cert_tree_position(tree, v), z);
+        int32_t whole[3];
+        for (int k = 0; k < 3; ++k)
+            whole[k] = (int32_t)rint(z[k] * MOTE_CERT_WHOLE);
+        mote_cert_group *group = &tree->groups[tree->group_count + i / MOTE_CERT_WIDTH];
+        group->first[i % MOTE_CERT_WIDTH] = mote_cert_word(whole[0], whole[1]);
+        group->second[i % MOTE_CERT_WIDTH] = whole[2];
+    }
+    tree->group_count += count;
+    return true;
+}
+
 /* Appends a leaf for a range whose vertices are in b->list. */
-static int32_t add_leaf(builder *b, range r, uint32_t vertex_count, uint32_t block)
+static int32_t add_leaf(builder *b, range r, uint32_t vertex_count, const mote_cert_box *box)
 {
     mote_cert_tree *tree = b->tree;
     void *leaves =
@@ -181,10 +206,13 @@ static int32_t add_leaf(builder *b, range r, uint32_t vertex_count, uint32_t blo
     if (!vertices)
         return -1;
     tree->leaf_vertices = vertices;
+    const uint32_t first_group = tree->group_count;
+    if (!add_groups(b, box, vertex_count))
+        return -1;
     tree->leaves[tree->leaf_count] =
         (mote_cert_leaf){.first_vertex = tree->leaf_vertex_count,
                          .first_corner = b->corner_count,
-                         .block = block,
+                         .first_group = first_group,
                          .vertex_count = (uint8_t)vertex_count,
                          .triangle_count = (uint8_t)(r.end - r.begin)};
     memcpy(tree->leaf_vertices + tree->leaf_vertex_count, b->list,
@@ -242,9 +270,6 @@ struct draft {
     bool active[MOTE_FIELD_MAX];
 };
 
-/* The largest number that a row stores. */
-#define WHOLE 32767
-
 static float largest(const float *values, size_t count)
 {
     float most = 0;
@@ -258,13 +283,14 @@ static void round_slopes(draft *d, uint32_t functions)
 {
     for (uint32_t j = 0; j < functions; ++j) {
         mote_cert_row *row = &d->row[j];
-        row->slope_unit = largest(d->slope[j][0], (size_t)3 * MOTE_CERT_WIDTH) / WHOLE;
+        row->slope_unit =
+            largest(d->slope[j][0], (size_t)3 * MOTE_CERT_WIDTH) / MOTE_CERT_WHOLE;
         const double inverse = row->slope_unit > 0 ? 1 / (double)row->slope_unit : 0;
         for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
             int32_t whole[3];
             for (int k = 0; k < 3; ++k) {
                 const double exact = rint((double)d->slope[j][k][l] * inverse);
-                whole[k] = (int32_t)fmin(fmax(exact, -WHOLE), WHOLE);
+                whole[k] = (int32_t)fmin(fmax(exact, -MOTE_CERT_WHOLE), MOTE_CERT_WHOLE);
             }
             row->slopes[l] = mote_cert_word(whole[0], whole[1]);
             row->slope_rest[l] = mote_cert_word(whole[2], 0);
@@ -277,18 +303,18 @@ static void round_rests(draft *d, uint32_t functions)
 {
     for (uint32_t j = 0; j < functions; ++j) {
         mote_cert_row *row = &d->row[j];
-        row->rest_unit = largest(d->rest[j], MOTE_CERT_WIDTH) * (1 + 0x1p-20F) / WHOLE;
+        row->rest_unit =
+            largest(d->rest[j], MOTE_CERT_WIDTH) * (1 + 0x1p-20F) / MOTE_CERT_WHOLE;
         const double inverse = row->rest_unit > 0 ? 1 / (double)row->rest_unit : 0;
         for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
             const double whole = ceil((double)d->rest[j][l] * inverse);
             row->slope_rest[l] = mote_cert_word(mote_cert_below(row->slope_rest[l]),
-                                                (int32_t)fmin(whole, WHOLE));
+                                                (int32_t)fmin(whole, MOTE_CERT_WHOLE));
         }
     }
 }
 
-/* Appends the rows in the order of the lanes of sums over basis functions (see
-   mote_field_kind.group). */
+/* Appends the rows of the active functions. */
 static void append_rows(builder *b, const draft *d, mote_cert_block *block)
 {
     mote_cert_tree *tree = b->tree;
@@ -312,14 +338,12 @@ static void append_rows(builder *b, const draft *d, mote_cert_block *block)
         tree->active = active;
         b->row_room = room;
     }
-    for (uint32_t lane = 0; lane < MOTE_LANES; ++lane) {
-        for (uint32_t j = lane; j < functions; j += MOTE_LANES) {
-            if (!d->active[j])
-                continue;
-            tree->rows[tree->row_count] = d->row[j];
-            tree->active[tree->row_count] = (uint8_t)j;
-            ++tree->row_count;
-        }
+    for (uint32_t j = 0; j < functions; ++j) {
+        if (!d->active[j])
+            continue;
+        tree->rows[tree->row_count] = d->row[j];
+        tree->active[tree->row_count] = (uint8_t)j;
+        ++tree->row_count;
     }
 }
 
@@ -387,7 +411,7 @@ static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t cou
         if (functions > 0)
             draft_rests(b, lane, vertices, d);
         if (parts[lane].levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
-            block.child[lane] = add_leaf(b, parts[lane], vertices, id);
+            block.child[lane] = add_leaf(b, parts[lane], vertices, &d->box[lane]);
     }
     round_rests(d, functions);
     if (b->status == MOTE_OK)
@@ -492,6 +516,8 @@ static void shrink(mote_cert_tree *tree)
     tree->leaves = leaves ? leaves : tree->leaves;
     void *vertices = realloc(tree->leaf_vertices, tree->leaf_vertex_count * sizeof(uint32_t));
     tree->leaf_vertices = vertices ? vertices : tree->leaf_vertices;
+    void *groups = realloc(tree->groups, tree->group_count * sizeof *tree->groups);
+    tree->groups = groups ? groups : tree->groups;
     if (tree->row_count == 0)
         return;
     void *rows = realloc(tree->rows, tree->row_count * sizeof *tree->rows);
@@ -558,6 +584,7 @@ void mote_cert_tree_destroy(mote_cert_tree *tree)
     free(tree->active);
     free(tree->leaves);
     free(tree->leaf_vertices);
+    free(tree->groups);
     free(tree->corners);
     free(tree);
 }
@@ -568,5 +595,6 @@ size_t mote_cert_tree_bytes(const mote_cert_tree *tree)
            tree->row_count * (sizeof *tree->rows + 1) +
            tree->leaf_count * sizeof *tree->leaves +
            tree->leaf_vertex_count * sizeof(uint32_t) +
+           tree->group_count * sizeof *tree->groups +
            (size_t)tree->body->mesh->triangle_count * sizeof *tree->corners;
 }

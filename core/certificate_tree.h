@@ -21,8 +21,8 @@
 #define MOTE_CERT_WIDTH 8
 
 /* A leaf's triangles and vertices, at most. */
-#define MOTE_CERT_LEAF_TRIANGLES 8
-#define MOTE_CERT_LEAF_VERTICES 16
+#define MOTE_CERT_LEAF_TRIANGLES 32
+#define MOTE_CERT_LEAF_VERTICES 40
 
 /* What one basis function that reaches a block does to its children: offset f, slopes
    g = s * slope_unit by axis, and m = r * rest_unit >= 0, with whole numbers s and r of 16
@@ -58,7 +58,7 @@ typedef struct mote_cert_block {
     float half[3][3][MOTE_CERT_WIDTH]; /* [axis, longest first][coordinate][child] */
     int32_t child[MOTE_CERT_WIDTH];    /* >= 0: a block; < 0: the leaf ~child */
     uint32_t first_row;                /* its rows, one for each of its basis functions */
-    uint32_t first_active;             /* which these are: see mote_field_kind.group */
+    uint32_t first_active;             /* which these are, in ascending order */
     uint32_t active_count;
     uint32_t children;
     uint32_t mask; /* bit l: lane l has a child; the first `children` bits */
@@ -67,10 +67,20 @@ typedef struct mote_cert_block {
 typedef struct mote_cert_leaf {
     uint32_t first_vertex; /* in leaf_vertices */
     uint32_t first_corner; /* in corners */
-    uint32_t block;        /* whose child it is */
+    uint32_t first_group;  /* of its vertices, in groups */
     uint8_t vertex_count;
     uint8_t triangle_count;
 } mote_cert_leaf;
+
+/* Where MOTE_CERT_WIDTH vertices of a leaf are in its box: z_k * MOTE_CERT_WHOLE, rounded. The
+   last group of a leaf is filled up with copies of its last vertex. */
+typedef struct mote_cert_group {
+    int32_t first[MOTE_CERT_WIDTH];  /* axis 0 below, axis 1 above */
+    int32_t second[MOTE_CERT_WIDTH]; /* axis 2 */
+} mote_cert_group;
+
+/* The largest whole number that a row or a group stores. */
+#define MOTE_CERT_WHOLE 32767
 
 typedef struct mote_cert_tree {
     const mote_body *body;
@@ -81,8 +91,9 @@ typedef struct mote_cert_tree {
     uint8_t *active;         /* [row_count] basis functions */
     mote_cert_leaf *leaves;  /* [leaf_count] */
     uint32_t *leaf_vertices; /* [leaf_vertex_count] */
+    mote_cert_group *groups; /* [group_count] */
     uint8_t (*corners)[3];   /* [triangle_count], places in the leaf's vertices */
-    uint32_t block_count, leaf_count, leaf_vertex_count;
+    uint32_t block_count, leaf_count, leaf_vertex_count, group_count;
     uint32_t row_count;
     uint32_t depth;                     /* blocks on the longest way down */
     double basis_scale[MOTE_FIELD_MAX]; /* powers of two */
@@ -106,6 +117,12 @@ void mote_cert_tree_destroy(mote_cert_tree *tree);
 
 /* Bytes of heap that a tree holds. */
 size_t mote_cert_tree_bytes(const mote_cert_tree *tree);
+
+/* Groups of a leaf's vertices. */
+static inline uint32_t mote_cert_group_count(const mote_cert_leaf *leaf)
+{
+    return (leaf->vertex_count + MOTE_CERT_WIDTH - 1u) / MOTE_CERT_WIDTH;
+}
 
 /* A rest vertex in the tree's units. */
 static inline mote_vec3 mote_cert_tree_position(const mote_cert_tree *tree, uint32_t vertex)

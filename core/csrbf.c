@@ -89,70 +89,6 @@ static void csrbf_displacement_single(const mote_field *field, const mote_mesh *
     displacement[2] = mote_lane_sum_single(z);
 }
 
-/* One lane of the sums of MOTE_LANES vertices: the functions that share j % MOTE_LANES. A
-   function that is left out would have added +0 or -0 to a lane that is never -0, so that the
-   bits are those of csrbf_displacement. Returns how many functions it took. */
-MOTE_INLINE size_t group_lane(const mote_field *field, double p[3][MOTE_LANES],
-                              const uint8_t *functions, size_t count,
-                              const mote_weights *weights, double lane[3][MOTE_LANES])
-{
-    const double inverse = 1 / field->support;
-    const uint8_t first = functions[0];
-    double x[MOTE_LANES] = {0};
-    double y[MOTE_LANES] = {0};
-    double z[MOTE_LANES] = {0};
-    size_t used = 0;
-    for (; used < count && functions[used] % MOTE_LANES == first % MOTE_LANES; ++used) {
-        const size_t j = functions[used];
-        const double cx = field->centre_x[j];
-        const double cy = field->centre_y[j];
-        const double cz = field->centre_z[j];
-        const double wx = weights->x[j];
-        const double wy = weights->y[j];
-        const double wz = weights->z[j];
-        MOTE_LANE_LOOP
-        for (size_t v = 0; v < MOTE_LANES; ++v) {
-            const double dx = (p[0][v] - cx) * inverse;
-            const double dy = (p[1][v] - cy) * inverse;
-            const double dz = (p[2][v] - cz) * inverse;
-            const double phi = mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
-            x[v] += phi * wx;
-            y[v] += phi * wy;
-            z[v] += phi * wz;
-        }
-    }
-    memcpy(lane[0], x, sizeof x);
-    memcpy(lane[1], y, sizeof y);
-    memcpy(lane[2], z, sizeof z);
-    return used;
-}
-
-MOTE_CLONES
-static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
-                        const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
-                        size_t count, const mote_weights *weights,
-                        double displacement[3][MOTE_LANES])
-{
-    double p[3][MOTE_LANES];
-    for (size_t v = 0; v < MOTE_LANES; ++v) {
-        const mote_vec3 x = mesh->positions[vertices[v]];
-        p[0][v] = x.x;
-        p[1][v] = x.y;
-        p[2][v] = x.z;
-    }
-    double lane[MOTE_LANES][3][MOTE_LANES] = {{{0}}};
-    for (size_t used = 0; used < count;)
-        used += group_lane(field, p, functions + used, count - used, weights,
-                           lane[functions[used] % MOTE_LANES]);
-    for (size_t c = 0; c < 3; ++c) {
-        MOTE_LANE_LOOP
-        for (size_t v = 0; v < MOTE_LANES; ++v)
-            displacement[c][v] =
-                ((lane[0][c][v] + lane[4][c][v]) + (lane[2][c][v] + lane[6][c][v])) +
-                ((lane[1][c][v] + lane[5][c][v]) + (lane[3][c][v] + lane[7][c][v]));
-    }
-}
-
 /* Rest positions relative to the first, in units of the support: small where a function reaches
    all vertices, so that floats lose little. Returns the largest coordinate's size. */
 MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *mesh,
@@ -188,28 +124,36 @@ MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *m
 MOTE_CLONES
 static float csrbf_estimate(const mote_field *field, const mote_mesh *mesh,
                             const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
-                            size_t count, const float *weights, float sum[MOTE_LANES])
+                            size_t count, float (*weights)[MOTE_FIELD_MAX],
+                            float displacement[3][MOTE_LANES])
 {
     const double inverse = 1 / field->support;
     const mote_vec3 base = mesh->positions[vertices[0]];
     float p[3][MOTE_LANES];
     const float extent = relative_positions(field, mesh, vertices, p);
-    float total[MOTE_LANES] = {0};
+    float x[MOTE_LANES] = {0}, y[MOTE_LANES] = {0}, z[MOTE_LANES] = {0};
     for (size_t i = 0; i < count; ++i) {
         const size_t j = functions[i];
         const float cx = (float)((field->centre_x[j] - base.x) * inverse);
         const float cy = (float)((field->centre_y[j] - base.y) * inverse);
         const float cz = (float)((field->centre_z[j] - base.z) * inverse);
-        const float w = weights[j];
+        const float wx = weights[0][j];
+        const float wy = weights[1][j];
+        const float wz = weights[2][j];
         MOTE_LANE_LOOP
         for (size_t v = 0; v < MOTE_LANES; ++v) {
             const float dx = p[0][v] - cx;
             const float dy = p[1][v] - cy;
             const float dz = p[2][v] - cz;
-            total[v] += mote_wendland_c2_single(sqrtf(dx * dx + dy * dy + dz * dz)) * w;
+            const float phi = mote_wendland_c2_single(sqrtf(dx * dx + dy * dy + dz * dz));
+            x[v] += phi * wx;
+            y[v] += phi * wy;
+            z[v] += phi * wz;
         }
     }
-    memcpy(sum, total, sizeof total);
+    memcpy(displacement[0], x, sizeof x);
+    memcpy(displacement[1], y, sizeof y);
+    memcpy(displacement[2], z, sizeof z);
     return 0x1p-24F * (8 * extent + 24 + (float)count);
 }
 
@@ -243,7 +187,6 @@ static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .basis = csrbf_basis,
                                            .displacement = csrbf_displacement,
                                            .displacement_single = csrbf_displacement_single,
-                                           .group = csrbf_group,
                                            .estimate = csrbf_estimate,
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};

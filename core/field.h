@@ -30,6 +30,9 @@ typedef struct mote_weights_single {
     uint32_t padded;
 } mote_weights_single;
 
+/* At most this many basis functions (after padding). */
+#define MOTE_FIELD_MAX 256
+
 typedef struct mote_field mote_field;
 
 typedef struct mote_field_kind {
@@ -50,20 +53,14 @@ typedef struct mote_field_kind {
     void (*displacement_single)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                                 const mote_weights_single *weights, float displacement[3]);
 
-    /* Displacements of MOTE_LANES rest vertices at once, by coordinate, each equal bit for bit
-       to displacement(). functions[count] lists every basis function that is not 0 at all of
-       them, in the order of the lanes of the sum: by j % MOTE_LANES, then by j. NULL: they are
-       evaluated one by one. */
-    void (*group)(const mote_field *field, const mote_mesh *mesh,
-                  const uint32_t vertices[MOTE_LANES], const uint8_t *functions, size_t count,
-                  const mote_weights *weights, double displacement[3][MOTE_LANES]);
-
-    /* In single precision: sum[v] = sum over functions[count] (as above) of phi_j weights[j] at
-       MOTE_LANES rest vertices. Returns a factor: a sum is wrong by at most this times
-       sum |weights[j]|. NULL: not offered. */
+    /* Displacements of MOTE_LANES rest vertices in single precision, by coordinate.
+       functions[count] lists every basis function that is not 0 at all of them; weights[c][j]
+       the weights' coordinates, in any unit. Returns a factor: coordinate c is wrong by at most
+       this times sum |weights[c][j]|. NULL: not offered. */
     float (*estimate)(const mote_field *field, const mote_mesh *mesh,
                       const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
-                      size_t count, const float *weights, float sum[MOTE_LANES]);
+                      size_t count, float (*weights)[MOTE_FIELD_MAX],
+                      float displacement[3][MOTE_LANES]);
 
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
        the padding. For modes: the least-squares gradient over the one-ring. NULL: not offered.
@@ -85,9 +82,6 @@ struct mote_field {
     const void *data;     /* of other kinds */
     size_t bytes;         /* heap held, this struct included */
 };
-
-/* At most this many basis functions (after padding). */
-#define MOTE_FIELD_MAX 256
 
 /* A field that never deforms. Free with mote_field_destroy. */
 mote_status mote_field_create_static(mote_field **field);

@@ -450,6 +450,54 @@ static void displacement_single_stays_near_double(void **unused)
     mote_mesh_destroy(mesh);
 }
 
+/* Within the error that it promises, also far from the origin, where a float holds little. */
+static void estimate_is_as_near_as_it_says(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 21;
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
+    const uint32_t counts[3] = {1, 14, 256};
+    for (int c = 0; c < 3; ++c) {
+        mote_field *field = random_csrbf(counts[c], c == 2 ? 0.5 : 1.3, &seed);
+        weight_set set;
+        draw_weights(&set, field, &seed);
+        float single[3][MOTE_FIELD_MAX];
+        uint8_t functions[MOTE_FIELD_MAX];
+        double sum[3] = {0, 0, 0};
+        for (uint32_t j = 0; j < field->count; ++j) {
+            functions[j] = (uint8_t)j;
+            single[0][j] = (float)set.x[j];
+            single[1][j] = (float)set.y[j];
+            single[2][j] = (float)set.z[j];
+            for (int r = 0; r < 3; ++r)
+                sum[r] += fabs((double)single[r][j]);
+        }
+        double most = 0;
+        for (uint32_t first = 0; first + MOTE_LANES <= mesh->vertex_count; ++first) {
+            uint32_t v[MOTE_LANES];
+            for (uint32_t l = 0; l < MOTE_LANES; ++l)
+                v[l] = first + l;
+            float got[3][MOTE_LANES];
+            const double factor = (double)field->kind->estimate(field, mesh, v, functions,
+                                                                field->count, single, got);
+            assert_true(factor < 1e-4);
+            for (uint32_t l = 0; l < MOTE_LANES; ++l) {
+                const mote_vec3 d = mote_field_displacement(field, mesh, v[l], &set.weights);
+                const double off[3] = {d.x - (double)got[0][l], d.y - (double)got[1][l],
+                                       d.z - (double)got[2][l]};
+                for (int r = 0; r < 3; ++r) {
+                    /* the weights themselves were rounded */
+                    assert_true(fabs(off[r]) <= (factor + 0x1p-24) * sum[r]);
+                    most = fmax(most, fabs(off[r]));
+                }
+            }
+        }
+        assert_true(most > 0);
+        mote_field_destroy(field);
+    }
+    mote_mesh_destroy(mesh);
+}
+
 /* A kind without a displacement of its own is summed over its basis. */
 static void displacement_of_a_kind_without_one_sums_its_basis(void **unused)
 {
@@ -567,6 +615,7 @@ int main(void)
         cmocka_unit_test(modes_gradient_in_a_flat_ring_has_no_normal_part),
         cmocka_unit_test(displacement_equals_lane_sum_over_basis_bit_for_bit),
         cmocka_unit_test(displacement_single_stays_near_double),
+        cmocka_unit_test(estimate_is_as_near_as_it_says),
         cmocka_unit_test(displacement_of_a_kind_without_one_sums_its_basis),
         cmocka_unit_test(static_field_displaces_by_zero),
         cmocka_unit_test(bytes_count_centres_and_modes),

@@ -5,8 +5,8 @@
 set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     BEGIN {
-        loops = "^(mote_potential|project_block|deform_block|mote_cert_row_boxes|csrbf_group|" \
-            "csrbf_estimate)([.]|$)"
+        loops = "^(mote_potential|project_block|deform_block|mote_cert_row_boxes|move_group|" \
+            "mote_cert_reach_faces|mote_cert_near_pairs|csrbf_estimate)([.]|$)"
     }
     /^[0-9a-f]+ <.*>:$/ {
         name = substr($2, 2, length($2) - 3)
@@ -27,5 +27,5 @@ objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
             if (lanes[name] <= single[name])
                 bad = 1
         }
-        exit bad || count < 6
+        exit bad || count < 8
     }'

@@ -1,0 +1,201 @@
+/* Where the vertices of a leaf are: by the linear part of the field in its box, which costs a
+   few operations a vertex; by an estimate in floats; exactly.
+
+   Margins. A place z in a box is stored to half a unit, 1/65534, so that a sum over k of
+   z_k a_k is wrong by at most sum |a_k| 2^-16, twice of which is added for the rounding of what
+   is added. The sums themselves have five roundings of terms whose absolute values add up to B
+   in a coordinate or sqrt(3) B along a direction (see certificate_deform.c): 9 u B. A
+   projection of such sums on a direction of length <= 1 + 6 u, a difference of two of them, and
+   the rounding of the direction and of a threshold add 14 u B. leaf_margin is 32 u B. */
+#include "core/certificate_state.h"
+#include "core/clones.h"
+
+#include <string.h>
+
+#define WIDTH MOTE_CERT_WIDTH
+#define UNIT (1.0F / MOTE_CERT_WHOLE)
+#define PLACE_ROUNDING 0x1p-15F
+
+static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
+                                            const mote_cert_node *node, size_t lane)
+{
+    return &tree->leaves[~node->block->child[lane]];
+}
+
+/* The largest of eight, in a fixed order. */
+MOTE_INLINE float largest_of(const float x[WIDTH])
+{
+    float four[4], two[2];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 4; ++l)
+        four[l] = x[l] > x[l + 4] ? x[l] : x[l + 4];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 2; ++l)
+        two[l] = four[l] > four[l + 2] ? four[l] : four[l + 2];
+    return two[0] > two[1] ? two[0] : two[1];
+}
+
+/* base + sum over k of z_k a_k for a group's vertices; a is in units of a place. */
+MOTE_INLINE void add_up(const mote_cert_group *restrict group, float base, const float a[3],
+                        float sum[WIDTH])
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        const float x = (float)mote_cert_below(group->first[l]);
+        const float y = (float)mote_cert_above(group->first[l]);
+        const float z = (float)group->second[l];
+        sum[l] = base + (x * a[0] + y * a[1] + z * a[2]);
+    }
+}
+
+/* base + sum_k z_k slant_k of a leaf's vertices; returns the largest. */
+MOTE_CLONES
+static float place_along(const mote_cert_group *restrict groups, uint32_t count, float base,
+                         const float slant[3], float at[MOTE_CERT_LEAF_VERTICES])
+{
+    float most[WIDTH];
+    add_up(&groups[0], base, slant, at);
+    memcpy(most, at, sizeof most);
+    for (uint32_t g = 1; g < count; ++g) {
+        float *more = at + g * WIDTH;
+        add_up(&groups[g], base, slant, more);
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            most[l] = most[l] > more[l] ? most[l] : more[l];
+    }
+    return largest_of(most);
+}
+
+MOTE_CLONES
+void mote_cert_leaf_hull(const mote_cert_side *restrict side,
+                         const mote_cert_node *restrict node, size_t lane,
+                         mote_cert_hull *restrict hull)
+{
+    const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
+    const mote_cert_group *groups = side->tree->groups + leaf->first_group;
+    hull->leaf = leaf;
+    hull->groups = mote_cert_group_count(leaf);
+    for (size_t r = 0; r < 3; ++r) {
+        float a[3];
+        float size = 0;
+        for (size_t k = 0; k < 3; ++k) {
+            a[k] = node->axis[k][r][lane] * UNIT;
+            size += fabsf(node->axis[k][r][lane]);
+        }
+        for (size_t g = 0; g < hull->groups; ++g)
+            add_up(&groups[g], node->centre[r][lane], a, hull->x[r] + g * WIDTH);
+        hull->width[r] = node->width[r][lane] + (side->leaf_margin + size * PLACE_ROUNDING);
+    }
+}
+
+/* Rest positions of MOTE_LANES vertices of a leaf from place `first` on, filled up with copies
+   of the last, in the tree's units. */
+static void take_group(const mote_cert_tree *tree, const mote_cert_leaf *leaf, uint32_t first,
+                       uint32_t v[MOTE_LANES], float p[3][MOTE_LANES])
+{
+    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
+    for (uint32_t i = 0; i < MOTE_LANES; ++i) {
+        const uint32_t k = first + i;
+        v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
+        const mote_vec3 x = mote_cert_tree_position(tree, v[i]);
+        p[0][i] = (float)x.x;
+        p[1][i] = (float)x.y;
+        p[2][i] = (float)x.z;
+    }
+}
+
+/* The rigid motion of a group plus what the field adds. */
+MOTE_CLONES
+static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANES],
+                       float moved[3][MOTE_LANES], uint32_t first,
+                       mote_cert_hull *restrict hull)
+{
+    for (size_t r = 0; r < 3; ++r) {
+        const float a = side->rotation[r][0];
+        const float b = side->rotation[r][1];
+        const float c = side->rotation[r][2];
+        const float t = side->translation[r];
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l)
+            hull->x[r][first + l] =
+                (t + (a * p[0][l] + b * p[1][l] + c * p[2][l])) + moved[r][l];
+    }
+}
+
+const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
+                                               size_t lane)
+{
+    const mote_cert_tree *tree = side->tree;
+    const mote_body *body = tree->body;
+    const mote_cert_block *block = node->block;
+    const mote_cert_leaf *leaf = leaf_of(tree, node, lane);
+    mote_cert_hull *hull = &side->hulls[(uint32_t)~block->child[lane] % MOTE_CERT_HULLS];
+    if (body->field->count > 0 && !body->field->kind->estimate)
+        return NULL;
+    if (hull->leaf == leaf)
+        return hull;
+    float factor = 0;
+    hull->leaf = leaf;
+    hull->groups = mote_cert_group_count(leaf);
+    for (uint32_t first = 0; first < leaf->vertex_count; first += MOTE_LANES) {
+        uint32_t v[MOTE_LANES];
+        float p[3][MOTE_LANES], moved[3][MOTE_LANES] = {{0}};
+        take_group(tree, leaf, first, v, p);
+        if (block->active_count > 0) {
+            const float f = body->field->kind->estimate(
+                body->field, body->mesh, v, tree->active + block->first_active,
+                block->active_count, side->single, moved);
+            factor = f > factor ? f : factor;
+        }
+        move_group(side, p, moved, first, hull);
+    }
+    for (size_t r = 0; r < 3; ++r)
+        hull->width[r] = side->leaf_margin + (factor + 0x1p-22F) * side->single_sum[r];
+    return hull;
+}
+
+/* The exact coordinate of a vertex towards the other body. */
+static double exact_reach(mote_certificate *c, int s, uint32_t vertex)
+{
+    mote_cert_side *side = &c->side[s];
+    const mote_vec3 p = mote_lazy_position(&side->lazy, vertex);
+    return mote_dot(mote_sub(p, c->origin), side->facing) * c->scale;
+}
+
+/* Where the field is linear in the box, a vertex at z reaches middle + sum_k z_k slant_k; what
+   it is not is in `loose`. Only vertices that this leaves in doubt are evaluated. */
+bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node, size_t lane,
+                          double *reach)
+{
+    const mote_cert_side *side = &c->side[s];
+    const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
+    float at[MOTE_CERT_LEAF_VERTICES], slant[3];
+    float size = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        slant[k] = node->slant[k][lane] * UNIT;
+        size += fabsf(node->slant[k][lane]);
+    }
+    const double most =
+        (double)place_along(side->tree->groups + leaf->first_group, mote_cert_group_count(leaf),
+                            node->middle[lane], slant, at);
+    const double loose =
+        (double)(node->loose[lane] + (side->leaf_margin + size * PLACE_ROUNDING));
+    *reach = most + loose;
+    if (*reach <= side->threshold)
+        return true;
+    if (most - loose > side->threshold)
+        return false;
+    const uint32_t *vertices = side->tree->leaf_vertices + leaf->first_vertex;
+    const float doubtful = (float)(side->threshold - loose) - side->leaf_margin;
+    double farthest = side->threshold;
+    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
+        if (at[i] <= doubtful)
+            continue;
+        const double exact = exact_reach(c, s, vertices[i]);
+        if (exact > side->threshold + c->noise)
+            return false;
+        farthest = exact > farthest ? exact : farthest;
+    }
+    *reach = farthest;
+    return true;
+}
