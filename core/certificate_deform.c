@@ -167,7 +167,18 @@ static void project_block(const mote_cert_side *restrict side,
         axis2[l] +=
             block->half[2][0][l] * x + block->half[2][1][l] * y + block->half[2][2][l] * z;
         const float loose = width[l] + margin;
-        const float half = fabsf(axis0[l]) + fabsf(axis1[l]) + fabsf(axis2[l]) + loose;
+        const float size0 = fabsf(axis0[l]);
+        const float size1 = fabsf(axis1[l]);
+        const float size2 = fabsf(axis2[l]);
+        const float empty01 = (float)mote_cert_cut_of(block->cut[0][l], axis0[l], axis1[l]) *
+                              (size0 < size1 ? size0 : size1);
+        const float empty02 = (float)mote_cert_cut_of(block->cut[1][l], axis0[l], axis2[l]) *
+                              (size0 < size2 ? size0 : size2);
+        const float empty12 = (float)mote_cert_cut_of(block->cut[2][l], axis1[l], axis2[l]) *
+                              (size1 < size2 ? size1 : size2);
+        const float empty0 = empty01 > empty02 ? empty01 : empty02;
+        const float empty = (empty0 > empty12 ? empty0 : empty12) * (1.0F / 255);
+        const float half = ((size0 + size1 + size2) - empty) + loose;
         node->middle[l] = middle[l];
         node->slant[0][l] = axis0[l];
         node->slant[1][l] = axis1[l];

@@ -110,6 +110,38 @@ void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3
     box_coordinates(box, inverse, x, z);
 }
 
+void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                           const mote_cert_box *box, int32_t cut[3])
+{
+    static const int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    double inverse[3];
+    double most[3][4];
+    inverse_squares(box, inverse);
+    for (int k = 0; k < 12; ++k)
+        most[k / 4][k % 4] = -2;
+    for (size_t i = 0; i < count; ++i) {
+        double z[3];
+        box_coordinates(box, inverse, mote_cert_tree_position(tree, vertices[i]), z);
+        for (int k = 0; k < 3; ++k) {
+            const double a = z[axes[k][0]];
+            const double b = z[axes[k][1]];
+            const double sums[4] = {a + b, a - b, b - a, -a - b};
+            for (int q = 0; q < 4; ++q)
+                most[k][q] = sums[q] > most[k][q] ? sums[q] : most[k][q];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        uint32_t word = 0;
+        for (int q = 0; q < 4; ++q) {
+            const double empty = 2 - most[k][q];
+            /* a little less: what floats may add when it is used */
+            const double whole = floor((empty < 1 ? empty : 1) * 255 - 0.01);
+            word |= (whole > 0 ? (uint32_t)whole : 0) << (8 * q);
+        }
+        cut[k] = (int32_t)word;
+    }
+}
+
 /* What the rounding of the box's centre and axes leaves outside: measured, not estimated. */
 static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                          const mote_cert_box *box)

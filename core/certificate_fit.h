@@ -29,6 +29,10 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
 /* z of a vertex in a box, held within -1 .. 1. */
 void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3]);
 
+/* The corners of a box that its vertices leave empty, by pair of axes: see mote_cert_cut_of. */
+void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                           const mote_cert_box *box, int32_t cut[3]);
+
 /* The slopes of every basis function over the vertices of a box, by least squares. phi holds
    MOTE_FIELD_MAX doubles. */
 void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,

@@ -206,15 +206,14 @@ static int32_t add_leaf(builder *b, range r, uint32_t vertex_count, const mote_c
     if (!vertices)
         return -1;
     tree->leaf_vertices = vertices;
-    const uint32_t first_group = tree->group_count;
-    if (!add_groups(b, box, vertex_count))
-        return -1;
     tree->leaves[tree->leaf_count] =
         (mote_cert_leaf){.first_vertex = tree->leaf_vertex_count,
                          .first_corner = b->corner_count,
-                         .first_group = first_group,
+                         .first_group = tree->group_count,
                          .vertex_count = (uint8_t)vertex_count,
                          .triangle_count = (uint8_t)(r.end - r.begin)};
+    if (!add_groups(b, box, vertex_count))
+        return -1;
     memcpy(tree->leaf_vertices + tree->leaf_vertex_count, b->list,
            vertex_count * sizeof(uint32_t));
     tree->leaf_vertex_count += vertex_count;
@@ -249,7 +248,8 @@ static uint32_t split_levels(builder *b, range whole, uint32_t levels,
     return count;
 }
 
-static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box *box)
+static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box *box,
+                      const int32_t cut[3])
 {
     block->centre[0][lane] = (float)box->centre.x;
     block->centre[1][lane] = (float)box->centre.y;
@@ -258,6 +258,7 @@ static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box
         block->half[k][0][lane] = (float)box->half[k].x;
         block->half[k][1][lane] = (float)box->half[k].y;
         block->half[k][2][lane] = (float)box->half[k].z;
+        block->cut[k][lane] = cut[k];
     }
 }
 
@@ -347,8 +348,6 @@ static void append_rows(builder *b, const draft *d, mote_cert_block *block)
     }
 }
 
-static int32_t build_block(builder *b, range whole, uint32_t depth);
-
 /* Boxes of all parts, and the slopes of the functions over them. */
 static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d,
                         mote_cert_block *block)
@@ -358,7 +357,9 @@ static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d
     for (uint32_t lane = 0; lane < count; ++lane) {
         const uint32_t vertices = list_vertices(b, parts[lane]);
         d->box[lane] = mote_cert_box_of(tree, b->list, vertices);
-        store_box(block, lane, &d->box[lane]);
+        int32_t cut[3];
+        mote_cert_cut_corners(tree, b->list, vertices, &d->box[lane], cut);
+        store_box(block, lane, &d->box[lane], cut);
         if (functions == 0 || !b->options.linear_fits)
             continue;
         mote_cert_fit_slopes(tree, b->list, vertices, &d->box[lane], b->phi, &b->fit);
@@ -508,22 +509,21 @@ static uint32_t levels_of(uint32_t triangles)
 }
 
 /* Gives back what growing left over; a failure to shrink does no harm. */
+static void *shrunk(void *array, size_t count, size_t size)
+{
+    void *moved = count > 0 ? realloc(array, count * size) : NULL;
+    return moved ? moved : array;
+}
+
 static void shrink(mote_cert_tree *tree)
 {
-    void *blocks = realloc(tree->blocks, tree->block_count * sizeof *tree->blocks);
-    tree->blocks = blocks ? blocks : tree->blocks;
-    void *leaves = realloc(tree->leaves, tree->leaf_count * sizeof *tree->leaves);
-    tree->leaves = leaves ? leaves : tree->leaves;
-    void *vertices = realloc(tree->leaf_vertices, tree->leaf_vertex_count * sizeof(uint32_t));
-    tree->leaf_vertices = vertices ? vertices : tree->leaf_vertices;
-    void *groups = realloc(tree->groups, tree->group_count * sizeof *tree->groups);
-    tree->groups = groups ? groups : tree->groups;
-    if (tree->row_count == 0)
-        return;
-    void *rows = realloc(tree->rows, tree->row_count * sizeof *tree->rows);
-    tree->rows = rows ? rows : tree->rows;
-    void *active = realloc(tree->active, tree->row_count);
-    tree->active = active ? active : tree->active;
+    tree->blocks = shrunk(tree->blocks, tree->block_count, sizeof *tree->blocks);
+    tree->leaves = shrunk(tree->leaves, tree->leaf_count, sizeof *tree->leaves);
+    tree->leaf_vertices =
+        shrunk(tree->leaf_vertices, tree->leaf_vertex_count, sizeof(uint32_t));
+    tree->groups = shrunk(tree->groups, tree->group_count, sizeof *tree->groups);
+    tree->rows = shrunk(tree->rows, tree->row_count, sizeof *tree->rows);
+    tree->active = shrunk(tree->active, tree->row_count, 1);
 }
 
 static mote_status build(builder *b)
@@ -534,8 +534,7 @@ static mote_status build(builder *b)
         return b->status;
     scale_basis(b);
     place_triangles(b);
-    const range whole = {0, mesh->triangle_count, levels_of(mesh->triangle_count)};
-    build_block(b, whole, 1);
+    build_block(b, (range){0, mesh->triangle_count, levels_of(mesh->triangle_count)}, 1);
     if (b->status == MOTE_OK)
         shrink(b->tree);
     return b->status;

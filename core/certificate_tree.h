@@ -56,6 +56,7 @@ static inline int32_t mote_cert_word(int32_t below, int32_t above)
 typedef struct mote_cert_block {
     float centre[3][MOTE_CERT_WIDTH];
     float half[3][3][MOTE_CERT_WIDTH]; /* [axis, longest first][coordinate][child] */
+    int32_t cut[3][MOTE_CERT_WIDTH];   /* [pair of axes: 01, 02, 12]: see mote_cert_cut_of */
     int32_t child[MOTE_CERT_WIDTH];    /* >= 0: a block; < 0: the leaf ~child */
     uint32_t first_row;                /* its rows, one for each of its basis functions */
     uint32_t first_active;             /* which these are, in ascending order */
@@ -117,6 +118,17 @@ void mote_cert_tree_destroy(mote_cert_tree *tree);
 
 /* Bytes of heap that a tree holds. */
 size_t mote_cert_tree_bytes(const mote_cert_tree *tree);
+
+/* Corners of a box that are empty. For axes i < j and signs s, t let d be the largest
+   s z_i + t z_j of the vertices; 2 - d, held within 0 .. 1, is stored rounded down to a whole
+   number of 255ths, in one byte of a word for each pair of signs: ++ lowest, then +-, -+, --.
+   For any a, b of these signs, a z_i + b z_j <= |a| + |b| - (2 - d) min(|a|, |b|). */
+static inline int32_t mote_cert_cut_of(int32_t word, float a, float b)
+{
+    const int32_t half = a < 0 ? word >> 16 : word;
+    const int32_t byte = b < 0 ? half >> 8 : half;
+    return byte & 255;
+}
 
 /* Groups of a leaf's vertices. */
 static inline uint32_t mote_cert_group_count(const mote_cert_leaf *leaf)
