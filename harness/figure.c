@@ -157,6 +157,11 @@ mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part par
     return MOTE_OK;
 }
 
+bool mote_figure_has_error(const mote_summary_row *row)
+{
+    return row->error.p99 == row->error.p99;
+}
+
 double mote_figure_length(const mote_summary_row *row)
 {
     const double length = mote_stored_number(row->first, "length");

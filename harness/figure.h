@@ -97,6 +97,15 @@ typedef enum mote_figure_part {
 mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
                                double *values);
 
+/* Whether a row tells distances, and so has an error. */
+bool mote_figure_has_error(const mote_summary_row *row);
+
+/* Appends "value low high ": a quantile of the absolute error, which the row knows over all
+   replicates, and its 95 % interval over replicates, t's, widened to hold the value and cut to
+   0; the value itself where there are too few. */
+mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
+                                 mote_text *text);
+
 /* L of the pair of a stored cell; 1 where the file has none. */
 double mote_figure_length(const mote_summary_row *row);
 

@@ -1,4 +1,4 @@
-/* Figures of error: against speed (4), over n (5), over frames (12). */
+/* Figures of error: over n (5), over frames (12). */
 #include "harness/figure.h"
 #include "harness/front.h"
 
@@ -7,9 +7,6 @@
 
 /* At most this many replicates of a row take part in an interval. */
 #define REPLICATES_MAX 64
-
-/* Errors up to here are drawn as exact in a front: as plots/front.gp has it. */
-#define FRONT_FLOOR 1e-5
 
 static int ascending(const void *a, const void *b)
 {
@@ -55,9 +52,8 @@ static mote_confidence interval_of(const double *values, size_t count, double va
     return found;
 }
 
-/* "value low high " of a quantile of the error; value is that over all replicates. */
-static mote_status add_quantile(const mote_summary_row *row, double fraction, double value,
-                                mote_text *text)
+mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
+                                 mote_text *text)
 {
     double values[REPLICATES_MAX];
     size_t count = 0;
@@ -95,139 +91,16 @@ static void add_missed(const mote_summary_row *row, mote_text *text)
     mote_text_add(text, "%.17g %.17g %.17g", mean, interval.low, interval.high);
 }
 
-static bool has_error(const mote_summary_row *row)
-{
-    return row->error.p99 == row->error.p99;
-}
-
-/* Where n was last written beside a curve: decades of time and error. */
-typedef struct place {
-    double x, y;
-} place;
-
-/* Whether n has room: is away from the last place, which it then becomes. */
-static bool has_room(const mote_summary_row *row, place *last)
-{
-    const place here = {log10(row->total.median), log10(fmax(row->error.p99, FRONT_FLOOR))};
-    if (fabs(here.x - last->x) < 0.14 && fabs(here.y - last->y) < 0.25)
-        return false;
-    *last = here;
-    return true;
-}
-
-/* One point of the front: n, median total in us and interval, 99th percentile and interval. */
-static mote_status add_point(const mote_summary_row *row, place *last, mote_text *text)
-{
-    const mote_time *time = &row->total;
-    const bool interval = time->low == time->low;
-    if (row->n == row->n && has_room(row, last))
-        mote_text_add(text, "%.0f ", row->n);
-    else
-        mote_text_add(text, "\"\" ");
-    mote_text_add(text, "%.17g %.17g %.17g ", time->median * 1e-3,
-                  (interval ? time->low : time->median) * 1e-3,
-                  (interval ? time->high : time->median) * 1e-3);
-    const mote_status status = add_quantile(row, 0.99, row->error.p99, text);
-    mote_text_add(text, "\n");
-    return status;
-}
-
-static mote_status add_family(const mote_summary *summary, const char *scenario,
-                              const char *family, mote_text *text)
-{
-    mote_status status = MOTE_OK;
-    place last = {HUGE_VAL, HUGE_VAL};
-    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        char other[MOTE_FIGURE_FAMILY];
-        mote_front_title(row, other, sizeof other);
-        if (strcmp(family, other) == 0 && has_error(row) &&
-            mote_figure_shows(summary, row, scenario))
-            status = add_point(row, &last, text);
-    }
-    return status;
-}
-
-/* The families that have names in a front; the others are points without. */
-static const char *const front_families[] = {"particle-paper:refine=no",
-                                             "particle-paper",
-                                             "particle-paper:refine=always",
-                                             "particle",
-                                             "certified",
-                                             "fcl-aabb",
-                                             "fcl-aabb:queue=64,seed=previous",
-                                             "fcl-obbrss",
-                                             "fcl-obb",
-                                             "aabb-tree",
-                                             "hybrid-fcl"};
-enum { FRONT_FAMILIES = sizeof front_families / sizeof front_families[0] };
-
-static bool is_named(const char *family)
-{
-    for (int i = 0; i < FRONT_FAMILIES; ++i) {
-        if (strcmp(front_families[i], family) == 0)
-            return true;
-    }
-    return false;
-}
-
-/* All other families, in one block. */
-static mote_status add_others(const mote_summary *summary, const char *scenario,
-                              mote_text *text)
-{
-    mote_status status = MOTE_OK;
-    bool begun = false;
-    place last = {HUGE_VAL, HUGE_VAL};
-    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        char family[MOTE_FIGURE_FAMILY];
-        mote_front_title(row, family, sizeof family);
-        if (is_named(family) || !has_error(row) || !mote_figure_shows(summary, row, scenario))
-            continue;
-        if (!begun)
-            mote_figure_block(text, "others");
-        begun = true;
-        status = add_point(row, &last, text);
-        mote_text_add(text, "\n"); /* no line joins it to the next */
-    }
-    return status;
-}
-
-mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
-                              mote_figure *figure)
-{
-    const mote_summary *summary = run->summary;
-    mote_status status = MOTE_OK;
-    for (int i = 0; i < FRONT_FAMILIES && status == MOTE_OK; ++i) {
-        const mote_summary_row *row = mote_figure_near(summary, scenario, front_families[i], 8);
-        if (!row || !has_error(row))
-            continue;
-        mote_figure_block(&figure->data, front_families[i]);
-        status = add_family(summary, scenario, front_families[i], &figure->data);
-    }
-    if (status == MOTE_OK)
-        status = add_others(summary, scenario, &figure->data);
-    if (figure->data.size == 0)
-        mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
-    mote_text_add(&figure->caption,
-                  "Speed against error on %s: median time of a query, deformation and refit "
-                  "included, and 99th percentile of the absolute error, each with its 95 %% "
-                  "interval over processes; a line a method, the number of particles beside "
-                  "its points.",
-                  scenario);
-    return status;
-}
-
 /* One line of Figure 5: n, then median, 95th and 99th percentile and share missed, each with
    its interval. */
 static mote_status add_errors(const mote_summary_row *row, mote_text *text)
 {
     mote_text_add(text, "%.0f ", row->n);
-    mote_status status = add_quantile(row, 0.5, row->error.median, text);
+    mote_status status = mote_figure_quantile(row, 0.5, row->error.median, text);
     if (status == MOTE_OK)
-        status = add_quantile(row, 0.95, row->error.p95, text);
+        status = mote_figure_quantile(row, 0.95, row->error.p95, text);
     if (status == MOTE_OK)
-        status = add_quantile(row, 0.99, row->error.p99, text);
+        status = mote_figure_quantile(row, 0.99, row->error.p99, text);
     add_missed(row, text);
     mote_text_add(text, "\n");
     return status;
@@ -244,7 +117,7 @@ static mote_status add_series(const mote_summary *summary, const char *scenario,
         const mote_summary_row *row = &summary->rows[i];
         char other[MOTE_FIGURE_FAMILY];
         mote_front_title(row, other, sizeof other);
-        if (strcmp(other, family) != 0 || row->n != row->n || !has_error(row) ||
+        if (strcmp(other, family) != 0 || row->n != row->n || !mote_figure_has_error(row) ||
             !mote_figure_shows(summary, row, scenario))
             continue;
         if (!begun)
@@ -311,7 +184,7 @@ mote_status mote_figure_history(const mote_figure_run *run, const char *scenario
     for (size_t s = 0; s < sizeof series / sizeof series[0]; ++s) {
         const mote_summary_row *row =
             mote_figure_near(run->summary, scenario, series[s].family, series[s].n);
-        if (!row || !has_error(row))
+        if (!row || !mote_figure_has_error(row))
             continue;
         char title[64];
         (void)snprintf(title, sizeof title, "%s, n = %.0f", series[s].title, row->n);

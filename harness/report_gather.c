@@ -44,23 +44,42 @@ static mote_status read_json(mote_report *report, const char *name, const char *
     return add_missing(report, mote_format("%s: %s", name, mote_error_text()));
 }
 
-/* The rows: from the cells, or else as they were stored. */
+/* A line of what is missing for each line of text. */
+static mote_status add_lines(mote_report *report, const char *text)
+{
+    mote_status status = MOTE_OK;
+    while (text && *text && status == MOTE_OK) {
+        text += strncmp(text, "mote: ", 6) == 0 ? 6 : 0;
+        size_t length = strcspn(text, "\n");
+        if (length > 0)
+            status = add_missing(report, mote_format("a cell: %.*s", (int)length, text));
+        text += length + (text[length] ? 1 : 0);
+    }
+    return status;
+}
+
+/* The rows: from the cells that can be read, or else as they were stored. */
 static mote_status read_rows(mote_report *report)
 {
-    mote_status status = mote_summary_make(report->directory, &report->cells);
-    if (status == MOTE_ENOMEM)
-        return status;
-    if (status == MOTE_OK) {
-        if (report->cells.count > 0) {
-            report->has_cells = true;
-            report->summary = mote_summary_json(&report->cells);
-            return report->summary ? MOTE_OK : no_memory();
-        }
-        mote_summary_free(&report->cells);
-        (void)mote_fail(MOTE_EIO, "no cell is there; `mote run --out %s` measures some",
-                        report->directory);
+    mote_text damaged = {0};
+    mote_status status = mote_summary_make_whole(report->directory, &damaged, &report->cells);
+    const bool made = status == MOTE_OK;
+    if (made && damaged.size > 0)
+        status = add_lines(report, damaged.data);
+    free(damaged.data);
+    if (made && report->cells.count > 0) {
+        report->has_cells = true;
+        report->summary = mote_summary_json(&report->cells);
+        return status != MOTE_OK || report->summary ? status : no_memory();
     }
-    status = add_missing(report, mote_format("cells: %s", mote_error_text()));
+    if (made)
+        mote_summary_free(&report->cells);
+    if (made && status == MOTE_OK)
+        status = add_missing(report, mote_format("cells: none that can be read; `mote run "
+                                                 "--out %s` measures some",
+                                                 report->directory));
+    else if (status != MOTE_ENOMEM)
+        status = add_missing(report, mote_format("cells: %s", mote_error_text()));
     if (status != MOTE_OK)
         return status;
     return read_json(report, "summary.json", "`mote summarize` writes it from the cells",

@@ -200,6 +200,10 @@ static void add_caption(const mote_report *report, size_t first, size_t end, mot
                   mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]),
                   mote_show_whole(frames, shown[2]), replicates, replicates == 1 ? "" : "s");
     mote_escape_html(text, mote_report_text(row, "cache"));
+    if (report->has_cells && mote_summary_machines_differ(&report->cells)) {
+        mote_text_add(text, ", on ");
+        mote_escape_html(text, mote_report_text(row, "machine"));
+    }
     mote_text_add(text, "</span></h3>\n");
 }
 

@@ -168,6 +168,10 @@ static void add_block(const mote_report *report, size_t first, size_t end, mote_
     mote_escape_markdown(text, mote_report_text(row, "scenario"));
     mote_text_add(text, ", caches ");
     mote_escape_markdown(text, mote_report_text(row, "cache"));
+    if (report->has_cells && mote_summary_machines_differ(&report->cells)) {
+        mote_text_add(text, ", on ");
+        mote_escape_markdown(text, mote_report_text(row, "machine"));
+    }
     mote_text_add(text, ": %s and %s triangles\n\n",
                   mote_show_whole(json_number_value(json_array_get(triangles, 0)), shown[0]),
                   mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]));

@@ -62,7 +62,8 @@ const char *mote_report_text(const json_t *row, const char *key)
 bool mote_report_same_block(const json_t *a, const json_t *b)
 {
     return strcmp(mote_report_text(a, "scenario"), mote_report_text(b, "scenario")) == 0 &&
-           strcmp(mote_report_text(a, "cache"), mote_report_text(b, "cache")) == 0;
+           strcmp(mote_report_text(a, "cache"), mote_report_text(b, "cache")) == 0 &&
+           strcmp(mote_report_text(a, "machine"), mote_report_text(b, "machine")) == 0;
 }
 
 size_t mote_report_block_end(const mote_report *report, size_t first)

@@ -29,7 +29,7 @@ double mote_report_number(const json_t *row, const char *object, const char *key
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 
-/* Whether two rows stand in one table: one scenario, one state of caches. */
+/* Whether two rows stand in one table: one scenario, state of caches and machine. */
 bool mote_report_same_block(const json_t *a, const json_t *b);
 
 /* One after the last row of the block that starts at row first. */

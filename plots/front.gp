@@ -1,6 +1,7 @@
 # Speed against error on one scenario: a point is a configuration, a line the configurations of a
 # method that differ in n only, with n beside. Blocks of BASE.dat are such lines, the last one may be
-# "others": n, median total in us and its interval, 99th percentile of the error in L and its.
+# "others": n, median total in us and its interval, 99th percentile of the error in L and its, and
+# where n stands.
 high = 480
 load plots."/style.gp"
 stats data using 2 nooutput
@@ -16,7 +17,8 @@ set format y "10^{%L}"
 set ytics add ("exact" floor_error)
 set xlabel "median total time of a query, µs"
 set ylabel "error, 99th percentile, L"
-set yrange [floor_error / 3 : 2]
+set xrange [STATS_min / 3:STATS_max * 3]
+set yrange [floor_error / 3:2]
 set grid x y lc rgb "#d5d5d5" lw 1
 set lmargin at screen 0.15
 set rmargin at screen 0.97
@@ -29,13 +31,9 @@ array colour[12] = [orange, blue, "#5aa9a0", dark, "#8a2f1c", grey, "#a8a035", "
     "#c05030", "#2f6f3a", "#aaaaaa"]
 array shape[12] = [7, 5, 9, 13, 3, 6, 4, 8, 12, 11, 10, 1]
 
-# Apart where two methods lie upon each other.
-array right[12] = [-0.9, 0.8, 0.9, 0.1, 0, 0, 0, 0, 0, 0, 0.1, 0.8]
-array above[12] = [-0.7, 0.6, 0.3, -0.9, 0, 0, 0, 0, 0, 0, 0.8, 0.6]
-
 plot for [i=0:blocks-1] data index i using 2:(shown($5)):3:4:(shown($6)):(shown($7)) with xyerrorbars \
          pt 0 lw 0.6 lc rgb colour[i+1] notitle, \
      for [i=0:blocks-1] data index i using 2:(shown($5)) with linespoints pt shape[i+1] ps 0.9 lw 1.5 \
          lc rgb colour[i+1] title columnheader(1), \
-     for [i=0:blocks-1] data index i using 2:(shown($5)):1 with labels \
-         offset right[i+1],above[i+1] font ",10" textcolor rgb colour[i+1] notitle
+     for [i=0:blocks-1] data index i using 8:9:1 with labels font ",10" \
+         textcolor rgb colour[i+1] notitle

@@ -4,13 +4,15 @@ high = 430
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
+stats data using 3 nooutput
+lowest = STATS_min
 
 set logscale y
 set xlabel "frame"
 set ylabel "times as fast as the best FCL"
 set format y "%g"
 set ytics (0.1, 1, 10, 100, 1000, 10000, 100000)
-set yrange [*<0.5:*]
+set yrange [lowest < 0.5 ? lowest : 0.5:*]
 set lmargin at screen 0.15
 set rmargin at screen 0.95
 set bmargin at screen 0.29

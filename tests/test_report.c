@@ -227,6 +227,21 @@ static void report_of_a_broken_cell_names_it(void **state)
     assert_non_null(strstr(page, "cells/a.json:"));
 }
 
+static void report_of_a_run_with_a_broken_cell_shows_the_others(void **state)
+{
+    (void)state;
+    char cells[128], path[256];
+    (void)snprintf(cells, sizeof cells, "%s/cells", run_directory);
+    (void)snprintf(path, sizeof path, "%s/zz.json", cells);
+    write_file(cells, "zz.json", "{\"id\": \n");
+    int status = report(run_directory);
+    read_page("report.html");
+    (void)unlink(path);
+    assert_int_equal(status, 0);
+    assert_non_null(strstr(page, "zz.json:"));
+    assert_non_null(strstr(page, "particle-paper:n=2</a>"));
+}
+
 static void report_of_nothing_fails_with_4(void **state)
 {
     (void)state;
@@ -335,6 +350,7 @@ int main(void)
         cmocka_unit_test(report_html_loads_nothing),
         cmocka_unit_test(report_of_what_is_missing_names_it),
         cmocka_unit_test(report_of_a_broken_cell_names_it),
+        cmocka_unit_test(report_of_a_run_with_a_broken_cell_shows_the_others),
         cmocka_unit_test(report_of_nothing_fails_with_4),
         cmocka_unit_test(escape_path_leaves_no_scheme_and_no_quote),
         cmocka_unit_test(escape_html_keeps_lines_and_drops_controls),

@@ -1,0 +1,190 @@
+/* Figure 4: speed against error, n beside the curves where there is room. */
+#include "harness/figure.h"
+#include "harness/front.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* As plots/front.gp has it: errors up to here are drawn as exact, the axes' ends beyond the
+   first and last point, and their length in its units. */
+#define FLOOR 1e-5
+#define BEYOND_X 3.0
+#define LOWEST_Y (FLOOR / 3)
+#define HIGHEST_Y 2.0
+#define WIDTH 459.0
+#define HEIGHT 269.0
+
+/* Half of what a digit of n, a whole n and a point take, in the same units. */
+#define HALF_DIGIT 3.5
+#define HALF_LINE 6.0
+#define HALF_POINT 4.0
+
+/* A place of the picture in its units. */
+typedef struct place {
+    double x, y, half_width, half_height;
+} place;
+
+/* What is already there. */
+typedef struct canvas {
+    double low_x, per_x, per_y; /* log10 of nanoseconds at the left, units a decade */
+    place *taken;
+    size_t count;
+} canvas;
+
+/* The families that have names in a front; the others are points without. */
+static const char *const front_families[] = {"particle-paper:refine=no",
+                                             "particle-paper",
+                                             "particle-paper:refine=always",
+                                             "particle",
+                                             "certified",
+                                             "fcl-aabb",
+                                             "fcl-aabb:queue=64,seed=previous",
+                                             "fcl-obbrss",
+                                             "fcl-obb",
+                                             "aabb-tree",
+                                             "hybrid-fcl"};
+enum { FRONT_FAMILIES = sizeof front_families / sizeof front_families[0] };
+
+static bool is_named(const char *family)
+{
+    for (int i = 0; i < FRONT_FAMILIES; ++i) {
+        if (strcmp(front_families[i], family) == 0)
+            return true;
+    }
+    return false;
+}
+
+static place place_of(const canvas *c, const mote_summary_row *row)
+{
+    const double error = row->error.p99 > FLOOR ? row->error.p99 : FLOOR;
+    const place made = {(log10(row->total.median) - c->low_x) * c->per_x,
+                        (log10(error) - log10(LOWEST_Y)) * c->per_y, HALF_POINT, HALF_POINT};
+    return made;
+}
+
+static bool is_point(const mote_summary *summary, const mote_summary_row *row,
+                     const char *scenario)
+{
+    return mote_figure_has_error(row) && row->total.median > 0 &&
+           mote_figure_shows(summary, row, scenario);
+}
+
+/* Finds the axes and takes the places of all points; the caller frees c->taken. */
+static mote_status open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
+{
+    double low = HUGE_VAL, high = 0;
+    memset(c, 0, sizeof *c);
+    c->taken = calloc(2 * summary->count + 1, sizeof *c->taken);
+    if (!c->taken)
+        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    for (size_t i = 0; i < summary->count; ++i) {
+        if (!is_point(summary, &summary->rows[i], scenario))
+            continue;
+        low = fmin(low, summary->rows[i].total.median);
+        high = fmax(high, summary->rows[i].total.median);
+    }
+    c->low_x = log10(low / BEYOND_X);
+    c->per_x = WIDTH / (log10(high * BEYOND_X) - c->low_x);
+    c->per_y = HEIGHT / (log10(HIGHEST_Y) - log10(LOWEST_Y));
+    for (size_t i = 0; i < summary->count; ++i) {
+        if (is_point(summary, &summary->rows[i], scenario))
+            c->taken[c->count++] = place_of(c, &summary->rows[i]);
+    }
+    return MOTE_OK;
+}
+
+static bool is_free(const canvas *c, const place *wanted)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        const place *other = &c->taken[i];
+        if (fabs(other->x - wanted->x) < other->half_width + wanted->half_width &&
+            fabs(other->y - wanted->y) < other->half_height + wanted->half_height)
+            return false;
+    }
+    return true;
+}
+
+/* Finds room for n beside a point, and takes it; false where there is none. */
+static bool find_room(canvas *c, const mote_summary_row *row, place *found)
+{
+    static const double sides[][2] = {{1, 1}, {-1, -1}, {1, -1}, {-1, 1}, {0, 1}, {0, -1}};
+    const place point = place_of(c, row);
+    const double half = (row->n < 10 ? 1 : row->n < 100 ? 2 : 3) * HALF_DIGIT;
+    for (size_t k = 0; k < sizeof sides / sizeof sides[0]; ++k) {
+        const place wanted = {point.x + sides[k][0] * (half + HALF_POINT + 0.5),
+                              point.y + sides[k][1] * (HALF_LINE + HALF_POINT + 0.5), half,
+                              HALF_LINE};
+        if (!is_free(c, &wanted))
+            continue;
+        c->taken[c->count++] = wanted;
+        *found = wanted;
+        return true;
+    }
+    return false;
+}
+
+/* One point: n or nothing, median total in us and its interval, 99th percentile and its, where
+   n stands. */
+static mote_status add_point(canvas *c, const mote_summary_row *row, bool named,
+                             mote_text *text)
+{
+    const mote_time *time = &row->total;
+    const bool interval = time->low == time->low;
+    place at = place_of(c, row);
+    if (named && row->n == row->n && find_room(c, row, &at))
+        mote_text_add(text, "%.0f ", row->n);
+    else
+        mote_text_add(text, "\"\" ");
+    mote_text_add(text, "%.17g %.17g %.17g ", time->median * 1e-3,
+                  (interval ? time->low : time->median) * 1e-3,
+                  (interval ? time->high : time->median) * 1e-3);
+    const mote_status status = mote_figure_quantile(row, 0.99, row->error.p99, text);
+    mote_text_add(text, "%.6g %.6g\n", pow(10, c->low_x + at.x / c->per_x) * 1e-3,
+                  LOWEST_Y * pow(10, at.y / c->per_y));
+    return status;
+}
+
+/* The block of a family, or, with family NULL, of all without a name: no line joins these. */
+static mote_status add_family(canvas *c, const mote_summary *summary, const char *scenario,
+                              const char *family, mote_text *text)
+{
+    mote_status status = MOTE_OK;
+    bool begun = false;
+    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        char title[MOTE_FIGURE_FAMILY];
+        mote_front_title(row, title, sizeof title);
+        const bool wanted = family ? strcmp(family, title) == 0 : !is_named(title);
+        if (!wanted || !is_point(summary, row, scenario))
+            continue;
+        if (!begun)
+            mote_figure_block(text, family ? family : "others");
+        begun = true;
+        status = add_point(c, row, family != NULL, text);
+        if (!family)
+            mote_text_add(text, "\n");
+    }
+    return status;
+}
+
+mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
+                              mote_figure *figure)
+{
+    canvas c;
+    mote_status status = open_canvas(run->summary, scenario, &c);
+    for (int i = 0; i < FRONT_FAMILIES && status == MOTE_OK; ++i)
+        status = add_family(&c, run->summary, scenario, front_families[i], &figure->data);
+    if (status == MOTE_OK)
+        status = add_family(&c, run->summary, scenario, NULL, &figure->data);
+    free(c.taken);
+    if (figure->data.size == 0)
+        mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
+    mote_text_add(
+        &figure->caption,
+        "Speed against error on %s: median time of a query, deformation and refit "
+        "included, and 99th percentile of the absolute error, each with its 95 %% "
+        "interval over processes; a line a method, the number of particles beside its "
+        "points where there is room.",
+        scenario);
+    return status;
+}
