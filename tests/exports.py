@@ -12,10 +12,13 @@ import random
 import subprocess
 import sys
 import tempfile
+import warnings
 
 import jsonschema
 import pandas
 from scipy.stats import mannwhitneyu
+
+warnings.simplefilter("ignore", RuntimeWarning)  # numpy: medians of rows without figures
 
 MOTE, MANN_WHITNEY, SCHEMAS = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
 RUN = ["run", "tt", "mv", "--frames", "401-460", "--replicates", "8", "--method", "fcl-aabb",
