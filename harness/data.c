@@ -19,7 +19,7 @@ const char *mote_data_directory(void)
     path[length > 0 ? length : 0] = '\0';
     char *slash = strrchr(path, '/');
     if (slash) {
-        (void)strcpy(slash, INSTALLED "/datasets");
+        memcpy(slash, INSTALLED "/datasets", sizeof INSTALLED "/datasets");
         if (access(path, R_OK) == 0)
             (void)snprintf(directory, sizeof directory, "%.*s%s", (int)(slash - path), path,
                            INSTALLED);

@@ -66,27 +66,24 @@ c++ -std=c++17 -Wall -Wextra -Werror use.cpp $(pkg-config --cflags --libs mote) 
 LD_LIBRARY_PATH=$library ./use || fail "a program in C++ finds no method"
 
 mkdir package
-cat > package/CMakeLists.txt <<'CMAKE'
-cmake_minimum_required(VERSION 3.25)
-project(tracker LANGUAGES C)
-find_package(mote 0.1 REQUIRED)
-add_executable(package-shared ../track.c)
-target_link_libraries(package-shared PRIVATE mote::mote)
-add_executable(package-static ../track.c)
-target_link_libraries(package-static PRIVATE mote::mote_static)
+cp track.c package
+"$tests/readme.sh" CMakeLists.txt > package/CMakeLists.txt
+cat >> package/CMakeLists.txt <<'CMAKE'
+add_executable(track-static track.c)
+target_link_libraries(track-static PRIVATE mote::mote_static)
 CMAKE
 cmake -S package -B package/build -DCMAKE_PREFIX_PATH="$root" -DCMAKE_C_STANDARD=17 \
     -DCMAKE_COMPILE_WARNING_AS_ERROR=ON > log
 cmake --build package/build > log || { cat log; exit 1; }
-package/build/package-shared > out-package-shared
-package/build/package-static > out-package-static
+package/build/track > out-package-shared
+package/build/track-static > out-package-static
 for way in shared static package-shared package-static; do
     cmp expected "out-$way" || fail "$way: another answer than expected"
 done
-for program in static package/build/package-static; do
+for program in static package/build/track-static; do
     ! ldd $program | grep -q libmote || fail "$program needs libmote.so"
 done
-for program in shared package/build/package-shared; do
+for program in shared package/build/track; do
     objdump -p $program | grep -q "NEEDED *$soname" || fail "$program does not ask for $soname"
 done
 echo "the README's program: pkg-config and find_package, shared and static, 8 frames as expected"

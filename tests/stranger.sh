@@ -16,22 +16,21 @@ readme core/sampled.c
 readme core/bend.c
 readme datasets/scenarios/bending.json
 
-make build > log 2>&1 || { tail -40 log; fail "the sources do not build with the files dropped in"; }
-if grep -n "warning:" log; then fail "the README's files have warnings"; fi
+readme commands
+bash -e commands > table 2> log || { tail -40 log table; fail "the README's commands fail"; }
+if grep -n "warning: " log | grep -v "machine is busy"; then fail "the README's files have warnings"; fi
+sed -n '/^bending:/,$p' table
 
 build/mote list methods | grep -q '^sampled: ' || fail "the method is not listed"
 build/mote list fields | grep -q '^bend: ' || fail "the field is not listed"
 build/mote list scenarios | grep -q '^bending ' || fail "the scenario is not listed"
-build/mote run bending --method sampled --method certified --method brute-force \
-    --replicates 1 --out run > table 2> log || { cat log; fail "the run failed"; }
-cat table
 for row in 'sampled ' 'certified ' 'brute-force '; do
     grep -q "^$row" table || fail "no row $row in the table"
 done
 
 # Exact methods agree on the bent body, whose distance is no constant; a sample of the vertices is
 # further apart than the surfaces, by some edges at most.
-build/mote summarize run --format csv > rows.csv
+build/mote summarize results/bending --format csv > rows.csv
 column() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) k = i; next }
     { gsub(/"/, ""); print $4, $k }' rows.csv; }
 column error_max | awk '
@@ -39,7 +38,7 @@ column error_max | awk '
     $1 == "sampled" { if ($2 <= 1e-6 || $2 > 0.2) exit 1; ++seen }
     END { if (seen != 3) exit 1 }' || { column error_max; fail "errors"; }
 # frame,deform_ns,update_ns,query_ns,distance,...
-sort -t, -k5,5g run/cells/bending-certified-*.csv | awk -F, '
+sort -t, -k5,5g results/bending/cells/bending-certified-r1-*.csv | awk -F, '
     $1 == "frame" { next } low == "" { low = $5 } { high = $5 }
     END { if (!(high - low > 0.1)) exit 1 }' || fail "the body does not bend"
 echo "a method, a field and a scenario from the README alone: built, run, in the table"
