@@ -6,18 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 3 to 5 particles decide; more, and a control, stand beside. */
-static bool is_told(const mote_dynamics_row *row)
+/* Approaches of 3 to 5 particles, which decide; of others, which stand beside. 0: left out. */
+static uint32_t approaches_of(const mote_dynamics_row *row, bool quick)
 {
-    if (row->law)
-        return strcmp(row->law, "log") == 0 && row->n >= 3;
-    return strncmp(row->method, "fcl", 3) != 0;
+    const bool decides = row->law && row->n >= 3 && row->n <= 5;
+    if (row->law ? !decides && row->n != 8 : strncmp(row->method, "fcl", 3) == 0)
+        return 0;
+    return decides && !quick ? 400 : 100;
 }
 
 mote_status mote_claim_closed_loop(mote_study *study, mote_claim *claim)
 {
     mote_dynamics_claim(claim);
-    const mote_dynamics_size size = {.quick = true, .approaches = study->quick ? 100 : 400};
+    const mote_dynamics_size size = {.quick = true};
     mote_dynamics_row *rows;
     size_t count;
     mote_status status = mote_dynamics_plan(&size, &rows, &count);
@@ -26,7 +27,8 @@ mote_status mote_claim_closed_loop(mote_study *study, mote_claim *claim)
     for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
         const mote_subject *subject;
         mote_dynamics_row *row = &rows[i];
-        if (!is_told(row))
+        row->wanted = approaches_of(row, study->quick);
+        if (row->wanted == 0)
             continue;
         status = mote_study_scene(study, row->scene, &subject);
         if (status == MOTE_OK)
