@@ -1,5 +1,6 @@
 #include "harness/study_dynamics.h"
 
+#include "harness/figure.h"
 #include "harness/measure.h"
 #include "harness/record.h"
 
@@ -20,7 +21,7 @@ typedef struct study {
     const char *directory;
     char program[20]; /* hash of the program, in hexadecimal digits */
     bool quick;
-    int lock; /* a file, a byte a row, locked while the row is measured */
+    int lock; /* a file; a byte that stands for a row is locked while it is measured */
     mote_dynamics_row *rows;
     size_t count;
     mote_scenario *scenario; /* loaded last */
@@ -103,12 +104,21 @@ static mote_status measure(study *s, mote_dynamics_row *row)
     return status;
 }
 
+/* The byte of the lock file that stands for a row, the same in every study of the directory.
+   Two rows with one byte would wait for each other, no more. */
+static off_t byte_of(const mote_dynamics_row *row)
+{
+    char name[160];
+    (void)snprintf(name, sizeof name, "%s %s", row->scene, row->method);
+    return (off_t)(mote_figure_hash(MOTE_FIGURE_HASH, name, strlen(name)) & 0x7fffffff);
+}
+
 /* Locks or unlocks a row's byte against other processes; false: somebody has it, or an error.
  */
-static bool lock_row(const study *s, size_t index, int command, short type)
+static bool lock_row(const study *s, const mote_dynamics_row *row, int command, short type)
 {
     struct flock lock = {
-        .l_type = type, .l_whence = SEEK_SET, .l_start = (off_t)index, .l_len = 1};
+        .l_type = type, .l_whence = SEEK_SET, .l_start = byte_of(row), .l_len = 1};
     int status;
     do
         status = fcntl(s->lock, command, &lock);
@@ -122,14 +132,14 @@ static mote_status measure_rows(study *s, bool wait)
 {
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < s->count && status == MOTE_OK; ++i) {
-        if (!lock_row(s, i, wait ? F_SETLKW : F_SETLK, F_WRLCK)) {
+        if (!lock_row(s, &s->rows[i], wait ? F_SETLKW : F_SETLK, F_WRLCK)) {
             if (wait)
                 status = mote_fail(MOTE_EIO, "%s/rows/lock: %s", s->directory, strerror(errno));
             continue;
         }
         if (!recall(s, &s->rows[i]))
             status = measure(s, &s->rows[i]);
-        (void)lock_row(s, i, F_SETLK, F_UNLCK);
+        (void)lock_row(s, &s->rows[i], F_SETLK, F_UNLCK);
     }
     return status;
 }
