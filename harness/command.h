@@ -47,6 +47,10 @@ typedef enum mote_exit {
       "the rows of a run, computed from its cells")                                            \
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \
       "whether a run is worse than another: exit 0 no, 1 yes, 3 undecided")                    \
+    X(instructions,                                                                            \
+      "instructions SCENARIO --frames A-B --out DIR [--method NAME[:key=a|b,...]]...\n"        \
+      "           [--particles 1,2,4-8]",                                                      \
+      "what each method's frames execute, by callgrind; writes DIR/instructions.json")         \
     X(tune, "tune DIR", "the best configuration of each method on each scenario of a run")     \
     X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \

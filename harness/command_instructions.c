@@ -1,0 +1,87 @@
+/* mote instructions SCENARIO: what methods execute, by callgrind. */
+#include "harness/command.h"
+#include "harness/instructions.h"
+
+static const mote_option options[] = {
+    {"frames", "A-B"},        {"method", "NAME[:key=value,...]"},
+    {"particles", "1,2,4-8"}, {"out", "DIR"},
+    {"inside", NULL},
+};
+enum {
+    OPTION_FRAMES,
+    OPTION_METHOD,
+    OPTION_PARTICLES,
+    OPTION_OUT,
+    OPTION_INSIDE, /* this process is the one that callgrind watches */
+    OPTION_COUNT
+};
+
+typedef struct request {
+    const char *scenario, *frames, *particles, *out;
+    bool inside;
+    mote_choices choices;
+} request;
+
+/* MOTE_EXIT_DONE, or what is wrong, told on stderr. Methods are read in a second pass, when
+   particles are known. */
+static int read_arguments(int argc, char **argv, request *q)
+{
+    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    const char *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN && q->scenario)
+            return mote_command_usage(argv[0], "%s: one scenario at a time", value);
+        if (option == MOTE_OPTION_PLAIN)
+            q->scenario = value;
+        else if (option == OPTION_FRAMES)
+            q->frames = value;
+        else if (option == OPTION_PARTICLES)
+            q->particles = value;
+        else if (option == OPTION_OUT)
+            q->out = value;
+        else if (option == OPTION_INSIDE)
+            q->inside = true;
+    }
+    if (!q->scenario || !q->frames || (!q->out && !q->inside))
+        return mote_command_usage(argv[0], "a scenario, --frames and --out are needed");
+    return MOTE_EXIT_DONE;
+}
+
+static mote_status read_methods(int argc, char **argv, request *q)
+{
+    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    const char *value;
+    mote_status status = MOTE_OK;
+    for (int option; status == MOTE_OK &&
+                     (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == OPTION_METHOD)
+            status = mote_choices_add(&q->choices, value, q->particles);
+    }
+    for (size_t i = 0; status == MOTE_OK && q->choices.count == 0 && mote_methods[i]; ++i)
+        status = mote_choices_add(&q->choices, mote_methods[i]->name, q->particles);
+    return status;
+}
+
+int mote_command_instructions(int argc, char **argv)
+{
+    request q = {0};
+    uint64_t first, last;
+    int code = read_arguments(argc, argv, &q);
+    if (code != MOTE_EXIT_DONE)
+        return code;
+    mote_status status = mote_read_range(q.frames, UINT32_MAX, &first, &last);
+    if (status == MOTE_OK)
+        status = read_methods(argc, argv, &q);
+    if (status == MOTE_OK && !q.inside && !mote_instructions_possible())
+        status = mote_fail(MOTE_EIO, "valgrind: cannot be run; apt-get install valgrind");
+    if (status == MOTE_OK && q.inside)
+        status = mote_instructions_run(q.scenario, (uint32_t)first, (uint32_t)last,
+                                       &q.choices.items[0]);
+    else if (status == MOTE_OK)
+        status = mote_instructions_count(q.scenario, (uint32_t)first, (uint32_t)last,
+                                         &q.choices, q.out);
+    mote_choices_free(&q.choices);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+}

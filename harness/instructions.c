@@ -1,0 +1,162 @@
+#include "harness/instructions.h"
+
+#include "harness/measure.h"
+#include "harness/record.h"
+#include "harness/spawn.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FILE_LIMIT ((size_t)1 << 28)
+
+bool mote_instructions_possible(void)
+{
+    static const char *const argv[] = {"valgrind", "--version", NULL};
+    char text[64];
+    return mote_spawn(argv, NULL, text, sizeof text) == MOTE_OK;
+}
+
+mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t last,
+                                  const mote_method_choice *choice)
+{
+    mote_subject subject = {0};
+    mote_status status = mote_scenario_load(scenario, &subject.scenario);
+    if (status == MOTE_OK && last > subject.scenario->frames)
+        status = mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u", first,
+                           last, scenario, subject.scenario->frames);
+    if (status == MOTE_OK) {
+        const mote_cell cell = {.subject = &subject,
+                                .choice = choice,
+                                .replicate = 1,
+                                .first = first,
+                                .last = last,
+                                .stride = 1,
+                                .seed = 1};
+        mote_cell_result result;
+        status = mote_measure_cell(&cell, 0, &result);
+        if (status == MOTE_OK)
+            mote_cell_result_free(&result);
+    }
+    mote_scenario_destroy(subject.scenario);
+    return status;
+}
+
+/* The number behind "totals:" in what callgrind wrote. */
+static mote_status read_totals(const char *path, json_int_t *count)
+{
+    char *text = NULL;
+    size_t size = 0;
+    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
+    const char *line = status == MOTE_OK ? strstr(text, "\ntotals:") : NULL;
+    *count = line ? strtoll(line + strlen("\ntotals:"), NULL, 10) : 0;
+    free(text);
+    if (status == MOTE_OK && *count <= 0)
+        status = mote_fail(MOTE_EIO, "%s: no total; is it callgrind's?", path);
+    return status;
+}
+
+/* Runs `mote instructions SCENARIO --frames A-B --method TEXT --inside` under callgrind. */
+static mote_status count_one(const char *scenario, const char *frames, const char *method,
+                             const char *directory, json_int_t *count)
+{
+    char program[512];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    char *out = mote_format("%s/callgrind.%ld.out", directory, (long)getpid());
+    char *option = mote_format("--callgrind-out-file=%s", out ? out : "");
+    mote_status status = length > 0 && out && option
+                             ? MOTE_OK
+                             : mote_fail(MOTE_EIO, "this program's own file cannot be named");
+    if (status == MOTE_OK) {
+        program[length] = '\0';
+        const char *const argv[] = {"valgrind",
+                                    "--tool=callgrind",
+                                    "--quiet",
+                                    option,
+                                    "--toggle-collect=timed_*",
+                                    program,
+                                    "instructions",
+                                    scenario,
+                                    "--frames",
+                                    frames,
+                                    "--method",
+                                    method,
+                                    "--inside",
+                                    NULL};
+        status = mote_spawn(argv, NULL, NULL, 0);
+    }
+    if (status == MOTE_OK)
+        status = read_totals(out, count);
+    if (out)
+        (void)unlink(out);
+    free(option);
+    free(out);
+    return status;
+}
+
+static bool same_row(const json_t *a, const json_t *b)
+{
+    static const char *const keys[] = {"scenario", "method", "parameters", "frames"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        if (!json_equal(json_object_get(a, keys[i]), json_object_get(b, keys[i])))
+            return false;
+    }
+    return true;
+}
+
+/* Puts a row (taken over) in the place of its like, or at the end. */
+static mote_status put_row(json_t *rows, json_t *row)
+{
+    for (size_t i = 0; row && i < json_array_size(rows); ++i) {
+        if (same_row(json_array_get(rows, i), row))
+            return json_array_set_new(rows, i, row) == 0
+                       ? MOTE_OK
+                       : mote_fail(MOTE_ENOMEM, "no memory for a row");
+    }
+    return json_array_append_new(rows, row) == 0
+               ? MOTE_OK
+               : mote_fail(MOTE_ENOMEM, "no memory for a row");
+}
+
+/* What is there already, or nothing. */
+static json_t *read_rows(const char *directory)
+{
+    json_t *object = NULL, *rows = NULL;
+    if (mote_record_read_json(directory, "instructions.json", &object) == MOTE_OK)
+        rows = json_incref(json_object_get(object, "rows"));
+    json_decref(object);
+    if (json_is_array(rows))
+        return rows;
+    json_decref(rows);
+    return json_array();
+}
+
+mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32_t last,
+                                    const mote_choices *choices, const char *directory)
+{
+    char frames[32];
+    (void)snprintf(frames, sizeof frames, "%u-%u", first, last);
+    mote_status status = mote_directory_make(directory);
+    json_t *rows = status == MOTE_OK ? read_rows(directory) : NULL;
+    for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i) {
+        const mote_method_choice *choice = &choices->items[i];
+        json_int_t count = 0;
+        status = count_one(scenario, frames, choice->text, directory, &count);
+        if (status != MOTE_OK)
+            break;
+        double per_frame = (double)count / (double)(last - first + 1);
+        (void)printf("%-40s %14.0f instructions a frame\n", choice->text, per_frame);
+        (void)fflush(stdout);
+        status = put_row(rows, json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario",
+                                         scenario, "method", choice->method->name, "label",
+                                         choice->text, "parameters", mote_choice_json(choice),
+                                         "frames", (int)first, (int)last, "instructions", count,
+                                         "per_frame", per_frame));
+    }
+    if (status == MOTE_OK)
+        return mote_record_json(directory, "instructions.json",
+                                json_pack("{s:i, s:o}", "schema", 1, "rows", rows));
+    json_decref(rows);
+    return status;
+}
