@@ -52,6 +52,8 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
                   program);
     if (cell->jobs > 1)
         mote_text_add(&text, " jobs");
+    if (cell->fixed_seed)
+        mote_text_add(&text, " fixed seed");
     char name[20], method[28];
     plain(scenario->name, name, sizeof name);
     plain(cell->choice->method->name, method, sizeof method);
@@ -103,7 +105,7 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
     return json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
-        " s:f, s:s, s:i, s:o*, s:s, s:s, s:i}",
+        " s:f, s:s, s:i, s:o*, s:s, s:s, s:i, s:b}",
         "schema", 1, "id", cell->id, "status", mote_cell_status_names[status], "scenario",
         scenario->name, "fingerprint", fingerprint, "method", cell->choice->method->name,
         "parameters", mote_choice_json(cell->choice), "replicate", (int)cell->replicate,
@@ -116,7 +118,8 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         scenario->ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
         (int)scenario->frames, "active",
         interval_json(scenario->active.first, scenario->active.last), "program", hash,
-        "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1));
+        "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
+        cell->fixed_seed);
 }
 
 static void add_real(mote_text *text, bool present, double value)

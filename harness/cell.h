@@ -49,6 +49,7 @@ typedef struct mote_cell {
     uint32_t stride_asked;            /* MOTE_STRIDE_AUTO or the stride */
     uint32_t stride;                  /* the one used, >= 1 */
     uint64_t seed;                    /* the run's; replicate r draws from seed + r - 1 */
+    bool fixed_seed;                  /* every replicate draws from seed */
     mote_cache cache;
     uint32_t
         jobs; /* cells measured at the same time; with 2 or more, times are not comparable */

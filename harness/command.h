@@ -34,7 +34,7 @@ typedef enum mote_exit {
       "run SCENARIO... [--method NAME[:key=a|b,...]]... [--particles 1,2,4-8]\n"               \
       "           [--replicates K] [--frames A-B] [--out DIR] [--shard I/N] [--seed S]\n"      \
       "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--jobs N]\n"      \
-      "           [--until-ci 2%] [--budget SECONDS] [--dry-run] [--force]",                   \
+      "           [--until-ci 2%] [--budget SECONDS] [--fixed-seed] [--dry-run] [--force]",    \
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
     X(simulate,                                                                                \
       "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \

@@ -18,6 +18,9 @@ static void print_table(const mote_comparison *c)
     (void)printf("time new / base, 95 %% interval, p corrected over %zu rows; an effect counts "
                  "from %.1f %% on\n",
                  c->count, 100 * c->floor);
+    if (c->other_machine)
+        (void)printf("the processors differ: times only as ratios to fcl-aabb, within a wide "
+                     "margin; counts, bytes and accuracy as they are\n");
     for (size_t i = 0; i < c->count; ++i) {
         const mote_change *change = &c->changes[i];
         (void)printf("%-*s ", width, change->name ? change->name : "?");
@@ -44,12 +47,13 @@ static void print_table(const mote_comparison *c)
 
 static json_t *change_json(const mote_change *change)
 {
-    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:s, s:b, s:b, s:s}", "name",
+    return json_pack("{s:s, s:o, s:o, s:o, s:o, s:s, s:b, s:b, s:o, s:s}", "name",
                      change->name ? change->name : "", "ratio", mote_json_number(change->ratio),
                      "ci_low", mote_json_number(change->interval.low), "ci_high",
                      mote_json_number(change->interval.high), "p", mote_json_number(change->p),
                      "verdict", mote_verdict_names[change->verdict], "worse", change->worse,
-                     "better", change->better, "what",
+                     "better", change->better, "smallest_change",
+                     mote_json_number(change->smallest_change), "what",
                      change->what.size ? change->what.data : "");
 }
 
@@ -58,12 +62,14 @@ static int print_json(const mote_comparison *c)
     json_t *rows = json_array();
     for (size_t i = 0; rows && i < c->count; ++i)
         (void)json_array_append_new(rows, change_json(&c->changes[i]));
-    json_t *object = json_pack("{s:i, s:s, s:f, s:i, s:i, s:o}", "schema", 1, "verdict",
-                               c->worse       ? "worse"
-                               : c->undecided ? "undecided"
-                                              : "same-or-better",
-                               "floor", c->floor, "only_base", (int)c->only_base, "only_new",
-                               (int)c->only_new, "rows", rows);
+    json_t *object =
+        json_pack("{s:i, s:s, s:f, s:b, s:b, s:i, s:i, s:o}", "schema", 1, "verdict",
+                  c->worse       ? "worse"
+                  : c->undecided ? "undecided"
+                                 : "same-or-better",
+                  "floor", c->floor, "other_machine", c->other_machine, "instructions_compared",
+                  c->instructions, "only_base", (int)c->only_base, "only_new", (int)c->only_new,
+                  "rows", rows);
     return mote_json_put(object, stdout) == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
 }
 

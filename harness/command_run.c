@@ -23,6 +23,7 @@ static const mote_option options[] = {
     {"stride", "auto|K"},
     {"dry-run", NULL},
     {"force", NULL},
+    {"fixed-seed", NULL},
     {"jobs", "N"},
     {"until-ci", "2%"},
     {"budget", "SECONDS"},
@@ -41,6 +42,7 @@ enum {
     OPTION_STRIDE,
     OPTION_DRY_RUN,
     OPTION_FORCE,
+    OPTION_FIXED_SEED,
     OPTION_JOBS,
     OPTION_UNTIL_CI,
     OPTION_BUDGET,
@@ -152,6 +154,9 @@ static bool take_option(request *q, int option, const char *value, const char **
         return read_cache(value, &plan->cache);
     case OPTION_STRIDE:
         return read_stride(value, &plan->stride);
+    case OPTION_FIXED_SEED:
+        plan->fixed_seed = true;
+        return true;
     case OPTION_JOBS:
         *expected = "a whole number from 1 to 256";
         return read_count(value, MOTE_CHILDREN_MAX, &plan->jobs);

@@ -11,6 +11,8 @@
 #define EXACT_SHARE 1e-9
 /* Heap may grow by this share: the allocator rounds. */
 #define BYTES_SHARE 0.01
+/* Instructions may grow by this share: where memory lies decides a few branches. */
+#define INSTRUCTIONS_SHARE 0.01
 /* At most this many replicates are paired. */
 #define PAIRS_MAX 1000
 
@@ -107,11 +109,14 @@ static bool is_reference(const json_t *row)
 }
 
 /* The logarithm of new / base of a time: relative to fcl-aabb, which takes out most of what
-   differs between two machines, or else as it is. */
-static double log_change(double base_ratio, double new_ratio, double base_ns, double new_ns)
+   differs between two machines, or else as it is, on one machine. */
+static double log_change(double base_ratio, double new_ratio, double base_ns, double new_ns,
+                         bool other_machine)
 {
     if (base_ratio > 0 && new_ratio > 0)
         return log(base_ratio / new_ratio);
+    if (other_machine)
+        return MOTE_NONE;
     return base_ns > 0 && new_ns > 0 ? log(new_ns / base_ns) : MOTE_NONE;
 }
 
@@ -123,12 +128,14 @@ static double element(const json_t *row, const char *key, size_t index)
 }
 
 /* The changes of the quiet times, group by group; returns how many. */
-static size_t quiet_changes(const json_t *base, const json_t *fresh, double *logs)
+static size_t quiet_changes(const json_t *base, const json_t *fresh, bool other_machine,
+                            double *logs)
 {
     size_t count = 0;
     for (size_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
         double value = log_change(element(base, "ratio", k), element(fresh, "ratio", k),
-                                  element(base, "total_ns", k), element(fresh, "total_ns", k));
+                                  element(base, "total_ns", k), element(fresh, "total_ns", k),
+                                  other_machine);
         if (value == value)
             logs[count++] = value;
     }
@@ -137,7 +144,8 @@ static size_t quiet_changes(const json_t *base, const json_t *fresh, double *log
 
 /* The changes of the processes' medians. Replicates with one number draw the same random
    numbers: they are compared in pairs. */
-static size_t process_changes(const json_t *base, const json_t *fresh, double *logs)
+static size_t process_changes(const json_t *base, const json_t *fresh, bool other_machine,
+                              double *logs)
 {
     size_t count = 0;
     const json_t *processes = json_object_get(base, "processes");
@@ -146,21 +154,25 @@ static size_t process_changes(const json_t *base, const json_t *fresh, double *l
         const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
         double value = MOTE_NONE;
         if (partner)
-            value = log_change(
-                number_at(process, NULL, "ratio"), number_at(partner, NULL, "ratio"),
-                number_at(process, NULL, "median_ns"), number_at(partner, NULL, "median_ns"));
+            value =
+                log_change(number_at(process, NULL, "ratio"), number_at(partner, NULL, "ratio"),
+                           number_at(process, NULL, "median_ns"),
+                           number_at(partner, NULL, "median_ns"), other_machine);
         if (value == value)
             logs[count++] = value;
     }
     return count;
 }
 
-static void compare_times(const json_t *base, const json_t *fresh, mote_change *change)
+static void compare_times(const json_t *base, const json_t *fresh, bool other_machine,
+                          mote_change *change)
 {
     static double logs[PAIRS_MAX];
-    size_t count = quiet_changes(base, fresh, logs);
+    size_t count = quiet_changes(base, fresh, other_machine, logs);
     if (count < MOTE_QUIET_GROUPS)
-        count = process_changes(base, fresh, logs);
+        count = process_changes(base, fresh, other_machine, logs);
+    change->smallest_change = fmax(number_at(base, NULL, "smallest_change"),
+                                   number_at(fresh, NULL, "smallest_change"));
     change->ratio = exp(mote_statistics_mean(logs, count));
     change->interval = mote_statistics_t_interval(logs, count);
     change->interval.low = exp(change->interval.low);
@@ -213,6 +225,8 @@ static void compare_counts(const json_t *base, const json_t *fresh, mote_change 
             sums[0] += number_at(process, "counters", name);
             sums[1] += number_at(partner, "counters", name);
         }
+        change->counted =
+            change->counted || fabs(sums[0] - sums[1]) > EXACT_SHARE * fmax(sums[0], sums[1]);
         compare_figure(change, name, sums[0], sums[1], EXACT_SHARE);
     }
 }
@@ -240,12 +254,14 @@ static bool times_comparable(const json_t *row)
     return !json_is_false(json_object_get(row, "times_comparable"));
 }
 
-static void compare_row(const json_t *base, const json_t *fresh, mote_change *change)
+static void compare_row(const json_t *base, const json_t *fresh, bool other_machine,
+                        mote_change *change)
 {
     change->name = mote_format("%s/%s/%s", row_text(base, "scenario"), row_text(base, "label"),
                                row_text(base, "cache"));
     change->is_reference = is_reference(base) && is_reference(fresh);
     change->ratio = change->interval.low = change->interval.high = change->p = MOTE_NONE;
+    change->smallest_change = MOTE_NONE;
     const char *was = row_text(base, "status"), *is = row_text(fresh, "status");
     if (strcmp(was, is) != 0) {
         mote_text_add(&change->what, "status %s to %s", was, is);
@@ -258,13 +274,29 @@ static void compare_row(const json_t *base, const json_t *fresh, mote_change *ch
     if (!times_comparable(base) || !times_comparable(fresh))
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
-        compare_times(base, fresh, change);
+        compare_times(base, fresh, other_machine, change);
     compare_counts(base, fresh, change);
     compare_figure(change, "heap", number_at(base, NULL, "heap_live_bytes"),
                    number_at(fresh, NULL, "heap_live_bytes"), BYTES_SHARE);
     compare_figure(change, "heap peak", number_at(base, NULL, "heap_peak_bytes"),
                    number_at(fresh, NULL, "heap_peak_bytes"), BYTES_SHARE);
     compare_accuracy(base, fresh, change);
+}
+
+/* Why a time changed, as far as counts and instructions tell. */
+static void explain(mote_change *change, bool instructions)
+{
+    if (change->counted)
+        mote_text_add(&change->what, "; the time changed with the counts");
+    else if (change->executed)
+        mote_text_add(&change->what,
+                      "; counts are the same: more or fewer instructions a count");
+    else
+        mote_text_add(
+            &change->what, "%scost per count changed%s", change->what.size ? "; " : "",
+            instructions ? ", at the same instructions: memory, the layout of code, or "
+                           "the machine"
+                         : "");
 }
 
 /* Corrects p over all rows, and says of each what its time means. */
@@ -281,10 +313,14 @@ static mote_status judge(mote_comparison *c)
         change->p = p[i];
         change->verdict =
             mote_statistics_verdict(change->ratio, change->interval, change->p, c->floor);
-        bool counted = change->what.size > 0;
-        if (change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER)
-            mote_text_add(&change->what, "%s",
-                          counted ? "; the time changed" : "cost per count changed");
+        bool changed =
+            change->verdict == MOTE_VERDICT_SLOWER || change->verdict == MOTE_VERDICT_FASTER;
+        if (changed && fabs(log(change->ratio)) <= log(1 + change->smallest_change)) {
+            change->verdict = MOTE_VERDICT_UNDECIDED;
+            changed = false;
+        }
+        if (changed)
+            explain(change, c->instructions);
         change->worse = change->worse || change->verdict == MOTE_VERDICT_SLOWER;
         change->better =
             !change->worse && (change->better || change->verdict == MOTE_VERDICT_FASTER);
@@ -305,10 +341,9 @@ static double raised_floor(double floor, const json_t *base, const json_t *fresh
     return floor;
 }
 
-static mote_status compare_rows(const json_t *base, const json_t *fresh, mote_comparison *c)
+static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
+                                mote_comparison *c)
 {
-    const json_t *base_rows = json_object_get(base, "rows");
-    const json_t *new_rows = json_object_get(fresh, "rows");
     c->changes = calloc(json_array_size(base_rows) + 1, sizeof *c->changes);
     if (!c->changes)
         return mote_fail(MOTE_ENOMEM, "no memory for a comparison");
@@ -316,7 +351,7 @@ static mote_status compare_rows(const json_t *base, const json_t *fresh, mote_co
         const json_t *row = json_array_get(base_rows, i);
         const json_t *partner = find_partner(new_rows, row);
         if (partner)
-            compare_row(row, partner, &c->changes[c->count++]);
+            compare_row(row, partner, c->other_machine, &c->changes[c->count++]);
         else
             ++c->only_base;
     }
@@ -325,24 +360,111 @@ static mote_status compare_rows(const json_t *base, const json_t *fresh, mote_co
     if (c->count == 0)
         return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
                                       "runs of the same scenarios, methods, frames and seed");
+    return MOTE_OK;
+}
+
+/* Reads a file beside a run's summary; NULL when there is none. */
+static json_t *read_beside(const char *run, const char *name)
+{
+    struct stat info;
+    bool is_file = stat(run, &info) == 0 && S_ISREG(info.st_mode);
+    const char *slash = is_file ? strrchr(run, '/') : NULL;
+    char *directory =
+        is_file ? mote_format("%.*s", slash ? (int)(slash - run) : 1, slash ? run : ".")
+                : mote_format("%s", run);
+    json_t *object = NULL;
+    if (directory && mote_record_read_json(directory, name, &object) != MOTE_OK)
+        object = NULL;
+    free(directory);
+    return object;
+}
+
+/* Whether both manifests are there and differ in something. */
+static bool manifests_differ(const char *base, const char *fresh, const char *key)
+{
+    json_t *first = read_beside(base, "manifest.json"),
+           *second = read_beside(fresh, "manifest.json");
+    bool differ = first && second &&
+                  !json_equal(json_object_get(first, key), json_object_get(second, key));
+    json_decref(first);
+    json_decref(second);
+    return differ;
+}
+
+/* Looks up the instructions of a row of the summary; MOTE_NONE when they were not counted. */
+static double find_instructions(const json_t *counted, const json_t *row)
+{
+    const json_t *rows = json_object_get(counted, "rows");
+    for (size_t i = 0; i < json_array_size(rows); ++i) {
+        const json_t *other = json_array_get(rows, i);
+        if (json_equal(json_object_get(other, "scenario"), json_object_get(row, "scenario")) &&
+            json_equal(json_object_get(other, "method"), json_object_get(row, "method")) &&
+            json_equal(json_object_get(other, "parameters"),
+                       json_object_get(row, "parameters")))
+            return number_at(other, NULL, "per_frame");
+    }
+    return MOTE_NONE;
+}
+
+/* Adds what instructions say to the rows of both runs. judged: more of them are worse. */
+static void compare_instructions(const json_t *base_rows, const json_t *const counted[2],
+                                 const json_t *new_rows, bool judged, mote_comparison *c)
+{
+    size_t index = 0;
+    for (size_t i = 0; i < json_array_size(base_rows); ++i) {
+        const json_t *row = json_array_get(base_rows, i);
+        if (!find_partner(new_rows, row))
+            continue;
+        mote_change *change = &c->changes[index++];
+        double a = find_instructions(counted[0], row), b = find_instructions(counted[1], row);
+        bool known = a == a && b == b;
+        change->executed = known && fabs(b - a) > INSTRUCTIONS_SHARE * fmax(a, b);
+        if (judged && known)
+            compare_figure(change, "instructions", a, b, INSTRUCTIONS_SHARE);
+        else if (change->executed)
+            say(change, "instructions (another processor or compiler)", a, b);
+    }
+}
+
+static mote_status compare_all(const char *const runs[2], json_t *const summaries[2],
+                               mote_comparison *c)
+{
+    const json_t *base_rows = json_object_get(summaries[0], "rows");
+    const json_t *new_rows = json_object_get(summaries[1], "rows");
+    mote_status status = compare_rows(base_rows, new_rows, c);
+    if (status != MOTE_OK)
+        return status;
+    json_t *const counted[2] = {read_beside(runs[0], "instructions.json"),
+                                read_beside(runs[1], "instructions.json")};
+    const json_t *const both[2] = {counted[0], counted[1]};
+    c->instructions = counted[0] && counted[1];
+    if (c->instructions)
+        compare_instructions(
+            base_rows, both, new_rows,
+            !c->other_machine && !manifests_differ(runs[0], runs[1], "compiler"), c);
+    json_decref(counted[0]);
+    json_decref(counted[1]);
     return judge(c);
 }
 
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison)
 {
+    const char *const runs[2] = {base, new_run};
     json_t *summaries[2] = {NULL, NULL};
     mote_comparison c = {0};
     mote_status status = read_summary(base, &summaries[0]);
-    if (status == MOTE_OK) {
+    if (status == MOTE_OK)
         status = read_summary(new_run, &summaries[1]);
-        if (status == MOTE_OK) {
-            c.floor = raised_floor(floor, summaries[0], summaries[1]);
-            status = compare_rows(summaries[0], summaries[1], &c);
-            json_decref(summaries[1]);
-        }
-        json_decref(summaries[0]);
+    if (status == MOTE_OK) {
+        c.other_machine = manifests_differ(base, new_run, "processor");
+        c.floor = raised_floor(floor, summaries[0], summaries[1]);
+        if (c.other_machine && c.floor < MOTE_OTHER_MACHINE_FLOOR)
+            c.floor = MOTE_OTHER_MACHINE_FLOOR;
+        status = compare_all(runs, summaries, &c);
     }
+    json_decref(summaries[0]);
+    json_decref(summaries[1]);
     if (status == MOTE_OK)
         *comparison = c;
     else

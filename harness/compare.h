@@ -8,17 +8,23 @@
 
 #include <jansson.h>
 
+/* How far the cost of two methods may differ between two kinds of processors. */
+#define MOTE_OTHER_MACHINE_FLOOR 0.5
+
 /* A row that both runs have. */
 typedef struct mote_change {
     char *name;   /* "ww/particle-paper:n=5/hot" */
     double ratio; /* time new / base; relative to fcl-aabb within each run where both have it */
     mote_confidence
-        interval;         /* of the ratio: t over groups of quiet times, or over replicates */
-    double p;             /* of no change, corrected by Holm over all rows */
-    mote_verdict verdict; /* of the time */
-    bool is_reference;    /* fcl-aabb itself: its time says nothing about us */
+        interval;           /* of the ratio: t over groups of quiet times, or over replicates */
+    double p;               /* of no change, corrected by Holm over all rows */
+    mote_verdict verdict;   /* of the time */
+    double smallest_change; /* that could be detected, a share; MOTE_NONE: unknown */
+    bool is_reference;      /* fcl-aabb itself: its time says nothing about us */
     bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
+    bool counted;   /* a count changed */
+    bool executed;  /* instructions changed */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
 } mote_change;
 
@@ -26,13 +32,20 @@ typedef struct mote_comparison {
     mote_change *changes;
     size_t count;
     double floor;               /* the smallest effect on time that counts, a share */
+    bool other_machine;         /* the processors differ: the floor is wide */
+    bool instructions;          /* both runs counted them */
     size_t only_base, only_new; /* rows without a partner */
     bool worse, undecided;      /* any row */
 } mote_comparison;
 
 /* Compares directories (or summary.json files). floor: a share, at least; the noise floors of
-   both runs raise it. MOTE_EIO or MOTE_EINVAL when a summary cannot be read; MOTE_EINVAL when
-   they have no row in common. The caller frees *comparison. */
+   both runs raise it. A time is slower only when its ratio is beyond the floor and beyond the
+   smallest change that the rows can detect. Where manifest.json names another processor, times
+   are compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes and
+   accuracy are compared as they are. Instructions (instructions.json of both) may grow by 1 %;
+   with another processor or compiler they are told and not judged. MOTE_EIO or MOTE_EINVAL when
+   a summary cannot be read; MOTE_EINVAL when they have no row in common. The caller frees
+   *comparison. */
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison);
 void mote_comparison_free(mote_comparison *comparison);

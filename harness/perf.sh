@@ -8,19 +8,20 @@ mote=$2
 out=$3
 reference=results/reference
 
-# No random starts: replicates differ by the machine only, and counts are the same every time.
-ours="--method particle-paper:start=fps --method aabb-tree"
-for name in particle certified; do
-    if "$mote" list methods | grep -q "^$name:"; then
-        ours="$ours --method $name"
-    fi
-done
+ours="--method particle-paper:start=fps --method aabb-tree --method particle --method certified"
 rm -rf "$out"
+# One seed: replicates differ by the machine only.
 for set in 'ww --frames 950-1149' 'mv --frames 300-499'; do
     # shellcheck disable=SC2086
-    "$mote" run $set --replicates 10 --seed 1 --stride 1 --particles 5,16 --method fcl-aabb $ours \
-        --out "$out" >/dev/null
+    "$mote" run $set --replicates 30 --seed 1 --fixed-seed --stride 1 --particles 5,16 \
+        --method fcl-aabb $ours --out "$out" >/dev/null
 done
+if command -v valgrind >/dev/null; then
+    # shellcheck disable=SC2086
+    "$mote" instructions ww --frames 950-969 --particles 5,16 --method fcl-aabb $ours --out "$out"
+else
+    echo "perf.sh: instructions are not counted: valgrind is not installed" >&2
+fi
 
 case $action in
 check)
@@ -34,7 +35,11 @@ check)
     ;;
 accept)
     mkdir -p "$reference"
+    rm -f "$reference/instructions.json"
     cp "$out/summary.json" "$out/manifest.json" "$reference/"
+    if [ -f "$out/instructions.json" ]; then
+        cp "$out/instructions.json" "$reference/"
+    fi
     "$mote" history --add "$out" --why "$4"
     ;;
 esac

@@ -150,6 +150,7 @@ static void add_group(const mote_plan_options *options, const mote_subject *subj
             .seed = options->seed,
             .cache = options->cache,
             .jobs = options->jobs,
+            .fixed_seed = options->fixed_seed,
         };
         mote_cell_name(&cell, options->program);
         plan->cells[plan->count++] = cell;

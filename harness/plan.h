@@ -27,6 +27,7 @@ typedef struct mote_plan_options {
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
     uint64_t seed;
+    bool fixed_seed; /* replicates repeat each other: they differ by the machine only */
     mote_cache cache;
     uint32_t jobs;    /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
     uint64_t program; /* mote_program_hash */

@@ -213,10 +213,11 @@ static char *group_name(const mote_stored_cell *cell)
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group = NULL;
     if (parameters && frames)
-        group = mote_format("%s %s %s %s %s %s stride %u seed %.0f on %s%s", cell->scenario,
-                            cell->cache, cell->method, parameters, cell->fingerprint, frames,
-                            cell->stride, mote_stored_number(cell, "seed"), cell->machine,
-                            cell->jobs > 1 ? " jobs" : "");
+        group = mote_format(
+            "%s %s %s %s %s %s stride %u seed %.0f on %s%s%s", cell->scenario, cell->cache,
+            cell->method, parameters, cell->fingerprint, frames, cell->stride,
+            mote_stored_number(cell, "seed"), cell->machine, cell->jobs > 1 ? " jobs" : "",
+            json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
     return group;

@@ -5,14 +5,16 @@ high = 480
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
+least = STATS_min < 0.56 ? 0.9 * STATS_min : 0.5
+most = STATS_max > 1.8 ? 1.1 * STATS_max : 2
 stats data using 1 nooutput
 
 set logscale y
 set xlabel "accepted reference"
 set ylabel "time against fcl-aabb, relative to the first"
 set xtics 1
-set yrange [0.5:2]
-set ytics (0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2)
+set yrange [least:most]
+set ytics (0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 1, 1.1, 1.25, 1.5, 2, 3, 5, 10, 20)
 set xrange [0.5:STATS_max + 0.5]
 
 array colour[4] = [dark, blue, orange, grey]

@@ -160,6 +160,129 @@ static void compare_with_more_bytes_errors_or_misses_is_worse(void **state)
     mote_comparison_free(&c);
 }
 
+/* What a run on a processor leaves beside its summary. */
+static void write_beside(const char *directory, const char *processor, double instructions)
+{
+    json_t *row = json_pack("{s:s, s:s, s:{s:i}, s:f}", "scenario", "ww", "method",
+                            "particle-paper", "parameters", "n", 5, "per_frame", instructions);
+    assert_int_equal(mote_record_json(directory, "instructions.json",
+                                      json_pack("{s:i, s:[o]}", "schema", 1, "rows", row)),
+                     MOTE_OK);
+    assert_int_equal(
+        mote_record_json(directory, "manifest.json",
+                         json_pack("{s:s, s:s}", "processor", processor, "compiler", "GNU 12")),
+        MOTE_OK);
+}
+
+static mote_comparison compare_beside(const figures *fresh, const char *processor,
+                                      double instructions)
+{
+    mote_comparison c;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, fresh, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, processor, instructions);
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    char command[256];
+    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
+    assert_int_equal(system(command), 0);
+    return c;
+}
+
+static void compare_with_more_instructions_is_worse(void **state)
+{
+    (void)state;
+    mote_comparison c = compare_beside(&usual, "one", 1005);
+    assert_false(c.worse); /* within 1 % */
+    mote_comparison_free(&c);
+    c = compare_beside(&usual, "one", 1020);
+    assert_true(c.worse && c.instructions);
+    assert_non_null(strstr(c.changes[0].what.data, "instructions 1000 to 1020 (+2 %)"));
+    mote_comparison_free(&c);
+    c = compare_beside(&usual, "one", 900);
+    assert_true(!c.worse && c.changes[0].better);
+    mote_comparison_free(&c);
+}
+
+static void compare_explains_a_slower_time(void **state)
+{
+    (void)state;
+    figures slow = usual, counted = usual;
+    slow.ratio /= 1.2;
+    counted.ratio /= 1.2;
+    counted.box_tests *= 1.2;
+    mote_comparison c = compare_beside(&slow, "one", 1000);
+    assert_non_null(strstr(c.changes[0].what.data, "at the same instructions"));
+    mote_comparison_free(&c);
+    c = compare_beside(&slow, "one", 1200);
+    assert_non_null(strstr(c.changes[0].what.data, "counts are the same: more or fewer"));
+    mote_comparison_free(&c);
+    c = compare_beside(&counted, "one", 1200);
+    assert_non_null(strstr(c.changes[0].what.data, "the time changed with the counts"));
+    mote_comparison_free(&c);
+}
+
+static void compare_on_another_processor_is_wide_for_times_and_exact_for_counts(void **state)
+{
+    (void)state;
+    figures slow = usual, very_slow = usual, more = usual;
+    slow.ratio /= 1.3;
+    very_slow.ratio /= 1.8;
+    more.box_tests += 1;
+    mote_comparison c = compare_beside(&slow, "two", 1300);
+    assert_true(c.other_machine && !c.worse);
+    assert_non_null(strstr(c.changes[0].what.data, "another processor"));
+    mote_comparison_free(&c);
+    c = compare_beside(&very_slow, "two", 1000);
+    assert_true(c.worse);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SLOWER);
+    mote_comparison_free(&c);
+    c = compare_beside(&more, "two", 1000);
+    assert_true(c.worse);
+    mote_comparison_free(&c);
+}
+
+/* A significant change that such runs cannot tell from noise four times in five is none. */
+static void compare_below_the_smallest_change_is_undecided(void **state)
+{
+    (void)state;
+    figures slow = usual;
+    slow.ratio /= 1.1;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &slow, -1);
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(old_run, "summary.json", &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_set_new(row, "smallest_change", json_real(0.15)), 0);
+    assert_int_equal(mote_record_json(old_run, "summary.json", summary), MOTE_OK);
+    mote_comparison c;
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_UNDECIDED);
+    assert_true(c.undecided && !c.worse);
+    mote_comparison_free(&c);
+}
+
+/* Where cells ran at the same time nothing is said of times. */
+static void compare_of_times_measured_with_jobs_is_refused(void **state)
+{
+    (void)state;
+    figures slow = usual;
+    slow.ratio /= 2;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &slow, -1);
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(new_run, "summary.json", &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_set_new(row, "times_comparable", json_false()), 0);
+    assert_int_equal(mote_record_json(new_run, "summary.json", summary), MOTE_OK);
+    mote_comparison c;
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_false(c.worse);
+    assert_true(isnan(c.changes[0].ratio));
+    assert_non_null(strstr(c.changes[0].what.data, "not comparable"));
+    mote_comparison_free(&c);
+}
+
 static int exit_status(const figures *fresh, const char *options)
 {
     char line[256];
@@ -203,6 +326,11 @@ int main(void)
         cmocka_unit_test(compare_with_one_more_count_is_worse),
         cmocka_unit_test(compare_with_fewer_counts_is_better),
         cmocka_unit_test(compare_with_more_bytes_errors_or_misses_is_worse),
+        cmocka_unit_test(compare_with_more_instructions_is_worse),
+        cmocka_unit_test(compare_explains_a_slower_time),
+        cmocka_unit_test(compare_on_another_processor_is_wide_for_times_and_exact_for_counts),
+        cmocka_unit_test(compare_below_the_smallest_change_is_undecided),
+        cmocka_unit_test(compare_of_times_measured_with_jobs_is_refused),
         cmocka_unit_test(compare_command_tells_by_its_exit_status),
         cmocka_unit_test(compare_of_what_is_no_run_is_bad_input),
     };
