@@ -74,8 +74,9 @@ typedef struct mote_cell_row {
 typedef struct mote_cell_result {
     mote_cell_row *rows;
     size_t row_count;
-    uint64_t build_ns; /* create, and the tables of full deformation when charged */
-    uint64_t clock_ns; /* a reading of the clock, subtracted from every time */
+    uint64_t build_ns;  /* create, and the tables of full deformation when charged */
+    uint64_t clock_ns;  /* a reading of the clock, subtracted from every time */
+    double overhead_ns; /* what is then left of clock and bookkeeping in every time */
     bool heap_counted;
     int64_t heap_live_bytes, heap_peak_bytes; /* the method's; shared mesh and field left out */
     int64_t deform_bytes; /* of these: tables and vertices of full deformation */

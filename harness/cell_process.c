@@ -1,6 +1,7 @@
-#define _GNU_SOURCE /* sched_setaffinity, getloadavg */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include "harness/cell_process.h"
 
+#include "harness/load.h"
 #include "harness/measure.h"
 #include "harness/statistics.h"
 
@@ -52,28 +53,6 @@ static size_t memory_limit(uint32_t jobs)
     return (size_t)pages * (size_t)size / 4 * 3 / (jobs ? jobs : 1);
 }
 
-static double load_average(void)
-{
-    double load = 0;
-    return getloadavg(&load, 1) == 1 ? load : 0;
-}
-
-/* The core's clock, in MHz; 0 where the kernel does not say. */
-static double core_clock(int core)
-{
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    char line[512];
-    double mhz = 0;
-    for (int seen = -1; file && fgets(line, sizeof line, file);) {
-        seen += strncmp(line, "processor", 9) == 0 ? 1 : 0;
-        if ((core < 0 || seen == core) && sscanf(line, "cpu MHz : %lf", &mhz) == 1)
-            break;
-    }
-    if (file)
-        (void)fclose(file);
-    return mhz;
-}
-
 static void child_fail(message *told, mote_status status)
 {
     if (status == MOTE_EUNSUPPORTED)
@@ -107,7 +86,7 @@ static mote_status child_measure(const mote_cell *cell, const mote_process_optio
                                  message *told)
 {
     mote_cell_result result;
-    double load = load_average(), clock_mhz = core_clock(options->core);
+    double load = mote_load_average(), clock_mhz = mote_core_clock(options->core);
     uint64_t start = mote_clock_ns();
     mote_status status = mote_measure_cell(cell, 0, &result);
     if (status != MOTE_OK) {
@@ -116,9 +95,9 @@ static mote_status child_measure(const mote_cell *cell, const mote_process_optio
     }
     result.core = options->core;
     result.load[0] = load;
-    result.load[1] = load_average();
+    result.load[1] = mote_load_average();
     result.clock_mhz[0] = clock_mhz;
-    result.clock_mhz[1] = core_clock(options->core);
+    result.clock_mhz[1] = mote_core_clock(options->core);
     result.wall_seconds = (double)(mote_clock_ns() - start) * 1e-9;
     status = mote_cell_record(cell, &result, options->program, options->directory);
     mote_cell_result_free(&result);

@@ -11,6 +11,10 @@
 #define EVICT_BYTES ((size_t)32 << 20)
 #define CACHE_LINE 64
 
+/* Calls of nothing that the overhead is measured with: the median of batches. */
+#define BATCHES 21
+#define BATCH 100
+
 /* What a cell holds while it runs. */
 typedef struct session {
     const mote_cell *cell;
@@ -83,6 +87,7 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
         status = make_vertices(s);
     s->clock_ns = mote_clock_cost_ns();
     result->clock_ns = s->clock_ns;
+    result->overhead_ns = mote_overhead_ns(s->clock_ns);
     return status;
 }
 
@@ -148,6 +153,35 @@ __attribute__((noinline)) static mote_status
 timed_query(const session *s, const mote_frame *frame, mote_answer *answer)
 {
     return s->cell->choice->method->query(s->state, frame, answer);
+}
+
+static mote_status answer_nothing(void *state, const mote_frame *frame, mote_answer *answer)
+{
+    (void)state;
+    (void)frame;
+    (void)answer;
+    return MOTE_OK;
+}
+
+double mote_overhead_ns(uint64_t clock_ns)
+{
+    const mote_method nothing = {.query = answer_nothing};
+    const mote_method_choice choice = {.method = &nothing};
+    const mote_cell cell = {.choice = &choice};
+    const session s = {.cell = &cell};
+    const mote_frame frame = {0};
+    double batches[BATCHES];
+    for (size_t i = 0; i < BATCHES; ++i) {
+        uint64_t sum = 0;
+        for (size_t k = 0; k < BATCH; ++k) {
+            mote_answer answer;
+            uint64_t start = mote_clock_ns();
+            (void)timed_query(&s, &frame, &answer);
+            sum += mote_clock_ns() - start;
+        }
+        batches[i] = (double)sum / BATCH - (double)clock_ns;
+    }
+    return mote_statistics_median(batches, BATCHES);
 }
 
 static mote_status run_frame(session *s, uint32_t number, uint32_t previous, mote_cell_row *row)

@@ -1,7 +1,8 @@
-#define _DEFAULT_SOURCE /* flock, getloadavg, nanosleep */
+#define _DEFAULT_SOURCE /* flock, nanosleep */
 #include "harness/run.h"
 
 #include "harness/cell_process.h"
+#include "harness/load.h"
 #include "harness/manifest.h"
 #include "harness/measure.h"
 #include "harness/record.h"
@@ -21,8 +22,8 @@
 /* What walking 32 MB between frames costs, roughly; only for the estimate. */
 #define EVICT_SECONDS 5e-3
 
-/* A load average before anything is measured that is worth a warning. */
-#define BUSY_LOAD 0.7
+/* Cores that others use before anything is measured: so many are worth a warning. */
+#define BUSY_CORES 0.3
 
 /* How long to wait for a lock: 1 s. */
 #define LOCK_TRIES 20
@@ -284,12 +285,15 @@ static void print_progress(const run *r, const mote_cell *cell, const mote_cell_
                   terminal && ok && r->done < r->plan.count ? "" : "\n");
 }
 
-static void warn_of_load(void)
+static void warn_of_load(const run *r)
 {
-    double load;
-    if (getloadavg(&load, 1) == 1 && load > BUSY_LOAD)
-        (void)fprintf(stderr, "warning: the machine is busy (load %.1f); times will be noisy\n",
-                      load);
+    double busy = r->done < r->plan.count ? mote_busy_cores() : 0;
+    if (busy > BUSY_CORES)
+        (void)fprintf(
+            stderr,
+            "warning: the machine is busy (others use %.1f cores, load %.1f); times will "
+            "be noisy\n",
+            busy, mote_load_average());
 }
 
 /* The processes that measure at the same time. */
@@ -489,7 +493,7 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
     if (status == MOTE_OK)
         status = load_truth(r);
     if (status == MOTE_OK) {
-        warn_of_load();
+        warn_of_load(r);
         status = measure(r, 0);
     }
     if (status == MOTE_OK && options->until_share > 0)

@@ -127,6 +127,38 @@ static mote_status make_rows(mote_summary *summary)
     return MOTE_OK;
 }
 
+/* The median over the cells of a number of theirs. */
+static double cells_median(const mote_summary *summary, const char *key, double *work)
+{
+    size_t known = 0;
+    for (size_t i = 0; i < summary->stored.count; ++i) {
+        double value = mote_stored_number(&summary->stored.cells[i], key);
+        if (value == value)
+            work[known++] = value;
+    }
+    return mote_statistics_median(work, known);
+}
+
+static mote_status take_overhead(mote_summary *summary)
+{
+    double fastest = MOTE_NONE;
+    double *work = malloc((summary->stored.count + 1) * sizeof *work);
+    if (!work)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", summary->stored.count);
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        double calls = 1 + (row->update.median > 0 ? 1 : 0) + (row->deform.median > 0 ? 1 : 0);
+        double share = calls / row->total.median;
+        if (row->total.median > 0 && !(share <= fastest))
+            fastest = share;
+    }
+    summary->overhead.clock_ns = cells_median(summary, "clock_ns", work);
+    summary->overhead.left_ns = cells_median(summary, "overhead_ns", work);
+    summary->overhead.share = fabs(summary->overhead.left_ns) * fastest;
+    free(work);
+    return MOTE_OK;
+}
+
 mote_status mote_summary_make(const char *directory, mote_summary *summary)
 {
     return mote_summary_make_whole(directory, NULL, summary);
@@ -147,6 +179,8 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
         status = take_ratios(&made);
     if (status == MOTE_OK)
         status = mote_summary_noise_floor(made.rows, made.count, &made.noise_floor);
+    if (status == MOTE_OK)
+        status = take_overhead(&made);
     if (status == MOTE_OK)
         status = mote_summary_smallest_change(made.rows, made.count, &made.smallest_change);
     if (status == MOTE_OK)
@@ -306,11 +340,15 @@ static json_t *summary_json(const mote_summary *summary, const mote_fronts *fron
     }
     if (!rows)
         return NULL;
-    return json_pack("{s:i, s:i, s:o, s:o, s:o, s:o}", "schema", 1, "cells_left_out",
+    json_t *overhead =
+        json_pack("{s:o, s:o, s:o}", "clock_ns", mote_json_number(summary->overhead.clock_ns),
+                  "left_ns", mote_json_number(summary->overhead.left_ns), "share",
+                  mote_json_number(summary->overhead.share));
+    return json_pack("{s:i, s:i, s:o, s:o, s:o, s:o, s:o}", "schema", 1, "cells_left_out",
                      (int)summary->stored.left_out, "noise_floor",
                      mote_json_number(summary->noise_floor), "smallest_change",
-                     mote_json_number(summary->smallest_change), "rows", rows, "fronts",
-                     mote_fronts_json(fronts));
+                     mote_json_number(summary->smallest_change), "overhead", overhead, "rows",
+                     rows, "fronts", mote_fronts_json(fronts));
 }
 
 json_t *mote_summary_json(const mote_summary *summary)

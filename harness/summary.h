@@ -26,9 +26,8 @@ typedef struct mote_process {
 } mote_process;
 
 /* Times with the disturbances of a shared machine taken out as far as replicates allow: of each
-   frame the fastest of a group of replicates, then the median over frames. Replicates with
-   number mod MOTE_QUIET_GROUPS = k make group k; with fewer than MOTE_QUIET_REPLICATES all is
-   MOTE_NONE. */
+   frame the fastest of a group of replicates, then the median over frames. Groups are
+   blocks of consecutive replicates; with fewer than MOTE_QUIET_REPLICATES all is MOTE_NONE. */
 #define MOTE_QUIET_GROUPS 5
 #define MOTE_QUIET_REPLICATES 10
 typedef struct mote_quiet {
@@ -83,11 +82,20 @@ typedef struct mote_summary_row {
     double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
 } mote_summary_row;
 
+/* Clock and bookkeeping in a timed call, medians over the cells; MOTE_NONE when not stored. */
+typedef struct mote_overhead {
+    double clock_ns; /* subtracted from every time */
+    double left_ns;  /* what is left then */
+    double share;    /* of that, at most, in the fastest median total; a frame has up to three
+                        timed    calls, with time 0 where there is none */
+} mote_overhead;
+
 typedef struct mote_summary {
     mote_stored stored;
     mote_summary_row *rows; /* by scenario, caches, machine, method, n */
     size_t count;
-    double noise_floor;     /* see mote_summary_noise_floor */
+    double noise_floor; /* see mote_summary_noise_floor */
+    mote_overhead overhead;
     double smallest_change; /* of rows, not exceeded by nine in ten; MOTE_NONE without any */
 } mote_summary;
 
@@ -103,7 +111,7 @@ void mote_summary_free(mote_summary *summary);
 bool mote_summary_machines_differ(const mote_summary *summary);
 
 /* How much rows differ from themselves when nothing changed, as a share (0.03: 3 %), exceeded
-   by one row in ten: replicates with odd numbers against those with even numbers, quiet times
+   by one row in ten: the first half of the replicates against the second, quiet times
    where there are enough replicates, else medians. MOTE_NONE when no row has two replicates.
    Part of mote_summary_make. */
 mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor);

@@ -7,15 +7,26 @@ static bool ran(const mote_stored_cell *cell)
     return cell->status == MOTE_CELL_OK && cell->frames > 0;
 }
 
-/* Of each frame the fastest of the replicates whose number mod groups is group; returns how
-   many replicates there were. times holds row->frames. */
+/* Which of the groups a replicate belongs to: blocks of consecutive numbers, so that groups
+   differ as much as the machine does from one minute to the next. */
+static uint32_t group_of(const mote_summary_row *row, const mote_stored_cell *cell,
+                         uint32_t groups)
+{
+    uint32_t last = 1;
+    for (size_t r = 0; r < row->replicates; ++r)
+        last = row->cells[r].replicate > last ? row->cells[r].replicate : last;
+    return (uint32_t)((uint64_t)(cell->replicate - 1) * groups / last);
+}
+
+/* Of each frame the fastest of the replicates of a group; returns how many replicates there
+   were. times holds row->frames. */
 static size_t fastest(const mote_summary_row *row, uint32_t groups, uint32_t group,
                       double *times)
 {
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (!ran(cell) || cell->replicate % groups != group || cell->frames != row->frames)
+        if (!ran(cell) || group_of(row, cell, groups) != group || cell->frames != row->frames)
             continue;
         for (size_t k = 0; k < row->frames; ++k) {
             if (count == 0 || cell->total_ns[k] < times[k])
@@ -73,13 +84,13 @@ static double better_of(double ratio, double total)
     return ratio == ratio ? ratio : total;
 }
 
-/* The medians of a row's odd or even processes, their logarithms averaged. */
+/* The medians of a row's early or late processes, their logarithms averaged. */
 static double half_of_processes(const mote_summary_row *row, uint32_t half)
 {
     double sum = 0, count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         double value = better_of(row->processes[r].ratio, row->processes[r].median);
-        if (row->cells[r].replicate % 2 != half || !(value > 0))
+        if (group_of(row, &row->cells[r], 2) != half || !(value > 0))
             continue;
         sum += log(value);
         count += 1;

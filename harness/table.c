@@ -6,6 +6,9 @@
 
 typedef char field[MOTE_NUMBER_TEXT];
 
+/* A change that is larger than this says nothing. */
+#define CHANGE_MAX 10.0
+
 static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->first->scenario, b->first->scenario) == 0 &&
@@ -91,6 +94,27 @@ static void print_foot(const mote_summary *summary, const mote_summary_row *row,
             summary->rows[row->ratio.to].label, summary->rows[row->ratio_best.to].label);
 }
 
+/* How far the times can be trusted. */
+static void print_quality(const mote_summary *summary, FILE *out)
+{
+    const mote_overhead *overhead = &summary->overhead;
+    if (summary->noise_floor == summary->noise_floor)
+        (void)fprintf(out, "noise floor %.1f %%; ", 100 * summary->noise_floor);
+    if (summary->smallest_change <= CHANGE_MAX)
+        (void)fprintf(out,
+                      "smallest change that a comparison with a run like this detects (in nine "
+                      "rows of ten): %.1f %%\n",
+                      100 * summary->smallest_change);
+    else
+        (void)fprintf(out, "no change can be detected without more replicates\n");
+    if (overhead->left_ns == overhead->left_ns)
+        (void)fprintf(
+            out,
+            "clock and bookkeeping: %.0f ns a timed call, subtracted; %.1f ns are left, "
+            "%.2f %% of the fastest median or less\n",
+            overhead->clock_ns, overhead->left_ns, 100 * overhead->share);
+}
+
 void mote_table_print(const mote_summary *summary, FILE *out)
 {
     int width = (int)label_width(summary);
@@ -106,12 +130,7 @@ void mote_table_print(const mote_summary *summary, FILE *out)
         }
         print_foot(summary, measured, out);
     }
-    if (summary->noise_floor == summary->noise_floor)
-        (void)fprintf(
-            out,
-            "noise floor %.1f %%; a later run's change of %.1f %% can be detected (in "
-            "nine rows of ten)\n",
-            100 * summary->noise_floor, 100 * summary->smallest_change);
+    print_quality(summary, out);
     if (summary->stored.left_out > 0)
         (void)fprintf(out, "%zu cells were measured by another build and are left out\n",
                       summary->stored.left_out);

@@ -1,0 +1,70 @@
+#define _DEFAULT_SOURCE /* getloadavg */
+#include "harness/load.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define WATCH_NS 100000000
+
+double mote_load_average(void)
+{
+    double load = 0;
+    return getloadavg(&load, 1) == 1 ? load : 0;
+}
+
+double mote_core_clock(int core)
+{
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    char line[512];
+    double mhz = 0;
+    for (int seen = -1; file && mhz <= 0 && fgets(line, sizeof line, file);) {
+        seen += strncmp(line, "processor", 9) == 0 ? 1 : 0;
+        const char *colon = strchr(line, ':');
+        if ((core < 0 || seen == core) && strncmp(line, "cpu MHz", 7) == 0 && colon)
+            mhz = strtod(colon + 1, NULL);
+    }
+    if (file)
+        (void)fclose(file);
+    return mhz;
+}
+
+/* Ticks that all cores were idle (or waited for disks), and all their ticks, since the start.
+ */
+static bool read_ticks(double *idle, double *all)
+{
+    char line[512];
+    FILE *file = fopen("/proc/stat", "r");
+    bool there = file && fgets(line, sizeof line, file) && strncmp(line, "cpu ", 4) == 0;
+    if (file)
+        (void)fclose(file);
+    *idle = *all = 0;
+    char *next = line + 4;
+    /* user, nice, system, idle, iowait, irq, softirq, steal; guests are in user already. */
+    for (int k = 0; there && k < 8; ++k) {
+        char *end;
+        double ticks = strtod(next, &end);
+        if (end == next)
+            break;
+        next = end;
+        *all += ticks;
+        *idle += k == 3 || k == 4 ? ticks : 0;
+    }
+    return there && *all > 0;
+}
+
+double mote_busy_cores(void)
+{
+    const struct timespec pause = {0, WATCH_NS};
+    double idle[2], all[2];
+    bool known = read_ticks(&idle[0], &all[0]);
+    (void)nanosleep(&pause, NULL);
+    known = known && read_ticks(&idle[1], &all[1]) && all[1] > all[0];
+    if (!known)
+        return 0;
+    double share = 1 - (idle[1] - idle[0]) / (all[1] - all[0]);
+    return share > 0 ? share * (double)sysconf(_SC_NPROCESSORS_ONLN) : 0;
+}
