@@ -45,6 +45,17 @@ claims() {
     [ $status -le 1 ] || exit $status
 }
 
+# measure_best SCENARIO ARGUMENT...: also the best configuration of FCL that `make tune` has found on
+# this scenario, if it ran.
+measure_best() {
+    [ -f results/tune/tune.json ] || return 0
+    best=$("$mote" tune results/tune --best-fcl "$1")
+    if [ -n "$best" ]; then
+        echo "bench.sh: the best FCL on $1 is $best, says results/tune/tune.json" >&2
+        measure "$@" --method "$best"
+    fi
+}
+
 case $profile in
 quick)
     measure ww tt --replicates 3 --method $plain --method $tuned --method fcl-obbrss \
@@ -52,6 +63,7 @@ quick)
         --method 'particle-paper:refine=no|near' --particles 1,3,5,16
     # Nothing deforms there: no refit is needed.
     measure tt --replicates 3 --method fcl-obb:update=none --method fcl-obbrss:update=none
+    for scenario in ww tt; do measure_best $scenario --replicates 3; done
     ;;
 paper)
     measure ww tt mv --replicates 5 --method 'fcl-aabb:seed=none|previous,queue=2|64' \
@@ -62,6 +74,7 @@ paper)
     measure ww mv --replicates 5 --method particle:n=8,positions=given \
         --method aabb-tree:positions=given
     measure tt --replicates 5 --method fcl-obb:update=none --method fcl-obbrss:update=none
+    for scenario in ww tt mv; do measure_best $scenario --replicates 5; done
     measure ww --replicates 5 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method particle-paper --particles 5,8
@@ -72,6 +85,7 @@ full)
         --method particle --method 'particle-paper:refine=no|near|always,start=random|fps' \
         --particles 1-8,12,16,24,32,48,64
     measure tt --replicates 10 --method fcl-obb:update=none --method fcl-obbrss:update=none
+    for scenario in ww tt mv; do measure_best $scenario --replicates 10; done
     measure ww tt mv --replicates 10 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near' --particles 5,8,16

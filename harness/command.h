@@ -51,7 +51,8 @@ typedef enum mote_exit {
       "instructions SCENARIO --frames A-B --out DIR [--method NAME[:key=a|b,...]]...\n"        \
       "           [--particles 1,2,4-8]",                                                      \
       "what each method's frames execute, by callgrind; writes DIR/instructions.json")         \
-    X(tune, "tune DIR", "the best configuration of each method on each scenario of a run")     \
+    X(tune, "tune DIR [--best-fcl SCENARIO]",                                                  \
+      "the best configuration of each method on each scenario of a run, or what was found")    \
     X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
     X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
       "draws the accepted references, or adds one")                                            \

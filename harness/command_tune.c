@@ -22,18 +22,34 @@ static int tune(const char *directory)
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }
 
+static int print_best(const char *directory, const char *scenario)
+{
+    char *configuration = NULL;
+    if (mote_tune_best_fcl(directory, scenario, &configuration) != MOTE_OK)
+        return mote_command_fail();
+    if (configuration[0])
+        (void)printf("%s\n", configuration);
+    free(configuration);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
 int mote_command_tune(int argc, char **argv)
 {
-    mote_option_reader reader = {NULL, 0, argc, argv, 0};
-    const char *directory = NULL, *value;
+    static const mote_option options[] = {{"best-fcl", "SCENARIO"}};
+    mote_option_reader reader = {options, 1, argc, argv, 0};
+    const char *directory = NULL, *scenario = NULL, *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
+        if (option == 0) {
+            scenario = value;
+            continue;
+        }
         if (directory)
             return mote_command_usage(argv[0], "%s: one directory at a time", value);
         directory = value;
     }
     if (!directory)
         return mote_command_usage(argv[0], "no directory; write `mote tune results/tune`");
-    return tune(directory);
+    return scenario ? print_best(directory, scenario) : tune(directory);
 }

@@ -79,6 +79,37 @@ json_t *mote_tune_json(const mote_tuned *tuned, size_t count)
     return rows ? json_pack("{s:i, s:o}", "schema", 1, "rows", rows) : NULL;
 }
 
+mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
+                               char **configuration)
+{
+    json_t *object = NULL;
+    mote_status status = mote_record_read_json(directory, "tune.json", &object);
+    if (status != MOTE_OK)
+        return status;
+    const json_t *rows = json_object_get(object, "rows");
+    const char *best = "";
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < json_array_size(rows); ++i) {
+        const char *place = NULL, *cache = NULL, *method = NULL, *text = NULL;
+        int right = 0;
+        double total = 0;
+        if (json_unpack(json_array_get(rows, i), "{s:s, s:s, s:s, s:s, s:b, s:F}", "scenario",
+                        &place, "cache", &cache, "method", &method, "configuration", &text,
+                        "right", &right, "total_ns", &total) == 0 &&
+            strcmp(place, scenario) == 0 && strcmp(cache, "hot") == 0 &&
+            strncmp(method, "fcl-", 4) == 0 && right && total < least) {
+            least = total;
+            best = text;
+        }
+    }
+    char *found = mote_format("%s", best);
+    json_decref(object);
+    if (!found)
+        return mote_fail(MOTE_ENOMEM, "no memory for a configuration");
+    *configuration = found;
+    return MOTE_OK;
+}
+
 void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out)
 {
     const char *last = "", *cache = "";

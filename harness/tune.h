@@ -24,6 +24,12 @@ mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size
    (medians), "worst": {"configuration", "total_ns"}}]}; NULL when memory ran out. */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
+/* The configuration of FCL that directory/tune.json calls the fastest right one on a scenario
+   with hot caches, as it is written behind --method; "" when it names none. MOTE_EIO or
+   MOTE_EINVAL when the file cannot be read. The caller frees *configuration. */
+mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
+                               char **configuration);
+
 void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out);
 
 #endif

@@ -106,6 +106,23 @@ static void tune_names_the_fastest_right_configuration(void **unused)
                          compared + others);
         assert_non_null(strstr(text, string_of(row, "configuration")));
     }
+    /* The fastest right row of FCL, whichever method. */
+    const char *best = "";
+    double least = HUGE_VAL;
+    json_array_foreach(tuned, k, row)
+    {
+        double total = json_number_value(json_object_get(row, "total_ns"));
+        if (strncmp(string_of(row, "method"), "fcl-", 4) == 0 && total < least &&
+            json_is_true(json_object_get(row, "right"))) {
+            least = total;
+            best = string_of(row, "configuration");
+        }
+    }
+    assert_int_equal(mote("tune --best-fcl tt ", "/"), 0);
+    assert_int_equal(strcspn(text, "\n"), strlen(best));
+    assert_memory_equal(text, best, strlen(best));
+    assert_int_equal(mote("tune --best-fcl ww ", "/"), 0);
+    assert_string_equal(text, "");
     json_decref(tuned);
     json_decref(summary);
 }
@@ -114,6 +131,7 @@ static void tune_without_a_run_is_bad_input(void **unused)
 {
     (void)unused;
     assert_int_equal(mote("tune ", "/nothing"), 4);
+    assert_int_equal(mote("tune --best-fcl tt ", "/nothing"), 4);
     assert_int_equal(mote("tune", ""), 2);
     assert_int_equal(mote("tune ", "/ two"), 2);
 }
