@@ -81,10 +81,10 @@ static mote_status build_part(const mote_mesh *mesh, const uint32_t *label, uint
     part->count = mark_vertices(mesh, label, which, local);
     if (part->count == 0)
         return MOTE_OK;
-    part->vertex = malloc(part->count * sizeof *part->vertex);
+    part->vertex = calloc(part->count, sizeof *part->vertex);
     part->ring_start = malloc((part->count + 1) * sizeof *part->ring_start);
     part->ring = malloc((count_neighbours(mesh, local) + 1) * sizeof *part->ring);
-    double *nearest = malloc(part->count * sizeof *nearest);
+    double *nearest = calloc(part->count, sizeof *nearest);
     mote_status status = MOTE_OK;
     if (!part->vertex || !part->ring_start || !part->ring || !nearest) {
         status =
@@ -103,8 +103,10 @@ static mote_status build(const mote_mesh *mesh, const mote_parts *labels,
     uint32_t *local = malloc(mesh->vertex_count * sizeof *local);
     parts->part = calloc(labels->count, sizeof *parts->part);
     mote_status status = MOTE_OK;
-    if (!local || !parts->part)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %u convex parts", labels->count);
+    if (!local || !parts->part) {
+        free(local);
+        return mote_fail(MOTE_ENOMEM, "no memory for %u convex parts", labels->count);
+    }
     for (uint32_t k = 0; k < labels->count && status == MOTE_OK; ++k) {
         /* A part without a triangle leaves its place to the next. */
         mote_convex_part *part = &parts->part[parts->count];

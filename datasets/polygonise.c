@@ -275,12 +275,12 @@ mote_status mote_polygonise(const mote_glyph *glyph, size_t triangle_count,
         grid_clear(&g);
         return status;
     }
-    g.first_vertex = malloc((g.nx - 1) * (g.ny - 1) * sizeof *g.first_vertex);
-    uint32_t *vertex = malloc(6 * g.quad_count * sizeof *vertex);
+    g.first_vertex = calloc((g.nx - 1) * (g.ny - 1), sizeof *g.first_vertex);
+    uint32_t *vertex = malloc((6 * g.quad_count + 1) * sizeof *vertex);
     if (!g.first_vertex || !vertex)
         goto no_memory;
     number_vertices(&g);
-    mote_vec3 *positions = malloc(g.vertex_count * sizeof *positions);
+    mote_vec3 *positions = malloc((g.vertex_count + 1) * sizeof *positions);
     if (!positions)
         goto no_memory;
     place_vertices(&g, positions);

@@ -59,7 +59,7 @@ static mote_status median_time(const mote_subject *subject, const pace *p, uint3
 static mote_status add_point(const mote_subject *subject, const pace *p, uint32_t n, double x,
                              cost_points *points, mote_text *curve)
 {
-    double us[COST_SEEDS];
+    double us[COST_SEEDS] = {0};
     for (uint64_t s = 0; s < COST_SEEDS; ++s) {
         mote_status status = median_time(subject, p, n, s + 1, &us[s]);
         if (status != MOTE_OK)

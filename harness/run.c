@@ -109,7 +109,7 @@ static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 
 static double expected_seconds(const mote_cell *cell, const mote_forecast *forecast)
 {
-    double frames = (double)((cell->last - cell->first) / cell->stride + 1);
+    uint32_t frames = (cell->last - cell->first) / cell->stride + 1;
     double frame =
         forecast->frame_seconds + (cell->cache == MOTE_CACHE_EVICT ? EVICT_SECONDS : 0);
     return forecast->build_seconds + frames * frame;
@@ -389,13 +389,16 @@ static void add_replicate(run *r, size_t of, uint32_t replicate)
 
 static mote_status make_room(run *r, size_t more)
 {
-    size_t count = r->plan.count + more;
+    size_t count = r->plan.count + more + 1;
     mote_cell *cells = realloc(r->plan.cells, count * sizeof *cells);
-    r->plan.cells = cells ? cells : r->plan.cells;
+    if (!cells)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
+    r->plan.cells = cells;
     prospect *prospects = realloc(r->prospects, count * sizeof *prospects);
-    r->prospects = prospects ? prospects : r->prospects;
-    return cells && prospects ? MOTE_OK
-                              : mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
+    if (!prospects)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
+    r->prospects = prospects;
+    return MOTE_OK;
 }
 
 /* Plans one more replicate of each configuration whose interval is too wide, and of the rows

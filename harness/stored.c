@@ -264,7 +264,7 @@ static mote_status read_csv(const char *directory, mote_stored_cell *cell)
     size_t size = 0;
     mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
                               : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    if (status == MOTE_OK)
+    if (status == MOTE_OK && text)
         status = read_frames(path, text, cell);
     free(text);
     free(path);

@@ -12,6 +12,7 @@ typedef struct mote_stored_count {
     double sum, max;
 } mote_stored_count;
 
+/* One more for each name. NOLINTNEXTLINE(bugprone-macro-parentheses) */
 #define MOTE_STORED_ONE(name) +1
 enum {
     MOTE_STORED_COUNTS = 1 MOTE_COUNTERS(MOTE_STORED_ONE) MOTE_COUNTERS_MORE(MOTE_STORED_ONE)
