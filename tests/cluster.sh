@@ -156,7 +156,7 @@ went_on()
     before=$(wc -l < "$work/before-$1")
     done=$(sed -n "s/^plan: $2 cells, \([0-9]*\) of them done.*/\1/p" "$log" | tail -n 1)
     [ "$before" -lt "$2" ] || fail "task $1 was done before it could be stopped"
-    scontrol show job "${job}_$1" | grep -q 'Restarts=1' || fail "task $1 was not queued again"
+    grep -q 'Restarts=1' <<< "$(scontrol show job "${job}_$1")" || fail "task $1 was not queued again"
     stat -c '%i %Y %s %n' $(awk '{ print $4 }' "$work/before-$1") | cmp - "$work/before-$1" ||
         fail "task $1: cells were measured again"
     # The process of a cell may have ended after the count and before the signal.

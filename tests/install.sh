@@ -81,17 +81,17 @@ for way in shared static package-shared package-static; do
     cmp expected "out-$way" || fail "$way: another answer than expected"
 done
 for program in static package/build/track-static; do
-    ! ldd $program | grep -q libmote || fail "$program needs libmote.so"
+    ! grep -q libmote <<< "$(ldd $program)" || fail "$program needs libmote.so"
 done
 for program in shared package/build/track; do
-    objdump -p $program | grep -q "NEEDED *$soname" || fail "$program does not ask for $soname"
+    grep -q "NEEDED *$soname" <<< "$(objdump -p $program)" || fail "$program does not ask for $soname"
 done
 echo "the README's program: pkg-config and find_package, shared and static, 8 frames as expected"
 if [ ! -e "$root/bin/mote" ]; then exit 0; fi
 
 # The installed program reads what was installed beside it.
 echo '{"purpose": "of the installation", "like": "tt"}' > "$root/share/mote/datasets/scenarios/zz.json"
-"$root/bin/mote" list scenarios | grep -q '^zz .*of the installation' || fail "scenarios of elsewhere"
+grep -q '^zz .*of the installation' <<< "$("$root/bin/mote" list scenarios)" || fail "scenarios of elsewhere"
 "$root/bin/mote" run zz --frames 1-2 --replicates 1 --method certified --out run > log 2>&1 ||
     { cat log; fail "the installed program does not run"; }
 

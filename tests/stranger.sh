@@ -6,6 +6,7 @@ set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# No pipe into grep -q: it leaves at the first match, and who writes on would fail.
 fail() { echo "stranger.sh: $*" >&2; exit 1; }
 
 cd "$tests/.."
@@ -21,9 +22,9 @@ bash -e commands > table 2> log || { tail -40 log table; fail "the README's comm
 if grep -n "warning: " log | grep -v "machine is busy"; then fail "the README's files have warnings"; fi
 sed -n '/^bending:/,$p' table
 
-build/mote list methods | grep -q '^sampled: ' || fail "the method is not listed"
-build/mote list fields | grep -q '^bend: ' || fail "the field is not listed"
-build/mote list scenarios | grep -q '^bending ' || fail "the scenario is not listed"
+grep -q '^sampled: ' <<< "$(build/mote list methods)" || fail "the method is not listed"
+grep -q '^bend: ' <<< "$(build/mote list fields)" || fail "the field is not listed"
+grep -q '^bending ' <<< "$(build/mote list scenarios)" || fail "the scenario is not listed"
 for row in 'sampled ' 'certified ' 'brute-force '; do
     grep -q "^$row" table || fail "no row $row in the table"
 done
