@@ -11,6 +11,8 @@
    - A projection onto a direction of length <= 1 + 6 u adds up at most 9 roundings of terms
    whose absolute values sum up to at most sqrt(3) B: 16 u B; the difference of two projections
      rounds once more: 2 u B for each box.
+   - The empty corners that a reach is shortened by are stored a 25,000th too small, which is
+   more than the three roundings of their product.
    - Dividing a gap, at most 2 sqrt(3) B, by a length of 1 + 6 u changes it by 21 u B, half of
    it for each box. A direction rounded to float shifts a projection by sqrt(3) u B, and so does
    a threshold. The sum is below (n + 40) u B. To it are added tree->leak, by which rest
