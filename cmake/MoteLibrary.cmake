@@ -96,6 +96,8 @@ if(NOT MOTE_CORE_ONLY)
   install(FILES datasets/defects.md DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets)
   install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/mote
           PATTERN node_modules EXCLUDE PATTERN "*.sh" EXCLUDE PATTERN "package*.json" EXCLUDE)
+  install(FILES ${CMAKE_BINARY_DIR}/page/replay.js OPTIONAL
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/page)
   install(FILES docs/mote.bash RENAME mote
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   # The commands as the program itself tells them.

@@ -10,7 +10,7 @@
 /* Base-64 bytes that one scenario may take, and all of a page. What does not fit is left out
    and named. */
 #define MOTE_REPLAY_SCENARIO_BYTES 4500000u
-#define MOTE_REPLAY_PAGE_BYTES 10000000u
+#define MOTE_REPLAY_PAGE_BYTES 13500000u
 
 /* Meshes above this are not replayed: indices have 16 bits. */
 #define MOTE_REPLAY_VERTICES 65535u

@@ -1,4 +1,5 @@
 /* The page's replay: its data, and the program that `make page` bundles for it. */
+#include "harness/data.h"
 #include "harness/escape.h"
 #include "harness/replay.h"
 #include "harness/report_html.h"
@@ -7,6 +8,14 @@
 #include <string.h>
 
 #define PROGRAM_LIMIT ((size_t)8 << 20)
+
+/* The bundle: that of an installed program, or what `make page` left in the build. */
+static mote_status read_program(char **program, size_t *size)
+{
+    if (mote_data_read("page/replay.js", PROGRAM_LIMIT, program, size) == MOTE_OK)
+        return MOTE_OK;
+    return mote_file_read(MOTE_PAGE_PROGRAM, PROGRAM_LIMIT, program, size);
+}
 
 static void add_absent(mote_text *text)
 {
@@ -64,11 +73,11 @@ mote_status mote_report_html_replay(const mote_report *report, mote_text *text)
     if (!report->has_cells)
         return MOTE_OK;
     mote_report_html_section(text, "replay", "Replay");
-    if (mote_file_read(MOTE_PAGE_PROGRAM, PROGRAM_LIMIT, &program, &size) != MOTE_OK)
+    if (read_program(&program, &size) != MOTE_OK)
         add_absent(text);
     else if (strstr(program, "</script") || strlen(program) != size)
         status = mote_fail(MOTE_EINVAL, "%s: not what `make page` writes; run it again",
-                           MOTE_PAGE_PROGRAM);
+                           "page/replay.js");
     else
         status = add_program(report, program, text);
     free(program);
