@@ -348,7 +348,7 @@ static bool check_rings(search *s, const uint32_t *centres0, const uint32_t *cen
     return s->best->squared < before;
 }
 
-static void descend(search *s)
+static void descend_by_rounds(search *s)
 {
     for (int round = 0; round < ROUNDS_MAX && !done(s); ++round) {
         alternate(s);
@@ -368,6 +368,38 @@ static void descend(search *s)
         if (!check_rings(s, around[0], around[1], 3))
             return;
     }
+}
+
+/* Witnesses whose coordinates are more than this many times the faces and their distance are
+   rounded so much that what was measured from them is not the distance of the faces. */
+#define FAR_FROM_ORIGIN 0x1p16
+
+/* Measures the faces themselves, where that makes a difference. */
+static void measure_far_faces(const search *s)
+{
+    mote_refined *best = s->best;
+    const double far =
+        max2(largest_coordinate(best->witness[0]), largest_coordinate(best->witness[1]));
+    const double small = far / FAR_FROM_ORIGIN, small_squared = small * small;
+    if (best->squared >= small_squared)
+        return;
+    mote_vec3 t[2][3];
+    for (int side = 0; side < 2; ++side) {
+        for (int i = 0; i < 3; ++i)
+            t[side][i] = mote_lazy_position(s->lazy[side], best->triangle[side][i]);
+        for (int i = 0; i < 3; ++i) {
+            if (mote_distance_squared(t[side][i], t[side][(i + 1) % 3]) >= small_squared)
+                return;
+        }
+    }
+    ++best->triangle_tests;
+    best->squared = mote_triangle_triangle(t[0], t[1], &best->witness[0], &best->witness[1]);
+}
+
+static void descend(search *s)
+{
+    descend_by_rounds(s);
+    measure_far_faces(s);
 }
 
 void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],

@@ -13,7 +13,8 @@ extern "C" {
 /* Index 0 is body 0, index 1 is body 1. */
 typedef struct mote_refined {
     double squared;          /* squared distance; 0 where the faces touch or intersect */
-    mote_vec3 witness[2];    /* world points, each on its face, |w0 - w1|^2 = squared */
+    mote_vec3 witness[2];    /* world points, each on its face, |w0 - w1|^2 = squared, to the
+                                rounding of their coordinates */
     uint32_t triangle[2][3]; /* the face of each witness, by its vertices; one of the mesh */
     uint32_t vertex[2];      /* the vertex of that face nearest to the witness */
     uint32_t triangle_tests; /* pairs of triangles measured in this call */

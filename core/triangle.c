@@ -399,10 +399,10 @@ static inline side classify(const face *f, const mote_vec3 v[3], double bound_sq
     return r;
 }
 
-/* The candidate vertex on the inside of f; false if the vertex does not project there. */
-static inline bool drop_vertex(const face *f, mote_vec3 vertex, bool face_is_s, candidate *c)
+/* The candidate point = f->o + w on the inside of f; false if it does not project there. */
+static inline bool drop_point(const face *f, mote_vec3 point, mote_vec3 w, bool face_is_s,
+                              candidate *c)
 {
-    mote_vec3 w = mote_sub(vertex, f->o);
     double u, v, du, dv;
     project_plane(f, w, &u, &v);
     if (u < 0 || v < 0 || u + v > 1)
@@ -412,8 +412,13 @@ static inline bool drop_vertex(const face *f, mote_vec3 vertex, bool face_is_s, 
     v += dv;
     clamp_to_triangle(&u, &v);
     c->squared = HUGE_VAL;
-    offer(c, f, u, v, vertex, residual(f, w, u, v), face_is_s);
+    offer(c, f, u, v, point, residual(f, w, u, v), face_is_s);
     return true;
+}
+
+static inline bool drop_vertex(const face *f, mote_vec3 vertex, bool face_is_s, candidate *c)
+{
+    return drop_point(f, vertex, mote_sub(vertex, f->o), face_is_s, c);
 }
 
 /* True if an edge of v, of which there are two that cross the plane, pierces f; c is the point.
@@ -426,8 +431,10 @@ static inline bool pierce(const face *f, const mote_vec3 v[3], const double h[3]
         if ((h[k] > 0) == (h[next] > 0))
             continue;
         double x = h[k] / (h[k] - h[next]);
-        mote_vec3 at = mote_add_scaled(v[k], x, mote_sub(v[next], v[k]));
-        if (drop_vertex(f, at, face_is_s, c))
+        mote_vec3 d = mote_sub(v[next], v[k]);
+        /* Not from the point itself, which is rounded where coordinates are large. */
+        mote_vec3 w = mote_add_scaled(mote_sub(v[k], f->o), x, d);
+        if (drop_point(f, mote_add_scaled(v[k], x, d), w, face_is_s, c))
             return true;
     }
     return false;

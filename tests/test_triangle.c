@@ -197,6 +197,30 @@ static void triangle_triangle_common_offset_costs_nothing(void **state)
     }
 }
 
+/* Where an edge goes through a face, the point is rounded at the offset, the distance is not.
+ */
+static void triangle_triangle_offset_of_intersecting_pairs_is_a_contact(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    int contacts = 0;
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_make(PAIR_GENERAL, s, t, &seed);
+        for (int k = 0; k < 3; k++) {
+            s[k] = mote_vec3_make(rint(s[k].x * 999), rint(s[k].y * 999), rint(s[k].z * 999));
+            t[k] = mote_vec3_make(rint(t[k].x * 999), rint(t[k].y * 999), rint(t[k].z * 999));
+        }
+        const double near = mote_triangle_triangle(s, t, NULL, NULL);
+        pair_move(s, mote_vec3_make(0x1p50, -0x1p51, 0x1p49));
+        pair_move(t, mote_vec3_make(0x1p50, -0x1p51, 0x1p49));
+        const double far = mote_triangle_triangle(s, t, NULL, NULL);
+        assert_true(far == near);
+        contacts += near == 0;
+    }
+    assert_in_range(contacts, 2000, 10000);
+}
+
 static void triangle_triangle_below_agrees_with_the_bound(void **state)
 {
     (void)state;
@@ -275,6 +299,7 @@ int main(void)
         cmocka_unit_test(triangle_triangle_rigid_motion_same_distance),
         cmocka_unit_test(triangle_triangle_power_of_two_scale_same_bits),
         cmocka_unit_test(triangle_triangle_common_offset_costs_nothing),
+        cmocka_unit_test(triangle_triangle_offset_of_intersecting_pairs_is_a_contact),
         cmocka_unit_test(triangle_triangle_below_agrees_with_the_bound),
         cmocka_unit_test(point_triangle_random_points_match_reference),
         cmocka_unit_test(segment_segment_random_pairs_match_reference),
