@@ -6,6 +6,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <math.h>
+#include <string.h>
 
 /* parent * child, in double precision. */
 static void multiply(const double parent[12], const struct aiMatrix4x4 *m, double out[12])
@@ -87,17 +88,31 @@ static mote_status add_node(const char *path, const struct aiScene *scene,
     return status;
 }
 
+/* assimp leaves out faces with an index that no vertex has, and says so in its log only. */
+static void note_dropped(const char *message, char *dropped)
+{
+    if (strstr(message, "out-of-range") || strstr(message, "dropped"))
+        *dropped = 1;
+}
+
 mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    char dropped = 0;
+    const struct aiLogStream log = {note_dropped, &dropped};
+    aiAttachLogStream(&log);
     /* Vertices are joined by ourselves, after they were found finite. */
     const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate);
+    aiDetachLogStream(&log);
     if (!scene)
         return mote_fail(MOTE_EINVAL, "%s: %.200s; give a mesh in OBJ, PLY, STL, OFF or glTF",
                          path, aiGetErrorString());
     mote_status status = MOTE_OK;
     soup->single_precision = true;
-    if (!scene->mRootNode || scene->mNumMeshes == 0)
+    if (dropped)
+        status = mote_fail(
+            MOTE_EINVAL, "%s: a face with an index out of range; use those of vertices", path);
+    else if (!scene->mRootNode || scene->mNumMeshes == 0)
         status = mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
     else
         status = add_node(path, scene, scene->mRootNode, identity, 0, soup);

@@ -52,7 +52,7 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     if (is_obj || is_off)
         status = read_text(path, text, size, is_off, soup);
     else
-        status = mote_soup_check_counts(path, text, size);
+        status = mote_soup_check_text(path, text, size);
     free(text);
     if (status != MOTE_OK || is_obj || is_off)
         return status;

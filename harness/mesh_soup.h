@@ -44,9 +44,12 @@ mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *so
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
                                mote_soup *soup);
 
-/* Whether a PLY text declares no more vertices and faces than it can hold. MOTE_EINVAL
-   otherwise. Other formats, by the path's ending, pass. */
-mote_status mote_soup_check_counts(const char *path, const char *text, size_t size);
+/* What assimp would get wrong without a word (text ends with a 0 byte): a PLY header without an
+   end, or that declares more elements than the size can hold; in ASCII PLY, fewer lines than
+   declared, an index out of range, a comma; in ASCII STL, a vertex or facet that is not whole,
+   or no end. MOTE_EINVAL with file and
+   line. Other formats, by the path's ending, pass. */
+mote_status mote_soup_check_text(const char *path, const char *text, size_t size);
 
 /* Reads any format that assimp knows; coordinates go through 32-bit floats. To be called in a
    child process with limits: assimp may crash, hang or ask for any amount of memory. */

@@ -1,5 +1,5 @@
-/* Any text as an OBJ file, up to the rings and measures of its mesh; and as the head of an OFF
-   or PLY file. */
+/* Any text as an OBJ file, up to the rings and measures of its mesh; and as an OFF
+   file, and as the text of a PLY or STL file. */
 #include "core/mesh.h"
 #include "harness/mesh_soup.h"
 #include "tests/fuzz.h"
@@ -16,8 +16,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
     mote_soup soup = {0};
     mote_mesh *mesh = NULL;
-    (void)mote_soup_check_counts("any.off", text, size);
-    (void)mote_soup_check_counts("any.ply", text, size);
+    (void)mote_soup_check_text("any.ply", text, size);
+    (void)mote_soup_check_text("any.stl", text, size);
+    mote_soup off = {0};
+    (void)mote_soup_read_off("any.off", text, size, &off);
+    mote_soup_free(&off);
     if (mote_soup_read_obj("any.obj", text, &soup) == MOTE_OK &&
         mote_soup_weld(&soup) == MOTE_OK && mote_soup_compact(&soup) == MOTE_OK &&
         mote_mesh_create(soup.xyz, soup.vertex_count, soup.indices, soup.triangle_count,

@@ -1,0 +1,221 @@
+/* Before assimp sees a file: what it would get wrong without a word. It believes declared
+   counts, and loops or allocates for minutes; takes a comma for a decimal point; and takes an
+   index modulo 2^32. */
+#include "harness/mesh_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+/* The elements of a PLY header, in the file's order. */
+#define ELEMENTS_MAX 16
+
+typedef struct ply_element {
+    char name[16]; /* cut */
+    unsigned long long count;
+    bool has_properties, begins_with_list; /* its first property is a list */
+} ply_element;
+
+typedef struct ply_header {
+    ply_element element[ELEMENTS_MAX];
+    size_t count;
+    bool ascii;
+    size_t lines; /* of the header */
+    unsigned long long vertices;
+} ply_header;
+
+static const char *next_line(const char *at)
+{
+    at += strcspn(at, "\n");
+    return at + (*at == '\n');
+}
+
+/* "element NAME COUNT"; an element takes a byte at least. */
+static mote_status read_element(const char *path, const char *at, size_t size, ply_header *h)
+{
+    if (h->count == ELEMENTS_MAX)
+        return mote_fail(MOTE_EINVAL, "%s:%zu: more than %d elements; leave some out", path,
+                         h->lines + 1, ELEMENTS_MAX);
+    ply_element *e = &h->element[h->count++];
+    *e = (ply_element){0};
+    const size_t length = strcspn(at, " \t\r\n");
+    memcpy(e->name, at, length < sizeof e->name ? length : sizeof e->name - 1);
+    e->count = strtoull(at + length, NULL, 10);
+    if (e->count > size)
+        return mote_fail(MOTE_EINVAL,
+                         "%s:%zu: declares %llu elements, which %zu bytes cannot hold; give "
+                         "the number that follows",
+                         path, h->lines + 1, e->count, size);
+    if (strcmp(e->name, "vertex") == 0)
+        h->vertices = e->count;
+    return MOTE_OK;
+}
+
+/* What follows `word` and blanks, or NULL. */
+static const char *after(const char *at, const char *word)
+{
+    const size_t length = strlen(word);
+    if (strncmp(at, word, length) != 0 || !mote_is_blank(at[length]))
+        return NULL;
+    return mote_skip_blanks(at + length);
+}
+
+static void note_property(ply_element *e, const char *property)
+{
+    if (!e->has_properties)
+        e->begins_with_list = after(property, "list") != NULL;
+    e->has_properties = true;
+}
+
+/* Up to a line end_header, without which assimp reads for ever; *body is what follows. */
+static mote_status read_header(const char *path, const char *text, size_t size, ply_header *h,
+                               const char **body)
+{
+    for (const char *line = text; *line; line = next_line(line), ++h->lines) {
+        const char *element = after(line, "element"), *property = after(line, "property");
+        const char *format = after(line, "format");
+        mote_status status = MOTE_OK;
+        if (element)
+            status = read_element(path, element, size, h);
+        else if (property && h->count > 0)
+            note_property(&h->element[h->count - 1], property);
+        if (status != MOTE_OK)
+            return status;
+        h->ascii = h->ascii || (format && strncmp(format, "ascii", 5) == 0);
+        if (strncmp(line, "end_header", 10) == 0 && strchr("\r\n", line[10])) {
+            *body = next_line(line);
+            ++h->lines;
+            return MOTE_OK;
+        }
+    }
+    return mote_fail(MOTE_EINVAL, "%s: a header without a line end_header; add it", path);
+}
+
+/* "3 0 1 2", and what else the line has. */
+static mote_status check_face(const char *path, size_t number, const char *line,
+                              unsigned long long vertices)
+{
+    char *end;
+    const long long corners = strtoll(line, &end, 10);
+    if (end == line || corners < 0)
+        return mote_fail(MOTE_EINVAL,
+                         "%s:%zu: a face without its number of corners; write 3 0 1 2", path,
+                         number);
+    for (long long i = 0; i < corners; ++i) {
+        const char *at = mote_skip_blanks(end);
+        const long long index = mote_is_end(*at) ? 0 : strtoll(at, &end, 10);
+        if (mote_is_end(*at) || end == at)
+            return mote_fail(MOTE_EINVAL, "%s:%zu: a face of %lld corners with %lld; give all",
+                             path, number, corners, i);
+        if (index < 0 || (unsigned long long)index >= vertices)
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: face with vertex %lld of %llu; use 0 to %llu", path,
+                             number, index, vertices, vertices - 1);
+    }
+    return MOTE_OK;
+}
+
+static mote_status comma_at(const char *path, size_t number)
+{
+    return mote_fail(MOTE_EINVAL, "%s:%zu: a comma among numbers; write 1.5, not 1,5", path,
+                     number);
+}
+
+/* The lines of an ASCII body, one an element. */
+static mote_status check_ply_body(const char *path, const ply_header *h, const char *body)
+{
+    size_t number = h->lines;
+    const char *line = body;
+    for (size_t e = 0; e < h->count; ++e) {
+        const bool is_face =
+            strcmp(h->element[e].name, "face") == 0 && h->element[e].begins_with_list;
+        for (unsigned long long i = 0; i < h->element[e].count; ++i) {
+            for (++number; *line && mote_is_end(*mote_skip_blanks(line)); ++number)
+                line = next_line(line);
+            if (!*line)
+                return mote_fail(MOTE_EINVAL, "%s:%zu: ends after %llu of %llu elements %s",
+                                 path, number, i, h->element[e].count, h->element[e].name);
+            const char *next = next_line(line);
+            mote_status status = MOTE_OK;
+            if (memchr(line, ',', (size_t)(next - line)))
+                status = comma_at(path, number);
+            else if (is_face)
+                status = check_face(path, number, mote_skip_blanks(line), h->vertices);
+            if (status != MOTE_OK)
+                return status;
+            line = next;
+        }
+    }
+    return MOTE_OK;
+}
+
+static mote_status check_ply(const char *path, const char *text, size_t size)
+{
+    ply_header header = {0};
+    const char *body = NULL;
+    const mote_status status = read_header(path, text, size, &header, &body);
+    return status == MOTE_OK && header.ascii ? check_ply_body(path, &header, body) : status;
+}
+
+static bool begins(const char *line, const char *word)
+{
+    return strncasecmp(line, word, strlen(word)) == 0;
+}
+
+/* Three numbers and nothing else. */
+static bool has_three_numbers(const char *at)
+{
+    for (int i = 0; i < 3; ++i) {
+        char *end;
+        at = mote_skip_blanks(at);
+        if (mote_is_end(*at))
+            return false;
+        (void)strtod(at, &end);
+        if (end == at || !(mote_is_blank(*end) || mote_is_end(*end)))
+            return false;
+        at = end;
+    }
+    return true;
+}
+
+/* ASCII STL: facets of three vertices of three numbers, up to a line endsolid. assimp makes up
+   what is missing. */
+static mote_status check_stl_text(const char *path, const char *text)
+{
+    size_t number = 1;
+    int corners = 0;
+    bool ended = false;
+    for (const char *at = text; *at; at = next_line(at), ++number) {
+        const char *line = mote_skip_blanks(at);
+        ended = ended ? mote_is_end(*line) : begins(line, "endsolid");
+        corners = begins(line, "outer") ? 0 : corners;
+        if (begins(line, "vertex") && ++corners && !has_three_numbers(line + strlen("vertex")))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: a vertex without three numbers; write vertex x y z", path,
+                             number);
+        if (begins(line, "endloop") && corners != 3)
+            return mote_fail(MOTE_EINVAL, "%s:%zu: a facet of %d vertices; give three", path,
+                             number, corners);
+    }
+    if (!ended)
+        return mote_fail(MOTE_EINVAL, "%s:%zu: ends without a line endsolid; add it", path,
+                         number);
+    return MOTE_OK;
+}
+
+/* Binary files may begin with "solid", too: 80 bytes, a count, 50 bytes a triangle. */
+static mote_status check_stl(const char *path, const char *text, size_t size)
+{
+    const bool is_text = strlen(text) == size && begins(mote_skip_mark(text), "solid");
+    return is_text ? check_stl_text(path, text) : MOTE_OK;
+}
+
+mote_status mote_soup_check_text(const char *path, const char *text, size_t size)
+{
+    const char *ending = strrchr(path, '.');
+    if (ending && strcasecmp(ending, ".ply") == 0)
+        return check_ply(path, mote_skip_mark(text), size);
+    if (ending && strcasecmp(ending, ".stl") == 0)
+        return check_stl(path, text, size);
+    return MOTE_OK;
+}
