@@ -14,6 +14,7 @@
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1]  what was tried, how often, what failed
+#   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
@@ -38,7 +39,7 @@ MOTE = $(BUILD)/mote
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak reliability dynamics claims format lint clean
+.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak reliability extremes dynamics claims format lint clean
 
 deps:
 	@cmake/deps.sh packages.txt
@@ -98,6 +99,10 @@ soak: build
 	@mkdir -p results
 	@$(BUILD)/tests/soak --hours $(HOURS) --seed $(SEED) \
 	    --out $(if $(filter file,$(origin OUT)),results/soak,$(OUT))
+
+extremes: build
+	@$(MOTE) extremes --out $(if $(filter file,$(origin OUT)),results/extremes,$(OUT)) \
+	    $(if $(filter quick,$(PROFILE)),--quick)
 
 dynamics: build
 	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \

@@ -78,7 +78,7 @@ static mote_gjk_point gjk_support(void *context, mote_vec3 direction)
 static mote_traits traits(const double *values)
 {
     bool given = values[POSITIONS] > 0;
-    return (mote_traits){.needs_vertices = !given, .given_vertices = given};
+    return (mote_traits){.needs_vertices = !given, .given_vertices = given, .hulls = true};
 }
 
 static void destroy(void *state)

@@ -71,6 +71,7 @@ typedef struct mote_traits {
     bool given_vertices; /* wants them too, but nobody is charged for them (positions=given) */
     bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */
     bool exact;          /* claims the exact distance (checked to 1e-12 L) */
+    bool hulls;          /* answers for the hulls of convex parts, not for the surfaces */
 } mote_traits;
 
 typedef struct mote_method {

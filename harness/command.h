@@ -41,6 +41,8 @@ typedef enum mote_exit {
       "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
       "           [--time-step H] [--trace FILE.json] [--film FILE.gif]",                      \
       "closed loop: bodies move freely and collide where the method says so")                  \
+    X(extremes, "extremes [--out DIR] [--quick]",                                              \
+      "every method where numbers are tiny, huge, equal or degenerate")                        \
     X(dynamics, "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K]",   \
       "how often n particles let a body pass through, in the closed loop")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \

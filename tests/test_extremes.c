@@ -1,0 +1,249 @@
+/* The study of numerical extremes: its truth against formulas, its verdicts against answers
+   that are right or wrong by construction, and our methods where they were wrong before. */
+#include "harness/extreme.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+static mote_extreme_recipe plain, changed;
+
+static int make_plain(void **state)
+{
+    (void)state;
+    return mote_extreme_plain(&plain) == MOTE_OK ? 0 : -1;
+}
+
+static const mote_extreme_family *find_family(const char *name)
+{
+    for (size_t i = 0; i < mote_extreme_family_count; ++i) {
+        if (strcmp(mote_extreme_families[i].name, name) == 0)
+            return &mote_extreme_families[i];
+    }
+    fail_msg("no family %s", name);
+    return NULL;
+}
+
+static void make(const char *name, int k, bool measured, mote_extreme *e)
+{
+    const mote_extreme_family *family = find_family(name);
+    *e = (mote_extreme){.family = family->name};
+    if (family->parameters)
+        e->parameters = family->parameters[k - family->first];
+    assert_int_equal(family->change(&plain, k, &changed), MOTE_OK);
+    assert_int_equal(mote_extreme_make(&changed, e), MOTE_OK);
+    if (measured)
+        assert_int_equal(mote_extreme_measure(e), MOTE_OK);
+}
+
+/* Cubes of side 1 in line, at gaps that doubles hold exactly. */
+static void mote_extreme_measure_of_cubes_is_their_gap(void **state)
+{
+    (void)state;
+    static const double gaps[MOTE_EXTREME_FRAMES] = {0.5, 0x1p-20, 0x1p-52, 0};
+    const mote_extreme_family *family = find_family("touch");
+    assert_int_equal(family->change(&plain, 2, &changed), MOTE_OK);
+    for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f)
+        changed.place[1][f] = mote_vec3_make(1 + gaps[f], 0.25, -0.5);
+    mote_extreme e = {0};
+    assert_int_equal(mote_extreme_make(&changed, &e), MOTE_OK);
+    assert_int_equal(mote_extreme_measure(&e), MOTE_OK);
+    for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f) {
+        assert_true(e.truth[f] == gaps[f]);
+        assert_true(e.unrounded[f] == gaps[f]);
+    }
+    assert_true(mote_extreme_surface(&e, 0, 1, mote_vec3_make(1, 0.5, 0)) == 0.25);
+    mote_extreme_free(&e);
+}
+
+/* The gaps that the plain scene asks for, and the same in another unit of length. */
+static void mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale(void **state)
+{
+    (void)state;
+    static const double gaps[] = {0.2, 0.02, 5e-4};
+    mote_extreme e;
+    for (int k = -12; k <= 12; k += 12) {
+        make("scale", k, true, &e);
+        for (int f = 0; f < 3; ++f) {
+            const double ratio = e.truth[f] / (gaps[f] * pow(10, k));
+            assert_true(fabs(ratio - 1) < 2e-3);
+            assert_true(fabs(e.truth[f] - e.unrounded[f]) < 1e-14 * e.length);
+        }
+        assert_true(e.truth[3] == 0);
+        mote_extreme_free(&e);
+    }
+}
+
+static void mote_extreme_make_of_bad_input_says_why(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    make("duplicate", 0, false, &e);
+    assert_non_null(strstr(e.refusal, "singular"));
+    mote_extreme_free(&e);
+    make("condition", 15, false, &e);
+    assert_non_null(strstr(e.refusal, "singular"));
+    mote_extreme_free(&e);
+    make("condition", 6, false, &e);
+    assert_int_equal(e.refusal[0], 0);
+    assert_true(e.condition > 2e5 && e.condition < 5e6);
+    mote_extreme_free(&e);
+}
+
+static void mote_extreme_families_have_labels_of_their_own(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < mote_extreme_family_count; ++i) {
+        const mote_extreme_family *family = &mote_extreme_families[i];
+        char before[24] = "";
+        assert_true(family->last >= family->first && family->quick > 0);
+        for (int k = family->first; k <= family->last; ++k) {
+            char label[24];
+            mote_extreme_label(family, k, label, sizeof label);
+            assert_true(label[0] && strcmp(label, before) != 0);
+            memcpy(before, label, sizeof label);
+        }
+    }
+}
+
+typedef struct judged {
+    double factor, add; /* the answer: truth times factor, and add * L */
+    bool exact, hulls;
+    mote_extreme_verdict verdict;
+} judged;
+
+static void mote_extreme_judge_of_distances_follows_the_promise(void **state)
+{
+    (void)state;
+    static const judged cases[] = {
+        {1, 0, true, false, MOTE_EXTREME_RIGHT},
+        {1, 1e-13, true, false, MOTE_EXTREME_RIGHT},
+        {1, 1e-11, true, false, MOTE_EXTREME_WRONG},
+        {1, -1e-11, true, false, MOTE_EXTREME_WRONG},
+        {0, 0, true, false, MOTE_EXTREME_WRONG},
+        {1, 0.3, false, false, MOTE_EXTREME_INEXACT},
+        {1, -0.01, false, false, MOTE_EXTREME_WRONG},
+        {1, -0.01, false, true, MOTE_EXTREME_INEXACT},
+        {1, 0.3, false, true, MOTE_EXTREME_WRONG},
+        {-1, 0, false, false, MOTE_EXTREME_WRONG},
+        {NAN, 0, false, false, MOTE_EXTREME_NAN},
+        {HUGE_VAL, 0, true, false, MOTE_EXTREME_NAN},
+    };
+    mote_extreme e;
+    make("plain", 0, true, &e);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_extreme_said said = {.exact = cases[i].exact, .hulls = cases[i].hulls};
+        said.answer.has_distance = true;
+        said.answer.distance = e.truth[0] * cases[i].factor + cases[i].add * e.length;
+        double error;
+        char reason[200] = "";
+        const mote_extreme_verdict verdict =
+            mote_extreme_judge(&e, 0, &said, &error, reason, sizeof reason);
+        if (verdict != cases[i].verdict)
+            fail_msg("case %zu: %s (%s)", i, mote_extreme_verdicts[verdict], reason);
+        assert_true((verdict == MOTE_EXTREME_RIGHT) == (reason[0] == '\0'));
+    }
+    mote_extreme_free(&e);
+}
+
+static void expect(const mote_extreme *e, uint32_t frame, const mote_extreme_said *said,
+                   mote_extreme_verdict verdict)
+{
+    double error;
+    char reason[200] = "";
+    assert_int_equal(mote_extreme_judge(e, frame, said, &error, reason, sizeof reason),
+                     verdict);
+}
+
+static void mote_extreme_judge_of_bounds_points_and_contacts(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    make("plain", 0, true, &e);
+    mote_extreme_said said = {.exact = true, .answer = {.has_distance = true}};
+    said.answer.distance = e.truth[0];
+    said.answer.has_lower = true;
+    said.answer.lower = e.truth[0] * (1 + 1e-9);
+    expect(&e, 0, &said, MOTE_EXTREME_WRONG);
+    said.answer.lower = e.truth[0] * (1 - 1e-9);
+    expect(&e, 0, &said, MOTE_EXTREME_RIGHT);
+    said.answer.has_contact = said.answer.contact = true;
+    expect(&e, 0, &said, MOTE_EXTREME_WRONG);
+    said.answer.has_contact = false;
+    said.answer.has_witness = true; /* both points at the origin */
+    expect(&e, 0, &said, MOTE_EXTREME_WRONG);
+    /* As far apart as they should be, but off the surfaces. */
+    said.answer.witness[0] = mote_vec3_make(9, 9, 9);
+    said.answer.witness[1] = mote_vec3_make(9 + e.truth[0], 9, 9);
+    expect(&e, 0, &said, MOTE_EXTREME_WRONG);
+    said.answer.witness[1].x = NAN;
+    expect(&e, 0, &said, MOTE_EXTREME_NAN);
+
+    const mote_extreme_said nothing = {0};
+    expect(&e, 0, &nothing, MOTE_EXTREME_WRONG);
+    mote_extreme_said contact = {.contact_only = true, .answer = {.has_contact = true}};
+    expect(&e, 0, &contact, MOTE_EXTREME_RIGHT);
+    expect(&e, 3, &contact, MOTE_EXTREME_WRONG);
+    contact.answer.contact = true;
+    expect(&e, 0, &contact, MOTE_EXTREME_WRONG);
+    expect(&e, 3, &contact, MOTE_EXTREME_RIGHT);
+    mote_extreme_free(&e);
+}
+
+static void expect_verdict(const mote_extreme *e, const char *method,
+                           mote_extreme_verdict verdict)
+{
+    mote_extreme_cell cell;
+    assert_int_equal(mote_extreme_run(e, method, &cell), MOTE_OK);
+    if (cell.verdict != verdict)
+        fail_msg("%s: %s: %s", method, mote_extreme_verdicts[cell.verdict], cell.reason);
+}
+
+/* Closest points that are rounded to a millionth of L are no basis for the distance. */
+static void methods_of_ours_far_from_the_origin_are_right(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"certified", "aabb-tree", "brute-force",
+                                          "particle:n=8", "embree-contact"};
+    static const int powers[] = {4, 8, 10, 12};
+    for (size_t i = 0; i < sizeof powers / sizeof powers[0]; ++i) {
+        mote_extreme e;
+        make("offset", powers[i], true, &e);
+        for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m)
+            expect_verdict(&e, methods[m], MOTE_EXTREME_RIGHT);
+        mote_extreme_free(&e);
+    }
+}
+
+static void methods_with_too_many_particles_refuse(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"particle", "particle-paper", "hybrid-fcl"};
+    mote_extreme e;
+    make("particles", 2, true, &e);
+    for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m)
+        expect_verdict(&e, methods[m], MOTE_EXTREME_REFUSED);
+    expect_verdict(&e, "certified", MOTE_EXTREME_NONE);
+    mote_extreme_free(&e);
+    make("triangles", 2, true, &e);
+    expect_verdict(&e, "hybrid-fcl", MOTE_EXTREME_RIGHT);
+    mote_extreme_free(&e);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_extreme_measure_of_cubes_is_their_gap),
+        cmocka_unit_test(mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale),
+        cmocka_unit_test(mote_extreme_make_of_bad_input_says_why),
+        cmocka_unit_test(mote_extreme_families_have_labels_of_their_own),
+        cmocka_unit_test(mote_extreme_judge_of_distances_follows_the_promise),
+        cmocka_unit_test(mote_extreme_judge_of_bounds_points_and_contacts),
+        cmocka_unit_test(methods_of_ours_far_from_the_origin_are_right),
+        cmocka_unit_test(methods_with_too_many_particles_refuse),
+    };
+    return cmocka_run_group_tests(tests, make_plain, NULL);
+}
