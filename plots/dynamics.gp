@@ -36,7 +36,7 @@ do for [p=1:sides] {
     set tmargin at screen 0.93
     set bmargin at screen (sides == 2 ? 0.3 : 0.24)
     set ylabel (p == 1 ? "approaches with a pass through" : "")
-    set key at screen (p == 1 ? (sides == 1 ? 0.54 : 0.3) : 0.78),0.17 center top horizontal \
+    set key at screen (p == 1 ? (sides == 1 ? 0.54 : 0.3) : 0.78),(sides == 1 ? 0.13 : 0.17) center top horizontal \
         maxcols (p == 1 ? 3 : 4)
     plot for [k=first:last] data index k \
              using (at($1, k - 0.5*(first + last))):(shown($2)):(shown($3)):(shown($4)) \
