@@ -28,9 +28,9 @@ array colour[4] = [dark, blue, orange, grey]
 array width[4] = [1.2, 1.2, 1.2, 2.5]
 set lmargin at screen 0.14
 set rmargin at screen 0.96
-set bmargin at screen 0.31
+set bmargin at screen 0.335
 set tmargin at screen 0.91
-set key at screen 0.5,0.13 center center vertical maxrows 3 samplen 2 width 2
+set key at screen 0.5,0.125 center center vertical maxrows 3 samplen 2 width 2
 
 plot for [i=0:blocks-1] data index i using 1:2 with lines lw width[i+1] lc rgb colour[i+1] \
          title columnheader(1), \
