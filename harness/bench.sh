@@ -22,10 +22,10 @@ measure() {
 plain=fcl-aabb:seed=none,queue=2
 tuned=fcl-aabb:seed=previous,queue=64
 
-# sizes: the same 30 frames around a touch, of letters W of 1,000 to 1,000,000 triangles; oriented
+# sizes: the same 30 frames, before a touch, of letters W of 1,000 to 1,000,000 triangles; oriented
 # boxes take too long to refit at the end.
 sizes() {
-    for part in ww-1k:1265-1294 ww-10k:1265-1294 ww:1265-1294 ww-100k:166-195 ww-1m:66-95; do
+    for part in ww-1k:1200-1229 ww-10k:1200-1229 ww:1200-1229 ww-100k:101-130 ww-1m:1-30; do
         scenario=${part%:*}
         oriented="--method fcl-obbrss"
         [ "$scenario" != ww-1m ] || oriented=

@@ -114,7 +114,8 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
         &figure->caption,
         "Time over triangles: two letters W, median time of a query, deformation and "
         "refit included, with 95 %% intervals; `make sweep` takes the same frames at all "
-        "sizes. Exponents of triangles t, by robust fits, with 95 %% intervals:");
+        "sizes; ww-10m, where it is, has others, around a touch. Exponents of triangles t, by "
+        "robust fits, with 95 %% intervals:");
     for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
         char title[320];
         status = fit_title(&series[s], title, sizeof title, &figure->caption);

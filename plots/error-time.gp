@@ -4,6 +4,8 @@ high = 480
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
+stats data using 3 nooutput
+highest = STATS_max
 
 eval panels
 floor_error = 1e-6
@@ -18,6 +20,7 @@ set bmargin at screen 0.53
 set tmargin at screen 0.9
 eval show_heading
 set ylabel "distance, L"
+set yrange [0:highest > 0 ? 1.05 * highest : 0.01]
 set format x ""
 unset key
 plot data index 0 using 1:2 with lines lw 5 lc rgb "#b9cfe6" title "exact", \
