@@ -33,7 +33,7 @@ set xtics ("" 0)
 set ytics offset 0.8,0 noenhanced font ",12"
 set lmargin at screen 0.21
 set rmargin at screen 0.99
-set tmargin at screen 0.95
+set tmargin at screen 1 - 34.0 / high
 set bmargin at screen 0.33
 
 do for [k=1:7] {
