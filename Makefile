@@ -162,6 +162,7 @@ lint: format build
 	@sed 's/-fno-loop-unroll-and-jam//' $(BUILD)/compile_commands.json \
 	    > $(BUILD)/lint/compile_commands.json
 	@run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint \
+	    -extra-arg=-include -extra-arg=$(CURDIR)/cmake/lint.h \
 	    '$(CURDIR)/(core|baselines|harness|datasets)/'
 
 clean:

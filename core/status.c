@@ -24,6 +24,7 @@ const char *mote_status_text(mote_status status)
     return "unknown status";
 }
 
+#undef mote_fail
 mote_status mote_fail(mote_status status, const char *format, ...)
 {
     /* Formatted aside first, so that the old text may be an argument of the new one. */

@@ -275,7 +275,7 @@ mote_status mote_polygonise(const mote_glyph *glyph, size_t triangle_count,
         grid_clear(&g);
         return status;
     }
-    g.first_vertex = calloc((g.nx - 1) * (g.ny - 1), sizeof *g.first_vertex);
+    g.first_vertex = calloc((g.nx - 1) * (g.ny - 1) + 1, sizeof *g.first_vertex);
     uint32_t *vertex = malloc((6 * g.quad_count + 1) * sizeof *vertex);
     if (!g.first_vertex || !vertex)
         goto no_memory;

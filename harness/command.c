@@ -132,6 +132,19 @@ bool mote_read_real(const char *text, double minimum, double maximum, double *va
     return true;
 }
 
+bool mote_read_triple(const char *text, double value[3])
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        char *end;
+        value[axis] = strtod(text, &end);
+        bool finite = value[axis] - value[axis] == 0;
+        if (end == text || *end != (axis < 2 ? ',' : '\0') || !finite)
+            return false;
+        text = end + 1;
+    }
+    return true;
+}
+
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first, uint64_t *last)
 {
     char copy[64];

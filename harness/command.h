@@ -107,6 +107,9 @@ bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, ui
 /* Reads a finite number in [minimum, maximum]. False for anything else. */
 bool mote_read_real(const char *text, double minimum, double maximum, double *value);
 
+/* Reads "x,y,z", finite numbers. False for anything else; value is then undefined. */
+bool mote_read_triple(const char *text, double value[3]);
+
 /* Reads "A-B" or "A", A <= B, both at least 1 and at most maximum. MOTE_EINVAL with a text. */
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
                             uint64_t *last);

@@ -19,12 +19,10 @@ typedef struct request {
 /* Reads "x,y,z". */
 static bool read_direction(const char *text, double direction[3])
 {
-    char end;
-    return sscanf(text, "%lf,%lf,%lf%c", &direction[0], &direction[1], &direction[2], &end) ==
-               3 &&
-           direction[0] * direction[0] + direction[1] * direction[1] +
-                   direction[2] * direction[2] >
-               0;
+    return mote_read_triple(text, direction) && direction[0] * direction[0] +
+                                                        direction[1] * direction[1] +
+                                                        direction[2] * direction[2] >
+                                                    0;
 }
 
 /* "FRAME:GAP,FRAME:GAP" as a curve. */

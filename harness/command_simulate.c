@@ -110,9 +110,11 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
 
 static bool read_vector(const char *text, mote_vec3 *v)
 {
-    char end;
-    return sscanf(text, "%lf,%lf,%lf%c", &v->x, &v->y, &v->z, &end) == 3 &&
-           isfinite(mote_length(*v));
+    double value[3];
+    if (!mote_read_triple(text, value))
+        return false;
+    *v = (mote_vec3){value[0], value[1], value[2]};
+    return isfinite(mote_length(*v));
 }
 
 static const mote_option options[] = {{"method", "NAME[:key=value,...]"},

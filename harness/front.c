@@ -16,7 +16,9 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size)
     if (!n)
         return;
     const char *rest = n + 3 + strcspn(n + 3, ",");
+    /* Both moves take the 0 byte along. */
     if (*rest == ',' && *n == ':')
+        // NOLINTNEXTLINE(bugprone-not-null-terminated-result)
         memmove(n + 1, rest + 1, strlen(rest));
     else
         memmove(n, rest, strlen(rest) + 1);
