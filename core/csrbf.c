@@ -89,6 +89,64 @@ static void csrbf_displacement_single(const mote_field *field, const mote_mesh *
     displacement[2] = mote_lane_sum_single(z);
 }
 
+/* Lane l of the sums of MOTE_LANES vertices: the functions with j % MOTE_LANES = l. A function
+   that is 0 adds +0 or -0 to a lane that is never -0. */
+MOTE_INLINE void group_lane(const mote_field *field, double p[3][MOTE_LANES], uint32_t l,
+                            const mote_weights *weights, double lane[3][MOTE_LANES])
+{
+    const double inverse = 1 / field->support;
+    double x[MOTE_LANES] = {0};
+    double y[MOTE_LANES] = {0};
+    double z[MOTE_LANES] = {0};
+    for (uint32_t j = l; j < field->count; j += MOTE_LANES) {
+        const double cx = field->centre_x[j];
+        const double cy = field->centre_y[j];
+        const double cz = field->centre_z[j];
+        const double wx = weights->x[j];
+        const double wy = weights->y[j];
+        const double wz = weights->z[j];
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v) {
+            const double dx = (p[0][v] - cx) * inverse;
+            const double dy = (p[1][v] - cy) * inverse;
+            const double dz = (p[2][v] - cz) * inverse;
+            const double phi = mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
+            x[v] += phi * wx;
+            y[v] += phi * wy;
+            z[v] += phi * wz;
+        }
+    }
+    memcpy(lane[0], x, sizeof x);
+    memcpy(lane[1], y, sizeof y);
+    memcpy(lane[2], z, sizeof z);
+}
+
+/* Vertices in the lanes, where csrbf_displacement has functions in them; the sums are added up
+   in the same order. */
+MOTE_CLONES
+static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
+                        const uint32_t vertices[MOTE_LANES], const mote_weights *weights,
+                        double displacement[3][MOTE_LANES])
+{
+    _Alignas(64) double p[3][MOTE_LANES];
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        const mote_vec3 x = mesh->positions[vertices[v]];
+        p[0][v] = x.x;
+        p[1][v] = x.y;
+        p[2][v] = x.z;
+    }
+    _Alignas(64) double lane[MOTE_LANES][3][MOTE_LANES];
+    for (uint32_t l = 0; l < MOTE_LANES; ++l)
+        group_lane(field, p, l, weights, lane[l]);
+    for (size_t c = 0; c < 3; ++c) {
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            displacement[c][v] =
+                ((lane[0][c][v] + lane[4][c][v]) + (lane[2][c][v] + lane[6][c][v])) +
+                ((lane[1][c][v] + lane[5][c][v]) + (lane[3][c][v] + lane[7][c][v]));
+    }
+}
+
 /* Rest positions relative to the first, in units of the support: small where a function reaches
    all vertices, so that floats lose little. Returns the largest coordinate's size. */
 MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *mesh,
@@ -187,6 +245,7 @@ static const mote_field_kind csrbf_kind = {.name = "csrbf",
                                            .basis = csrbf_basis,
                                            .displacement = csrbf_displacement,
                                            .displacement_single = csrbf_displacement_single,
+                                           .group = csrbf_group,
                                            .estimate = csrbf_estimate,
                                            .gradient = csrbf_gradient,
                                            .destroy = csrbf_destroy};

@@ -2,6 +2,10 @@
 
 #include <stddef.h>
 
+/* What a descent that is worth it still gains after a level is less than this times the
+   distance of the level's neighbours, of both bodies together, in 97 of 100 cases. */
+#define GAIN_MAX 2
+
 mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels)
 {
     const bool given = lazy->given != NULL;
@@ -65,8 +69,8 @@ static uint32_t nearest_vertex(const mote_ground *ground, uint32_t node, mote_ve
 
 /* Moves one place towards the target, by the shape as far as that leads; false if it does not
    come nearer. */
-static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3 target,
-                 double *squared)
+static bool move_by_shape(const mote_ground *ground, int level, mote_place *at,
+                          mote_vec3 target, double *squared)
 {
     const mote_vec3 goal = carry_back(ground, at, target);
     double left = mote_distance_squared(ground->shape[at->vertex], goal);
@@ -90,6 +94,41 @@ static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3
     return true;
 }
 
+/* Moves a place on the mesh to the neighbour whose position in the frame is nearest to the
+   target; false if none comes nearer. */
+static bool move_by_frame(const mote_ground *ground, mote_place *at, mote_vec3 target,
+                          double *squared)
+{
+    const mote_mesh *mesh = ground->lazy->body->mesh;
+    const uint32_t centre = at->vertex;
+    mote_lazy_fetch_rings(ground->lazy, &centre, 1);
+    for (uint32_t k = mesh->ring_start[centre]; k < mesh->ring_start[centre + 1]; ++k) {
+        const mote_place there =
+            mote_place_at(ground, MOTE_MESH_LEVEL, MOTE_RING_VERTEX(mesh->ring[k]));
+        const double reached = mote_distance_squared(there.world, target);
+        if (reached < *squared) {
+            *squared = reached;
+            *at = there;
+        }
+    }
+    return at->vertex != centre;
+}
+
+/* Moves one place towards the target, on the mesh to where no neighbour is nearer in the frame;
+   false if it does not come nearer. */
+static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3 target,
+                 double *squared)
+{
+    bool moved = move_by_shape(ground, level, at, target, squared);
+    if (level != MOTE_MESH_LEVEL || !ground->rotation)
+        return moved;
+    while (move_by_frame(ground, at, target, squared)) {
+        moved = true;
+        move_by_shape(ground, level, at, target, squared);
+    }
+    return moved;
+}
+
 double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
                  uint64_t *moves)
 {
@@ -104,19 +143,31 @@ double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[
     return squared;
 }
 
+/* How near a place may still come on the levels below. */
+static double gain_below(const mote_ground *ground, int level)
+{
+    return GAIN_MAX * (level == MOTE_MESH_LEVEL ? ground->lazy->body->mesh->mean_edge
+                                                : ground->levels->level[level].spacing);
+}
+
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
-                    uint64_t *moves)
+                    double worth, double *least, uint64_t *moves)
 {
     int on[2] = {level[0], level[1]};
-    for (;;) {
-        if (on[0] == MOTE_MESH_LEVEL && on[1] == MOTE_MESH_LEVEL)
-            return mote_walk(ground, on, at, moves);
+    while (on[0] != MOTE_MESH_LEVEL || on[1] != MOTE_MESH_LEVEL) {
         double squared = mote_distance_squared(at[0].world, at[1].world);
         for (int side = 0; side < 2; ++side)
-            *moves += move(&ground[side], on[side], &at[side], at[1 - side].world, &squared);
+            *moves +=
+                move_by_shape(&ground[side], on[side], &at[side], at[1 - side].world, &squared);
+        *least = sqrt(squared) - gain_below(&ground[0], on[0]) - gain_below(&ground[1], on[1]);
+        if (*least > worth)
+            return HUGE_VAL;
         for (int side = 0; side < 2; ++side) {
             if (on[side] != MOTE_MESH_LEVEL && --on[side] == MOTE_MESH_LEVEL)
                 at[side].node = at[side].vertex;
         }
     }
+    const double squared = mote_walk(ground, on, at, moves);
+    *least = sqrt(squared) - gain_below(&ground[0], on[0]) - gain_below(&ground[1], on[1]);
+    return squared;
 }

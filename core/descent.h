@@ -15,7 +15,8 @@ extern "C" {
 
 /* One body at a frame. Steps are chosen by shape, to which targets are carried back by the
    rigid motion of the vertex walked from; a step is taken if the positions of the frame say
-   that it leads nearer. So a walk evaluates about one position a step, not one a neighbour. */
+   that it leads nearer. So a walk evaluates about one position a step, not one a neighbour.
+   Only where a walk on the mesh ends are those of the whole ring evaluated. */
 typedef struct mote_ground {
     mote_lazy *lazy;
     const mote_levels *levels;
@@ -37,15 +38,17 @@ mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels);
 /* The place of a node of a level, or of a vertex of the mesh. */
 mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node);
 
-/* Walks both places in turn, each to neighbours nearer to the other, until neither has one (as
-   far as shape tells). level: of each body's walk. Returns the squared distance; *moves grows
-   by the moves made. Ends, since each move comes nearer. */
+/* Walks both places in turn, each to neighbours nearer to the other, until neither has one (on
+   levels of the graph as far as shape tells). level: of each body's walk. Returns the squared
+   distance; *moves grows by the moves made. Ends, since each move comes nearer. */
 double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
                  uint64_t *moves);
 
-/* Moves both places once on the levels given and on each finer one, then walks on the mesh. */
+/* Moves both places once on the levels given and on each finer one, then walks on the mesh.
+   Gives up, and returns HUGE_VAL, on the level where what is left of the way can hardly lead
+   within the distance worth (may be infinite: never). *least: what it can hardly come below. */
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
-                    uint64_t *moves);
+                    double worth, double *least, uint64_t *moves);
 
 #ifdef __cplusplus
 }

@@ -53,7 +53,13 @@ typedef struct mote_field_kind {
     void (*displacement_single)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                                 const mote_weights_single *weights, float displacement[3]);
 
-    /* Displacements of MOTE_LANES rest vertices in single precision, by coordinate.
+    /* Displacements of MOTE_LANES rest vertices at once, by coordinate, each equal bit for bit
+       to displacement(). NULL: they are evaluated one by one. */
+    void (*group)(const mote_field *field, const mote_mesh *mesh,
+                  const uint32_t vertices[MOTE_LANES], const mote_weights *weights,
+                  double displacement[3][MOTE_LANES]);
+
+    /* The same in single precision.
        functions[count] lists every basis function that is not 0 at all of them; weights[c][j]
        the weights' coordinates, in any unit. Returns a factor: coordinate c is wrong by at most
        this times sum |weights[c][j]|. NULL: not offered. */

@@ -163,6 +163,121 @@ mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index)
     return position;
 }
 
+/* Fewer positions are evaluated faster one by one. */
+#define WORTH_A_GROUP 4
+
+/* Vertices with a slot but no position yet. */
+typedef struct pending {
+    uint32_t vertex[MOTE_LANES], index[MOTE_LANES];
+    uint32_t count;
+} pending;
+
+/* The positions of MOTE_LANES vertices by coordinate, with the bits of mote_body_position. */
+MOTE_CLONES
+static void evaluate_group(const mote_lazy *lazy, const uint32_t vertices[MOTE_LANES],
+                           double world[3][MOTE_LANES])
+{
+    const mote_field *field = lazy->body->field;
+    const mote_mesh *mesh = lazy->body->mesh;
+    const mote_pose *pose = &lazy->state->pose;
+    const double translation[3] = {pose->translation.x, pose->translation.y,
+                                   pose->translation.z};
+    double rest[3][MOTE_LANES];
+    for (size_t v = 0; v < MOTE_LANES; ++v) {
+        const mote_vec3 p = mesh->positions[vertices[v]];
+        rest[0][v] = p.x;
+        rest[1][v] = p.y;
+        rest[2][v] = p.z;
+    }
+    for (size_t c = 0; c < 3; ++c) {
+        const double *row = pose->rotation.m[c];
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            world[c][v] = row[0] * rest[0][v] + row[1] * rest[1][v] + row[2] * rest[2][v] +
+                          translation[c];
+    }
+    if (field->count == 0)
+        return;
+    double displacement[3][MOTE_LANES];
+    field->kind->group(field, mesh, vertices, &lazy->state->weights, displacement);
+    for (size_t c = 0; c < 3; ++c) {
+        MOTE_LANE_LOOP
+        for (size_t v = 0; v < MOTE_LANES; ++v)
+            world[c][v] += displacement[c][v];
+    }
+}
+
+static void evaluate_pending(mote_lazy *lazy, pending *p)
+{
+    const mote_field *field = lazy->body->field;
+    const bool group = field->count == 0 || field->kind->group;
+    lazy->evaluated += p->count;
+    if (p->count < WORTH_A_GROUP || !group) {
+        for (uint32_t i = 0; i < p->count; ++i)
+            lazy->slots[p->index[i]].position =
+                mote_body_position(lazy->body, lazy->state, p->vertex[i]);
+    } else {
+        double world[3][MOTE_LANES];
+        for (uint32_t i = p->count; i < MOTE_LANES; ++i)
+            p->vertex[i] = p->vertex[0];
+        evaluate_group(lazy, p->vertex, world);
+        for (uint32_t i = 0; i < p->count; ++i)
+            lazy->slots[p->index[i]].position =
+                mote_vec3_make(world[0][i], world[1][i], world[2][i]);
+    }
+    p->count = 0;
+}
+
+/* Gives the vertex a slot if it has none; false when the table is full and cannot grow. */
+static bool reserve(mote_lazy *lazy, uint32_t vertex, pending *p)
+{
+    uint32_t index = first_index(lazy, vertex);
+    for (; lazy->slots[index].stamp == lazy->stamp; index = (index + 1) & lazy->mask) {
+        if (lazy->slots[index].vertex == vertex)
+            return true;
+    }
+    if (lazy->filled >= lazy->limit) {
+        evaluate_pending(lazy, p); /* growth moves slots */
+        if (lazy->fixed || !grow(lazy))
+            return false;
+        index = free_index(lazy, vertex);
+    }
+    lazy->slots[index].vertex = vertex;
+    lazy->slots[index].stamp = lazy->stamp;
+    ++lazy->filled;
+    p->vertex[p->count] = vertex;
+    p->index[p->count++] = index;
+    if (p->count == MOTE_LANES)
+        evaluate_pending(lazy, p);
+    return true;
+}
+
+void mote_lazy_fetch(mote_lazy *lazy, const uint32_t *vertices, size_t count)
+{
+    if (lazy->given || lazy->singles)
+        return;
+    pending p = {.count = 0};
+    for (size_t i = 0; i < count && reserve(lazy, vertices[i], &p); ++i)
+        continue;
+    evaluate_pending(lazy, &p);
+}
+
+void mote_lazy_fetch_rings(mote_lazy *lazy, const uint32_t *centres, size_t count)
+{
+    if (lazy->given || lazy->singles)
+        return;
+    const mote_mesh *mesh = lazy->body->mesh;
+    pending p = {.count = 0};
+    bool room = true;
+    for (size_t i = 0; i < count && room; ++i) {
+        const uint32_t end = mesh->ring_start[centres[i] + 1];
+        room = reserve(lazy, centres[i], &p);
+        for (uint32_t k = mesh->ring_start[centres[i]]; k < end && room; ++k)
+            room = reserve(lazy, MOTE_RING_VERTEX(mesh->ring[k]), &p);
+    }
+    evaluate_pending(lazy, &p);
+}
+
 static mote_lazy_slot_single evaluate_single(const mote_lazy *lazy, uint32_t vertex)
 {
     const mote_field *field = lazy->body->field;

@@ -296,6 +296,20 @@ static bool worth_another(const mote_levels *levels, const mote_mesh *mesh)
     return l < MOTE_LEVELS_MAX && count > MOTE_LEVELS_COARSEST && count < below - below / 8;
 }
 
+static void measure_spacing(const mote_levels *levels, const mote_mesh *mesh, mote_level *level)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < level->count; ++i) {
+        const mote_vec3 p = mesh->positions[levels->vertex[i]];
+        for (uint32_t k = level->start[i]; k < level->start[i + 1]; ++k) {
+            const uint32_t u = levels->vertex[level->neighbour[k]];
+            sum += mote_length(mote_sub(mesh->positions[u], p));
+        }
+    }
+    const uint32_t links = level->start[level->count];
+    level->spacing = links ? sum / links : 0;
+}
+
 mote_status mote_levels_create(const mote_mesh *mesh, mote_levels **levels)
 {
     mote_levels *made = calloc(1, sizeof *made);
@@ -317,6 +331,8 @@ mote_status mote_levels_create(const mote_mesh *mesh, mote_levels **levels)
         mote_levels_destroy(made);
         return status;
     }
+    for (uint32_t l = 0; l < made->depth; ++l)
+        measure_spacing(made, mesh, &made->level[l]);
     *levels = made;
     return MOTE_OK;
 }

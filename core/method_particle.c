@@ -17,6 +17,7 @@ enum {
     P_START,
     P_DESCEND,
     P_RESEED,
+    P_LEAP,
     P_FORCES,
     P_SEED,
     P_POSITIONS,
@@ -28,7 +29,9 @@ static const mote_parameter parameters[] = {
              "seeds on each body, at least one a connected component; 0: only the last closest "
              "pair is followed; auto: twice the convex parts, at least 8 (paper 3.5)"},
     [P_LAUNCH] = {"launch", MOTE_PARAMETER_INTEGER, 0, 1e6, "auto", "auto",
-                  "seeds of each body that a warm query descends from, in turn; auto: n/4"},
+                  "seeds of each body that each warm query descends from, in turn, besides n "
+                  "in every 0.2 L of "
+                  "motion; auto: 0"},
     [P_TRACK] = {"track", MOTE_PARAMETER_INTEGER, 0, MOTE_TRACK_MAX, NULL, "8",
                  "local minima followed from query to query"},
     [P_REFINE] = {"refine", MOTE_PARAMETER_INTEGER, 1, MOTE_TRACK_MAX, NULL, "4",
@@ -40,6 +43,9 @@ static const mote_parameter parameters[] = {
                    "are"},
     [P_RESEED] = {"reseed", MOTE_PARAMETER_CHOICE, 0, 0, "off|on", "on",
                   "launch from the seeds each time; off: from where the last launch came by"},
+    [P_LEAP] =
+        {"leap", MOTE_PARAMETER_CHOICE, 0, 0, "off|on", "on",
+         "also descend from around the nearest pair, in turn, as far as motion calls for"},
     [P_FORCES] = {"forces", MOTE_PARAMETER_CHOICE, 0, 0, "off|on", "off",
                   "the paper's forces move the seeds before each launch (paper 3.3)"},
     [P_SEED] = {"seed", MOTE_PARAMETER_INTEGER, 0, 9007199254740991.0, "auto", "auto",
@@ -93,12 +99,13 @@ static mote_status options_of(const mote_setup *setup, mote_tracker_options *opt
         status = default_count(setup, &o.count);
     else
         o.count = (uint32_t)v[P_N];
-    o.launch = v[P_LAUNCH] == MOTE_AUTO ? (o.count + 3) / 4 : (uint32_t)v[P_LAUNCH];
+    o.launch = v[P_LAUNCH] == MOTE_AUTO ? 0 : (uint32_t)v[P_LAUNCH];
     o.track = (uint32_t)v[P_TRACK];
     o.refine = (uint32_t)v[P_REFINE];
     o.farthest = v[P_START] > 0;
     o.descend = v[P_DESCEND] > 0;
     o.reseed = v[P_RESEED] > 0;
+    o.leap = v[P_LEAP] > 0;
     o.forces = v[P_FORCES] > 0;
     o.seed = v[P_SEED] == MOTE_AUTO ? setup->seed : (uint64_t)v[P_SEED];
     *options = o;

@@ -22,6 +22,9 @@
  */
 #define ROUNDS_MAX 10000
 
+/* A search from two vertices may gain this times what their rings have to offer. */
+#define SLIDE_MAX 2
+
 #define NONE UINT32_MAX
 
 /* Faces kept at a time; longer lists are taken piece by piece. */
@@ -54,18 +57,21 @@ typedef struct face_cursor {
     double reach[3];
 } face_cursor;
 
-/* A face with its reach and bounding box. */
+/* A face with its reach and, once it was chosen, its bounding box. */
 typedef struct listed_face {
     mote_vec3 corner[3];
     uint32_t vertex[3];
     double reach;
     bool measured; /* with those of the other side that are marked too */
+    bool boxed;
     mote_vec3 low, high;
 } listed_face;
 
 typedef struct face_list {
     listed_face face[LIST_MAX];
     uint32_t count;
+    double reach; /* the largest */
+    uint32_t chosen[LIST_MAX], chosen_count;
 } face_list;
 
 static double max2(double x, double y)
@@ -203,6 +209,7 @@ static void approach(search *s, int side)
     const uint32_t centre = best->vertex[side];
     const mote_vec3 other = best->witness[1 - side];
     aim(s);
+    mote_lazy_fetch_rings(s->lazy[side], &centre, 1);
     ++best->rings;
     face_cursor c = cursor_at(s, side, &centre, 1);
     while (next_face(s, side, &c)) {
@@ -241,53 +248,66 @@ static void alternate(search *s)
     }
 }
 
-/* The largest reach of the vertices in the rings of the centres. */
-static double rings_reach(search *s, int side, const uint32_t *centres, uint32_t count)
+/* The largest reach of a vertex and its ring. */
+static double ring_reach(search *s, int side, uint32_t centre)
 {
     const mote_mesh *mesh = s->lazy[side]->body->mesh;
-    double reach = -HUGE_VAL;
-    for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t first = mesh->ring_start[centres[i]];
-        const uint32_t end = mesh->ring_start[centres[i] + 1];
-        for (uint32_t k = first; k < end; ++k) {
-            const uint32_t v = MOTE_RING_VERTEX(mesh->ring[k]);
-            reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], v)));
-        }
-        reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], centres[i])));
+    mote_lazy_fetch_rings(s->lazy[side], &centre, 1);
+    double reach = reach_of(s, side, mote_lazy_position(s->lazy[side], centre));
+    for (uint32_t k = mesh->ring_start[centre]; k < mesh->ring_start[centre + 1]; ++k) {
+        const uint32_t v = MOTE_RING_VERTEX(mesh->ring[k]);
+        reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], v)));
     }
-    s->best->rings += count;
+    ++s->best->rings;
     return reach;
 }
 
-static void list_face(face_list *list, const face_cursor *c, uint32_t checked)
+/* Lists the next faces; false when there are none left. */
+static bool fill_list(const search *s, int side, face_cursor *c, face_list *list)
 {
-    listed_face *f = &list->face[list->count++];
-    mote_vec3 low = c->corner[0];
+    const uint32_t checked = s->checked[side];
+    list->count = 0;
+    list->reach = -HUGE_VAL;
+    while (list->count < LIST_MAX && next_face(s, side, c)) {
+        listed_face *f = &list->face[list->count++];
+        f->reach = face_reach(c);
+        f->boxed = false;
+        f->measured =
+            c->vertex[0] == checked || c->vertex[1] == checked || c->vertex[2] == checked;
+        for (int i = 0; i < 3; ++i) {
+            f->corner[i] = c->corner[i];
+            f->vertex[i] = c->vertex[i];
+        }
+        list->reach = max2(list->reach, f->reach);
+    }
+    return list->count > 0;
+}
+
+static void box_face(listed_face *f)
+{
+    mote_vec3 low = f->corner[0];
     mote_vec3 high = low;
-    f->reach = face_reach(c);
-    f->measured = c->vertex[0] == checked || c->vertex[1] == checked || c->vertex[2] == checked;
-    for (int i = 0; i < 3; ++i) {
-        const mote_vec3 p = c->corner[i];
-        f->corner[i] = p;
-        f->vertex[i] = c->vertex[i];
+    for (int i = 1; i < 3; ++i) {
+        const mote_vec3 p = f->corner[i];
         low = mote_vec3_make(min2(low.x, p.x), min2(low.y, p.y), min2(low.z, p.z));
         high = mote_vec3_make(max2(high.x, p.x), max2(high.y, p.y), max2(high.z, p.z));
     }
     f->low = low;
     f->high = high;
+    f->boxed = true;
 }
 
-/* Lists the next faces that reach far enough for a partner of the given reach; false when there
-   are none left. */
-static bool fill_list(const search *s, int side, face_cursor *c, double partner,
-                      face_list *list)
+/* Chooses the faces that reach far enough for a partner of the given reach. */
+static void choose_faces(const search *s, face_list *list, double partner)
 {
-    list->count = 0;
-    while (list->count < LIST_MAX && next_face(s, side, c)) {
-        if (face_reach(c) + partner > s->slack)
-            list_face(list, c, s->checked[side]);
+    list->chosen_count = 0;
+    for (uint32_t i = 0; i < list->count; ++i) {
+        if (list->face[i].reach + partner <= s->slack)
+            continue;
+        list->chosen[list->chosen_count++] = i;
+        if (!list->face[i].boxed)
+            box_face(&list->face[i]);
     }
-    return list->count > 0;
 }
 
 static double box_gap_squared(const listed_face *a, const listed_face *b)
@@ -319,6 +339,18 @@ static void measure_pair(search *s, const listed_face *a, const listed_face *b)
     tighten(s, squared);
 }
 
+static void measure_lists(search *s, face_list *a, face_list *b)
+{
+    if (a->reach + b->reach <= s->slack)
+        return;
+    choose_faces(s, a, b->reach);
+    choose_faces(s, b, a->reach);
+    for (uint32_t i = 0; i < a->chosen_count; ++i) {
+        for (uint32_t j = 0; j < b->chosen_count && !done(s); ++j)
+            measure_pair(s, &a->face[a->chosen[i]], &b->face[b->chosen[j]]);
+    }
+}
+
 /* Measures the faces around the first centres against those around the second; true if a pair
    is nearer than the witnesses were. */
 static bool check_rings(search *s, const uint32_t *centres0, const uint32_t *centres1,
@@ -328,24 +360,31 @@ static bool check_rings(search *s, const uint32_t *centres0, const uint32_t *cen
     aim(s);
     if (s->worth_squared < before)
         tighten(s, s->worth_squared);
-    const double reach0 = rings_reach(s, 0, centres0, count);
-    const double reach1 = rings_reach(s, 1, centres1, count);
-    if (reach0 + reach1 <= s->slack)
-        return false;
+    mote_lazy_fetch_rings(s->lazy[0], centres0, count);
+    mote_lazy_fetch_rings(s->lazy[1], centres1, count);
+    s->best->rings += 2 * count;
     face_list list0, list1;
     face_cursor c0 = cursor_at(s, 0, centres0, count);
-    while (fill_list(s, 0, &c0, reach1, &list0)) {
+    while (fill_list(s, 0, &c0, &list0)) {
         face_cursor c1 = cursor_at(s, 1, centres1, count);
-        while (fill_list(s, 1, &c1, reach0, &list1)) {
-            for (uint32_t i = 0; i < list0.count; ++i) {
-                for (uint32_t j = 0; j < list1.count && !done(s); ++j)
-                    measure_pair(s, &list0.face[i], &list1.face[j]);
-            }
+        while (fill_list(s, 1, &c1, &list1)) {
+            measure_lists(s, &list0, &list1);
             if (done(s))
                 return true;
         }
     }
     return s->best->squared < before;
+}
+
+/* Measures the rings of the vertices of the two faces. */
+static bool check_around(search *s)
+{
+    uint32_t around[2][3];
+    for (int i = 0; i < 3; ++i) {
+        around[0][i] = s->best->triangle[0][i];
+        around[1][i] = s->best->triangle[1][i];
+    }
+    return check_rings(s, around[0], around[1], 3);
 }
 
 static void descend_by_rounds(search *s)
@@ -360,12 +399,7 @@ static void descend_by_rounds(search *s)
             continue;
         s->checked[0] = at[0];
         s->checked[1] = at[1];
-        uint32_t around[2][3];
-        for (int i = 0; i < 3; ++i) {
-            around[0][i] = s->best->triangle[0][i];
-            around[1][i] = s->best->triangle[1][i];
-        }
-        if (!check_rings(s, around[0], around[1], 3))
+        if (!check_around(s))
             return;
     }
 }
@@ -405,10 +439,22 @@ static void descend(search *s)
 void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
                           double enough_squared, mote_refined *result)
 {
-    mote_refine_below(lazy, vertex, HUGE_VAL, enough_squared, result);
+    (void)mote_refine_below(lazy, vertex, HUGE_VAL, enough_squared, result);
 }
 
-void mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
+/* True if the rings of the two vertices are too far apart for a search from there to come below
+   what is worth it. */
+static bool hopeless(search *s)
+{
+    if (!(s->worth_squared < s->best->squared))
+        return false;
+    aim(s);
+    const double gain =
+        ring_reach(s, 0, s->best->vertex[0]) + ring_reach(s, 1, s->best->vertex[1]);
+    return s->distance - SLIDE_MAX * gain > sqrt(s->worth_squared) + s->rounding;
+}
+
+bool mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
                        double enough_squared, mote_refined *result)
 {
     *result = (mote_refined){.vertex = {vertex[0], vertex[1]}};
@@ -426,7 +472,10 @@ void mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], doubl
                 .best = result,
                 .worth_squared = worth_squared,
                 .enough_squared = enough_squared};
+    if (hopeless(&s))
+        return false;
     descend(&s);
+    return true;
 }
 
 void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3],
@@ -446,5 +495,7 @@ void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3]
                 .best = result,
                 .worth_squared = HUGE_VAL,
                 .enough_squared = enough_squared};
-    descend(&s);
+    s.checked[0] = s.checked[1] = NONE;
+    if (!done(&s) && check_around(&s))
+        descend(&s);
 }

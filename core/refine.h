@@ -35,8 +35,9 @@ void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
 
 /* The same, but pairs of faces are only looked for that are nearer than worth_squared (>= 0,
    may be infinite): a search that cannot come below it ends early, at a pair of points that is
-   then no minimum. For one of several starts, where a nearer pair is known already. */
-void mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
+   then no minimum. False if it ended at once, since the rings of the two vertices do not come
+   near enough. For one of several starts, where a nearer pair is known already. */
+bool mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], double worth_squared,
                        double enough_squared, mote_refined *result);
 
 /* The same as mote_refine_vertices from one face of each body (three vertices of a face of the

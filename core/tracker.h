@@ -13,23 +13,25 @@
 extern "C" {
 #endif
 
-#define MOTE_TRACK_MAX 64
+#define MOTE_TRACK_MAX 64 /* MOTE_PAIRS_MAX */
 
 typedef struct mote_tracker_options {
     uint32_t count; /* n, seeds on each body, raised to one a connected component; 0: none, only
                        the last query's closest pair is followed */
-    uint32_t launch; /* seeds of each body that a warm query descends from; a cold one: all */
+    uint32_t launch; /* seeds of each body that a warm query descends from, besides n in every
+                        0.2 L of motion; a cold query: n */
     uint32_t track;  /* minima followed from query to query, 0 .. MOTE_TRACK_MAX */
     uint32_t refine; /* exact checks a query, at least 1 */
     bool farthest;   /* seeds are farthest points; else at random */
     bool descend;    /* descend from seeds; else their own vertices are the candidates */
     bool reseed;     /* launch from the seeds each time; else from where the last launch came
                         by */
+    bool leap;       /* also descend from around the nearest pair */
     bool forces;     /* the paper's forces move the seeds before they are launched */
     uint64_t seed;
 } mote_tracker_options;
 
-/* n = 8, launch 2, track 8, refine 4, farthest, descend, reseed, no forces, seed 1. */
+/* n = 8, launch 0, track 8, refine 4, farthest, descend, reseed, leap, no forces, seed 1. */
 mote_tracker_options mote_default_tracker_options(void);
 
 typedef struct mote_tracker mote_tracker;

@@ -12,7 +12,8 @@ sources="tests/test_portability.c"
 for name in status mesh mesh_ring field csrbf modes body deform lazy potential site start \
     far_cache particles triangle refine certificate certificate_tree certificate_fit \
     certificate_deform certificate_leaf certificate_row certificate_pair \
-    certificate_triangles certificate_search; do
+    certificate_triangles certificate_search levels descent coherence pairs \
+    tracker tracker_search; do
     sources="$sources core/$name.c"
 done
 

@@ -80,7 +80,7 @@ static void assert_local_minimum(const walk_scene *w, const mote_place at[2], do
     }
 }
 
-static void check_descents(bool deforming, bool given, bool minimum)
+static void check_descents(bool deforming, bool given)
 {
     walk_scene w;
     walk_scene_init(&w, deforming);
@@ -92,12 +92,12 @@ static void check_descents(bool deforming, bool given, bool minimum)
             uint64_t moves = 0;
             random_places(&w, level, at);
             const double before = mote_distance_squared(at[0].world, at[1].world);
-            const double squared = mote_descend(w.ground, level, at, &moves);
-            assert_true(squared <= before);
+            double least;
+            const double squared = mote_descend(w.ground, level, at, HUGE_VAL, &least, &moves);
+            assert_true(squared <= before && least <= sqrt(squared));
             assert_true((squared < before) == (moves > 0));
             assert_places(&w, at, squared);
-            if (minimum)
-                assert_local_minimum(&w, at, squared);
+            assert_local_minimum(&w, at, squared);
         }
     }
     walk_scene_free(&w);
@@ -106,19 +106,19 @@ static void check_descents(bool deforming, bool given, bool minimum)
 static void descend_static_local_minimum(void **context)
 {
     (void)context;
-    check_descents(false, false, true);
+    check_descents(false, false);
 }
 
 static void descend_given_local_minimum(void **context)
 {
     (void)context;
-    check_descents(true, true, true);
+    check_descents(true, true);
 }
 
-static void descend_deforming_comes_nearer(void **context)
+static void descend_deforming_local_minimum(void **context)
 {
     (void)context;
-    check_descents(true, false, false);
+    check_descents(true, false);
 }
 
 static void walk_one_level_stays_on_it(void **context)
@@ -142,23 +142,58 @@ static void walk_one_level_stays_on_it(void **context)
     walk_scene_free(&w);
 }
 
-/* A walk over thousands of vertices evaluates about as many as it has moves. */
+/* A descent that gives up says why, and has cost less; any other ends where it would have
+   ended. */
+static void descend_not_worth_it_gives_up(void **context)
+{
+    (void)context;
+    walk_scene w;
+    walk_scene_init(&w, true);
+    int given_up = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+        walk_scene_next(&w, false);
+        const int level[2] = {(int)w.levels[0]->depth - 1, (int)w.levels[1]->depth - 1};
+        mote_place start[2];
+        random_places(&w, level, start);
+        const double worth = scene_random(&w.s, 0, 0.5) * w.s.length;
+        mote_place far[2] = {start[0], start[1]}, all[2] = {start[0], start[1]};
+        double least[2];
+        uint64_t moves[2] = {0, 0};
+        const double squared = mote_descend(w.ground, level, far, worth, &least[0], &moves[0]);
+        const double ends = mote_descend(w.ground, level, all, HUGE_VAL, &least[1], &moves[1]);
+        assert_true(ends < HUGE_VAL);
+        if (squared < HUGE_VAL) {
+            assert_true(squared == ends && moves[0] == moves[1] && least[0] == least[1]);
+            continue;
+        }
+        ++given_up;
+        assert_true(least[0] > worth);
+        assert_true(moves[0] <= moves[1]);
+    }
+    assert_in_range(given_up, 10, 90);
+    walk_scene_free(&w);
+}
+
+/* A descent over thousands of vertices evaluates about as many as it has moves, and whole rings
+   only where it ends. */
 static void descend_evaluates_few_positions(void **context)
 {
     (void)context;
     walk_scene w;
     walk_scene_init(&w, true);
-    for (int frame = 0; frame < 20; ++frame) {
+    uint64_t all_moves = 0;
+    uint64_t all_evaluated = 0;
+    for (int frame = 0; frame < 50; ++frame) {
         walk_scene_next(&w, false);
         const int level[2] = {(int)w.levels[0]->depth - 1, (int)w.levels[1]->depth - 1};
         mote_place at[2];
-        uint64_t moves = 0;
+        double least;
         random_places(&w, level, at);
         const uint64_t before = w.lazy[0].evaluated + w.lazy[1].evaluated;
-        mote_descend(w.ground, level, at, &moves);
-        const uint64_t evaluated = w.lazy[0].evaluated + w.lazy[1].evaluated - before;
-        assert_true(evaluated <= 2 * moves + 4 * (uint64_t)(level[0] + level[1] + 4));
+        mote_descend(w.ground, level, at, HUGE_VAL, &least, &all_moves);
+        all_evaluated += w.lazy[0].evaluated + w.lazy[1].evaluated - before;
     }
+    assert_true(all_evaluated < 2 * all_moves + 50 * 32);
     walk_scene_free(&w);
 }
 
@@ -167,8 +202,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(descend_static_local_minimum),
         cmocka_unit_test(descend_given_local_minimum),
-        cmocka_unit_test(descend_deforming_comes_nearer),
+        cmocka_unit_test(descend_deforming_local_minimum),
         cmocka_unit_test(walk_one_level_stays_on_it),
+        cmocka_unit_test(descend_not_worth_it_gives_up),
         cmocka_unit_test(descend_evaluates_few_positions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -247,6 +247,64 @@ static void single_positions_stay_near_double(void **unused)
     }
 }
 
+/* Whatever is known before, listed twice or makes the table grow. */
+static void fetch_same_bits_as_one_by_one(void **unused)
+{
+    (void)unused;
+    const int sizes[] = {0, 1, 7, 8, 9, 14, 40, 256, -1, -4};
+    uint64_t seed = 9;
+    for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; ++k) {
+        test_body b;
+        test_body_init(&b, solid_to_mesh(solid_icosphere(2)), sizes[k], &seed);
+        mote_lazy lazy;
+        init_lazy(&lazy, &b.body, 1, false);
+        for (int frame = 0; frame < 20; ++frame) {
+            const mote_body_state state = test_body_state(&b, 1, &seed);
+            mote_lazy_begin(&lazy, &state, false);
+            uint32_t list[60];
+            for (int i = 0; i < 60; ++i)
+                list[i] = (uint32_t)(random_bits(&seed) % b.mesh->vertex_count);
+            (void)mote_lazy_position(&lazy, list[3]);
+            mote_lazy_fetch(&lazy, list, random_bits(&seed) % 40);
+            mote_lazy_fetch(&lazy, list + 20, 40);
+            mote_lazy_fetch_rings(&lazy, list, 3);
+            const uint64_t evaluated = lazy.evaluated;
+            for (int i = 20; i < 60; ++i)
+                expect_same(&lazy, &b.body, &state, list[i]);
+            for (int i = 0; i < 3; ++i) {
+                const uint32_t v = list[i];
+                expect_same(&lazy, &b.body, &state, v);
+                for (uint32_t r = b.mesh->ring_start[v]; r < b.mesh->ring_start[v + 1]; ++r)
+                    expect_same(&lazy, &b.body, &state, MOTE_RING_VERTEX(b.mesh->ring[r]));
+            }
+            assert_int_equal(lazy.evaluated, evaluated);
+        }
+        mote_lazy_free(&lazy);
+        test_body_free(&b);
+    }
+}
+
+static void fetch_evaluates_each_vertex_once(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 10;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 14, &seed);
+    mote_lazy lazy;
+    init_lazy(&lazy, &b.body, 1, false);
+    const mote_body_state state = test_body_state(&b, 1, &seed);
+    uint32_t list[300];
+    for (uint32_t i = 0; i < 300; ++i)
+        list[i] = i / 3;
+    mote_lazy_begin(&lazy, &state, false);
+    mote_lazy_fetch(&lazy, list, 300);
+    mote_lazy_fetch(&lazy, list, 300);
+    assert_int_equal(lazy.evaluated, 100);
+    assert_int_equal(lazy.filled, 100);
+    mote_lazy_free(&lazy);
+    test_body_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +317,8 @@ int main(void)
         cmocka_unit_test(init_expecting_more_than_the_mesh_is_sized_by_the_mesh),
         cmocka_unit_test(given_positions_are_read_and_not_evaluated),
         cmocka_unit_test(single_positions_stay_near_double),
+        cmocka_unit_test(fetch_same_bits_as_one_by_one),
+        cmocka_unit_test(fetch_evaluates_each_vertex_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,6 +8,7 @@
 #include "core/lazy.h"
 #include "core/particles.h"
 #include "core/refine.h"
+#include "core/tracker.h"
 
 #include "tests/bodies.h"
 
@@ -224,7 +225,50 @@ static void certified_queries_of_fixed_bodies_have_the_committed_hash(void **unu
         test_body_free(&b[0]);
         test_body_free(&b[1]);
     }
-    expect_hash(hash, 0xcec31ee108dd9451u);
+    expect_hash(hash, 0x151c26983b8054bbu);
+}
+
+/* Tracked queries, counters included, of two bodies that come near, meet and jump. */
+static void tracked_queries_of_fixed_bodies_have_the_committed_hash(void **unused)
+{
+    (void)unused;
+    const int sizes[] = {0, 14, -3};
+    uint64_t seed = 6;
+    uint64_t hash = hash_start;
+    for (int size = 0; size < 3; ++size) {
+        test_body b[2];
+        for (int k = 0; k < 2; ++k)
+            test_body_init(&b[k], solid_to_mesh(solid_icosphere(4 - k)), sizes[size], &seed);
+        const mote_body *bodies[2] = {&b[0].body, &b[1].body};
+        const mote_tracker_options options = mote_default_tracker_options();
+        mote_tracker *tracker = NULL;
+        if (mote_tracker_create(bodies, b[0].mesh->diagonal, &options, &tracker) != MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        mote_frame frame = {.number = 0};
+        for (int number = 0; number < 60; ++number) {
+            if (number % 20 == 0) {
+                for (int k = 0; k < 2; ++k)
+                    frame.body[k] = test_body_state(&b[k], 0.1, &seed);
+                frame.body[1].pose.translation.x += 2.6;
+            }
+            frame.body[1].pose.translation.x -= 0.03;
+            for (uint32_t j = 0; j < b[0].field->count; ++j)
+                b[0].weights[1][j] += random_between(&seed, -0.01, 0.01);
+            mote_counters counters = {0};
+            mote_refined best;
+            mote_tracker_query(tracker, &frame, false, HUGE_VAL, 0, &counters, &best);
+            hash_double(&hash, best.squared);
+            hash_vec3(&hash, best.witness[0]);
+            hash_vec3(&hash, best.witness[1]);
+            hash_word(&hash, counters.positions);
+            hash_word(&hash, counters.moves);
+            hash_word(&hash, counters.launches);
+        }
+        mote_tracker_destroy(tracker);
+        test_body_free(&b[0]);
+        test_body_free(&b[1]);
+    }
+    expect_hash(hash, 0x0a8f7adf2a25f72eu);
 }
 
 int main(void)
@@ -234,6 +278,7 @@ int main(void)
         cmocka_unit_test(single_positions_of_fixed_bodies_have_the_committed_hash),
         cmocka_unit_test(particles_of_fixed_bodies_have_the_committed_hash),
         cmocka_unit_test(refined_pairs_of_fixed_bodies_have_the_committed_hash),
+        cmocka_unit_test(tracked_queries_of_fixed_bodies_have_the_committed_hash),
         cmocka_unit_test(certified_queries_of_fixed_bodies_have_the_committed_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -127,6 +127,7 @@ static void query_switches_answers_on_surfaces(void **context)
         "n=8,forces=on",
         "n=8,forces=on,reseed=off",
         "n=8,reseed=off",
+        "n=8,leap=off",
         "n=8,descend=off",
         "n=8,start=random",
         "n=8,track=0,refine=1,launch=0",
@@ -157,7 +158,7 @@ static void query_after_teleport_as_good_as_new(void **context)
         const mote_answer a = ask(&old, frame);
         const mote_answer b = ask(&fresh, frame);
         assert_true(a.distance <= b.distance + 1e-12 * s.length);
-        assert_true(a.distance == 0 || a.counters.launches == 16);
+        assert_true(a.distance == 0 || a.counters.launches >= 16);
         subject_free(&fresh);
     }
     subject_free(&old);

@@ -1,0 +1,50 @@
+/* How far two bodies have moved against each other from one query to the next: how much of what
+   was found then can still be relied on (paper 3.5, temporal coherence). */
+#ifndef MOTE_CORE_COHERENCE_H
+#define MOTE_CORE_COHERENCE_H
+
+#include "core/body.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Vertices of a body whose motion stands for that of all, where positions are given. */
+#define MOTE_PROBES_MAX 16
+
+/* How one body stood at the last frame. */
+typedef struct mote_stance {
+    mote_vec3 *weights; /* [field->padded], in the body's axes */
+    uint32_t probe[MOTE_PROBES_MAX], probe_count;
+    mote_vec3 probe_local[MOTE_PROBES_MAX]; /* positions in the body's axes */
+} mote_stance;
+
+typedef struct mote_coherence {
+    const mote_body *body[2];
+    double length;
+    bool known;         /* a frame was seen */
+    mote_mat3 rotation; /* of body 1 seen from body 0 */
+    mote_vec3 centre;   /* of body 1's box at rest seen from body 0's */
+    mote_stance stance[2];
+} mote_coherence;
+
+/* bodies and what they point to are borrowed. length: L of the pair. probes[b][counts[b]]:
+   vertices spread over body b, copied, the first MOTE_PROBES_MAX of them. The caller frees
+   *coherence, also after an error. */
+mote_status mote_coherence_init(mote_coherence *coherence, const mote_body *const bodies[2],
+                                double length, const uint32_t *const probes[2],
+                                const uint32_t counts[2]);
+
+void mote_coherence_free(mote_coherence *coherence);
+
+/* An estimate of the farthest that any point of one body has moved as seen from the other since
+   the last call, and of it the part that comes from deformation; L of the pair at the first
+   call. use_given: the shape is known from state->vertices, else from the weights. Cost: one
+   step a weight, or a probe. */
+double mote_coherence_motion(mote_coherence *coherence, const mote_frame *frame,
+                             bool use_given);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
