@@ -25,6 +25,7 @@ status=0
     --method 'particle:n=0' \
     --method 'particle:n=8,refine=1' \
     --method 'particle:n=8,track=0' \
+    --method 'particle:n=8,leap=off' \
     --method 'particle:n=8,descend=off,forces=off|on' \
     --method 'particle:n=8,start=random' \
     --method 'particle:n=8,reseed=off,forces=off|on' \
