@@ -19,6 +19,10 @@ mote_certificate_options mote_default_certificate_options(double length)
                                       .restarts = 6};
 }
 
+/* Where the last faces have moved apart by more than this part of L, others are sought in the
+   trees: refining from far off takes longer. */
+#define LEAP 0.1
+
 static uint32_t at_most(uint32_t a, uint32_t b)
 {
     return a < b ? a : b;
@@ -162,6 +166,15 @@ static void refine_best(mote_certificate *c)
     }
 }
 
+/* The distance of faces that may be near. */
+static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
+{
+    c->best = (mote_refined){.squared = HUGE_VAL};
+    for (int s = 0; s < 2; ++s)
+        memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
+    polish(c, &c->best);
+}
+
 /* The first upper bound: from faces that may be near, or found in the trees. */
 static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32_t (*first)[3])
 {
@@ -171,7 +184,12 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
         mote_lazy_begin(lazy[s], &frame->body[s], false);
     if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
         first = (const uint32_t(*)[3])c->last;
-    if (!first) {
+    if (first)
+        measure_first(c, first);
+    const bool leapt = first == (const uint32_t(*)[3])c->last &&
+                       c->options.seed == MOTE_CERT_SEED_WITNESS &&
+                       c->best.squared > c->leap * c->leap;
+    if (!first || leapt) {
         uint32_t vertex[2];
         const mote_vec3 middle = mote_scale(
             mote_add(frame->body[0].pose.translation, frame->body[1].pose.translation), 0.5);
@@ -185,10 +203,6 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
         polish(c, &c->best);
         ++c->counters.refined;
     } else {
-        c->best = (mote_refined){.squared = HUGE_VAL};
-        for (int s = 0; s < 2; ++s)
-            memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
-        polish(c, &c->best);
         c->unrefined = c->options.seed == MOTE_CERT_SEED_WITNESS && !c->saddle;
     }
 }
@@ -289,6 +303,7 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
     c->saddle = c->saddle && c->steady;
     memcpy(c->last, c->best.triangle, sizeof c->last);
     c->has_last = true;
+    c->leap = c->upper + LEAP * c->options.length;
 }
 
 void mote_certificate_query(mote_certificate *c, const mote_frame *frame,

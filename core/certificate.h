@@ -21,7 +21,8 @@ typedef struct mote_certificate mote_certificate;
 typedef enum mote_cert_seed {
     MOTE_CERT_SEED_NONE,   /* found anew: no state is kept between queries */
     MOTE_CERT_SEED_PAIR,   /* the last query's pair of faces as it is now */
-    MOTE_CERT_SEED_WITNESS /* the same, refined downhill over the faces around */
+    MOTE_CERT_SEED_WITNESS /* the same, refined downhill over the faces around; found anew where
+                              the two have leapt apart */
 } mote_cert_seed;
 
 typedef struct mote_certificate_options {

@@ -104,6 +104,7 @@ struct mote_certificate {
                     too, so that it is not refined at first */
     bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
     bool has_last;
+    double leap;         /* a distance of the last faces that tells of a leap */
     uint32_t last[2][3]; /* faces of the last query's witnesses */
     float direction[MOTE_CERT_DIRECTIONS][3];
     uint32_t direction_count;

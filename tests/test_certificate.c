@@ -226,6 +226,32 @@ static void query_after_another_history_gives_the_same_distance(void **state)
     scene_free(&s);
 }
 
+/* After a leap the search does not start from where the last faces are now. */
+static void query_after_a_leap_costs_about_as_much_as_a_cold_one(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 60, 30, 1, true);
+    mote_certificate_options none = mote_default_certificate_options(s.length);
+    none.seed = MOTE_CERT_SEED_NONE;
+    mote_certificate *warm = certificate_of(&s, NULL);
+    mote_certificate *cold = certificate_of(&s, &none);
+    uint64_t positions[2] = {0, 0};
+    for (int k = 0; k < 200; ++k) {
+        scene_next(&s, 1.3, false);
+        mote_certificate_answer a[2];
+        mote_certificate_query(warm, &s.frame, NULL, -1, &a[0]);
+        mote_certificate_query(cold, &s.frame, NULL, -1, &a[1]);
+        assert_true(fabs(a[0].distance - a[1].distance) <= 1e-15 * s.length);
+        for (int i = 0; i < 2; ++i)
+            positions[i] += a[i].counters.positions;
+    }
+    assert_true((double)positions[0] < 2 * (double)positions[1]);
+    mote_certificate_destroy(warm);
+    mote_certificate_destroy(cold);
+    scene_free(&s);
+}
+
 static void query_with_slack_returns_a_bracket(void **state)
 {
     (void)state;
@@ -638,6 +664,7 @@ int main(void)
         cmocka_unit_test(query_without_a_step_equals_all_pairs),
         cmocka_unit_test(query_separate_triangles_equals_all_pairs),
         cmocka_unit_test(query_after_another_history_gives_the_same_distance),
+        cmocka_unit_test(query_after_a_leap_costs_about_as_much_as_a_cold_one),
         cmocka_unit_test(query_with_slack_returns_a_bracket),
         cmocka_unit_test(query_with_budget_returns_an_honest_bracket),
         cmocka_unit_test(query_contact_agrees_with_the_distance),
