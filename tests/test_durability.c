@@ -19,7 +19,7 @@
 #define SWEEP                                                                                  \
     "run tt --frames 1-200 --method particle-paper:n=2 --method aabb-tree --replicates 10"
 #define SWEEP_CELLS 20
-#define SLOW "run tt --frames 1-600 --method brute-force --replicates 1"
+#define SLOW "run tt --frames 1-600 --stride 1 --method brute-force --replicates 5"
 
 static char base[] = "/tmp/mote-test-durable-XXXXXX";
 static int directories;
