@@ -38,7 +38,7 @@ static int make_base(void **state)
                        " \"warmup\": null, \"active\": null}\n");
     (void)fclose(out);
     (void)snprintf(line, sizeof line,
-                   "run %s --replicates 3 --method fcl-aabb --method certified"
+                   "run %s --replicates 3 --stride 1 --method fcl-aabb --method certified"
                    " --method fcl-kdop18 --out %s/run",
                    name, base);
     return program_wait(program_start(line, said));
