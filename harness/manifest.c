@@ -45,7 +45,9 @@ static void proc_value(const char *path, const char *key, char *value, size_t si
     char line[1024];
     while (fgets(line, sizeof line, file)) {
         const char *colon = strchr(line, ':');
-        if (!colon || strncmp(line, key, strlen(key)) != 0)
+        size_t length = strlen(key);
+        if (!colon || strncmp(line, key, length) != 0 ||
+            line + length + strspn(line + length, " \t") != colon)
             continue;
         const char *start = colon + 1 + strspn(colon + 1, " \t");
         (void)snprintf(value, size, "%.*s", (int)strcspn(start, "\n"), start);
@@ -82,12 +84,28 @@ void mote_machine_name(char *text, size_t size)
                    uname(&system) == 0 ? system.nodename : "", processor);
 }
 
+/* The processor's name and, where the system tells them, the numbers that set apart those of
+   one name: virtual machines often hide all but a family's name. */
+static void processor_name(char *text, size_t size)
+{
+    char name[128], family[16], model[16], stepping[16];
+    proc_value("/proc/cpuinfo", "model name", name, sizeof name);
+    proc_value("/proc/cpuinfo", "cpu family", family, sizeof family);
+    proc_value("/proc/cpuinfo", "model", model, sizeof model);
+    proc_value("/proc/cpuinfo", "stepping", stepping, sizeof stepping);
+    if (family[0] && model[0])
+        (void)snprintf(text, size, "%s, family %s, model %s, stepping %s", name, family, model,
+                       stepping);
+    else
+        (void)snprintf(text, size, "%s", name);
+}
+
 static void add_machine(json_t *object)
 {
     char processor[256], memory[64], machine[MOTE_MACHINE_SIZE];
     mote_machine_name(machine, sizeof machine);
     (void)json_object_set_new(object, "machine", json_string(machine));
-    proc_value("/proc/cpuinfo", "model name", processor, sizeof processor);
+    processor_name(processor, sizeof processor);
     proc_value("/proc/meminfo", "MemTotal", memory, sizeof memory);
     struct utsname system;
     const char *kernel = uname(&system) == 0 ? system.release : "";
