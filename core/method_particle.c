@@ -161,6 +161,12 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     return MOTE_OK;
 }
 
+static size_t particles(const void *state, int body, mote_vec3 *positions, size_t capacity)
+{
+    const particle_state *s = state;
+    return mote_tracker_particles(s->tracker, body, positions, capacity);
+}
+
 MOTE_METHOD(particle) = {
     .name = "particle",
     .summary = "tracked particles: minima followed, seeds descending coarse to fine",
@@ -170,4 +176,5 @@ MOTE_METHOD(particle) = {
     .create = create,
     .destroy = destroy,
     .query = query,
+    .particles = particles,
 };

@@ -278,3 +278,25 @@ void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use
     counters->positions +=
         tracker->body[0].lazy->evaluated + tracker->body[1].lazy->evaluated - before;
 }
+
+size_t mote_tracker_particles(const mote_tracker *tracker, int body, mote_vec3 *positions,
+                              size_t capacity)
+{
+    const mote_nearest_pair *last = &tracker->last;
+    mote_lazy *lazy = tracker->body[body].lazy;
+    size_t count = 0;
+    if (last->known) {
+        if (count < capacity)
+            positions[count] = mote_lazy_position(lazy, last->vertex[body]);
+        ++count;
+    }
+    for (uint32_t i = 0; i < tracker->pair_count; ++i) {
+        const mote_pair *pair = &tracker->pair[i];
+        if (last->known && memcmp(pair->vertex, last->vertex, sizeof pair->vertex) == 0)
+            continue;
+        if (count < capacity)
+            positions[count] = mote_lazy_position(lazy, pair->vertex[body]);
+        ++count;
+    }
+    return count;
+}

@@ -56,6 +56,13 @@ void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use
                         double worth_squared, double enough_squared, mote_counters *counters,
                         mote_refined *best);
 
+/* The particles of body 0 or 1 as the last query left them: where the nearest pair and the
+   other minima that are followed have their vertices, in the world, nearest first. Returns how
+   many there are, at most 1 + track, 0 before a query; writes at most capacity of them. The
+   frame's weights, and its vertices if given, must still be there. */
+size_t mote_tracker_particles(const mote_tracker *tracker, int body, mote_vec3 *positions,
+                              size_t capacity);
+
 #ifdef __cplusplus
 }
 #endif

@@ -15,6 +15,9 @@ static char base[] = "/tmp/mote-test-replay-XXXXXX";
 static char scenario_path[96], run_directory[96];
 static mote_report report;
 
+/* The tracks as a run orders them. */
+enum { CERTIFIED, TRACKED, PAPER, PAPER_CHECKED, TRACKS };
+
 static int make_run(void **state)
 {
     (void)state;
@@ -31,7 +34,8 @@ static int make_run(void **state)
         return -1;
     (void)snprintf(
         line, sizeof line,
-        "run %s --out %s --method certified --method particle-paper:n=3,refine=no|near",
+        "run %s --out %s --method certified --method particle-paper:n=3,refine=no|near "
+        "--method particle:n=3",
         scenario_path, run_directory);
     if (program_wait(program_start(line, said)) != 0)
         return -1;
@@ -137,8 +141,8 @@ static void replay_json_holds_the_stored_answers(void **state)
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     const json_t *tracks = json_object_get(first_scene(root), "tracks");
-    assert_int_equal(json_array_size(tracks), 3);
-    for (size_t t = 0; t < 3; ++t) {
+    assert_int_equal(json_array_size(tracks), TRACKS);
+    for (size_t t = 0; t < TRACKS; ++t) {
         const mote_stored_cell *cell = &report.cells.rows[t].cells[0];
         const json_t *track = json_array_get(tracks, t);
         assert_string_equal(json_string_value(json_object_get(track, "cell")), cell->id);
@@ -183,14 +187,14 @@ static void replay_json_particles_are_stored_once(void **state)
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     json_t *sets = json_object_get(first_scene(root), "particles");
-    assert_int_equal(json_object_size(sets), 1);
-    uint16_t *places = decode(sets, json_object_iter_key(json_object_iter(sets)), &size);
+    assert_int_equal(json_object_size(sets), 2); /* the tracked ones are others */
+    const json_t *tracks = json_object_get(first_scene(root), "tracks");
+    for (size_t t = PAPER; t <= PAPER_CHECKED; ++t)
+        assert_int_equal(
+            json_integer_value(json_object_get(json_array_get(tracks, t), "particles")), PAPER);
+    uint16_t *places = decode(sets, "2", &size);
     assert_int_equal(size, FRAMES * 2 * 3 * 3 * sizeof *places);
     free(places);
-    const json_t *tracks = json_object_get(first_scene(root), "tracks");
-    for (size_t t = 1; t < 3; ++t)
-        assert_int_equal(
-            json_integer_value(json_object_get(json_array_get(tracks, t), "particles")), 1);
     json_decref(root);
 }
 
@@ -213,12 +217,29 @@ static void replay_write_of_a_small_budget_leaves_out_and_names(void **state)
     mote_replay_free(&scene);
 }
 
+/* The minima that are followed, the nearest first: its vertices are of the answer's faces. */
+static void replay_particles_of_tracked_begin_with_the_pair(void **state)
+{
+    (void)state;
+    mote_replay_scene scene;
+    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    const mote_replay_track *track = &scene.tracks[TRACKED];
+    assert_in_range(track->particles, 1, 9);
+    assert_int_equal(track->rows, FRAMES);
+    for (size_t k = 0; k < 2 * track->rows; ++k) {
+        const mote_vec3 *first = &track->place[k * track->particles];
+        assert_near(mote_length(mote_sub(*first, track->pair[k])), 0,
+                    0.1 * mote_stored_number(track->cell, "length"));
+    }
+    mote_replay_free(&scene);
+}
+
 static void replay_particles_of_other_answers_are_not_shown(void **state)
 {
     (void)state;
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
-    mote_replay_track *track = &scene.tracks[1];
+    mote_replay_track *track = &scene.tracks[PAPER];
     assert_int_equal(track->particles, 3);
     free(track->place);
     track->place = NULL;
@@ -258,6 +279,7 @@ int main(void)
         cmocka_unit_test(replay_json_pairs_are_their_distance_apart),
         cmocka_unit_test(replay_json_particles_are_stored_once),
         cmocka_unit_test(replay_write_of_a_small_budget_leaves_out_and_names),
+        cmocka_unit_test(replay_particles_of_tracked_begin_with_the_pair),
         cmocka_unit_test(replay_particles_of_other_answers_are_not_shown),
         cmocka_unit_test(replay_load_of_a_changed_scenario_is_refused),
     };

@@ -283,6 +283,51 @@ static void query_scaled_by_powers_of_two_same_bits(void **context)
     }
 }
 
+/* Vertices of their bodies in the frame, the first pair as near as the closest vertices of the
+   faces that the answer is on, and no more than room was given for are written. */
+static void particles_after_query_are_vertices_nearest_first(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    subject u;
+    subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8,track=5");
+    mote_vec3 p[2][6], none = mote_vec3_make(7, 7, 7);
+    assert_int_equal(u.method->particles(u.state, 0, p[0], 6), 0);
+    size_t most = 0;
+    for (int i = 0; i < 60; ++i) {
+        const mote_answer a = ask(&u, smooth_frame(&s, 0.6));
+        const size_t count = u.method->particles(u.state, 0, p[0], 6);
+        assert_in_range(count, 1, 6);
+        assert_int_equal(u.method->particles(u.state, 1, p[1], 6), count);
+        most = count > most ? count : most;
+        double before = 0;
+        for (size_t k = 0; k < count; ++k) {
+            for (int b = 0; b < 2; ++b) {
+                uint32_t v = 0;
+                while (v < s.mesh[b]->vertex_count &&
+                       mote_distance_squared(s.world[b][v], p[b][k]) > 1e-24)
+                    ++v;
+                assert_true(v < s.mesh[b]->vertex_count);
+            }
+            const double apart = mote_length(mote_sub(p[0][k], p[1][k]));
+            assert_true(apart >= a.distance - 1e-12);
+            if (k > 1) /* those that were not walked again keep an earlier distance */
+                assert_true(apart >= before - 0.1 * s.length);
+            before = apart;
+        }
+        for (int b = 0; b < 2; ++b) /* on a face of the witness */
+            assert_true(mote_length(mote_sub(p[b][0], a.witness[b])) <=
+                        2 * s.mesh[b]->mean_edge);
+    }
+    assert_true(most > 1);
+    p[0][1] = none;
+    assert_true(u.method->particles(u.state, 0, p[0], 1) >= 1);
+    assert_memory_equal(&p[0][1], &none, sizeof none);
+    subject_free(&u);
+    scene_free(&s);
+}
+
 static void create_bad_options_rejected(void **context)
 {
     (void)context;
@@ -316,6 +361,7 @@ int main(void)
         cmocka_unit_test(contact_question_as_the_distance_says),
         cmocka_unit_test(query_warm_no_allocation),
         cmocka_unit_test(query_scaled_by_powers_of_two_same_bits),
+        cmocka_unit_test(particles_after_query_are_vertices_nearest_first),
         cmocka_unit_test(create_bad_options_rejected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
