@@ -80,11 +80,12 @@ typedef struct mote_method {
     const mote_parameter *parameters;
     size_t parameter_count;
 
-    /* Borrowed values; never fails. */
+    /* Borrowed values; never fails. NULL: none of them. */
     mote_traits (*traits)(const double *values);
 
     /* Builds the state for a pair of bodies. MOTE_EUNSUPPORTED with a reason when the method
-       cannot answer setup->ask with these values or on these bodies. */
+       cannot answer setup->ask with these values or on these bodies. NULL: the state is a copy
+       of the setup, and destroy is NULL too. */
     mote_status (*create)(const mote_setup *setup, void **state);
 
     /* NULL state is allowed. */
@@ -115,6 +116,12 @@ typedef struct mote_method {
 
 /* All methods, ended by NULL; written by the build. */
 extern const mote_method *const mote_methods[];
+
+/* What the method's own functions do, or stands for them where it has none. */
+mote_traits mote_method_traits(const mote_method *method, const double *values);
+mote_status mote_method_create(const mote_method *method, const mote_setup *setup,
+                               void **state);
+void mote_method_destroy(const mote_method *method, void *state);
 
 /* The method of that name, or NULL. */
 const mote_method *mote_method_find(const char *name);

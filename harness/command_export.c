@@ -31,7 +31,8 @@ static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe
     mote_status status = mote_frame_buffer_create(scenario, &buffer);
     if (status != MOTE_OK)
         return status;
-    const uint32_t first = choice->method->traits(choice->values).keeps_state ? 1 : last;
+    const uint32_t first =
+        mote_method_traits(choice->method, choice->values).keeps_state ? 1 : last;
     for (uint32_t k = first; k <= last && status == MOTE_OK; ++k) {
         const mote_frame *frame =
             mote_scenario_frame(scenario, buffer, k, k == first ? 0 : k - 1);

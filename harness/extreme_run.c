@@ -56,7 +56,7 @@ static mote_status ask_all(const task *t, message *told)
         status = mote_probe_create(&e->body[0], &e->body[1], &t->choice, MOTE_ASK_CONTACT, 0, 1,
                                    &probe);
     told->build_ns = mote_clock_ns() - start;
-    const mote_traits traits = t->choice.method->traits(t->choice.values);
+    const mote_traits traits = mote_method_traits(t->choice.method, t->choice.values);
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES && status == MOTE_OK; ++f) {
         told->said[f].exact = traits.exact;
         told->said[f].hulls = traits.hulls;

@@ -73,7 +73,7 @@ static int64_t vertices_bytes(const session *s)
 static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
 {
     const mote_cell *cell = s->cell;
-    s->traits = cell->choice->method->traits(cell->choice->values);
+    s->traits = mote_method_traits(cell->choice->method, cell->choice->values);
     result->rows = calloc(rows, sizeof *result->rows);
     if (!result->rows)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu rows", rows);
@@ -109,7 +109,7 @@ static mote_status build(session *s, mote_cell_result *result)
             return status;
         result->deform_bytes = vertices_bytes(s);
     }
-    mote_status status = cell->choice->method->create(&setup, &s->state);
+    mote_status status = mote_method_create(cell->choice->method, &setup, &s->state);
     result->build_ns = mote_clock_ns() - start;
     return status;
 }
@@ -238,7 +238,7 @@ static mote_status run_frames(session *s, size_t rows, mote_cell_result *result)
 
 static void close_session(session *s)
 {
-    s->cell->choice->method->destroy(s->state);
+    mote_method_destroy(s->cell->choice->method, s->state);
     for (int side = 0; side < 2; ++side) {
         mote_deform_destroy(s->deform[side]);
         free(s->vertices[side]);

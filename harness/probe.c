@@ -24,7 +24,7 @@ static mote_status build(mote_probe *probe, mote_ask ask, double tolerance, uint
                         .tolerance = tolerance,
                         .seed = seed,
                         .values = probe->choice.values};
-    probe->traits = method->traits(probe->choice.values);
+    probe->traits = mote_method_traits(method, probe->choice.values);
     for (int i = 0; i < 2; ++i) {
         probe->world[i] = malloc(probe->body[i].mesh->vertex_count * sizeof(mote_vec3));
         if (!probe->world[i])
@@ -33,7 +33,7 @@ static mote_status build(mote_probe *probe, mote_ask ask, double tolerance, uint
         if (status != MOTE_OK)
             return status;
     }
-    return method->create(&setup, &probe->state);
+    return mote_method_create(method, &setup, &probe->state);
 }
 
 mote_status mote_probe_create(const mote_body *a, const mote_body *b,
@@ -59,7 +59,7 @@ void mote_probe_destroy(mote_probe *probe)
     if (!probe)
         return;
     if (probe->state)
-        probe->choice.method->destroy(probe->state);
+        mote_method_destroy(probe->choice.method, probe->state);
     for (int i = 0; i < 2; ++i) {
         mote_deform_destroy(probe->deform[i]);
         free(probe->world[i]);

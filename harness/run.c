@@ -100,7 +100,7 @@ static bool same_configuration(const mote_cell *a, const mote_cell *b)
 
 static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 {
-    if (cell->choice->method->traits(cell->choice->values).keeps_state)
+    if (mote_method_traits(cell->choice->method, cell->choice->values).keeps_state)
         return 1;
     if (cell->stride_asked != MOTE_STRIDE_AUTO)
         return cell->stride_asked;

@@ -14,7 +14,7 @@ static void read_word(const char *word)
     uint64_t first, last;
     double real;
     if (mote_method_choice_read(word, &choice) == MOTE_OK)
-        (void)choice.method->traits(choice.values);
+        (void)mote_method_traits(choice.method, choice.values);
     (void)mote_read_range(word, 1000000, &first, &last);
     (void)mote_read_unsigned(word, 1, 1000, &first);
     (void)mote_read_real(word, -1e6, 1e6, &real);

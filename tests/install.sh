@@ -41,9 +41,9 @@ for header in "$root"/include/mote/*.h; do
 done
 echo "$headers headers compile alone, C17 and C++"
 
-# The README's program: two sheets 40 apart whose middles come nearer by 4 a frame.
+# The README's program: two octahedra 3 apart whose corners come nearer by 0.3 a frame.
 "$tests/readme.sh" track.c > track.c
-for k in 1 2 3 4 5 6 7 8; do echo "frame $k: distance $((40 - 4 * k)).000000000"; done > expected
+seq 8 | awk '{ printf "frame %d: distance %.9f\n", $1, 3 - 0.3 * $1 }' > expected
 flags="-std=c17 -Wall -Wextra -pedantic-errors -Werror"
 export PKG_CONFIG_PATH=$library/pkgconfig
 # shellcheck disable=SC2046,SC2086 # lists of words

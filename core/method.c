@@ -1,0 +1,29 @@
+#include "core/method.h"
+
+#include <stdlib.h>
+
+mote_traits mote_method_traits(const mote_method *method, const double *values)
+{
+    const mote_traits none = {0};
+    return method->traits ? method->traits(values) : none;
+}
+
+mote_status mote_method_create(const mote_method *method, const mote_setup *setup, void **state)
+{
+    if (method->create)
+        return method->create(setup, state);
+    mote_setup *kept = malloc(sizeof *kept);
+    if (!kept)
+        return mote_fail(MOTE_ENOMEM, "no memory for the setup of %s", method->name);
+    *kept = *setup;
+    *state = kept;
+    return MOTE_OK;
+}
+
+void mote_method_destroy(const mote_method *method, void *state)
+{
+    if (method->create)
+        method->destroy(state);
+    else
+        free(state);
+}
