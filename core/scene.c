@@ -1,0 +1,280 @@
+#include "core/scene.h"
+
+#include "core/certificate_shared.h"
+#include "core/pool.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Bodies and pairs that a thread takes at a time. */
+#define GRAIN_BODIES 64
+#define GRAIN_PAIRS 4
+
+/* The pairs of a step and what their next queries begin with. */
+typedef struct pair_list {
+    mote_scene_pair *pairs; /* [room] */
+    mote_cert_memory *memories;
+    size_t count, room;
+} pair_list;
+
+struct mote_scene {
+    mote_scene_options options;
+    double length;
+    mote_cert_tree **trees; /* [shape_count] */
+    uint32_t shape_count;
+    uint32_t *shape_of; /* [body_count] */
+    uint32_t body_count;
+    mote_pool *pool;
+    mote_certificate **workspaces; /* [threads] */
+    pair_list now, before;
+    /* Of the loop under way: */
+    const mote_body_state *states;
+    mote_scene_box *bounds;
+};
+
+mote_scene_options mote_default_scene_options(void)
+{
+    return (mote_scene_options){.ask = MOTE_ASK_DISTANCE, .threads = 1};
+}
+
+static mote_status check(uint32_t shape_count, const uint32_t *shape_of, uint32_t body_count,
+                         const mote_scene_options *options)
+{
+    if (shape_count < 1 || body_count < 1)
+        return mote_fail(MOTE_EINVAL, "a scene of %u bodies of %u shapes; give at least one",
+                         body_count, shape_count);
+    if (!(options->tolerance >= 0) || !isfinite(options->tolerance))
+        return mote_fail(MOTE_EINVAL, "tolerance %g; give a finite number from 0 on",
+                         options->tolerance);
+    for (uint32_t i = 0; i < body_count; ++i) {
+        if (shape_of[i] >= shape_count)
+            return mote_fail(MOTE_EINVAL, "body %u is of shape %u; there are %u", i,
+                             shape_of[i], shape_count);
+    }
+    return MOTE_OK;
+}
+
+static mote_status build_trees(mote_scene *s, const mote_body *const *shapes)
+{
+    const mote_certificate_options plain = mote_default_certificate_options(s->length);
+    const mote_cert_tree_options options = {
+        .length = s->length, .width = plain.width, .linear_fits = plain.linear_fits};
+    for (uint32_t i = 0; i < s->shape_count; ++i) {
+        mote_status status = mote_cert_tree_create(shapes[i], &options, &s->trees[i]);
+        if (status != MOTE_OK)
+            return status;
+    }
+    return MOTE_OK;
+}
+
+static mote_status build(mote_scene *s, const mote_body *const *shapes,
+                         const uint32_t *shape_of)
+{
+    for (uint32_t i = 0; i < s->shape_count; ++i)
+        s->length = fmax(s->length, shapes[i]->mesh->diagonal);
+    s->trees = calloc(s->shape_count, sizeof(mote_cert_tree *));
+    s->shape_of = malloc(s->body_count * sizeof *s->shape_of);
+    s->workspaces = calloc(s->options.threads, sizeof(mote_certificate *));
+    if (!s->trees || !s->shape_of || !s->workspaces)
+        return mote_fail(MOTE_ENOMEM, "no memory for a scene of %u bodies", s->body_count);
+    memcpy(s->shape_of, shape_of, s->body_count * sizeof *shape_of);
+    mote_status status = build_trees(s, shapes);
+    const mote_certificate_options options = mote_default_certificate_options(s->length);
+    for (uint32_t i = 0; i < s->options.threads && status == MOTE_OK; ++i)
+        status =
+            mote_cert_workspace_create(s->trees, s->shape_count, &options, &s->workspaces[i]);
+    return status;
+}
+
+mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_count,
+                              const uint32_t *shape_of, uint32_t body_count,
+                              const mote_scene_options *options, mote_scene **scene)
+{
+    mote_status status = check(shape_count, shape_of, body_count, options);
+    if (status != MOTE_OK)
+        return status;
+    mote_scene *made = calloc(1, sizeof *made);
+    if (!made)
+        return mote_fail(MOTE_ENOMEM, "no memory for a scene");
+    made->options = *options;
+    made->shape_count = shape_count;
+    made->body_count = body_count;
+    status = mote_pool_create(options->threads, &made->pool);
+    if (status == MOTE_OK)
+        status = build(made, shapes, shape_of);
+    if (status == MOTE_OK)
+        *scene = made;
+    else
+        mote_scene_destroy(made);
+    return status;
+}
+
+static void free_list(pair_list *list)
+{
+    free(list->pairs);
+    free(list->memories);
+}
+
+void mote_scene_destroy(mote_scene *scene)
+{
+    if (!scene)
+        return;
+    mote_pool_destroy(scene->pool);
+    for (uint32_t i = 0; scene->trees && i < scene->shape_count; ++i)
+        mote_cert_tree_destroy(scene->trees[i]);
+    for (uint32_t i = 0; scene->workspaces && i < scene->options.threads; ++i)
+        mote_cert_workspace_destroy(scene->workspaces[i]);
+    free(scene->trees);
+    free(scene->workspaces);
+    free(scene->shape_of);
+    free_list(&scene->now);
+    free_list(&scene->before);
+    free(scene);
+}
+
+size_t mote_scene_bytes(const mote_scene *scene)
+{
+    size_t bytes = sizeof *scene + scene->body_count * sizeof *scene->shape_of;
+    for (uint32_t i = 0; i < scene->shape_count; ++i)
+        bytes += mote_cert_tree_bytes(scene->trees[i]);
+    for (uint32_t i = 0; i < scene->options.threads; ++i)
+        bytes += mote_cert_workspace_bytes(scene->workspaces[i]);
+    const size_t pairs = scene->now.room + scene->before.room;
+    return bytes + pairs * (sizeof *scene->now.pairs + sizeof *scene->now.memories);
+}
+
+double mote_scene_length(const mote_scene *scene)
+{
+    return scene->length;
+}
+
+static void bound_range(void *context, uint32_t worker, size_t first, size_t end)
+{
+    mote_scene *s = context;
+    for (size_t i = first; i < end; ++i)
+        mote_cert_workspace_bounds(s->workspaces[worker], s->trees[s->shape_of[i]],
+                                   &s->states[i], &s->bounds[i].low, &s->bounds[i].high);
+}
+
+mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
+                              mote_scene_box *bounds)
+{
+    scene->states = states;
+    scene->bounds = bounds;
+    mote_pool_run(scene->pool, bound_range, scene, scene->body_count, GRAIN_BODIES);
+    for (uint32_t i = 0; i < scene->body_count; ++i) {
+        const mote_vec3 size = mote_sub(bounds[i].high, bounds[i].low);
+        if (!isfinite(size.x + size.y + size.z))
+            return mote_fail(MOTE_EINVAL, "body %u: its pose or a weight is not finite", i);
+    }
+    return MOTE_OK;
+}
+
+static int compare(const uint32_t a[2], const uint32_t b[2])
+{
+    if (a[0] != b[0])
+        return a[0] < b[0] ? -1 : 1;
+    return a[1] < b[1] ? -1 : a[1] > b[1];
+}
+
+static mote_status check_pairs(const mote_scene *s, const uint32_t (*pairs)[2], size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        if (pairs[k][0] >= pairs[k][1] || pairs[k][1] >= s->body_count)
+            return mote_fail(MOTE_EINVAL, "pair %u, %u; give i < j below %u bodies",
+                             pairs[k][0], pairs[k][1], s->body_count);
+        if (k > 0 && compare(pairs[k - 1], pairs[k]) >= 0)
+            return mote_fail(MOTE_EINVAL, "pair %u, %u after %u, %u; give them ascending",
+                             pairs[k][0], pairs[k][1], pairs[k - 1][0], pairs[k - 1][1]);
+    }
+    return MOTE_OK;
+}
+
+/* Room for count pairs; what was in the list is lost. */
+static mote_status make_room(pair_list *list, size_t count)
+{
+    if (count <= list->room)
+        return MOTE_OK;
+    const size_t room = count + count / 4 + 16;
+    mote_scene_pair *pairs = malloc(room * sizeof *pairs);
+    mote_cert_memory *memories = malloc(room * sizeof *memories);
+    if (!pairs || !memories) {
+        free(pairs);
+        free(memories);
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu near pairs", count);
+    }
+    free_list(list);
+    *list = (pair_list){.pairs = pairs, .memories = memories, .room = room};
+    return MOTE_OK;
+}
+
+/* Fills the new list with the pairs, each with its state of the list before or none. */
+static void take_over(const pair_list *before, const uint32_t (*pairs)[2], size_t count,
+                      pair_list *list)
+{
+    size_t old = 0;
+    list->count = count;
+    for (size_t k = 0; k < count; ++k) {
+        while (old < before->count && compare(before->pairs[old].body, pairs[k]) < 0)
+            ++old;
+        const bool known =
+            old < before->count && compare(before->pairs[old].body, pairs[k]) == 0;
+        list->pairs[k] = (mote_scene_pair){.body = {pairs[k][0], pairs[k][1]}, .steps = 1};
+        list->memories[k] = (mote_cert_memory){.has_last = false};
+        if (known) {
+            list->pairs[k].steps += before->pairs[old].steps;
+            list->memories[k] = before->memories[old];
+        }
+    }
+}
+
+static void answer_pair(mote_scene *s, mote_certificate *workspace, mote_scene_pair *pair,
+                        mote_cert_memory *memory)
+{
+    const bool contact_only = s->options.ask == MOTE_ASK_CONTACT;
+    mote_cert_tree *trees[2];
+    mote_frame frame = {.number = 1};
+    for (int k = 0; k < 2; ++k) {
+        trees[k] = s->trees[s->shape_of[pair->body[k]]];
+        frame.body[k] = s->states[pair->body[k]];
+    }
+    mote_certificate_answer answer;
+    mote_cert_workspace_query(workspace, trees, &frame,
+                              contact_only ? s->options.tolerance : -1, memory, &answer);
+    pair->distance = answer.distance;
+    pair->lower = answer.lower;
+    pair->contact = answer.distance <= s->options.tolerance;
+    pair->witness[0] = answer.witness[0];
+    pair->witness[1] = answer.witness[1];
+    pair->counters = answer.counters;
+}
+
+static void answer_range(void *context, uint32_t worker, size_t first, size_t end)
+{
+    mote_scene *s = context;
+    for (size_t k = first; k < end; ++k)
+        answer_pair(s, s->workspaces[worker], &s->now.pairs[k], &s->now.memories[k]);
+}
+
+mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
+                             const uint32_t (*pairs)[2], size_t count)
+{
+    mote_status status = check_pairs(scene, pairs, count);
+    if (status == MOTE_OK)
+        status = make_room(&scene->before, count);
+    if (status != MOTE_OK)
+        return status;
+    take_over(&scene->now, pairs, count, &scene->before);
+    const pair_list swapped = scene->now;
+    scene->now = scene->before;
+    scene->before = swapped;
+    scene->states = states;
+    mote_pool_run(scene->pool, answer_range, scene, count, GRAIN_PAIRS);
+    return MOTE_OK;
+}
+
+const mote_scene_pair *mote_scene_pairs(const mote_scene *scene, size_t *count)
+{
+    *count = scene->now.count;
+    return scene->now.pairs;
+}

@@ -1,0 +1,82 @@
+/* Several bodies (paper section 6): certified queries for the near pairs of a scene.
+
+   Bodies of one shape share its rest mesh, its field and one tree; a body by itself is a pose
+   and weights, which the caller keeps. A pair has a state while it is near and no longer.
+   Memory grows with the shapes and the near pairs, not with the bodies times their triangles.
+
+   A step is: mote_scene_bounds, which tells where the bodies are without touching a vertex; the
+   caller's choice of pairs by these bounds (a broad phase: baselines/broad_phase.h wraps
+   FCL's); mote_scene_query, which answers for these pairs. */
+#ifndef MOTE_CORE_SCENE_H
+#define MOTE_CORE_SCENE_H
+
+#include "core/method.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mote_scene mote_scene;
+
+typedef struct mote_scene_options {
+    mote_ask ask;
+    double tolerance; /* absolute, >= 0: contact is distance <= tolerance */
+    uint32_t threads; /* 1 .. 256: that bounds and pairs are shared out to */
+} mote_scene_options;
+
+/* The distance, tolerance 0, one thread. */
+mote_scene_options mote_default_scene_options(void);
+
+/* A box in world axes. */
+typedef struct mote_scene_box {
+    mote_vec3 low, high;
+} mote_scene_box;
+
+/* What is known of a near pair. */
+typedef struct mote_scene_pair {
+    uint32_t body[2];     /* body[0] < body[1] */
+    uint32_t steps;       /* that it has been near for without a break, this one included */
+    bool contact;         /* distance <= tolerance, exactly */
+    double distance;      /* of the witnesses; with MOTE_ASK_CONTACT an upper bound */
+    double lower;         /* proven, <= distance */
+    mote_vec3 witness[2]; /* world points on the two bodies */
+    mote_counters counters;
+} mote_scene_pair;
+
+/* Builds a tree for each of shape_count shapes (borrowed). shape_of[body_count]: the shape of
+   each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist, options out of
+   range; MOTE_ENOMEM. Cost: about 1 s a million triangles of shapes. */
+mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_count,
+                              const uint32_t *shape_of, uint32_t body_count,
+                              const mote_scene_options *options, mote_scene **scene);
+
+/* NULL is allowed. */
+void mote_scene_destroy(mote_scene *scene);
+
+/* Bytes of heap held now: trees, workspaces, pairs. */
+size_t mote_scene_bytes(const mote_scene *scene);
+
+/* L of the scene: the largest rest L of its shapes. */
+double mote_scene_length(const mote_scene *scene);
+
+/* Boxes of all bodies, bounds[body_count], from the roots of their trees deformed by states
+   [body_count]: each contains all vertices of its body as mote_body_position gives them.
+   MOTE_EINVAL, naming the body, where a pose or a weight is not finite. No allocation. About
+   0.2 us a body. */
+mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
+                              mote_scene_box *bounds);
+
+/* Answers for pairs[count], i < j, ascending by i, then j, each once (else MOTE_EINVAL). Pairs
+   that were given in the last call too go on from their state; the state of others is dropped.
+   Answers are the same bits whatever the number of threads. Allocates only where there are more
+   pairs than ever before: MOTE_ENOMEM, and all states are kept. */
+mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
+                             const uint32_t (*pairs)[2], size_t count);
+
+/* The pairs of the last query, in its order; valid until the next one. */
+const mote_scene_pair *mote_scene_pairs(const mote_scene *scene, size_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
