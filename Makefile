@@ -13,7 +13,8 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
-#   make reliability [PROFILE=quick|full] [PLANT=1]  what was tried, how often, what failed
+#   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
+#   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
@@ -82,16 +83,29 @@ certify: build
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
-# PLANT=1 plants a wrong answer, a lost row and a leak, which must be found.
+# PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
+# into results/reference and README.md; ONLY="kills fuzz" runs some of the studies.
 PLANT ?=
-reliability: build
-	cmake --build $(BUILD) -j $(JOBS) --target kills > /dev/null
-	cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) --target test_faults > /dev/null
-	cmake --preset fuzz > /dev/null && cmake --build build-fuzz -j $(JOBS) \
-	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell > /dev/null
+RECORD ?=
+reliability: build build-fuzz
+	@cmake --build $(BUILD) -j $(JOBS) --target kills > /dev/null
+	@cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) --target test_faults > /dev/null
 	@mkdir -p results
-	@tests/reliability.sh $(BUILD) build-asan build-fuzz $(if $(filter quick,$(PROFILE)),quick,full) \
-	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) $(if $(PLANT),plant)
+	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/reliability.sh $(BUILD) build-asan build-fuzz \
+	    $(if $(filter quick,$(PROFILE)),quick,full) \
+	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) \
+	    $(if $(PLANT),plant,$(if $(RECORD),record))
+
+# As many targets at a time as there are cores.
+SECONDS ?= 60
+.PHONY: fuzz build-fuzz
+build-fuzz: deps
+	@cmake --preset fuzz > /dev/null && cmake --build build-fuzz -j $(JOBS) \
+	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell > /dev/null
+
+fuzz: build-fuzz
+	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) $(if $(filter file,$(origin OUT)),results/fuzz,$(OUT))
+	@$(if $(RECORD),tests/record.sh --fuzz results/fuzz/fuzz.tsv)
 
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1

@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
 # make reliability: what was tried, how often, what failed. Runs the studies one after another,
 # prints a table and writes OUT/reliability.json, a list of {check, tried, failed}.
-#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ quick|full OUT [plant]
+#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ quick|full OUT [plant|record]
 # plant: one wrong answer, one lost row and one leak, which must be reported, and nothing else.
+# record: the table goes into results/reference and README.md. Full takes hours: JOBS=2 fuzzes two
+# targets at a time, ONLY="kills fuzz" runs some of the studies.
 set -u
-build=$1 asan=$2 fuzz=$3 profile=$4 out=$5 plant=${6:-}
+build=$1 asan=$2 fuzz=$3 profile=$4 out=$5 plant= record=
+case ${6:-} in
+plant) plant=plant ;;
+record) record=record ;;
+esac
+only=${ONLY:-certify metamorphic soak oracle kills faults fuzz}
 case $profile in
-quick) queries=20000 soak="--cases 40" seconds=10 kills=10 ;;
-*) queries=1000000 soak="--cases 11500" seconds=3600 kills=200 ;;
+quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 ;;
+*) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 ;;
 esac
 rm -rf "$out"
 mkdir -p "$out"
@@ -17,39 +24,61 @@ checks=$out/checks.tsv
 add() { # CHECK TRIED FAILED
     printf '%s\t%s\t%s\n' "$1" "$2" "$3" >>"$checks"
 }
-# Runs a command, output into a log; a status other than 0 without a line of its own is a failure.
+# Runs a command, output into a log.
 log() { # NAME COMMAND...
     local name=$1
     shift
     echo "reliability: $name" >&2
     "$@" >"$out/$name.log" 2>&1
 }
-# A check that is a program: tried is a number found in its log, failed is its status.
+# A check that is a program: tried is a number found in what it wrote, failed is its status.
 program() { # CHECK NAME PATTERN COMMAND...
     local check=$1 name=$2 pattern=$3 failed=0
     shift 3
     log "$name" "$@" || failed=1
-    add "$check" "$(grep -oE "$pattern" "$out/$name.log" | grep -oE '[0-9]+' | head -1 || true)" $failed
+    add "$check" "$(cat "$out/$name".* | grep -aoE "$pattern" | grep -oE '[0-9]+' | sed -n 1p)" \
+        $failed
+    return $failed
 }
 
-log certify "$build/tests/certify" --queries "$queries" --checks "$checks" --out "$out/certify.json" ||
-    tail -3 "$out/certify.log" >&2
-log metamorphic "$build/tests/metamorphic" --queries "$queries" --checks "$checks" ||
-    tail -3 "$out/metamorphic.log" >&2
-# shellcheck disable=SC2086 # soak holds two words
-log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} ||
-    tail -3 "$out/soak.log" >&2
-program "triangle pairs against rational arithmetic" oracle '[0-9]+ pairs' \
-    "$build/tests/oracle" --pairs 190000 --stride 0 --out "$out/oracle.json"
-program "sweeps killed at random: a cell lost, changed or twice" kills '[0-9]+ kills within' \
-    "$build/tests/kills" "$out/kills" $kills 1 ${plant:+plant}
-program "allocations, writes, syncs and renames that fail: no error, or a leak" faults '[0-9]+ calls failed' \
-    env ${plant:+MOTE_PLANT_LEAK=1} ASAN_OPTIONS=detect_leaks=1 "$asan/tests/test_faults"
-for target in scenario mesh options cell; do
-    mkdir -p "$out/fuzz/$target"
-    program "fuzz: $target" "fuzz-$target" 'number_of_executed_units: *[0-9]+' \
-        "$fuzz/tests/fuzz_$target" -max_total_time=$seconds -timeout=30 -print_final_stats=1 \
-        -artifact_prefix="$out/fuzz/" "$out/fuzz/$target" "tests/corpus/fuzz_$target"
+fuzz() {
+    log fuzz tests/fuzz.sh "$fuzz" $seconds "${JOBS:-1}" "$out/fuzz" || tail -30 "$out/fuzz.log" >&2
+    awk -F'\t' '{ printf "fuzz: %s\t%d\t%d\n", $1, $3, $4 }' "$out/fuzz/fuzz.tsv" >>"$checks"
+    [ -z "$record" ] || tests/record.sh --fuzz "$out/fuzz/fuzz.tsv"
+}
+study() { # NAME
+    case $1 in
+    certify)
+        log certify "$build/tests/certify" --queries $queries --checks "$checks" \
+            --out "$out/certify.json" ;;
+    metamorphic) log metamorphic "$build/tests/metamorphic" --queries $queries --checks "$checks" ;;
+    soak) # shellcheck disable=SC2086 # two words
+        log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} ;;
+    oracle)
+        program "triangle pairs against rational arithmetic" oracle '"pairs": *[0-9]+' \
+            "$build/tests/oracle" --pairs $pairs --out "$out/oracle.json" ;;
+    kills)
+        program "sweeps killed at random: a cell lost, changed or twice" kills \
+            '[0-9]+ kills within' "$build/tests/kills" "$out/kills" $kills 1 ${plant:+plant} ;;
+    faults)
+        program "allocations, writes, syncs and renames that fail: no error, or a leak" faults \
+            '[0-9]+ calls failed' env ${plant:+MOTE_PLANT_LEAK=1} ASAN_OPTIONS=detect_leaks=1 \
+            "$asan/tests/test_faults" ;;
+    fuzz) fuzz ;;
+    *)
+        echo "reliability: no study $1" >&2
+        exit 2
+        ;;
+    esac
+}
+failures() {
+    awk -F'\t' '$3 > 0' "$checks" | wc -l
+}
+for name in $only; do
+    before=$(failures)
+    study "$name" && continue
+    tail -3 "$out/$name.log" >&2
+    [ "$(failures)" -gt "$before" ] || add "$name: ended badly" 1 1
 done
 
 awk -F'\t' 'BEGIN { print "[" }
@@ -63,6 +92,7 @@ awk -F'\t' 'BEGIN { print "[" }
     echo "$(date -u +%Y-%m-%d), commit $(git rev-parse --short HEAD 2>/dev/null || echo unknown), $profile."
 } >"$out/reliability.md"
 cat "$out/reliability.md"
+[ -z "$record" ] || tests/record.sh "$checks"
 # Nothing may be tried in vain, and nothing may fail but what was planted.
 if awk -F'\t' '$2 < 1 { bad = 1 } END { exit !bad }' "$checks"; then
     echo "reliability: a check tried nothing" >&2
@@ -74,7 +104,6 @@ if [ -z "$plant" ]; then
     exit
 fi
 expected="random scenarios: certified beyond 1e-12 L of the truth
-random scenarios: crashes, hangs, answers below the truth
 sweeps killed at random: a cell lost, changed or twice
 allocations, writes, syncs and renames that fail: no error, or a leak"
 if [ "$failed" = "$expected" ]; then

@@ -324,5 +324,6 @@ int main(void)
     };
     const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
     printf("%ld calls failed\n", calls_failed);
+    (void)fflush(stdout); /* LeakSanitizer ends without */
     return failed;
 }
