@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_PAIRS_H
 #define MOTE_CORE_PAIRS_H
 
-#include "core/vec3.h"
+#include "core/mesh.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,10 +26,12 @@ typedef struct mote_pair {
 typedef struct mote_pairs {
     mote_pair list[MOTE_PAIRS_MAX];
     uint32_t count;
+    const mote_mesh *mesh[2]; /* of the vertices, borrowed */
 } mote_pairs;
 
-/* Puts a candidate in its place by distance, unless one within a ring of it is nearer or
-   refined; drops those within a ring that are not, and the last one when the list is full. */
+/* Puts a candidate in its place by distance, unless one within a ring of it on both meshes is
+   nearer or refined; drops those within a ring that are not, and the last one when the list is
+   full. */
 void mote_pairs_keep(mote_pairs *candidates, const mote_pair *candidate);
 
 /* What the distance of the surfaces there may be less than that of the vertices: the longest

@@ -110,6 +110,7 @@ static mote_status make_body(mote_tracker *t, int b, const mote_body *body)
 {
     mote_tracked_body *tracked = &t->body[b];
     tracked->mesh = body->mesh;
+    t->pairs.mesh[b] = body->mesh;
     tracked->lazy = &tracked->own_lazy;
     tracked->near_to = MOTE_NO_VERTEX;
     mote_status status = MOTE_OK;

@@ -165,14 +165,49 @@ static mote_place nearest_place(const mote_tracked_body *body, mote_vec3 p)
     return body->place[best];
 }
 
+/* The node of the seeds' level that is nearest to a point of the world, by the shape where the
+   pose carries it: only its own position is looked up. */
+static mote_place nearest_by_shape(const mote_request *r, int b, mote_vec3 world)
+{
+    const mote_tracked_body *body = &r->tracker->body[b];
+    const mote_ground *ground = &r->ground[b];
+    const uint32_t nodes = body->levels->level[body->seed_level].count;
+    const mote_pose *pose = &r->lazy[b]->state->pose;
+    const bool given = !ground->rotation;
+    const mote_vec3 goal =
+        given ? world : mote_rotate_back(&pose->rotation, mote_sub(world, pose->translation));
+    uint32_t best = 0;
+    double least = HUGE_VAL;
+    for (uint32_t node = 0; node < nodes; ++node) {
+        const mote_vec3 p =
+            given ? ground->shape[body->levels->vertex[node]] : body->node_rest[node];
+        const double squared = mote_distance_squared(p, goal);
+        if (squared < least) {
+            least = squared;
+            best = node;
+        }
+    }
+    return mote_place_at(ground, body->seed_level, best);
+}
+
+/* Where a launch from a place of body b starts on the other body. Seeds that are particles of
+   their own start at each other; from fixed ones, at what is nearest. */
+static mote_place opposite(mote_request *r, int b, mote_vec3 world)
+{
+    const mote_tracker *t = r->tracker;
+    if (t->options.descend && t->options.reseed && !t->particles)
+        return nearest_by_shape(r, 1 - b, world);
+    look_at_seeds(r, 1 - b);
+    return nearest_place(&t->body[1 - b], world);
+}
+
 static void launch(mote_request *r, int b, uint32_t i)
 {
     mote_tracker *t = r->tracker;
     const int level[2] = {t->body[0].seed_level, t->body[1].seed_level};
     mote_place at[2];
     at[b] = mote_place_at(&r->ground[b], level[b], t->body[b].seed[i]);
-    look_at_seeds(r, 1 - b);
-    at[1 - b] = nearest_place(&t->body[1 - b], at[b].world);
+    at[1 - b] = opposite(r, b, at[b].world);
     ++r->counters->launches;
     if (!t->options.descend) {
         keep_places(r, at, mote_distance_squared(at[0].world, at[1].world));

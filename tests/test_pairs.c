@@ -67,10 +67,34 @@ static void keep_within_a_ring_of_a_refined_one_nothing(void **unused)
     assert_true(pairs.list[2].refined);
 }
 
+/* Two sheets that lie on each other, one mesh: their corners are in the same place, but a walk
+   on one does not come to the other. */
+static void keep_in_one_place_on_two_sheets_both(void **unused)
+{
+    (void)unused;
+    mote_mesh *sheets = solid_to_mesh(solid_join(solid_grid(2, 2), solid_grid(2, 2), 0));
+    const uint32_t half = sheets->vertex_count / 2;
+    const uint32_t beside = MOTE_RING_VERTEX(sheets->ring[sheets->ring_start[0]]);
+    for (int b = 0; b < 2; ++b) { /* whichever body has the sheets */
+        mote_pairs pairs = {.mesh = {sheets, sheets}};
+        mote_pair first = pair_at(4, 0), second = pair_at(5, 0), third = pair_at(6, 0.1);
+        second.vertex[b] = half;
+        third.vertex[b] = beside;
+        mote_pairs_keep(&pairs, &first);
+        mote_pairs_keep(&pairs, &second);
+        assert_int_equal(pairs.count, 2);
+        mote_pairs_keep(&pairs, &third); /* in the first one's ring */
+        assert_int_equal(pairs.count, 2);
+        assert_true(pairs.list[0].squared == 4 && pairs.list[1].squared == 5);
+    }
+    mote_mesh_destroy(sheets);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keep_far_from_each_other_sorted),
+        cmocka_unit_test(keep_in_one_place_on_two_sheets_both),
         cmocka_unit_test(keep_within_a_ring_only_the_nearest),
         cmocka_unit_test(keep_within_a_ring_of_a_refined_one_nothing),
     };
