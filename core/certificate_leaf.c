@@ -1,20 +1,19 @@
 /* Where the vertices of a leaf are: by the linear part of the field in its box, which costs a
    few operations a vertex; by an estimate in floats; exactly.
 
-   Margins. A place z in a box is stored to half a unit, 1/65534, so that a sum over k of
-   z_k a_k is wrong by at most sum |a_k| 2^-16, twice of which is added for the rounding of what
-   is added. The sums themselves have five roundings of terms whose absolute values add up to B
-   in a coordinate or sqrt(3) B along a direction (see certificate_deform.c): 9 u B. A
-   projection of such sums on a direction of length <= 1 + 6 u, a difference of two of them, and
-   the rounding of the direction and of a threshold add 14 u B. leaf_margin is 32 u B. */
+   Margins. A place z in a box is rounded to a float, so that a sum over k of z_k a_k is wrong
+   by at most sum |a_k| 2^-24, twice of which is added for the rounding of what is added. The
+   sums themselves have five roundings of terms whose absolute values add up to B in a
+   coordinate or sqrt(3) B along a direction (see certificate_deform.c): 9 u B. A projection of
+   such sums on a direction of length <= 1 + 6 u, a difference of two of them, and the rounding
+   of the direction and of a threshold add 14 u B. leaf_margin is 32 u B. */
 #include "core/certificate_state.h"
 #include "core/clones.h"
 
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
-#define UNIT (1.0F / MOTE_CERT_WHOLE)
-#define PLACE_ROUNDING 0x1p-15F
+#define PLACE_ROUNDING 0x1p-23F
 
 static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
                                             const mote_cert_node *node, size_t lane)
@@ -35,16 +34,13 @@ MOTE_INLINE float largest_of(const float x[WIDTH])
     return two[0] > two[1] ? two[0] : two[1];
 }
 
-/* base + sum over k of z_k a_k for a group's vertices; a is in units of a place. */
+/* base + sum over k of z_k a_k for a group's vertices. */
 MOTE_INLINE void add_up(const mote_cert_group *restrict group, float base, const float a[3],
                         float sum[WIDTH])
 {
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l) {
-        const float x = (float)mote_cert_below(group->first[l]);
-        const float y = (float)mote_cert_above(group->first[l]);
-        const float z = (float)group->second[l];
-        sum[l] = base + (x * a[0] + y * a[1] + z * a[2]);
+        sum[l] = base + (group->z[0][l] * a[0] + group->z[1][l] * a[1] + group->z[2][l] * a[2]);
     }
 }
 
@@ -79,7 +75,7 @@ void mote_cert_leaf_hull(const mote_cert_side *restrict side,
         float a[3];
         float size = 0;
         for (size_t k = 0; k < 3; ++k) {
-            a[k] = node->axis[k][r][lane] * UNIT;
+            a[k] = node->axis[k][r][lane];
             size += fabsf(node->axis[k][r][lane]);
         }
         for (size_t g = 0; g < hull->groups; ++g)
@@ -172,7 +168,7 @@ bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node
     float at[MOTE_CERT_LEAF_VERTICES], slant[3];
     float size = 0;
     for (size_t k = 0; k < 3; ++k) {
-        slant[k] = node->slant[k][lane] * UNIT;
+        slant[k] = node->slant[k][lane];
         size += fabsf(node->slant[k][lane]);
     }
     const double most =

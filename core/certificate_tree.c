@@ -181,12 +181,9 @@ static bool add_groups(builder *b, const mote_cert_box *box, uint32_t vertex_cou
         const uint32_t v = b->list[i < vertex_count ? i : vertex_count - 1];
         double z[3];
         mote_cert_box_coordinates(box, mote_cert_tree_position(tree, v), z);
-        int32_t whole[3];
-        for (int k = 0; k < 3; ++k)
-            whole[k] = (int32_t)rint(z[k] * MOTE_CERT_WHOLE);
         mote_cert_group *group = &tree->groups[tree->group_count + i / MOTE_CERT_WIDTH];
-        group->first[i % MOTE_CERT_WIDTH] = mote_cert_word(whole[0], whole[1]);
-        group->second[i % MOTE_CERT_WIDTH] = whole[2];
+        for (int k = 0; k < 3; ++k)
+            group->z[k][i % MOTE_CERT_WIDTH] = (float)z[k];
     }
     tree->group_count += count;
     return true;
@@ -265,55 +262,9 @@ static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box
 /* What a block's children need until they are all known. */
 struct draft {
     mote_cert_box box[MOTE_CERT_WIDTH];
-    float slope[MOTE_FIELD_MAX][3][MOTE_CERT_WIDTH];
-    float rest[MOTE_FIELD_MAX][MOTE_CERT_WIDTH];
     mote_cert_row row[MOTE_FIELD_MAX];
     bool active[MOTE_FIELD_MAX];
 };
-
-static float largest(const float *values, size_t count)
-{
-    float most = 0;
-    for (size_t i = 0; i < count; ++i)
-        most = fabsf(values[i]) > most ? fabsf(values[i]) : most;
-    return most;
-}
-
-/* Turns the slopes of all children into whole numbers. */
-static void round_slopes(draft *d, uint32_t functions)
-{
-    for (uint32_t j = 0; j < functions; ++j) {
-        mote_cert_row *row = &d->row[j];
-        row->slope_unit =
-            largest(d->slope[j][0], (size_t)3 * MOTE_CERT_WIDTH) / MOTE_CERT_WHOLE;
-        const double inverse = row->slope_unit > 0 ? 1 / (double)row->slope_unit : 0;
-        for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
-            int32_t whole[3];
-            for (int k = 0; k < 3; ++k) {
-                const double exact = rint((double)d->slope[j][k][l] * inverse);
-                whole[k] = (int32_t)fmin(fmax(exact, -MOTE_CERT_WHOLE), MOTE_CERT_WHOLE);
-            }
-            row->slopes[l] = mote_cert_word(whole[0], whole[1]);
-            row->slope_rest[l] = mote_cert_word(whole[2], 0);
-        }
-    }
-}
-
-/* The same for the rests, upwards. */
-static void round_rests(draft *d, uint32_t functions)
-{
-    for (uint32_t j = 0; j < functions; ++j) {
-        mote_cert_row *row = &d->row[j];
-        row->rest_unit =
-            largest(d->rest[j], MOTE_CERT_WIDTH) * (1 + 0x1p-20F) / MOTE_CERT_WHOLE;
-        const double inverse = row->rest_unit > 0 ? 1 / (double)row->rest_unit : 0;
-        for (uint32_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
-            const double whole = ceil((double)d->rest[j][l] * inverse);
-            row->slope_rest[l] = mote_cert_word(mote_cert_below(row->slope_rest[l]),
-                                                (int32_t)fmin(whole, MOTE_CERT_WHOLE));
-        }
-    }
-}
 
 /* Appends the rows of the active functions. */
 static void append_rows(builder *b, const draft *d, mote_cert_block *block)
@@ -365,14 +316,13 @@ static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d
         mote_cert_fit_slopes(tree, b->list, vertices, &d->box[lane], b->phi, &b->fit);
         for (uint32_t j = 0; j < functions; ++j) {
             for (int k = 0; k < 3; ++k)
-                d->slope[j][k][lane] = (float)b->fit.slope[k][j];
+                d->row[j].slope[k][lane] = (float)b->fit.slope[k][j];
         }
     }
     for (uint32_t lane = count; lane < MOTE_CERT_WIDTH; ++lane) {
         for (int k = 0; k < 3; ++k) /* an empty lane's axes are not 0 either */
             block->half[k][k][lane] = 0x1p-23F;
     }
-    round_slopes(d, functions);
 }
 
 /* Offsets and rests of the functions over one part, whose vertices are in b->list. */
@@ -382,10 +332,8 @@ static void draft_rests(builder *b, uint32_t lane, uint32_t vertices, draft *d)
     mote_cert_fit *fit = &b->fit;
     for (uint32_t j = 0; j < functions; ++j) {
         const mote_cert_row *row = &d->row[j];
-        const double unit = (double)row->slope_unit;
-        fit->slope[0][j] = mote_cert_below(row->slopes[lane]) * unit;
-        fit->slope[1][j] = mote_cert_above(row->slopes[lane]) * unit;
-        fit->slope[2][j] = mote_cert_below(row->slope_rest[lane]) * unit;
+        for (int k = 0; k < 3; ++k)
+            fit->slope[k][j] = (double)row->slope[k][lane];
     }
     mote_cert_fit_rests(b->tree, b->list, vertices, &d->box[lane], b->phi, fit);
     for (uint32_t j = 0; j < functions; ++j) {
@@ -393,7 +341,7 @@ static void draft_rests(builder *b, uint32_t lane, uint32_t vertices, draft *d)
             continue;
         d->active[j] = true;
         d->row[j].offset[lane] = fit->offset[j];
-        d->rest[j][lane] = fit->rest[j];
+        d->row[j].rest[lane] = fit->rest[j];
     }
 }
 
@@ -402,8 +350,6 @@ static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t cou
 {
     const uint32_t functions = b->tree->body->field->count;
     mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
-    memset(d->slope, 0, functions * sizeof *d->slope);
-    memset(d->rest, 0, functions * sizeof *d->rest);
     memset(d->row, 0, functions * sizeof *d->row);
     memset(d->active, 0, functions);
     draft_boxes(b, parts, count, d, &block);
@@ -414,7 +360,6 @@ static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t cou
         if (parts[lane].levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
             block.child[lane] = add_leaf(b, parts[lane], vertices, &d->box[lane]);
     }
-    round_rests(d, functions);
     if (b->status == MOTE_OK)
         append_rows(b, d, &block);
     b->tree->blocks[id] = block;

@@ -24,34 +24,14 @@
 #define MOTE_CERT_LEAF_TRIANGLES 32
 #define MOTE_CERT_LEAF_VERTICES 40
 
-/* What one basis function that reaches a block does to its children: offset f, slopes
-   g = s * slope_unit by axis, and m = r * rest_unit >= 0, with whole numbers s and r of 16
-   bits. They halve what a query reads; the rests are taken with the slopes as they are stored,
-   so that nothing is lost. Two share a word, since lanes of one width make the fastest loops.
- */
+/* What one basis function that reaches a block does to its children: offset f, slopes g by
+   axis, and m >= 0. The rests are taken with the slopes as they are stored, so that nothing is
+   lost by their rounding. */
 typedef struct mote_cert_row {
     float offset[MOTE_CERT_WIDTH];
-    int32_t slopes[MOTE_CERT_WIDTH];     /* axis 0 below, axis 1 above */
-    int32_t slope_rest[MOTE_CERT_WIDTH]; /* axis 2 below, the rest above */
-    float slope_unit, rest_unit;
+    float slope[3][MOTE_CERT_WIDTH];
+    float rest[MOTE_CERT_WIDTH];
 } mote_cert_row;
-
-/* The two numbers of a word; >> keeps the sign with every compiler that we know of, which a
-   test checks. */
-static inline int32_t mote_cert_below(int32_t word)
-{
-    return (int32_t)((uint32_t)word << 16) >> 16;
-}
-
-static inline int32_t mote_cert_above(int32_t word)
-{
-    return word >> 16;
-}
-
-static inline int32_t mote_cert_word(int32_t below, int32_t above)
-{
-    return (int32_t)((uint32_t)above << 16 | ((uint32_t)below & 0xffffu));
-}
 
 typedef struct mote_cert_block {
     float centre[3][MOTE_CERT_WIDTH];
@@ -73,15 +53,11 @@ typedef struct mote_cert_leaf {
     uint8_t triangle_count;
 } mote_cert_leaf;
 
-/* Where MOTE_CERT_WIDTH vertices of a leaf are in its box: z_k * MOTE_CERT_WHOLE, rounded. The
-   last group of a leaf is filled up with copies of its last vertex. */
+/* Where MOTE_CERT_WIDTH vertices of a leaf are in its box. The last group of a leaf is filled
+   up with copies of its last vertex. */
 typedef struct mote_cert_group {
-    int32_t first[MOTE_CERT_WIDTH];  /* axis 0 below, axis 1 above */
-    int32_t second[MOTE_CERT_WIDTH]; /* axis 2 */
+    float z[3][MOTE_CERT_WIDTH];
 } mote_cert_group;
-
-/* The largest whole number that a row or a group stores. */
-#define MOTE_CERT_WHOLE 32767
 
 typedef struct mote_cert_tree {
     const mote_body *body;
