@@ -131,80 +131,72 @@ void mote_cert_set_best(mote_certificate *c, double squared)
         c->done = true;
 }
 
-/* The refined faces' exact distance: descending stops a few roundings above it, at a point that
-   depends on where it began. */
-static void polish(mote_certificate *c, mote_refined *refined)
+/* The distance of two faces, which becomes the best. */
+static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
 {
     mote_vec3 t[2][3];
     for (int s = 0; s < 2; ++s) {
+        memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
         for (int k = 0; k < 3; ++k)
-            t[s][k] = mote_lazy_position(&c->side[s].lazy, refined->triangle[s][k]);
+            t[s][k] = mote_lazy_position(&c->side[s].lazy, first[s][k]);
     }
-    mote_vec3 p, q;
-    const double squared = mote_triangle_triangle(t[0], t[1], &p, &q);
-    c->counters.triangle_tests += refined->triangle_tests + 1;
-    if (squared < refined->squared) {
-        refined->squared = squared;
-        refined->witness[0] = p;
-        refined->witness[1] = q;
-    }
+    ++c->counters.triangle_tests;
+    c->best.squared =
+        mote_triangle_triangle(t[0], t[1], &c->best.witness[0], &c->best.witness[1]);
 }
 
-/* Descends from the pair that improved, as far as it goes. */
-static void refine_best(mote_certificate *c)
+/* Descends from the best faces; true when it comes nearer. What is nearer still turns up in the
+   traversal, and seldom is: to look all around first takes longer. */
+static bool slide_best(mote_certificate *c)
 {
     mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
     const double enough = c->enough > 0 ? c->enough * c->enough : 0;
-    mote_refined refined;
-    mote_refine_triangles(lazy, (const uint32_t *)c->best.triangle[0], c->best.triangle[1],
-                          enough, &refined);
-    polish(c, &refined);
+    const double before = c->best.squared;
+    mote_refine_slide(lazy, enough, &c->best);
+    c->counters.triangle_tests += c->best.triangle_tests;
     ++c->counters.refined;
-    if (refined.squared < c->best.squared) {
-        c->best = refined;
-        mote_cert_set_best(c, refined.squared);
-    }
+    return c->best.squared < before;
 }
 
-/* The distance of faces that may be near. */
-static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
+/* Faces that are near each other, by the trees alone, and what is downhill from there. */
+static void find_anew(mote_certificate *c, const mote_frame *frame)
 {
-    c->best = (mote_refined){.squared = HUGE_VAL};
+    uint32_t vertex[2], face[2][3];
+    const mote_vec3 middle = mote_scale(
+        mote_add(frame->body[0].pose.translation, frame->body[1].pose.translation), 0.5);
     for (int s = 0; s < 2; ++s)
-        memcpy(c->best.triangle[s], first[s], sizeof c->best.triangle[s]);
-    polish(c, &c->best);
+        mote_cert_side_begin(&c->side[s], &frame->body[s], middle);
+    mote_cert_descend(c, vertex);
+    for (int s = 0; s < 2; ++s) {
+        /* the first two entries of a ring are always joined: no fan is without a face */
+        const mote_mesh *mesh = c->side[s].tree->body->mesh;
+        const uint32_t *ring = &mesh->ring[mesh->ring_start[vertex[s]]];
+        face[s][0] = vertex[s];
+        face[s][1] = MOTE_RING_VERTEX(ring[0]);
+        face[s][2] = MOTE_RING_VERTEX(ring[1]);
+    }
+    measure_first(c, (const uint32_t(*)[3])face);
+    (void)slide_best(c);
 }
 
 /* The first upper bound: from faces that may be near, or found in the trees. */
 static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32_t (*first)[3])
 {
-    mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
-    const double enough = c->enough > 0 ? c->enough * c->enough : 0;
+    const bool witness = c->options.seed == MOTE_CERT_SEED_WITNESS;
     for (int s = 0; s < 2; ++s)
-        mote_lazy_begin(lazy[s], &frame->body[s], false);
+        mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);
     if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
         first = (const uint32_t(*)[3])c->last;
     if (first)
         measure_first(c, first);
-    const bool leapt = first == (const uint32_t(*)[3])c->last &&
-                       c->options.seed == MOTE_CERT_SEED_WITNESS &&
+    const bool leapt = first == (const uint32_t(*)[3])c->last && witness &&
                        c->best.squared > c->leap * c->leap;
-    if (!first || leapt) {
-        uint32_t vertex[2];
-        const mote_vec3 middle = mote_scale(
-            mote_add(frame->body[0].pose.translation, frame->body[1].pose.translation), 0.5);
-        for (int s = 0; s < 2; ++s)
-            mote_cert_side_begin(&c->side[s], &frame->body[s], middle);
-        mote_cert_descend(c, vertex);
-        mote_refine_vertices(lazy, vertex, enough, &c->best);
-        polish(c, &c->best);
-    } else if (c->options.seed == MOTE_CERT_SEED_WITNESS && !c->steady) {
-        mote_refine_triangles(lazy, first[0], first[1], enough, &c->best);
-        polish(c, &c->best);
-        ++c->counters.refined;
-    } else {
-        c->unrefined = c->options.seed == MOTE_CERT_SEED_WITNESS && !c->saddle;
-    }
+    if (!first || leapt)
+        find_anew(c, frame);
+    else if (witness && !c->steady)
+        (void)slide_best(c);
+    else
+        c->unrefined = witness && !c->saddle;
 }
 
 /* Whether two faces, given by their vertices in any order, are the same. */
@@ -241,11 +233,12 @@ static bool plane_clears(mote_certificate *c)
         const bool clear1 = !c->crossed && mote_cert_plane_pass(c, 1);
         if (!c->crossed)
             return clear0 && clear1;
-        const double before = c->best.squared;
         c->crossed = c->unrefined = false;
-        refine_best(c);
-        c->saddle = !(c->best.squared < before);
-        if (!c->saddle && !c->done)
+        c->saddle = !slide_best(c);
+        if (c->saddle)
+            continue;
+        mote_cert_set_best(c, c->best.squared);
+        if (!c->done)
             set_plane(c);
     }
     return false;
@@ -267,7 +260,8 @@ static void prove(mote_certificate *c)
             return;
         c->improved = c->done = false;
         ++c->restarts;
-        refine_best(c);
+        if (slide_best(c))
+            mote_cert_set_best(c, c->best.squared);
     }
 }
 

@@ -478,6 +478,58 @@ bool mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], doubl
     return true;
 }
 
+/* Measures the two faces of the witnesses, whatever was found on them. */
+static void measure_faces(const search *s)
+{
+    mote_refined *best = s->best;
+    mote_vec3 t[2][3];
+    uint32_t face[2][3];
+    memcpy(face, best->triangle, sizeof face);
+    for (int side = 0; side < 2; ++side) {
+        for (int i = 0; i < 3; ++i)
+            t[side][i] = mote_lazy_position(s->lazy[side], face[side][i]);
+    }
+    ++best->triangle_tests;
+    best->squared = mote_triangle_triangle(t[0], t[1], &best->witness[0], &best->witness[1]);
+    for (int side = 0; side < 2; ++side)
+        keep_face(best, side, face[side], t[side]);
+}
+
+void mote_refine_slide(mote_lazy *const lazy[2], double enough_squared, mote_refined *best)
+{
+    search s = {.lazy = lazy,
+                .best = best,
+                .worth_squared = HUGE_VAL,
+                .enough_squared = enough_squared};
+    best->triangle_tests = best->rings = 0;
+    for (int side = 0; side < 2; ++side) {
+        uint32_t face[3];
+        mote_vec3 corner[3];
+        for (int i = 0; i < 3; ++i) {
+            face[i] = best->triangle[side][i];
+            corner[i] = mote_lazy_position(lazy[side], face[i]);
+        }
+        keep_face(best, side, face, corner);
+    }
+    for (bool nearer = true; nearer && !done(&s);) {
+        const mote_refined before = *best;
+        approach(&s, 1);
+        if (!done(&s))
+            approach(&s, 0);
+        nearer = !same_faces(&before, best);
+        if (nearer) {
+            measure_faces(&s);
+            nearer = best->squared < before.squared;
+        }
+        if (!nearer) {
+            const uint32_t tests = best->triangle_tests, rings = best->rings;
+            *best = before;
+            best->triangle_tests = tests;
+            best->rings = rings;
+        }
+    }
+}
+
 void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3],
                            const uint32_t triangle1[3], double enough_squared,
                            mote_refined *result)

@@ -47,6 +47,12 @@ void mote_refine_triangles(mote_lazy *const lazy[2], const uint32_t triangle0[3]
                            const uint32_t triangle1[3], double enough_squared,
                            mote_refined *result);
 
+/* Comes nearer from a pair of faces of the mesh, downhill as far as projection onto the rings
+   leads; what it ends at need not be a minimum. *best: squared, witness and triangle of the
+   two faces' distance are given, the rest is not; it ends as such a pair again, never farther.
+   Takes a fraction of the time of mote_refine_triangles. */
+void mote_refine_slide(mote_lazy *const lazy[2], double enough_squared, mote_refined *best);
+
 #ifdef __cplusplus
 }
 #endif

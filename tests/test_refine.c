@@ -228,7 +228,8 @@ static bool is_face(const mote_mesh *mesh, const uint32_t vertex[3])
 }
 
 /* Everything that a result promises of itself. */
-static void assert_result(scene *s, const mote_refined *r, uint32_t a, uint32_t b)
+/* Two faces with their witnesses, no farther than two vertices. */
+static void assert_measured(const scene *s, const mote_refined *r, uint32_t a, uint32_t b)
 {
     const double size = s->mesh[0]->diagonal;
     const double apart = mote_length(mote_sub(r->witness[1], r->witness[0]));
@@ -245,7 +246,12 @@ static void assert_result(scene *s, const mote_refined *r, uint32_t a, uint32_t 
                         mote_distance_squared(corner[i], r->witness[side]));
         }
     }
-    assert_true(sqrt(r->squared) <= sqrt(brute_force(s, r)) + 1e-11 * size);
+}
+
+static void assert_result(scene *s, const mote_refined *r, uint32_t a, uint32_t b)
+{
+    assert_measured(s, r, a, b);
+    assert_true(sqrt(r->squared) <= sqrt(brute_force(s, r)) + 1e-11 * s->mesh[0]->diagonal);
 }
 
 static void vertices_random_starts_local_minimum(void **context)
@@ -513,6 +519,42 @@ static void triangles_from_own_result_unchanged(void **context)
     scene_free(s);
 }
 
+static void slide_from_random_faces_ends_at_a_nearer_pair(void **context)
+{
+    (void)context;
+    scene *s = scene_of(letter_mesh('W', 600), sheet_mesh(12, 0.5), 14);
+    mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
+    uint64_t tests[2] = {0, 0};
+    int minima = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+        scene_move(s, 0.6, false);
+        mote_refined r = {.squared = 0}, full;
+        mote_vec3 corner[2][3];
+        for (int side = 0; side < 2; ++side) {
+            const uint32_t face = (uint32_t)draw(s, 0, s->mesh[side]->triangle_count);
+            memcpy(r.triangle[side], s->mesh[side]->triangles[face], sizeof r.triangle[side]);
+            corners_of(s, side, r.triangle[side], corner[side]);
+        }
+        r.squared = mote_triangle_triangle(corner[0], corner[1], &r.witness[0], &r.witness[1]);
+        const double before = r.squared;
+        mote_refine_triangles(lazy, (const uint32_t *)r.triangle[0], r.triangle[1], 0, &full);
+        tests[1] += full.triangle_tests;
+        mote_refine_slide(lazy, 0, &r);
+        tests[0] += r.triangle_tests;
+        assert_true(r.squared <= before);
+        for (int side = 0; side < 2; ++side)
+            corners_of(s, side, r.triangle[side], corner[side]);
+        const double measured = mote_triangle_triangle(corner[0], corner[1], NULL, NULL);
+        assert_true(fabs(sqrt(measured) - sqrt(r.squared)) <= 1e-15);
+        assert_measured(s, &r, r.triangle[0][0], r.triangle[1][0]);
+        mote_refine_triangles(lazy, (const uint32_t *)r.triangle[0], r.triangle[1], 0, &full);
+        minima += sqrt(full.squared) > 0.999 * sqrt(r.squared);
+    }
+    assert_true(minima > 50);
+    assert_true(3 * tests[0] < tests[1]);
+    scene_free(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -529,6 +571,7 @@ int main(void)
         cmocka_unit_test(vertices_scaled_by_powers_of_two_same_bits),
         cmocka_unit_test(triangles_random_starts_local_minimum),
         cmocka_unit_test(triangles_from_own_result_unchanged),
+        cmocka_unit_test(slide_from_random_faces_ends_at_a_nearer_pair),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
