@@ -43,7 +43,8 @@ typedef enum mote_exit {
       "closed loop: bodies move freely and collide where the method says so")                  \
     X(extremes, "extremes [--out DIR] [--quick]",                                              \
       "every method where numbers are tiny, huge, equal or degenerate")                        \
-    X(dynamics, "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K]",   \
+    X(dynamics,                                                                                \
+      "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K] [--keep]",    \
       "how often n particles let a body pass through, in the closed loop")                     \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \

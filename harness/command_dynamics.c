@@ -8,10 +8,11 @@ typedef struct request {
     const char *directory;
     mote_dynamics_size size;
     uint64_t jobs;
+    bool keep;
 } request;
 
-static const mote_option options[] = {
-    {"out", "DIR"}, {"quick", NULL}, {"jobs", "K"}, {"approaches", "K"}, {"scene", "NAME"}};
+static const mote_option options[] = {{"out", "DIR"},      {"quick", NULL},   {"jobs", "K"},
+                                      {"approaches", "K"}, {"scene", "NAME"}, {"keep", NULL}};
 
 /* False, told on stderr, when the value is not right for the option. */
 static bool read_option(request *wish, int option, const char *value)
@@ -34,8 +35,11 @@ static bool read_option(request *wish, int option, const char *value)
             return true;
         }
         break;
-    default:
+    case 4:
         wish->size.scene = value;
+        return true;
+    default:
+        wish->keep = true;
         return true;
     }
     (void)mote_command_usage("dynamics", "--%s %s: give a whole number from 1 to %s",
@@ -54,7 +58,7 @@ static mote_status study(const request *wish, int argc, char **argv, bool *met)
     if (status != MOTE_OK)
         return status;
     return mote_study_dynamics(wish->directory, &wish->size, (uint32_t)wish->jobs, program,
-                               met);
+                               wish->keep, met);
 }
 
 int mote_command_dynamics(int argc, char **argv)

@@ -173,7 +173,7 @@ json_t *mote_dynamics_row_json(const mote_dynamics_row *row)
     return object;
 }
 
-static void add_line(mote_text *text, const mote_dynamics_row *row, const char *commit)
+static void add_line(mote_text *text, const mote_dynamics_row *row)
 {
     const mote_approaches *sum = &row->sum;
     const mote_confidence interval = mote_approaches_interval(sum);
@@ -192,11 +192,11 @@ static void add_line(mote_text *text, const mote_dynamics_row *row, const char *
     MOTE_APPROACHES_FIGURES(PUT_FIGURE)
 #undef PUT_COUNT
 #undef PUT_FIGURE
-    mote_text_add(text, ",%llu,%s,%s\n", (unsigned long long)MOTE_APPROACH_SEED, commit,
+    mote_text_add(text, ",%llu,%s,%s\n", (unsigned long long)MOTE_APPROACH_SEED, row->commit,
                   row->measured);
 }
 
-mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count, const char *commit,
+mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count,
                               const char *directory)
 {
     mote_text text = {0};
@@ -205,7 +205,7 @@ mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count, const
                   MOTE_APPROACHES_COUNTS(PUT_NAME) MOTE_APPROACHES_FIGURES(PUT_NAME));
 #undef PUT_NAME
     for (size_t i = 0; i < count; ++i)
-        add_line(&text, &rows[i], commit);
+        add_line(&text, &rows[i]);
     return mote_record_text(directory, "dynamics.csv", &text);
 }
 

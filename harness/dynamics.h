@@ -16,6 +16,7 @@ typedef struct mote_dynamics_row {
     bool paper;          /* of a scene of the paper */
     mote_approaches sum; /* what was measured */
     char measured[32];   /* when: "2026-01-31T12:00:00Z" */
+    char commit[64];     /* of what sources; "" where that is not known */
 } mote_dynamics_row;
 
 /* How much is measured. */
@@ -45,9 +46,8 @@ void mote_dynamics_print(const mote_dynamics_row *rows, size_t count);
 /* An object a row; the caller decrefs. */
 json_t *mote_dynamics_row_json(const mote_dynamics_row *row);
 
-/* Writes directory/dynamics.csv (a line a row, from this commit) and directory/figures/, drawn.
- */
-mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count, const char *commit,
+/* Writes directory/dynamics.csv (a line a row) and directory/figures/, drawn. */
+mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count,
                               const char *directory);
 mote_status mote_dynamics_figure(const mote_dynamics_row *rows, size_t count,
                                  const char *directory);

@@ -20,8 +20,10 @@
 typedef struct study {
     const char *directory;
     char program[20]; /* hash of the program, in hexadecimal digits */
+    char commit[64];  /* of this program's sources, or "" */
     bool quick;
-    int lock; /* a file; a byte that stands for a row is locked while it is measured */
+    bool keep; /* rows of other programs as well */
+    int lock;  /* a file; a byte that stands for a row is locked while it is measured */
     mote_dynamics_row *rows;
     size_t count;
     mote_scenario *scenario; /* loaded last */
@@ -38,7 +40,7 @@ static char *row_name(const mote_dynamics_row *row)
     return name;
 }
 
-/* True when the row is there, measured by this program. */
+/* True when the row is there, measured by this program or, with keep, by any. */
 static bool recall(const study *s, mote_dynamics_row *row)
 {
     char *name = row_name(row);
@@ -48,13 +50,16 @@ static bool recall(const study *s, mote_dynamics_row *row)
                  mote_record_read_json(s->directory, name, &object) == MOTE_OK;
     const char *program = json_string_value(json_object_get(object, "program"));
     const char *measured = json_string_value(json_object_get(object, "measured"));
-    there = there && program && measured && strcmp(program, s->program) == 0 &&
+    const char *commit = json_string_value(json_object_get(object, "commit"));
+    there = there && program && measured && commit &&
+            (s->keep || strcmp(program, s->program) == 0) &&
             json_integer_value(json_object_get(object, "wanted")) == (json_int_t)row->wanted;
     mote_approaches sum;
     there = there && mote_approaches_read(object, &sum);
     if (there) {
         row->sum = sum;
         (void)snprintf(row->measured, sizeof row->measured, "%s", measured);
+        (void)snprintf(row->commit, sizeof row->commit, "%s", commit);
     }
     json_decref(object);
     free(path);
@@ -69,6 +74,7 @@ static mote_status store(const study *s, const mote_dynamics_row *row)
         return mote_fail(MOTE_ENOMEM, "no memory for a row");
     json_t *object = mote_dynamics_row_json(row);
     (void)json_object_set_new(object, "program", json_string(s->program));
+    (void)json_object_set_new(object, "commit", json_string(s->commit));
     (void)json_object_set_new(object, "wanted", json_integer(row->wanted));
     const mote_status status = mote_record_json(s->directory, name, object);
     free(name);
@@ -92,6 +98,7 @@ static mote_status measure(study *s, mote_dynamics_row *row)
     if (!gmtime_r(&now, &utc) ||
         strftime(row->measured, sizeof row->measured, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
         row->measured[0] = '\0';
+    (void)snprintf(row->commit, sizeof row->commit, "%s", s->commit);
     mote_status status = load(s, row->scene);
     if (status == MOTE_OK)
         status = mote_approaches_simulate(s->scenario, row->method, row->wanted, &row->sum);
@@ -212,8 +219,7 @@ static void read_commit(const char *directory, char *commit, size_t size)
     json_decref(manifest);
 }
 
-static mote_status write_json(const study *s, const mote_claim *claim, const char *commit,
-                              json_t *failures)
+static mote_status write_json(const study *s, const mote_claim *claim, json_t *failures)
 {
     json_t *rows = json_array();
     for (size_t i = 0; i < s->count; ++i)
@@ -221,7 +227,7 @@ static mote_status write_json(const study *s, const mote_claim *claim, const cha
     const bool met = json_array_size(failures) == 0;
     json_t *root = json_pack(
         "{s:i, s:s, s:s, s:I, s:{s:[f,f], s:f, s:f, s:f, s:f}, s:o, s:o, s:b, s:o}", "schema",
-        1, "profile", s->quick ? "quick" : "full", "commit", commit, "seed",
+        1, "profile", s->quick ? "quick" : "full", "commit", s->commit, "seed",
         (json_int_t)MOTE_APPROACH_SEED, "approach", "speed", MOTE_APPROACH_SLOWEST,
         MOTE_APPROACH_FASTEST, "degrees", MOTE_APPROACH_DEGREES, "aside", MOTE_APPROACH_ASIDE,
         "clear", MOTE_APPROACH_CLEAR, "apart", MOTE_APPROACH_APART, "rows", rows, "failures",
@@ -232,7 +238,6 @@ static mote_status write_json(const study *s, const mote_claim *claim, const cha
 static mote_status report(const study *s, bool *met)
 {
     mote_claim claim = {0};
-    char commit[64];
     mote_dynamics_claim(&claim);
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < s->count && status == MOTE_OK; ++i) {
@@ -243,13 +248,12 @@ static mote_status report(const study *s, bool *met)
         mote_dynamics_print(s->rows, s->count);
         (void)printf("\n");
         mote_claim_print(&claim);
-        read_commit(s->directory, commit, sizeof commit);
         json_t *failures = failures_of(s);
         *met = json_array_size(failures) == 0;
-        status = write_json(s, &claim, commit, failures);
+        status = write_json(s, &claim, failures);
     }
     if (status == MOTE_OK)
-        status = mote_dynamics_csv(s->rows, s->count, commit, s->directory);
+        status = mote_dynamics_csv(s->rows, s->count, s->directory);
     if (status == MOTE_OK)
         status = mote_dynamics_figure(s->rows, s->count, s->directory);
     mote_claim_free(&claim);
@@ -257,9 +261,10 @@ static mote_status report(const study *s, bool *met)
 }
 
 mote_status mote_study_dynamics(const char *directory, const mote_dynamics_size *size,
-                                uint32_t jobs, uint64_t program, bool *met)
+                                uint32_t jobs, uint64_t program, bool keep, bool *met)
 {
-    study s = {.directory = directory, .quick = size->quick, .lock = -1};
+    study s = {.directory = directory, .quick = size->quick, .keep = keep, .lock = -1};
+    read_commit(directory, s.commit, sizeof s.commit);
     (void)snprintf(s.program, sizeof s.program, "%016" PRIx64, program);
     mote_status status = mote_dynamics_plan(size, &s.rows, &s.count);
     if (status == MOTE_OK)

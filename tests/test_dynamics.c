@@ -198,6 +198,31 @@ static void command_dynamics_goes_on_where_it_stopped(void **state)
     assert_null(strstr(second + 1, "dynamics: tt,"));
 }
 
+/* With --keep rows of other builds stay, and tell what sources they are of. */
+static void command_dynamics_keeps_rows_of_other_builds_when_asked(void **state)
+{
+    (void)state;
+    static char said[32768], row[8192], table[32768];
+    program_read(ROW, row, sizeof row);
+    char *program = strstr(row, "\"program\": \""), *commit = strstr(row, "\"commit\": \"");
+    assert_non_null(program);
+    assert_non_null(commit);
+    program[12] = program[12] == '0' ? '1' : '0';
+    commit[11] = commit[11] == 'f' ? 'e' : 'f';
+    assert_int_equal(mote_file_write(ROW, row, strlen(row)), MOTE_OK);
+    assert_int_equal(program_wait(program_start(LINE " --keep", SAID)), 0);
+    program_read(SAID, said, sizeof said);
+    assert_null(strstr(said, "dynamics: tt,"));
+    char changed[41];
+    (void)snprintf(changed, sizeof changed, "%s", commit + 11);
+    program_read(OUT "/dynamics.csv", table, sizeof table);
+    char *line = strstr(table, "particle-paper:n=3,law=log");
+    assert_non_null(line);
+    const char *found = strstr(line, changed);
+    assert_true(found && found < strchr(line, '\n'));
+    assert_null(strstr(found + 1, changed));
+}
+
 static void command_dynamics_bad_line_refused(void **state)
 {
     (void)state;
@@ -240,6 +265,7 @@ int main(void)
         cmocka_unit_test(failure_names_what_was_not_met),
         cmocka_unit_test(claim_follows_from_the_rows),
         cmocka_unit_test(command_dynamics_goes_on_where_it_stopped),
+        cmocka_unit_test(command_dynamics_keeps_rows_of_other_builds_when_asked),
         cmocka_unit_test(command_dynamics_bad_line_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
