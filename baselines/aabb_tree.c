@@ -1,6 +1,7 @@
 /* aabb-tree: the tuned competitor. Two trees of axis-aligned boxes over world positions,
    refitted in one pass each frame, traversed together from the root, nearer pair first, with
    the last frame's closest pair of triangles as the first bound. */
+#include "baselines/aabb_tree.h"
 #include "baselines/box_tree.h"
 #include "baselines/input.h"
 #include "baselines/wide_triangle.h"
@@ -378,6 +379,26 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     answer->witness[0] = q.p;
     answer->witness[1] = q.q;
     return MOTE_OK;
+}
+
+mote_status mote_aabb_pair_query(mote_aabb_pair *pair, mote_answer *answer)
+{
+    tree_state state = {.setup = {.ask = pair->ask, .tolerance = pair->tolerance},
+                        .seeded = true,
+                        .scale = pair->scale,
+                        .reach = pair->reach,
+                        .placed = true,
+                        .tree = {*pair->tree[0], *pair->tree[1]},
+                        .last = {pair->last[0], pair->last[1]},
+                        .has_last = pair->has_last};
+    mote_frame frame = {.number = 1};
+    for (int b = 0; b < 2; b++)
+        frame.body[b].vertices = pair->vertices[b];
+    mote_status status = query(&state, &frame, answer);
+    pair->last[0] = state.last[0];
+    pair->last[1] = state.last[1];
+    pair->has_last = state.has_last;
+    return status;
 }
 
 MOTE_METHOD(aabb_tree) = {

@@ -156,18 +156,32 @@ static void bound_range(void *context, uint32_t worker, size_t first, size_t end
                                    &s->states[i], &s->bounds[i].low, &s->bounds[i].high);
 }
 
+static mote_status check_bounds(const mote_scene_box *bounds, uint32_t i)
+{
+    const mote_vec3 size = mote_sub(bounds->high, bounds->low);
+    if (isfinite(size.x + size.y + size.z))
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "body %u: its pose or a weight is not finite", i);
+}
+
+mote_status mote_scene_bounds_of(mote_scene *scene, uint32_t i, const mote_body_state *state,
+                                 mote_scene_box *bounds)
+{
+    mote_cert_workspace_bounds(scene->workspaces[0], scene->trees[scene->shape_of[i]], state,
+                               &bounds->low, &bounds->high);
+    return check_bounds(bounds, i);
+}
+
 mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
                               mote_scene_box *bounds)
 {
     scene->states = states;
     scene->bounds = bounds;
     mote_pool_run(scene->pool, bound_range, scene, scene->body_count, GRAIN_BODIES);
-    for (uint32_t i = 0; i < scene->body_count; ++i) {
-        const mote_vec3 size = mote_sub(bounds[i].high, bounds[i].low);
-        if (!isfinite(size.x + size.y + size.z))
-            return mote_fail(MOTE_EINVAL, "body %u: its pose or a weight is not finite", i);
-    }
-    return MOTE_OK;
+    mote_status status = MOTE_OK;
+    for (uint32_t i = 0; i < scene->body_count && status == MOTE_OK; ++i)
+        status = check_bounds(&bounds[i], i);
+    return status;
 }
 
 static int compare(const uint32_t a[2], const uint32_t b[2])

@@ -66,6 +66,10 @@ double mote_scene_length(const mote_scene *scene);
 mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
                               mote_scene_box *bounds);
 
+/* The same for body i < body_count alone. */
+mote_status mote_scene_bounds_of(mote_scene *scene, uint32_t i, const mote_body_state *state,
+                                 mote_scene_box *bounds);
+
 /* Answers for pairs[count], i < j, ascending by i, then j, each once (else MOTE_EINVAL). Pairs
    that were given in the last call too go on from their state; the state of others is dropped.
    Answers are the same bits whatever the number of threads. Allocates only where there are more

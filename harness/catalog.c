@@ -42,6 +42,7 @@ static mote_status read_entry(const char *file, mote_catalog_entry *entry)
         status = mote_fail(MOTE_EINVAL, "%s: no purpose; add a sentence", path);
     else if (!(entry->purpose = mote_format("%s", purpose)))
         status = mote_fail(MOTE_ENOMEM, "%s: no memory for its purpose", path);
+    entry->several = json_is_object(json_object_get(root, "bodies"));
     json_decref(root);
     free(path);
     if (status == MOTE_OK)

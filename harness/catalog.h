@@ -4,11 +4,13 @@
 
 #include "core/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct mote_catalog_entry {
     char *name;    /* "ww" */
     char *purpose; /* one sentence */
+    bool several;  /* of several bodies (harness/bodies.h), not of two */
 } mote_catalog_entry;
 
 typedef struct mote_catalog {

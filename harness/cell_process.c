@@ -33,7 +33,7 @@ int mote_process_core(void)
     return -1;
 }
 
-static void pin(int core)
+void mote_process_pin(int core)
 {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -116,7 +116,7 @@ static mote_status work(void *context, int output)
     const task *t = context;
     message told;
     memset(&told, 0, sizeof told);
-    pin(t->options->core);
+    mote_process_pin(t->options->core);
     mote_status status = MOTE_OK;
     if (t->probe)
         child_probe(t->cell, &told);

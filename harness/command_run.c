@@ -1,3 +1,4 @@
+#include "harness/bodies_run.h"
 #include "harness/child.h"
 #include "harness/command.h"
 #include "harness/file.h"
@@ -62,6 +63,7 @@ typedef struct request {
     const char *particles, *frames;
     uint32_t shard, shards; /* shard of shards, from 1; 0, 0: not given */
     char *pair;             /* the name of the scenario that two meshes make, or NULL */
+    const char *pairs_only; /* an option that is not for several bodies, or NULL */
     mote_choices choices;
 } request;
 
@@ -195,6 +197,17 @@ static bool add_pair(request *q, mote_option_reader *reader, const char *first)
     return q->pair != NULL;
 }
 
+/* Remembers an option that scenarios of several bodies do not have. */
+static void note_option(request *q, int option)
+{
+    static const bool for_bodies[OPTION_COUNT] = {
+        [OPTION_METHOD] = true,  [OPTION_REPLICATES] = true, [OPTION_FRAMES] = true,
+        [OPTION_OUT] = true,     [OPTION_TIMEOUT] = true,    [OPTION_BUDGET] = true,
+        [OPTION_DRY_RUN] = true, [OPTION_FORCE] = true};
+    if (!for_bodies[option])
+        q->pairs_only = options[option].name;
+}
+
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
@@ -208,7 +221,11 @@ static int read_arguments(int argc, char **argv, request *q)
             return MOTE_EXIT_USAGE;
         if (option == MOTE_OPTION_PLAIN)
             add_scenario(q, value);
-        else if (option == OPTION_PAIR) {
+        else
+            note_option(q, option);
+        if (option == MOTE_OPTION_PLAIN)
+            continue;
+        if (option == OPTION_PAIR) {
             if (!add_pair(q, &reader, value))
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
@@ -295,8 +312,44 @@ static int report(const char *directory)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
+/* Scenarios of several bodies: they are measured apart from pairs. */
+static int execute_bodies(request *q)
+{
+    if (q->pairs_only)
+        return mote_command_usage(q->run.argv[0], "--%s: not for several bodies; leave it out",
+                                  q->pairs_only);
+    if (read_frames(q) != MOTE_OK)
+        return mote_command_fail();
+    const mote_bodies_run_options wish = {.scenarios = q->scenarios,
+                                          .scenario_count = q->run.scenario_count,
+                                          .methods = q->methods,
+                                          .method_count = q->method_count,
+                                          .measure = {.first = q->run.plan.first,
+                                                      .last = q->run.plan.last,
+                                                      .timeout = q->run.timeout,
+                                                      .budget = q->run.budget,
+                                                      .least = 3},
+                                          .replicates = q->run.plan.replicates,
+                                          .directory = q->run.directory,
+                                          .dry_run = q->run.dry_run,
+                                          .argc = q->run.argc,
+                                          .argv = q->run.argv};
+    size_t failed;
+    if (mote_bodies_run(&wish, &failed) != MOTE_OK)
+        return mote_command_fail();
+    return mote_command_finish(failed > 0 ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_DONE);
+}
+
 static int execute(request *q)
 {
+    size_t several = 0;
+    for (size_t i = 0; i < q->run.scenario_count; ++i)
+        several += mote_bodies_is(q->scenarios[i]);
+    if (several > 0 && several < q->run.scenario_count)
+        return mote_command_usage(q->run.argv[0],
+                                  "scenarios of two and of several bodies; give them apart");
+    if (several > 0)
+        return execute_bodies(q);
     if (expand_methods(q) != MOTE_OK || read_frames(q) != MOTE_OK)
         return mote_command_fail();
     mote_run_outcome outcome;

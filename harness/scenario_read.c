@@ -47,7 +47,7 @@ static mote_status read_ask(const mote_json *root, mote_ask *ask)
     return status;
 }
 
-static mote_status read_frame_facts(const mote_json *root, mote_scenario *scenario)
+mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scenario)
 {
     mote_json key = mote_json_member(root, "frames");
     int64_t frames = 0;
@@ -129,7 +129,7 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     return status;
 }
 
-static char *name_of(const char *path)
+char *mote_scenario_name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path;
@@ -144,13 +144,13 @@ static mote_status read_scenario(const mote_json_file *file, mote_scenario *scen
     mote_json root = mote_json_root(file);
     scenario->motion = calloc(1, sizeof *scenario->motion);
     scenario->path = mote_format("%s", file->path);
-    scenario->name = name_of(file->path);
+    scenario->name = mote_scenario_name_of(file->path);
     if (!scenario->motion || !scenario->path || !scenario->name)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
     mote_status status =
         mote_json_object(&root, "purpose|bodies|frames|start|pace|warmup|active|ask|tolerance");
     if (status == MOTE_OK)
-        status = read_frame_facts(&root, scenario);
+        status = mote_scenario_read_facts(&root, scenario);
     if (status == MOTE_OK)
         status = read_bodies(&root, scenario);
     scenario->tolerance *= scenario->length;
@@ -205,10 +205,13 @@ mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scena
     return status;
 }
 
-mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario)
+bool mote_scenario_of_bodies(const mote_json_file *file)
 {
-    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0)
-        return mote_scenario_make_pair(name_or_path, scenario);
+    return json_is_object(json_object_get(file->root, "bodies"));
+}
+
+mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file)
+{
     char *path;
     if (is_path(name_or_path))
         path = mote_format("%s", name_or_path);
@@ -218,13 +221,34 @@ mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenari
         path = mote_catalog_path(name_or_path);
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name_or_path);
-    mote_json_file file;
-    mote_status status = mote_json_open(path, &file);
+    mote_json_file opened;
+    mote_status status = mote_json_open(path, &opened);
     free(path);
     if (status != MOTE_OK)
         return status;
-    status = mote_scenario_merge_like(&file);
+    status = mote_scenario_merge_like(&opened);
     if (status == MOTE_OK)
+        *file = opened;
+    else
+        mote_json_close(&opened);
+    return status;
+}
+
+mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario)
+{
+    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0)
+        return mote_scenario_make_pair(name_or_path, scenario);
+    mote_json_file file;
+    mote_status status = mote_scenario_open(name_or_path, &file);
+    if (status != MOTE_OK)
+        return status;
+    mote_json root = mote_json_root(&file);
+    mote_json bodies = mote_json_member(&root, "bodies");
+    if (mote_scenario_of_bodies(&file))
+        status =
+            mote_json_fail(&bodies, "several bodies, where two are needed; only `mote run` "
+                                    "and `mote simulate` take several");
+    else
         status = mote_scenario_read(&file, scenario);
     mote_json_close(&file);
     return status;

@@ -13,6 +13,20 @@
    does nothing without that key. */
 mote_status mote_scenario_merge_like(mote_json_file *file);
 
+/* Opens the file of a built-in scenario's name or of a path, merged with the one it is like.
+   MOTE_EIO with the names that there are for an unknown one. Close with mote_json_close. */
+mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file);
+
+/* Whether a file's root is of several bodies (harness/bodies.h). */
+bool mote_scenario_of_bodies(const mote_json_file *file);
+
+/* Reads "frames", "warmup", "active", "ask", "tolerance", "start", "pace" and "purpose" into a
+   scenario with a motion; tolerance is of L. */
+mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scenario);
+
+/* The name that a file's path gives: without folder and ".json"; NULL without memory. */
+char *mote_scenario_name_of(const char *path);
+
 /* Makes a scenario of a file's root; its name comes from the file's path. */
 mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario);
 

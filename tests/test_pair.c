@@ -91,6 +91,8 @@ static void mote_scenario_fingerprint_built_in_is_the_committed_one(void **state
     assert_int_equal(mote_catalog_read(&catalog), MOTE_OK);
     for (size_t i = 0; i < catalog.count; ++i) {
         const char *name = catalog.entries[i].name;
+        if (catalog.entries[i].several) /* tests/test_bodies.c */
+            continue;
         if (!find_line(text, name))
             fail_msg("%s is not in datasets/fingerprints.txt", name);
         if (is_large(name) && !full)

@@ -1,0 +1,130 @@
+#include "harness/bodies.h"
+
+#include "harness/turn.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+void mote_bodies_destroy(mote_bodies *bodies)
+{
+    if (!bodies)
+        return;
+    for (uint32_t i = 0; bodies->shapes && i < bodies->shape_count; ++i) {
+        mote_mesh_destroy((mote_mesh *)(uintptr_t)bodies->shapes[i].body.mesh);
+        mote_field_destroy((mote_field *)(uintptr_t)bodies->shapes[i].body.field);
+        mote_body_motion_free(&bodies->shapes[i].motion);
+    }
+    free(bodies->shapes);
+    free(bodies->shape_of);
+    free(bodies->paths);
+    free(bodies->name);
+    free(bodies->purpose);
+    free(bodies->path);
+    free(bodies);
+}
+
+static const mote_bodies_shape *shape_of(const mote_bodies *bodies, uint32_t i)
+{
+    return &bodies->shapes[bodies->shape_of[i]];
+}
+
+mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_frame *frame)
+{
+    size_t numbers = 1, most = 1;
+    for (uint32_t i = 0; i < bodies->count; ++i)
+        numbers += (size_t)3 * shape_of(bodies, i)->body.field->padded;
+    for (uint32_t s = 0; s < bodies->shape_count; ++s) {
+        const uint32_t padded = bodies->shapes[s].body.field->padded;
+        most = padded > most ? padded : most;
+    }
+    mote_bodies_frame made = {.states = calloc(bodies->count, sizeof *made.states),
+                              .weights = calloc(numbers, sizeof *made.weights),
+                              .scratch = calloc(most, sizeof *made.scratch)};
+    if (!made.states || !made.weights || !made.scratch) {
+        mote_bodies_frame_free(&made);
+        return mote_fail(MOTE_ENOMEM, "no memory for a frame of %u bodies", bodies->count);
+    }
+    double *next = made.weights;
+    for (uint32_t i = 0; i < bodies->count; ++i) {
+        const mote_field *field = shape_of(bodies, i)->body.field;
+        const size_t padded = field->padded;
+        made.states[i] = (mote_body_state){.shape_changed = true, .pose_changed = true};
+        made.states[i].weights = (mote_weights){NULL, NULL, NULL, field->count, field->padded};
+        if (padded > 0)
+            made.states[i].weights = (mote_weights){next, next + padded, next + 2 * padded,
+                                                    field->count, field->padded};
+        next += 3 * padded;
+    }
+    *frame = made;
+    return MOTE_OK;
+}
+
+void mote_bodies_frame_free(mote_bodies_frame *frame)
+{
+    free(frame->states);
+    free(frame->weights);
+    free(frame->scratch);
+    *frame = (mote_bodies_frame){0};
+}
+
+/* A coordinate that goes on at a speed and turns back at -room and room. */
+static double between_walls(double start, double way, double room)
+{
+    if (!(room > 0))
+        return 0;
+    double phase = fmod(start + room + way, 4 * room);
+    if (phase < 0)
+        phase += 4 * room;
+    return phase <= 2 * room ? phase - room : 3 * room - phase;
+}
+
+mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number)
+{
+    const mote_bodies_path *path = &bodies->paths[i];
+    const double passed = number - 1;
+    const mote_vec3 place = {
+        between_walls(path->place.x, passed * path->velocity.x, bodies->room.x),
+        between_walls(path->place.y, passed * path->velocity.y, bodies->room.y),
+        between_walls(path->place.z, passed * path->velocity.z, bodies->room.z)};
+    mote_pose pose;
+    pose.rotation = mote_quaternion_matrix(
+        mote_quaternion_about(path->axis, path->degrees + passed * path->spin));
+    pose.translation =
+        mote_sub(place, mote_rotate(&pose.rotation, shape_of(bodies, i)->motion.centre));
+    return pose;
+}
+
+void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
+                        const mote_pose *pose, mote_bodies_frame *frame)
+{
+    const mote_bodies_shape *shape = shape_of(bodies, i);
+    const uint32_t count = shape->body.field->count;
+    mote_body_state *state = &frame->states[i];
+    state->pose = *pose;
+    if (count == 0)
+        return;
+    mote_vec3 *w = frame->scratch;
+    mote_motion_displacements(&shape->motion, bodies->paths[i].time + number, w);
+    if (shape->motion.fit) {
+        mote_status status = mote_csrbf_fit_solve(shape->motion.fit, w, w);
+        assert(status == MOTE_OK); /* every number of a scenario was range-checked */
+        (void)status;
+    }
+    double *x = frame->weights + (state->weights.x - frame->weights);
+    const size_t padded = state->weights.padded;
+    for (uint32_t j = 0; j < count; ++j) {
+        const mote_vec3 turned = mote_rotate(&pose->rotation, w[j]);
+        x[j] = turned.x;
+        x[padded + j] = turned.y;
+        x[2 * padded + j] = turned.z;
+    }
+}
+
+void mote_bodies_frame_set(const mote_bodies *bodies, double number, mote_bodies_frame *frame)
+{
+    for (uint32_t i = 0; i < bodies->count; ++i) {
+        const mote_pose pose = mote_bodies_pose(bodies, i, number);
+        mote_bodies_deform(bodies, i, number, &pose, frame);
+    }
+}

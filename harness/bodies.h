@@ -1,0 +1,85 @@
+/* A scenario of several bodies: many of a few shapes in a box, each on a path of its own and
+   deforming at a time of its own.
+
+   A body's middle moves straight ahead and turns back at the walls; the body turns about an
+   axis; it deforms as its shape says at a time that is the body's own, so that no two bodies
+   look alike. All of it follows from a seed. A body costs the same few hundred bytes whatever
+   its triangles. */
+#ifndef MOTE_HARNESS_BODIES_H
+#define MOTE_HARNESS_BODIES_H
+
+#include "core/scene.h"
+#include "harness/motion.h"
+#include "harness/scenario.h"
+
+/* Bodies and shapes at most. */
+#define MOTE_BODIES_MAX 1000000
+#define MOTE_BODIES_SHAPES_MAX 256
+
+/* A shape with its deformation. */
+typedef struct mote_bodies_shape {
+    mote_body body;
+    mote_body_motion motion; /* of its controls; no path */
+    double reach;            /* from the middle of the box to its farthest vertex at rest */
+} mote_bodies_shape;
+
+/* Where a body starts and how it moves. Lengths are absolute. */
+typedef struct mote_bodies_path {
+    mote_vec3 place;    /* of the middle of the body's box at frame 1 */
+    mote_vec3 velocity; /* a frame */
+    mote_vec3 axis;     /* of length 1 */
+    double degrees;     /* about the axis at frame 1 */
+    double spin;        /* degrees a frame */
+    double time;        /* the deformation that is shown at frame 1, in frames */
+} mote_bodies_path;
+
+typedef struct mote_bodies {
+    char *name, *purpose, *path;
+    uint32_t frames;
+    mote_ask ask;
+    double tolerance; /* absolute */
+    double near;      /* absolute: pairs whose bounds are at most so far apart are near */
+    double length;    /* L: the largest of the shapes' */
+    mote_bodies_shape *shapes;
+    uint32_t shape_count;
+    uint32_t count;
+    uint32_t *shape_of;       /* [count] */
+    mote_bodies_path *paths;  /* [count] */
+    mote_vec3 room;           /* half the edges of the box in which middles stay */
+    mote_vec3 box;            /* half the edges of the box */
+    double near_pairs;        /* found a body and frame when the box was made; 0: not asked */
+    double near_pairs_wanted; /* 0: the box is given */
+} mote_bodies;
+
+/* Whether a scenario (as mote_scenario_load takes it) is one of several bodies. False also for
+   what cannot be read: loading it tells why. */
+bool mote_bodies_is(const char *name_or_path);
+
+/* Loads it: shapes, then places without any overlap at frame 1. Errors as mote_scenario_load;
+   MOTE_EINVAL also where bodies overlap at frame 1, the box does not hold them, or no box gives
+   as many near pairs as wished. The caller destroys *bodies. */
+mote_status mote_bodies_load(const char *path, mote_bodies **bodies);
+void mote_bodies_destroy(mote_bodies *bodies); /* NULL is allowed */
+
+/* The bodies of one frame, with the memory of their weights. */
+typedef struct mote_bodies_frame {
+    mote_body_state *states; /* [count]; vertices are NULL */
+    double *weights;
+    mote_vec3 *scratch;
+} mote_bodies_frame;
+
+mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_frame *frame);
+void mote_bodies_frame_free(mote_bodies_frame *frame);
+
+/* Poses and weights of all bodies at a frame (1 .. frames). One thread at a time, whatever the
+   frame. */
+void mote_bodies_frame_set(const mote_bodies *bodies, double number, mote_bodies_frame *frame);
+
+/* The weights of one body as of a frame with another pose: for bodies that move freely. */
+void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
+                        const mote_pose *pose, mote_bodies_frame *frame);
+
+/* The pose of a body on its path. */
+mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number);
+
+#endif

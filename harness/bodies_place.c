@@ -1,0 +1,284 @@
+#include "harness/bodies_place.h"
+
+#include "baselines/broad_phase.h"
+#include "core/random.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Surfaces are at least so far apart at frame 1, of L. */
+#define CLEARANCE 0.01
+
+/* Places that are tried for a body. */
+#define TRIES 3000
+
+/* Frames that near pairs are counted in, and how far from the wish they may end up. */
+#define SAMPLES 33
+#define NEAR_SHARE 0.1
+
+typedef struct placing {
+    mote_bodies *bodies;
+    const mote_bodies_wish *wish;
+    mote_random random;
+    mote_vec3 *fractions; /* [count] of the room, -1 .. 1 */
+    mote_scene *scene;
+    mote_broad_phase *broad;
+    mote_bodies_frame frame;
+    mote_scene_box *boxes; /* [count] */
+} placing;
+
+static mote_vec3 draw_direction(mote_random *random)
+{
+    for (;;) {
+        const double x = 2 * mote_random_unit(random) - 1;
+        const double y = 2 * mote_random_unit(random) - 1;
+        const double z = 2 * mote_random_unit(random) - 1;
+        const mote_vec3 v = mote_vec3_make(x, y, z);
+        const double square = mote_length_squared(v);
+        if (square > 0.01 && square <= 1)
+            return mote_scale(v, 1 / sqrt(square));
+    }
+}
+
+static void draw_path(placing *p, uint32_t i)
+{
+    mote_bodies_path *path = &p->bodies->paths[i];
+    const double length = p->bodies->length;
+    mote_vec3 *u = &p->fractions[i];
+    u->x = 2 * mote_random_unit(&p->random) - 1;
+    u->y = 2 * mote_random_unit(&p->random) - 1;
+    u->z = 2 * mote_random_unit(&p->random) - 1;
+    path->velocity = mote_scale(draw_direction(&p->random), p->wish->speed * length);
+    path->axis = draw_direction(&p->random);
+    path->degrees = 360 * mote_random_unit(&p->random);
+    path->spin = p->wish->spin;
+    /* Keyed deformations end with their last key: those all have one time. */
+    const double time = floor(1e6 * mote_random_unit(&p->random));
+    path->time = p->bodies->shapes[p->bodies->shape_of[i]].motion.keyed ? 0 : time;
+}
+
+static void place_body(placing *p, uint32_t i)
+{
+    const mote_vec3 *u = &p->fractions[i], *room = &p->bodies->room;
+    if (p->wish->places)
+        p->bodies->paths[i].place = p->wish->places[i];
+    else
+        p->bodies->paths[i].place =
+            mote_vec3_make(u->x * room->x, u->y * room->y, u->z * room->z);
+}
+
+/* The box of these half edges, and what is left of it for the bodies' middles. */
+static void set_box(placing *p, mote_vec3 half)
+{
+    mote_bodies *b = p->bodies;
+    double reach = 0;
+    for (uint32_t s = 0; s < b->shape_count; ++s)
+        reach = fmax(reach, b->shapes[s].reach);
+    b->box = half;
+    b->room = mote_sub(half, mote_vec3_make(reach, reach, reach));
+    for (uint32_t i = 0; i < b->count; ++i)
+        place_body(p, i);
+}
+
+/* Near pairs of a frame by the bounds of the bodies. */
+static mote_status count_near(placing *p, double number, size_t *count)
+{
+    const uint32_t(*pairs)[2];
+    mote_bodies_frame_set(p->bodies, number, &p->frame);
+    mote_status status = mote_scene_bounds(p->scene, p->frame.states, p->boxes);
+    if (status == MOTE_OK)
+        status = mote_broad_phase_pairs(p->broad, p->boxes, p->bodies->near, &pairs, count);
+    return status;
+}
+
+/* Near pairs a body, over frames spread evenly; fewer of them where there are many bodies. */
+static mote_status near_pairs(placing *p, double *mean)
+{
+    const mote_bodies *b = p->bodies;
+    uint32_t samples = 1 + 20000 / b->count;
+    samples = samples > SAMPLES ? SAMPLES : samples;
+    samples = samples > b->frames ? b->frames : samples;
+    double sum = 0;
+    for (uint32_t k = 0; k < samples; ++k) {
+        size_t count = 0;
+        const double place = samples > 1 ? (double)k / (samples - 1) : 0;
+        mote_status status = count_near(p, 1 + floor(place * (b->frames - 1)), &count);
+        if (status != MOTE_OK)
+            return status;
+        sum += (double)count;
+    }
+    *mean = sum / samples / b->count;
+    return MOTE_OK;
+}
+
+static mote_status not_reached(const placing *p, double found)
+{
+    return mote_fail(MOTE_EINVAL,
+                     "%u bodies have %.3g near pairs each in the box that comes nearest to the "
+                     "%g wished; wish for what so many can have, or give the box",
+                     p->bodies->count, found, p->wish->near_pairs);
+}
+
+/* The cube with as many near pairs as wished, by bisection of its edge. */
+static mote_status find_box(placing *p)
+{
+    mote_bodies *b = p->bodies;
+    double reach = 0, found = 0;
+    for (uint32_t s = 0; s < b->shape_count; ++s)
+        reach = fmax(reach, b->shapes[s].reach);
+    double low = 0, high = b->length * (1 + cbrt((double)b->count) * 16);
+    mote_status status = MOTE_OK;
+    for (int k = 0; k < 30 && status == MOTE_OK; ++k) {
+        const double room = (low + high) / 2;
+        const double half = room + reach;
+        set_box(p, mote_vec3_make(half, half, half));
+        status = near_pairs(p, &found);
+        if (fabs(found - p->wish->near_pairs) <= NEAR_SHARE / 4 * p->wish->near_pairs)
+            break;
+        if (found > p->wish->near_pairs)
+            low = room;
+        else
+            high = room;
+    }
+    b->near_pairs = found;
+    if (status == MOTE_OK &&
+        !(fabs(found - p->wish->near_pairs) <= NEAR_SHARE * p->wish->near_pairs))
+        return not_reached(p, found);
+    return status;
+}
+
+static bool boxes_near(const mote_scene_box *a, const mote_scene_box *b, double near)
+{
+    return a->low.x - b->high.x <= near && b->low.x - a->high.x <= near &&
+           a->low.y - b->high.y <= near && b->low.y - a->high.y <= near &&
+           a->low.z - b->high.z <= near && b->low.z - a->high.z <= near;
+}
+
+/* The first body below i that body i is too near to; i: none. */
+static mote_status find_overlap(placing *p, uint32_t i, uint32_t *other, double *distance)
+{
+    const double clearance = CLEARANCE * p->bodies->length;
+    for (uint32_t j = 0; j < i; ++j) {
+        if (!boxes_near(&p->boxes[i], &p->boxes[j], clearance))
+            continue;
+        const uint32_t pair[1][2] = {{j, i}};
+        size_t count;
+        mote_status status = mote_scene_query(p->scene, p->frame.states, pair, 1);
+        if (status != MOTE_OK)
+            return status;
+        const mote_scene_pair *answer = mote_scene_pairs(p->scene, &count);
+        if (answer->contact) {
+            *other = j;
+            *distance = answer->distance;
+            return MOTE_OK;
+        }
+    }
+    *other = i;
+    return MOTE_OK;
+}
+
+static mote_status set_body(placing *p, uint32_t i)
+{
+    const mote_pose pose = mote_bodies_pose(p->bodies, i, 1);
+    mote_bodies_deform(p->bodies, i, 1, &pose, &p->frame);
+    return mote_scene_bounds_of(p->scene, i, &p->frame.states[i], &p->boxes[i]);
+}
+
+/* Draws places anew for bodies that overlap those before them. */
+static mote_status separate(placing *p)
+{
+    const mote_bodies *b = p->bodies;
+    uint32_t other = 0;
+    double distance = 0;
+    mote_bodies_frame_set(b, 1, &p->frame);
+    for (uint32_t i = 0; i < b->count; ++i) {
+        mote_status status = set_body(p, i);
+        for (uint32_t tries = 0; status == MOTE_OK; ++tries) {
+            status = find_overlap(p, i, &other, &distance);
+            if (status != MOTE_OK || other == i)
+                break;
+            if (p->wish->places)
+                return mote_fail(MOTE_EINVAL,
+                                 "bodies %u and %u are %.3g L apart at frame 1; start them at "
+                                 "least %g L apart",
+                                 other + 1, i + 1, distance / b->length, CLEARANCE);
+            if (tries == TRIES)
+                return mote_fail(MOTE_EINVAL,
+                                 "the box, %.3g by %.3g by %.3g L, holds %u of the %u bodies "
+                                 "without overlap; give it more room, or have fewer bodies",
+                                 2 * b->box.x / b->length, 2 * b->box.y / b->length,
+                                 2 * b->box.z / b->length, i, b->count);
+            draw_path(p, i);
+            place_body(p, i);
+            status = set_body(p, i);
+        }
+        if (status != MOTE_OK)
+            return status;
+    }
+    return MOTE_OK;
+}
+
+static mote_status check_box(const placing *p)
+{
+    const mote_bodies *b = p->bodies;
+    if (!(b->room.x >= 0 && b->room.y >= 0 && b->room.z >= 0))
+        return mote_fail(MOTE_EINVAL,
+                         "the box, %.3g by %.3g by %.3g L, is smaller than a body, which turns "
+                         "within %.3g L; give a larger one",
+                         2 * b->box.x / b->length, 2 * b->box.y / b->length,
+                         2 * b->box.z / b->length, 2 * (b->box.x - b->room.x) / b->length);
+    for (uint32_t i = 0; i < b->count && p->wish->places; ++i) {
+        const mote_vec3 *at = &p->wish->places[i];
+        if (fabs(at->x) > b->room.x || fabs(at->y) > b->room.y || fabs(at->z) > b->room.z)
+            return mote_fail(MOTE_EINVAL,
+                             "body %u does not turn within the box; its middle has room from "
+                             "%.3g to %.3g L, %.3g to %.3g L, and %.3g to %.3g L",
+                             i + 1, -b->room.x / b->length, b->room.x / b->length,
+                             -b->room.y / b->length, b->room.y / b->length,
+                             -b->room.z / b->length, b->room.z / b->length);
+    }
+    return MOTE_OK;
+}
+
+static mote_status prepare(placing *p)
+{
+    mote_bodies *b = p->bodies;
+    const mote_body *shapes[MOTE_BODIES_SHAPES_MAX];
+    for (uint32_t s = 0; s < b->shape_count; ++s)
+        shapes[s] = &b->shapes[s].body;
+    const mote_scene_options options = {
+        .ask = MOTE_ASK_CONTACT, .tolerance = CLEARANCE * b->length, .threads = 1};
+    p->fractions = calloc(b->count, sizeof *p->fractions);
+    p->boxes = calloc(b->count, sizeof *p->boxes);
+    if (!p->fractions || !p->boxes)
+        return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", b->count);
+    mote_status status =
+        mote_scene_create(shapes, b->shape_count, b->shape_of, b->count, &options, &p->scene);
+    if (status == MOTE_OK)
+        status = mote_broad_phase_create(b->count, &p->broad);
+    if (status == MOTE_OK)
+        status = mote_bodies_frame_create(b, &p->frame);
+    for (uint32_t i = 0; i < b->count && status == MOTE_OK; ++i)
+        draw_path(p, i);
+    return status;
+}
+
+mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish)
+{
+    placing p = {.bodies = bodies, .wish = wish, .random = {wish->seed}};
+    mote_status status = prepare(&p);
+    if (status == MOTE_OK && wish->near_pairs > 0)
+        status = find_box(&p);
+    else if (status == MOTE_OK)
+        set_box(&p, mote_scale(wish->box, bodies->length / 2));
+    if (status == MOTE_OK)
+        status = check_box(&p);
+    if (status == MOTE_OK)
+        status = separate(&p);
+    mote_bodies_frame_free(&p.frame);
+    mote_broad_phase_destroy(p.broad);
+    mote_scene_destroy(p.scene);
+    free(p.fractions);
+    free(p.boxes);
+    return status;
+}

@@ -1,0 +1,215 @@
+/* A scenario file of several bodies. */
+#include "harness/bodies_place.h"
+#include "harness/file.h"
+#include "harness/scenario_read.h"
+#include "harness/spread.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The farthest that anything may be said to be or move, of L. */
+#define FAR 1e6
+
+static mote_status read_shape(const mote_json *node, mote_bodies_shape *shape)
+{
+    mote_mesh *mesh = NULL;
+    mote_field *field = NULL;
+    mote_status status = mote_json_object(node, "letter|triangles|file|scale|field");
+    if (status == MOTE_OK)
+        status = mote_scenario_read_mesh(node, &mesh);
+    shape->body.mesh = mesh;
+    if (status == MOTE_OK)
+        status = mote_scenario_read_field(node, mesh, &field, &shape->motion);
+    shape->body.field = field;
+    if (status != MOTE_OK)
+        return status;
+    shape->motion.centre = mote_mesh_centre(mesh);
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v)
+        shape->reach =
+            fmax(shape->reach, mote_distance_squared(mesh->positions[v], shape->motion.centre));
+    shape->reach = sqrt(shape->reach);
+    return MOTE_OK;
+}
+
+static mote_status read_shapes(const mote_json *node, mote_bodies *bodies)
+{
+    mote_json key = mote_json_member(node, "shapes");
+    size_t count;
+    mote_status status = mote_json_array(&key, 1, MOTE_BODIES_SHAPES_MAX, &count);
+    if (status != MOTE_OK)
+        return status;
+    bodies->shapes = calloc(count, sizeof *bodies->shapes);
+    if (!bodies->shapes)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu shapes", count);
+    bodies->shape_count = (uint32_t)count;
+    for (uint32_t s = 0; s < count && status == MOTE_OK; ++s) {
+        mote_json element = mote_json_element(&key, s);
+        status = read_shape(&element, &bodies->shapes[s]);
+        if (status == MOTE_OK)
+            bodies->length = fmax(bodies->length, bodies->shapes[s].body.mesh->diagonal);
+    }
+    return status;
+}
+
+static mote_status read_count(const mote_json *node, mote_bodies *bodies)
+{
+    mote_json key = mote_json_member(node, "count");
+    int64_t count = 0;
+    mote_status status = mote_json_integer(&key, 1, MOTE_BODIES_MAX, &count);
+    if (status != MOTE_OK)
+        return status;
+    bodies->count = (uint32_t)count;
+    bodies->shape_of = calloc(bodies->count, sizeof *bodies->shape_of);
+    bodies->paths = calloc(bodies->count, sizeof *bodies->paths);
+    if (!bodies->shape_of || !bodies->paths)
+        return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", bodies->count);
+    for (uint32_t i = 0; i < bodies->count; ++i)
+        bodies->shape_of[i] = i % bodies->shape_count;
+    return MOTE_OK;
+}
+
+static mote_status read_places(const mote_json *node, const mote_bodies *bodies,
+                               mote_bodies_wish *wish)
+{
+    mote_json key = mote_json_member(node, "places");
+    if (!key.value)
+        return MOTE_OK;
+    size_t count;
+    mote_status status = mote_json_array(&key, bodies->count, bodies->count, &count);
+    if (status != MOTE_OK)
+        return status;
+    if (wish->near_pairs > 0)
+        return mote_json_fail(&key, "places go with a box, not with near_pairs");
+    wish->places = calloc(count, sizeof *wish->places);
+    if (!wish->places)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu places", count);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+        mote_json element = mote_json_element(&key, i);
+        status = mote_json_vec3(&element, -FAR, FAR, &wish->places[i]);
+        wish->places[i] = mote_scale(wish->places[i], bodies->length);
+    }
+    return status;
+}
+
+static mote_status read_box(const mote_json *node, mote_bodies_wish *wish)
+{
+    mote_json box = mote_json_member(node, "box");
+    mote_json pairs = mote_json_member(node, "near_pairs");
+    if (!box.value == !pairs.value)
+        return mote_json_fail(node, "needs either box or near_pairs, not %s",
+                              box.value ? "both" : "neither");
+    if (pairs.value)
+        return mote_json_real(&pairs, 1e-6, 1e6, &wish->near_pairs);
+    if (!json_is_number(box.value))
+        return mote_json_vec3(&box, 1e-6, FAR, &wish->box);
+    mote_status status = mote_json_real(&box, 1e-6, FAR, &wish->box.x);
+    wish->box.y = wish->box.z = wish->box.x;
+    return status;
+}
+
+static mote_status read_optional(const mote_json *node, const char *name, double maximum,
+                                 double *value)
+{
+    mote_json key = mote_json_member(node, name);
+    return key.value ? mote_json_real(&key, 0, maximum, value) : MOTE_OK;
+}
+
+static mote_status read_wish(const mote_json *node, mote_bodies *bodies, mote_bodies_wish *wish)
+{
+    int64_t seed = 1;
+    mote_json key = mote_json_member(node, "seed");
+    mote_status status = key.value ? mote_json_integer(&key, 0, INT64_MAX, &seed) : MOTE_OK;
+    wish->seed = (uint64_t)seed;
+    wish->speed = 0.004;
+    wish->spin = 0.5;
+    double near = 0.1;
+    if (status == MOTE_OK)
+        status = read_box(node, wish);
+    if (status == MOTE_OK)
+        status = read_optional(node, "near", 1e3, &near);
+    if (status == MOTE_OK)
+        status = read_optional(node, "speed", FAR, &wish->speed);
+    if (status == MOTE_OK)
+        status = read_optional(node, "spin", FAR, &wish->spin);
+    if (status == MOTE_OK)
+        status = read_places(node, bodies, wish);
+    bodies->near = near * bodies->length;
+    bodies->near_pairs_wanted = wish->near_pairs;
+    if (status == MOTE_OK && bodies->near < bodies->tolerance)
+        status = mote_json_fail(node,
+                                "near %g is below the tolerance; contacts would be missed; "
+                                "give at least the tolerance",
+                                near);
+    return status;
+}
+
+static mote_status read_facts(const mote_json_file *file, mote_bodies *bodies)
+{
+    mote_json root = mote_json_root(file);
+    mote_status status = mote_json_object(&root, "purpose|bodies|frames|ask|tolerance");
+    mote_scenario facts = {.motion = calloc(1, sizeof *facts.motion)};
+    if (!facts.motion)
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    if (status == MOTE_OK)
+        status = mote_scenario_read_facts(&root, &facts);
+    bodies->frames = facts.frames;
+    bodies->ask = facts.ask;
+    bodies->tolerance = facts.tolerance;
+    bodies->purpose = facts.purpose;
+    free(facts.motion);
+    bodies->path = mote_format("%s", file->path);
+    bodies->name = mote_scenario_name_of(file->path);
+    if (status == MOTE_OK && (!bodies->path || !bodies->name))
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    return status;
+}
+
+static mote_status read_bodies(const mote_json_file *file, mote_bodies *bodies)
+{
+    mote_json root = mote_json_root(file);
+    mote_json node = mote_json_member(&root, "bodies");
+    mote_bodies_wish wish = {0};
+    mote_status status = read_facts(file, bodies);
+    if (status == MOTE_OK)
+        status =
+            mote_json_object(&node, "count|seed|shapes|near|near_pairs|box|places|speed|spin");
+    if (status == MOTE_OK)
+        status = read_shapes(&node, bodies);
+    bodies->tolerance *= bodies->length;
+    if (status == MOTE_OK)
+        status = read_count(&node, bodies);
+    if (status == MOTE_OK)
+        status = read_wish(&node, bodies, &wish);
+    if (status == MOTE_OK)
+        status = mote_json_blame(&node, mote_bodies_place(bodies, &wish));
+    free(wish.places);
+    return status;
+}
+
+bool mote_bodies_is(const char *name_or_path)
+{
+    mote_json_file file;
+    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0 ||
+        mote_scenario_open(name_or_path, &file) != MOTE_OK)
+        return false;
+    const bool is = mote_scenario_of_bodies(&file);
+    mote_json_close(&file);
+    return is;
+}
+
+mote_status mote_bodies_load(const char *path, mote_bodies **bodies)
+{
+    mote_json_file file;
+    mote_status status = mote_scenario_open(path, &file);
+    if (status != MOTE_OK)
+        return status;
+    mote_bodies *made = calloc(1, sizeof *made);
+    status = made ? read_bodies(&file, made)
+                  : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", path);
+    mote_json_close(&file);
+    if (status == MOTE_OK)
+        *bodies = made;
+    else
+        mote_bodies_destroy(made);
+    return status;
+}
