@@ -25,18 +25,20 @@ typedef struct mote_figure {
 typedef mote_status mote_figure_writer(const mote_figure_run *run, const char *scenario,
                                        mote_figure *figure);
 
-mote_figure_writer mote_figure_particles;  /* 1: two letters T and their particles */
-mote_figure_writer mote_figure_deformed;   /* 2: four frames of M and V */
-mote_figure_writer mote_figure_queries;    /* 3: time of each query */
-mote_figure_writer mote_figure_front;      /* 4: speed against error */
-mote_figure_writer mote_figure_errors;     /* 5: error over the number of particles */
-mote_figure_writer mote_figure_size_time;  /* 6: time over triangles */
-mote_figure_writer mote_figure_size_bytes; /* 7: memory over triangles */
-mote_figure_writer mote_figure_shares;     /* 8: deform, update, query */
-mote_figure_writer mote_figure_ratios;     /* 9: against the best FCL */
-mote_figure_writer mote_figure_extremes;   /* 10: methods on numerical extremes */
-mote_figure_writer mote_figure_claims;     /* 11: the claims table */
-mote_figure_writer mote_figure_history;    /* 12: distance and error over frames */
+mote_figure_writer mote_figure_particles;   /* 1: two letters T and their particles */
+mote_figure_writer mote_figure_deformed;    /* 2: four frames of M and V */
+mote_figure_writer mote_figure_queries;     /* 3: time of each query */
+mote_figure_writer mote_figure_front;       /* 4: speed against error */
+mote_figure_writer mote_figure_errors;      /* 5: error over the number of particles */
+mote_figure_writer mote_figure_size_time;   /* 6: time over triangles */
+mote_figure_writer mote_figure_size_bytes;  /* 7: memory over triangles */
+mote_figure_writer mote_figure_shares;      /* 8: deform, update, query */
+mote_figure_writer mote_figure_ratios;      /* 9: against the best FCL */
+mote_figure_writer mote_figure_extremes;    /* 10: methods on numerical extremes */
+mote_figure_writer mote_figure_claims;      /* 11: the claims table */
+mote_figure_writer mote_figure_history;     /* 12: distance and error over frames */
+mote_figure_writer mote_figure_ingredients; /* 13: what each part of tracked particles adds */
+mote_figure_writer mote_figure_tracked;     /* 14: tracked particles over their parameters */
 
 /* 2, moving: every few frames of the whole scenario. Writes the frames' geometry to
    DIRECTORY/figures/frames, 20 MB that mote_figure_animation_clear deletes after drawing; the

@@ -1,5 +1,6 @@
 /* Figure 4: speed against error, n beside the curves where there is room. */
 #include "harness/figure.h"
+#include "harness/figure_room.h"
 #include "harness/front.h"
 
 #include <stdlib.h>
@@ -14,21 +15,9 @@
 #define WIDTH 459.0
 #define HEIGHT 269.0
 
-/* Half of what a digit of n, a whole n and a point take, in the same units. */
-#define HALF_DIGIT 3.5
-#define HALF_LINE 6.0
-#define HALF_POINT 4.0
-
-/* A place of the picture in its units. */
-typedef struct place {
-    double x, y, half_width, half_height;
-} place;
-
-/* What is already there. */
 typedef struct canvas {
     double low_x, per_x, per_y; /* log10 of nanoseconds at the left, units a decade */
-    place *taken;
-    size_t count;
+    mote_room room;
 } canvas;
 
 /* The families that have names in a front; the others are points without. */
@@ -54,12 +43,11 @@ static bool is_named(const char *family)
     return false;
 }
 
-static place place_of(const canvas *c, const mote_summary_row *row)
+static mote_place place_of(const canvas *c, const mote_summary_row *row)
 {
     const double error = row->error.p99 > FLOOR ? row->error.p99 : FLOOR;
-    const place made = {(log10(row->total.median) - c->low_x) * c->per_x,
-                        (log10(error) - log10(LOWEST_Y)) * c->per_y, HALF_POINT, HALF_POINT};
-    return made;
+    return mote_room_point((log10(row->total.median) - c->low_x) * c->per_x,
+                           (log10(error) - log10(LOWEST_Y)) * c->per_y);
 }
 
 static bool is_point(const mote_summary *summary, const mote_summary_row *row,
@@ -69,13 +57,13 @@ static bool is_point(const mote_summary *summary, const mote_summary_row *row,
            mote_figure_shows(summary, row, scenario);
 }
 
-/* Finds the axes and takes the places of all points; the caller frees c->taken. */
+/* Finds the axes and takes the places of all points; the caller frees c->room.taken. */
 static mote_status open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
 {
     double low = HUGE_VAL, high = 0;
     memset(c, 0, sizeof *c);
-    c->taken = calloc(2 * summary->count + 1, sizeof *c->taken);
-    if (!c->taken)
+    c->room.taken = calloc(2 * summary->count + 1, sizeof *c->room.taken);
+    if (!c->room.taken)
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     for (size_t i = 0; i < summary->count; ++i) {
         if (!is_point(summary, &summary->rows[i], scenario))
@@ -88,39 +76,9 @@ static mote_status open_canvas(const mote_summary *summary, const char *scenario
     c->per_y = HEIGHT / (log10(HIGHEST_Y) - log10(LOWEST_Y));
     for (size_t i = 0; i < summary->count; ++i) {
         if (is_point(summary, &summary->rows[i], scenario))
-            c->taken[c->count++] = place_of(c, &summary->rows[i]);
+            c->room.taken[c->room.count++] = place_of(c, &summary->rows[i]);
     }
     return MOTE_OK;
-}
-
-static bool is_free(const canvas *c, const place *wanted)
-{
-    for (size_t i = 0; i < c->count; ++i) {
-        const place *other = &c->taken[i];
-        if (fabs(other->x - wanted->x) < other->half_width + wanted->half_width &&
-            fabs(other->y - wanted->y) < other->half_height + wanted->half_height)
-            return false;
-    }
-    return true;
-}
-
-/* Finds room for n beside a point, and takes it; false where there is none. */
-static bool find_room(canvas *c, const mote_summary_row *row, place *found)
-{
-    static const double sides[][2] = {{1, 1}, {-1, -1}, {1, -1}, {-1, 1}, {0, 1}, {0, -1}};
-    const place point = place_of(c, row);
-    const double half = (row->n < 10 ? 1 : row->n < 100 ? 2 : 3) * HALF_DIGIT;
-    for (size_t k = 0; k < sizeof sides / sizeof sides[0]; ++k) {
-        const place wanted = {point.x + sides[k][0] * (half + HALF_POINT + 0.5),
-                              point.y + sides[k][1] * (HALF_LINE + HALF_POINT + 0.5), half,
-                              HALF_LINE};
-        if (!is_free(c, &wanted))
-            continue;
-        c->taken[c->count++] = wanted;
-        *found = wanted;
-        return true;
-    }
-    return false;
 }
 
 /* One point: n or nothing, median total in us and its interval, 99th percentile and its, where
@@ -130,8 +88,8 @@ static mote_status add_point(canvas *c, const mote_summary_row *row, bool named,
 {
     const mote_time *time = &row->total;
     const bool interval = time->low == time->low;
-    place at = place_of(c, row);
-    if (named && row->n == row->n && find_room(c, row, &at))
+    mote_place at = place_of(c, row);
+    if (named && row->n == row->n && mote_room_find(&c->room, at, row->n, &at))
         mote_text_add(text, "%.0f ", row->n);
     else
         mote_text_add(text, "\"\" ");
@@ -176,7 +134,7 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
         status = add_family(&c, run->summary, scenario, front_families[i], &figure->data);
     if (status == MOTE_OK)
         status = add_family(&c, run->summary, scenario, NULL, &figure->data);
-    free(c.taken);
+    free(c.room.taken);
     if (figure->data.size == 0)
         mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
     mote_text_add(

@@ -43,6 +43,10 @@ static const figure_kind kinds[] = {
     {10, "extremes", "Numerical extremes", SCOPE_RUN, NULL, mote_figure_extremes, PAPER},
     {11, "claims", "The paper's claims", SCOPE_RUN, NULL, mote_figure_claims, PAPER},
     {12, "error-time", "Error in time", SCOPE_EACH, NULL, mote_figure_history, PAPER},
+    {13, "ingredients", "Ingredients of the tracked particles", SCOPE_RUN, NULL,
+     mote_figure_ingredients, PAPER},
+    {14, "tracked", "Tracked particles, speed against error", SCOPE_EACH, NULL,
+     mote_figure_tracked, PAPER},
 };
 
 /* What is needed while a run's figures are drawn. */

@@ -97,7 +97,7 @@ static void figures_that_cannot_be_drawn_are_named(void **state)
 {
     (void)state;
     assert_int_equal(run("figures", "run"), 0);
-    static const int numbers[] = {2, 3, 6, 7, 10, 11};
+    static const int numbers[] = {2, 3, 6, 7, 10, 11, 13, 14};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
         char line[64];
         (void)snprintf(line, sizeof line, "figure %d (", numbers[i]);
@@ -106,8 +106,43 @@ static void figures_that_cannot_be_drawn_are_named(void **state)
     }
     assert_null(strstr(text, "figure 1 ("));
     json_t *missing = read_list("run", "missing");
-    assert_int_equal(json_array_size(missing), 7); /* of figure 2, both */
+    assert_int_equal(json_array_size(missing), 9); /* of figure 2, both */
     json_decref(missing);
+}
+
+/* What make ingredients measures, on a few frames: a line an ingredient with its shares and its
+   time over the whole's, and the front over n, launch and track. */
+static void figures_of_ingredients_have_the_rows_of_each(void **state)
+{
+    (void)state;
+    char path[256];
+    assert_int_equal(
+        run("run jump --frames 1-12 --replicates 1 --method particle:n=0 --method "
+            "particle:n=8,track=0|8,refine=1|4 --method particle:n=8,leap=off --method "
+            "particle:n=8,launch=1|8 --method particle:n=8,reseed=off,forces=off|on --out",
+            "parts"),
+        0);
+    assert_int_equal(run("figures", "parts"), 0);
+    assert_true(exists("parts/figures/ingredients.svg"));
+    assert_true(exists("parts/figures/tracked-jump.png"));
+    path_of("parts/figures/ingredients.dat", path);
+    program_read(path, text, sizeof text);
+    const char *block = strstr(text, "\"jump\"\n0 0 ");
+    assert_non_null(block); /* the whole is exact there */
+    assert_non_null(strstr(block, " 1 1 1 \n1 "));
+    int lines = 0;
+    for (const char *p = strchr(block, '\n') + 1; *p; p = strchr(p, '\n') + 1) {
+        double v[6];
+        assert_int_equal(
+            sscanf(p, "%lf %lf %lf %lf %lf %lf", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5]), 6);
+        assert_true(v[1] >= 0 && v[1] <= 100 && v[3] > 0);
+        ++lines;
+    }
+    assert_int_equal(lines, 8);
+    path_of("parts/figures/tracked-jump.dat", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, "\"launch\"\n"));
+    assert_null(strstr(text, "\"n\"\n\n")); /* no empty line of points */
 }
 
 /* The footer's run is the manifest's, its data the hash of the file that is drawn. */
@@ -306,6 +341,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(figures_of_a_run_are_there_in_every_format),
         cmocka_unit_test(figures_that_cannot_be_drawn_are_named),
+        cmocka_unit_test(figures_of_ingredients_have_the_rows_of_each),
         cmocka_unit_test(footers_name_run_and_data),
         cmocka_unit_test(hash_is_fnv_1a),
         cmocka_unit_test(drawing_again_gives_the_same_bytes),

@@ -1,0 +1,268 @@
+/* Figures of tracked particles: what each ingredient adds (13), the front over its parameters
+   (14). Their rows are those that harness/ingredients.sh measures. */
+#include "harness/figure.h"
+#include "harness/figure_room.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The method that everything is compared with. */
+#define WHOLE "particle:n=8"
+
+/* As plots/ingredients.gp and plots/tracked.gp have it: shares below are drawn as none. */
+#define LEAST_PERCENT 0.02
+
+/* An ingredient is shown with this many rows on any scenario, else the run is of something
+   else. */
+#define ROWS_WANTED 6
+
+typedef struct variant {
+    const char *label, *title; /* parameters in the method's order, as rows have them */
+} variant;
+
+static const variant variants[] = {
+    {WHOLE, "as it is, n = 8"},
+    {"particle:n=8,leap=off", "no leaps"},
+    {"particle:n=8,track=0", "nothing tracked"},
+    {"particle:n=0", "last pair only"},
+    {"particle:n=8,refine=1", "one pair refined"},
+    {"particle:n=8,descend=off", "no descent"},
+    {"particle:n=8,descend=off,forces=on", "no descent, forces"},
+    {"particle:n=8,start=random", "random start"},
+    {"particle:n=8,reseed=off", "no reseeding"},
+    {"particle:n=8,reseed=off,forces=on", "no reseeding, forces"},
+    {"particle:n=8,forces=on", "forces"},
+    {"particle:n=8,positions=given", "positions given"},
+    {"particle:n=8,launch=8", "8 launches a query"},
+    {"particle:n=32,launch=32,track=64,refine=64", "n = 32, all of all"},
+};
+enum { VARIANTS = sizeof variants / sizeof variants[0] };
+
+static const char *const scenarios[] = {"ww", "fast-100", "jump", "comb", "ww-1m"};
+enum { SCENARIOS = sizeof scenarios / sizeof scenarios[0] };
+
+/* Percent of the frames with a distance that are not exact. */
+static double percent_wrong(const mote_summary_row *row)
+{
+    const double exact = row->error.exact_rate_separated;
+    return exact == exact ? 100 * (1 - exact) : 100 * (1 - row->error.exact_rate);
+}
+
+/* Percent of the contacts that are missed; MOTE_NONE where there are none. */
+static double percent_missed(const mote_summary_row *row)
+{
+    return row->contacts > 0 ? 100 * row->missed / row->contacts : MOTE_NONE;
+}
+
+static void add_number(mote_text *text, double value)
+{
+    if (value == value)
+        mote_text_add(text, "%.6g ", value);
+    else
+        mote_text_add(text, "NaN ");
+}
+
+/* The names of the rows from top to bottom: "line name". */
+static void add_titles(mote_text *data)
+{
+    mote_figure_block(data, "ingredients");
+    for (int v = 0; v < VARIANTS; ++v) {
+        mote_text_add(data, "%d ", v);
+        mote_figure_quote(data, variants[v].title);
+        mote_text_add(data, "\n");
+    }
+}
+
+/* A line for each ingredient measured on a scenario: line, percent wrong, percent missed, time
+   over that of the whole and its interval. Returns how many there are. */
+static int add_scenario(const mote_summary *summary, const char *scenario, mote_text *data)
+{
+    const mote_summary_row *whole = mote_figure_row(summary, scenario, WHOLE);
+    int count = 0;
+    for (int v = 0; whole && v < VARIANTS; ++v) {
+        const mote_summary_row *row = mote_figure_row(summary, scenario, variants[v].label);
+        if (!row || !mote_figure_has_error(row))
+            continue;
+        if (count++ == 0)
+            mote_figure_block(data, scenario);
+        const mote_time *time = &row->total;
+        const bool interval = time->low == time->low;
+        mote_text_add(data, "%d ", v);
+        add_number(data, percent_wrong(row));
+        add_number(data, percent_missed(row));
+        add_number(data, time->median / whole->total.median);
+        add_number(data, (interval ? time->low : time->median) / whole->total.median);
+        add_number(data, (interval ? time->high : time->median) / whole->total.median);
+        mote_text_add(data, "\n");
+    }
+    return count;
+}
+
+/* Where the whole fails on the run's scenarios, and why. */
+static void add_failures(const mote_summary *summary, mote_text *caption)
+{
+    int count = 0;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        const char *scenario = row->first->scenario;
+        if (row != mote_figure_row(summary, scenario, WHOLE) || !mote_figure_has_error(row) ||
+            !(percent_wrong(row) >= LEAST_PERCENT || row->missed > 0))
+            continue;
+        mote_text_add(caption, "%s %s (%.3g %% not exact, %.3g of %.0f contacts missed)",
+                      count++ == 0 ? " It fails on" : ",", scenario, percent_wrong(row),
+                      row->missed, row->contacts);
+    }
+    if (count > 0)
+        mote_text_add(caption,
+                      ": a local search, it answers with a minimum that is not the least of "
+                      "many until a leap or a launch ends at that one, and each starts at one "
+                      "of at most 200 places of a body.");
+}
+
+mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scenario,
+                                    mote_figure *figure)
+{
+    (void)scenario;
+    int most = 0;
+    mote_text data = {0};
+    add_titles(&data);
+    for (int i = 0; i < SCENARIOS; ++i) {
+        const int count = add_scenario(run->summary, scenarios[i], &data);
+        most = count > most ? count : most;
+    }
+    if (most < ROWS_WANTED) {
+        free(data.data);
+        mote_text_add(&figure->missing, "the rows of `make ingredients`");
+        return MOTE_OK;
+    }
+    figure->data = data;
+    mote_text_add(
+        &figure->caption,
+        "What each ingredient of the tracked particles adds: one left out, or put in, at a "
+        "time. Frames without the exact distance (error above 1e-9 L, of those with truth > "
+        "0), "
+        "contacts missed, and the median time of a query over that of the whole with its 95 %% "
+        "interval over processes, deformation included. `last pair only` is n = 0; forces are "
+        "the paper's; shares below %g %% stand at none.",
+        LEAST_PERCENT);
+    add_failures(run->summary, &figure->caption);
+    return MOTE_OK;
+}
+
+/* Configurations that differ in one parameter, in its order; the whole is among them. */
+static const char *const series[][7] = {
+    {"n", "particle:n=2", "particle:n=4", WHOLE, "particle:n=16", "particle:n=32"},
+    {"launch", WHOLE, "particle:n=8,launch=1", "particle:n=8,launch=4",
+     "particle:n=8,launch=8"},
+    {"track", "particle:n=8,track=0", "particle:n=8,track=4", WHOLE, "particle:n=8,track=16",
+     "particle:n=8,track=64"},
+};
+enum { SERIES = sizeof series / sizeof series[0], LONGEST = 6 };
+
+/* As plots/tracked.gp has it: the axes' ends beyond the first and last point, and their length
+   in its units. */
+#define BEYOND_X 1.5
+#define WIDTH 459.0
+#define HEIGHT 222.0
+#define HIGHEST_PERCENT 150.0
+
+/* A figure while its points are placed. */
+typedef struct front {
+    const mote_summary_row *row[SERIES][LONGEST];
+    double low_x, per_x, per_y;
+    mote_room room;
+    mote_place taken[2 * SERIES * LONGEST];
+} front;
+
+static mote_place place_of(const front *f, const mote_summary_row *row)
+{
+    const double wrong = fmax(percent_wrong(row), LEAST_PERCENT);
+    return mote_room_point((log10(row->total.median) - f->low_x) * f->per_x,
+                           log10(3 * wrong / LEAST_PERCENT) * f->per_y);
+}
+
+/* Finds the rows and the axes; returns how many rows there are. */
+static int open_front(const mote_summary *summary, const char *scenario, front *f)
+{
+    double low = HUGE_VAL, high = 0;
+    int count = 0;
+    memset(f, 0, sizeof *f);
+    f->room.taken = f->taken;
+    for (int s = 0; s < SERIES; ++s) {
+        for (int k = 0; k < LONGEST && series[s][k + 1]; ++k) {
+            const mote_summary_row *row = mote_figure_row(summary, scenario, series[s][k + 1]);
+            if (!row || !mote_figure_has_error(row) || !(row->total.median > 0))
+                continue;
+            f->row[s][k] = row;
+            low = fmin(low, row->total.median);
+            high = fmax(high, row->total.median);
+            ++count;
+        }
+    }
+    f->low_x = log10(low / BEYOND_X);
+    f->per_x = WIDTH / (log10(high * BEYOND_X) - f->low_x);
+    f->per_y = HEIGHT / log10(3 * HIGHEST_PERCENT / LEAST_PERCENT);
+    return count;
+}
+
+/* The value of a series' parameter. */
+static double value_of(const mote_summary_row *row, const char *key)
+{
+    const json_t *parameters = json_object_get(row->first->json, "parameters");
+    const json_t *value = json_object_get(parameters, key);
+    return json_is_number(value) ? json_number_value(value) : 0; /* launch=auto */
+}
+
+/* Lines of a series: its value or nothing, time in us and its interval, percent wrong, where
+   the value stands. */
+static void add_series(front *f, int s, mote_text *data)
+{
+    mote_figure_block(data, series[s][0]);
+    for (int k = 0; k < LONGEST; ++k) {
+        const mote_summary_row *row = f->row[s][k];
+        if (!row)
+            continue;
+        const mote_time *time = &row->total;
+        const bool interval = time->low == time->low;
+        const double value = value_of(row, series[s][0]);
+        mote_place at = place_of(f, row);
+        const bool whole = strcmp(series[s][k + 1], WHOLE) == 0;
+        if ((!whole || s == 0) && mote_room_find(&f->room, at, value, &at))
+            mote_text_add(data, "%.0f ", value);
+        else
+            mote_text_add(data, "\"\" ");
+        mote_text_add(data, "%.17g %.17g %.17g %.6g %.6g %.6g\n", time->median * 1e-3,
+                      (interval ? time->low : time->median) * 1e-3,
+                      (interval ? time->high : time->median) * 1e-3, percent_wrong(row),
+                      pow(10, f->low_x + at.x / f->per_x) * 1e-3,
+                      LEAST_PERCENT / 3 * pow(10, at.y / f->per_y));
+    }
+}
+
+mote_status mote_figure_tracked(const mote_figure_run *run, const char *scenario,
+                                mote_figure *figure)
+{
+    front f;
+    if (open_front(run->summary, scenario, &f) < ROWS_WANTED) {
+        mote_text_add(&figure->missing, "the rows of `make ingredients`");
+        return MOTE_OK;
+    }
+    for (int s = 0; s < SERIES; ++s) {
+        for (int k = 0; k < LONGEST; ++k) {
+            if (f.row[s][k])
+                f.room.taken[f.room.count++] = place_of(&f, f.row[s][k]);
+        }
+    }
+    for (int s = 0; s < SERIES; ++s)
+        add_series(&f, s, &figure->data);
+    mote_text_add(
+        &figure->caption,
+        "Tracked particles on %s, speed against error: median time of a query with its 95 %% "
+        "interval over processes, deformation included, and the share of frames without the "
+        "exact distance (error above 1e-9 L, of those with truth > 0). Each line varies one "
+        "parameter of n = 8, launch = 0, track = 8, its value beside the point where there is "
+        "room: n seeds a body, launches a query besides those that motion calls for, minima "
+        "tracked. Shares below %g %% stand at none.",
+        scenario, LEAST_PERCENT);
+    return MOTE_OK;
+}
