@@ -273,7 +273,8 @@ static void begin(mote_certificate *c, double enough)
     c->restarts = 0;
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
-    c->direction_count = 0;
+    if (c->options.seed == MOTE_CERT_SEED_NONE)
+        c->direction_count = 0;
     c->open = DBL_MAX;
 }
 

@@ -92,6 +92,7 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->single_sum[1] = rounded_up(sum.y);
     side->single_sum[2] = rounded_up(sum.z);
     side->node_count = 0;
+    side->reached = NULL;
     for (size_t i = 0; i < MOTE_CERT_HULLS; ++i)
         side->hulls[i].leaf = NULL;
 }

@@ -2,18 +2,18 @@
    few operations a vertex; by an estimate in floats; exactly.
 
    Margins. A place z in a box is rounded to a float, so that a sum over k of z_k a_k is wrong
-   by at most sum |a_k| 2^-24, twice of which is added for the rounding of what is added. The
+   by at most u sum |a_k|, which is at most u B in a coordinate (see certificate_deform.c). The
    sums themselves have five roundings of terms whose absolute values add up to B in a
-   coordinate or sqrt(3) B along a direction (see certificate_deform.c): 9 u B. A projection of
-   such sums on a direction of length <= 1 + 6 u, a difference of two of them, and the rounding
-   of the direction and of a threshold add 14 u B. leaf_margin is 32 u B. */
+   coordinate or sqrt(3) B along a direction: 9 u B. A projection on a direction of length <= 1
+   + 6 u, of such sums or of what is added up, a difference of two of them, and the rounding of
+   the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
+   is 32 u B. */
 #include "core/certificate_state.h"
 #include "core/clones.h"
 
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
-#define PLACE_ROUNDING 0x1p-23F
 
 static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
                                             const mote_cert_node *node, size_t lane)
@@ -72,16 +72,31 @@ void mote_cert_leaf_hull(const mote_cert_side *restrict side,
     hull->leaf = leaf;
     hull->groups = mote_cert_group_count(leaf);
     for (size_t r = 0; r < 3; ++r) {
-        float a[3];
-        float size = 0;
-        for (size_t k = 0; k < 3; ++k) {
-            a[k] = node->axis[k][r][lane];
-            size += fabsf(node->axis[k][r][lane]);
-        }
+        const float a[3] = {node->axis[0][r][lane], node->axis[1][r][lane],
+                            node->axis[2][r][lane]};
         for (size_t g = 0; g < hull->groups; ++g)
             add_up(&groups[g], node->centre[r][lane], a, hull->x[r] + g * WIDTH);
-        hull->width[r] = node->width[r][lane] + (side->leaf_margin + size * PLACE_ROUNDING);
+        hull->width[r] = node->width[r][lane] + side->leaf_margin;
     }
+}
+
+float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, size_t lane,
+                           const float d[3], uint32_t stamp)
+{
+    const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
+    if (side->reached == leaf && side->reached_stamp == stamp)
+        return side->reached_at;
+    float base = 0, slant[3] = {0, 0, 0}, at[MOTE_CERT_LEAF_VERTICES];
+    for (size_t r = 0; r < 3; ++r) {
+        base += node->centre[r][lane] * d[r];
+        for (size_t k = 0; k < 3; ++k)
+            slant[k] += node->axis[k][r][lane] * d[r];
+    }
+    side->reached = leaf;
+    side->reached_stamp = stamp;
+    side->reached_at = place_along(side->tree->groups + leaf->first_group,
+                                   mote_cert_group_count(leaf), base, slant, at);
+    return side->reached_at;
 }
 
 /* Rest positions of MOTE_LANES vertices of a leaf from place `first` on, filled up with copies
@@ -165,24 +180,19 @@ bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node
 {
     const mote_cert_side *side = &c->side[s];
     const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
-    float at[MOTE_CERT_LEAF_VERTICES], slant[3];
-    float size = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        slant[k] = node->slant[k][lane];
-        size += fabsf(node->slant[k][lane]);
-    }
+    const float slant[3] = {node->slant[0][lane], node->slant[1][lane], node->slant[2][lane]};
+    float at[MOTE_CERT_LEAF_VERTICES];
     const double most =
         (double)place_along(side->tree->groups + leaf->first_group, mote_cert_group_count(leaf),
                             node->middle[lane], slant, at);
-    const double loose =
-        (double)(node->loose[lane] + (side->leaf_margin + size * PLACE_ROUNDING));
+    const double loose = (double)(node->loose[lane] + side->leaf_margin);
     *reach = most + loose;
     if (*reach <= side->threshold)
         return true;
     if (most - loose > side->threshold)
         return false;
-    const uint32_t *vertices = side->tree->leaf_vertices + leaf->first_vertex;
     const float doubtful = (float)(side->threshold - loose) - side->leaf_margin;
+    const uint32_t *vertices = side->tree->leaf_vertices + leaf->first_vertex;
     double farthest = side->threshold;
     for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
         if (at[i] <= doubtful)

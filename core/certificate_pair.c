@@ -74,6 +74,12 @@ MOTE_INLINE size_t first_at(const mote_cert_hull *hull, const float p[MOTE_CERT_
     return 0;
 }
 
+/* Whether a gap along a vector is at least need times its length. */
+MOTE_INLINE bool far_enough(float gap, float need, float length_squared)
+{
+    return gap > 0 && gap * gap >= need * need * (1 + 0x1p-18F) * length_squared;
+}
+
 /* Along w, from body 0 to body 1: whether the gap, less what the hulls may be off, is at least
    need times |w|; the vertices that bound it. */
 MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float need, size_t at[2])
@@ -91,8 +97,7 @@ MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float nee
         at[0] = first_at(p->hull[0], along0, most0);
         at[1] = first_at(p->hull[1], along1, most1);
     }
-    const float ww = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
-    return gap > 0 && gap * gap >= need * need * (1 + 0x1p-18F) * ww;
+    return far_enough(gap, need, w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
 }
 
 /* Gilbert's search for the least difference of two hulls: w, the difference of a point in each,
@@ -137,23 +142,52 @@ static void remember(mote_certificate *c, const float direction[3], uint32_t pla
     for (uint32_t i = place; i > 0; --i)
         memcpy(c->direction[i], c->direction[i - 1], sizeof c->direction[i]);
     memcpy(c->direction[0], d, sizeof d);
+    ++c->direction_stamp;
 }
 
-static bool separated(mote_certificate *c, pair *p)
+/* Looks for a direction that separates two leaves, starting from the nearest known. */
+static bool found(mote_certificate *c, pair *p)
 {
-    for (uint32_t i = 0; i < c->direction_count; ++i) {
-        if (direction_separates(p, c->direction[i], c->need)) {
-            if (i > 0)
-                remember(c, c->direction[i], i);
-            return true;
-        }
-    }
     if (!search_direction(p, c->need, p->nearest))
         return false;
     if (c->direction_count < MOTE_CERT_DIRECTIONS)
         ++c->direction_count;
     remember(c, p->nearest, c->direction_count - 1);
     return true;
+}
+
+static bool separated(mote_certificate *c, pair *p)
+{
+    for (uint32_t i = 1; i < c->direction_count; ++i) {
+        if (direction_separates(p, c->direction[i], c->need)) {
+            remember(c, c->direction[i], i);
+            return true;
+        }
+    }
+    return found(c, p);
+}
+
+/* Whether the latest direction separates two leaves: most often it does, and to ask costs less
+   than hulls. */
+static bool latest_separates(mote_certificate *c, const mote_cert_node *const nodes[2],
+                             const size_t lanes[2])
+{
+    if (c->direction_count == 0)
+        return false;
+    const float *d = c->direction[0];
+    const float back[3] = {-d[0], -d[1], -d[2]};
+    const float reach =
+        mote_cert_leaf_reach(&c->side[0], nodes[0], lanes[0], d, c->direction_stamp) +
+        mote_cert_leaf_reach(&c->side[1], nodes[1], lanes[1], back, c->direction_stamp);
+    const float margin = c->side[0].leaf_margin + c->side[1].leaf_margin;
+    float loose = 0;
+    float squared = 0;
+    for (size_t r = 0; r < 3; ++r) {
+        loose += (nodes[0]->width[r][lanes[0]] + nodes[1]->width[r][lanes[1]] + margin) *
+                 fabsf(d[r]);
+        squared += d[r] * d[r];
+    }
+    return far_enough(-reach - loose * (1 + 0x1p-21F), c->need, squared);
 }
 
 /* The vertices of a leaf's face. */
@@ -347,6 +381,8 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
     pair p;
     mote_cert_hull hulls[2];
     ++c->counters.leaf_pairs;
+    if (c->options.directions && latest_separates(c, nodes, lanes))
+        return;
     for (int s = 0; s < 2; ++s) {
         mote_cert_leaf_hull(&c->side[s], nodes[s], lanes[s], &hulls[s]);
         p.leaf[s] = hulls[s].leaf;
@@ -357,7 +393,7 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
         p.nearest[r] = nodes[1]->centre[r][lanes[1]] - nodes[0]->centre[r][lanes[0]];
     if (c->options.directions && separated(c, &p))
         return;
-    if (take_near_hulls(c, &p, nodes, lanes) && c->options.directions && separated(c, &p))
+    if (take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
         return;
     if (measure_all(c, &p) && c->restarts < c->options.restarts) {
         c->improved = true;

@@ -116,21 +116,6 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
     }
 }
 
-/* The open lane of least bound; the first of equals. */
-static size_t least_bound(const float bound[WIDTH], uint32_t open)
-{
-    if ((open & (open - 1)) == 0)
-        return mote_lowest_bit(open);
-    size_t best = 0;
-    float least = FLT_MAX;
-    for (size_t l = 0; l < WIDTH; ++l) {
-        const float here = open >> l & 1 ? bound[l] : FLT_MAX;
-        best = here < least ? l : best;
-        least = here < least ? here : least;
-    }
-    return best;
-}
-
 /* Pairs that the budget leaves unvisited bound the distance from below. */
 static void leave_open(mote_certificate *c, const float bound[WIDTH], uint32_t open)
 {
@@ -157,7 +142,7 @@ static void visit_row(mote_certificate *c, row r, uint32_t depth)
             leave_open(c, bound, open);
             return;
         }
-        const size_t k = least_bound(bound, open);
+        const size_t k = mote_lowest_bit(open);
         open &= ~(1u << k);
         if (bound[k] < c->need)
             visit_pair(c, r, k, depth);

@@ -72,6 +72,9 @@ typedef struct mote_cert_side {
     mote_cert_hull hulls[MOTE_CERT_HULLS]; /* with the field evaluated */
     mote_cert_node *nodes;                 /* [node_room]; the root is the first */
     uint32_t node_room, node_count;
+    const mote_cert_leaf *reached; /* mote_cert_leaf_reach's last, and what it was */
+    uint32_t reached_stamp;
+    float reached_at;
 } mote_cert_side;
 
 /* Directions that separated leaf pairs, the latest first. */
@@ -108,6 +111,7 @@ struct mote_certificate {
     uint32_t last[2][3]; /* faces of the last query's witnesses */
     float direction[MOTE_CERT_DIRECTIONS][3];
     uint32_t direction_count;
+    uint32_t direction_stamp; /* of the first */
     mote_counters counters;
 };
 
@@ -154,7 +158,12 @@ bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node
 void mote_cert_leaf_hull(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
                          mote_cert_hull *hull);
 
-/* The same with the field evaluated, to the precision of floats: NULL when its kind does not
+/* How far the same hull reaches along a direction, without its width. The last answer is kept:
+   stamp tells directions apart. */
+float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, size_t lane,
+                           const float direction[3], uint32_t stamp);
+
+/* The hull with the field evaluated, to the precision of floats: NULL when its kind does not
    offer that. Valid until another leaf of the side is asked for. */
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane);
