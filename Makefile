@@ -15,6 +15,7 @@
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
+#   make determinism                                 one hash over all answers: compilers, threads
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make perf-check                                 measure again, compare with results/reference
@@ -95,6 +96,10 @@ reliability: build build-fuzz
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
 	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) \
 	    $(if $(PLANT),plant,$(if $(RECORD),record))
+
+.PHONY: determinism
+determinism: build
+	@tests/determinism.sh $(BUILD) 1 $(JOBS)
 
 # As many targets at a time as there are cores.
 SECONDS ?= 60

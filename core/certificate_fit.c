@@ -54,11 +54,6 @@ void mote_cert_principal_axes(double matrix[3][3], mote_vec3 axes[3])
         axes[i] = mote_vec3_make(v[0][order[i]], v[1][order[i]], v[2][order[i]]);
 }
 
-static mote_vec3 as_floats(mote_vec3 v)
-{
-    return mote_vec3_make((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
-}
-
 /* Moments of the vertices about one of them. */
 static void spread(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                    double matrix[3][3])
@@ -242,10 +237,10 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
         const double pad = 0x1p-23; /* so that no axis is 0 and little sticks out */
         const double length = 0.5 * (high[k] - low[k]) + pad;
         box.centre = mote_add_scaled(box.centre, 0.5 * (high[k] + low[k]), axes[k]);
-        box.half[i] = as_floats(mote_scale(axes[k], length));
+        box.half[i] = mote_as_floats(mote_scale(axes[k], length));
         reach += length;
     }
-    box.centre = as_floats(box.centre);
+    box.centre = mote_as_floats(box.centre);
     reach += mote_length(box.centre);
     reach *= 1 + 0x1p-20;
     tree->radius = reach > tree->radius ? reach : tree->radius;
@@ -381,8 +376,8 @@ void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t 
     for (size_t j = 0; j < functions; ++j) {
         if (!fit->active[j])
             continue;
-        fit->offset[j] = (float)(0.5 * (r.low[j] + r.high[j]));
-        const double middle = (double)fit->offset[j];
+        const double middle = mote_as_float(0.5 * (r.low[j] + r.high[j]));
+        fit->offset[j] = (float)middle;
         const double above = r.high[j] - middle;
         const double below = middle - r.low[j];
         fit->rest[j] = rounded_up(above > below ? above : below);

@@ -20,8 +20,8 @@ mote_status mote_csrbf_fit_create(const mote_field *field, mote_csrbf_fit **fit,
                                   double *reciprocal_condition);
 
 /* Solves for weights[J] such that the field displaces centre i by displacements[i]; weights may
-   be displacements. MOTE_EINVAL, weights untouched, for one that is not finite. The fit's
-   scratch is used: one thread at a time. Cost O(J^2). */
+   be displacements. MOTE_EINVAL, weights untouched, for one that is not finite. Threads
+   may share a fit. Cost O(J^2). */
 mote_status mote_csrbf_fit_solve(const mote_csrbf_fit *fit, const mote_vec3 *displacements,
                                  mote_vec3 *weights);
 

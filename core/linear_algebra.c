@@ -7,7 +7,6 @@
 
 struct mote_cholesky {
     gsl_matrix *factor;
-    gsl_vector *solution;
 };
 
 /* gsl_linalg_cholesky_rcond needs a workspace of three times the size. */
@@ -15,10 +14,9 @@ static mote_status factor_matrix(mote_cholesky *cholesky, uint32_t size, const d
                                  double *reciprocal)
 {
     cholesky->factor = gsl_matrix_alloc(size, size);
-    cholesky->solution = gsl_vector_alloc(size);
     gsl_vector *work = gsl_vector_alloc((size_t)3 * size);
     mote_status status = MOTE_OK;
-    if (!cholesky->factor || !cholesky->solution || !work)
+    if (!cholesky->factor || !work)
         status = mote_fail(MOTE_ENOMEM, "no memory for a matrix of %u rows", size);
     for (size_t i = 0; i < size && status == MOTE_OK; ++i) {
         for (size_t j = 0; j < size; ++j)
@@ -55,19 +53,17 @@ void mote_cholesky_destroy(mote_cholesky *cholesky)
     if (!cholesky)
         return;
     gsl_matrix_free(cholesky->factor);
-    gsl_vector_free(cholesky->solution);
     free(cholesky);
 }
 
 void mote_cholesky_solve_coordinate(const mote_cholesky *cholesky, const double *values,
                                     double *x)
 {
-    const size_t size = cholesky->solution->size;
+    const size_t size = cholesky->factor->size1;
     for (size_t i = 0; i < size; ++i)
-        gsl_vector_set(cholesky->solution, i, values[3 * i]);
-    gsl_linalg_cholesky_svx(cholesky->factor, cholesky->solution);
-    for (size_t i = 0; i < size; ++i)
-        x[3 * i] = gsl_vector_get(cholesky->solution, i);
+        x[3 * i] = values[3 * i];
+    gsl_vector_view solution = gsl_vector_view_array_with_stride(x, 3, size);
+    gsl_linalg_cholesky_svx(cholesky->factor, &solution.vector);
 }
 
 /* A right-handed frame: the third axis follows from the first two. */

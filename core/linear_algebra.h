@@ -23,8 +23,8 @@ mote_status mote_cholesky_create(uint32_t size, const double *matrix, mote_chole
 void mote_cholesky_destroy(mote_cholesky *cholesky); /* NULL is allowed */
 
 /* Solves matrix * x = values, both with every third number used (one coordinate of vectors):
-   x[3 i] from values[3 i], i < size; they may be the same. The factor's scratch is used: one
-   thread at a time. Cost O(size^2). */
+   x[3 i] from values[3 i], i < size; they may be the same. Threads may share a factor. Cost
+   O(size^2). */
 void mote_cholesky_solve_coordinate(const mote_cholesky *cholesky, const double *values,
                                     double *x);
 

@@ -61,6 +61,19 @@ static inline double mote_length_squared(mote_vec3 a)
     return mote_dot(a, a);
 }
 
+/* The nearest number of single precision. gcc 12 takes (double)(float) for nothing where it
+   vectorises it (two conversions in one register); it cannot where the float is volatile. */
+static inline double mote_as_float(double x)
+{
+    volatile float rounded = (float)x;
+    return (double)rounded;
+}
+
+static inline mote_vec3 mote_as_floats(mote_vec3 v)
+{
+    return mote_vec3_make(mote_as_float(v.x), mote_as_float(v.y), mote_as_float(v.z));
+}
+
 static inline double mote_length(mote_vec3 a)
 {
     return sqrt(mote_dot(a, a));

@@ -72,11 +72,6 @@ static mote_status change_mesh_offset(const mote_extreme_recipe *plain, int k,
     return MOTE_OK;
 }
 
-static mote_vec3 to_float(mote_vec3 v)
-{
-    return mote_vec3_make((double)(float)v.x, (double)(float)v.y, (double)(float)v.z);
-}
-
 /* Mesh, centres and poses in 32 bits; from k = 0 on, the mesh 10^k off its origin. */
 static mote_status change_to_float(const mote_extreme_recipe *plain, int k,
                                    mote_extreme_recipe *made)
@@ -84,12 +79,12 @@ static mote_status change_to_float(const mote_extreme_recipe *plain, int k,
     mote_status status = k < 0 ? as_it_is(plain, k, made) : change_mesh_offset(plain, k, made);
     for (int b = 0; b < 2; ++b) {
         for (uint32_t i = 0; i < made->vertex_count[b]; ++i)
-            made->position[b][i] = to_float(made->position[b][i]);
+            made->position[b][i] = mote_as_floats(made->position[b][i]);
         for (uint32_t j = 0; j < made->controls; ++j)
-            made->centre[b][j] = to_float(made->centre[b][j]);
-        made->middle[b] = to_float(made->middle[b]);
+            made->centre[b][j] = mote_as_floats(made->centre[b][j]);
+        made->middle[b] = mote_as_floats(made->middle[b]);
         for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f)
-            made->place[b][f] = to_float(made->place[b][f]);
+            made->place[b][f] = mote_as_floats(made->place[b][f]);
     }
     return status;
 }

@@ -1,23 +1,25 @@
 #!/usr/bin/env bash
 # make fuzz: each fuzz target for some seconds, several at a time, from the committed corpus.
 #   fuzz.sh BUILD_FUZZ SECONDS JOBS OUT
-# OUT/fuzz.tsv: a line a target, {target, seconds, executions, findings}; what was found lies in
+# OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings}; what was found lies in
 # OUT as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing tried.
 # A slow machine makes fewer tries, and fails nothing: 120 s for one input are a hang anywhere.
 set -u
 build=$1 seconds=$2 jobs=$3 out=$4
 targets="scenario mesh options cell"
 mkdir -p "$out"
-rm -f "$out"/*.tsv "$out"/*.log
+rm -f "$out"/*.tsv "$out"/*.log "$out"/*.found
 
 fuzz_one() { # TARGET
     mkdir -p "$out/corpus/$1"
-    local start=$SECONDS found=0 tried
-    "$build/tests/fuzz_$1" -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4096 \
+    local found=0 tried cpu TIMEFORMAT='%U %S'
+    cpu=$({ time "$build/tests/fuzz_$1" -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4096 \
         -print_final_stats=1 -artifact_prefix="$out/$1-" "$out/corpus/$1" \
-        "tests/corpus/fuzz_$1" >"$out/$1.log" 2>&1 || found=1
+        "tests/corpus/fuzz_$1" >"$out/$1.log" 2>&1 || touch "$out/$1.found"; } 2>&1 |
+        awk '{ print $1 + $2 }')
+    [ ! -e "$out/$1.found" ] || found=1
     tried=$(grep -aoE 'number_of_executed_units: *[0-9]+' "$out/$1.log" | grep -oE '[0-9]+')
-    printf '%s\t%d\t%d\t%d\n' "$1" $((SECONDS - start)) "${tried:-0}" $found >"$out/$1.tsv"
+    printf '%s\t%d\t%d\t%d\n' "$1" "${cpu%.*}" "${tried:-0}" $found >"$out/$1.tsv"
     [ $found -eq 0 ] || tail -30 "$out/$1.log" >&2
 }
 
@@ -31,5 +33,5 @@ wait
 for target in $targets; do
     cat "$out/$target.tsv"
 done >"$out/fuzz.tsv"
-awk -F'\t' '{ printf "fuzz_%s: %d s, %d inputs, %d findings\n", $1, $2, $3, $4 }
+awk -F'\t' '{ printf "fuzz_%s: %d CPU s, %d inputs, %d findings\n", $1, $2, $3, $4 }
     $3 < 1 || $4 > 0 { bad = 1 } END { exit bad }' "$out/fuzz.tsv"

@@ -17,7 +17,7 @@ fi
 commit=${2:-$here}
 date=${3:-$(date -u +%Y-%m-%d)}
 csv=results/reference/reliability.csv log=tests/corpus/log.csv
-[ -f $log ] || echo "date,commit,target,seconds,executions,findings" >$log
+[ -f $log ] || echo "date,commit,target,cpu_seconds,executions,findings" >$log
 [ -f $csv ] || echo "check,tried,failed,date,commit" >$csv
 if [ -n "$fuzz" ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
@@ -49,7 +49,7 @@ table() {
             split("scenario mesh options cell", t, " ")
             for (i = 1; i <= 4; ++i)
                 if (e[t[i]])
-                    printf "| fuzz: %s, %.2f hours in all | %d | %d | %s |\n", t[i],
+                    printf "| fuzz: %s, %.2f CPU hours in all | %d | %d | %s |\n", t[i],
                         s[t[i]] / 3600, e[t[i]], f[t[i]], last[t[i]]
         }'
 }

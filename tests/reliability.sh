@@ -11,10 +11,10 @@ case ${6:-} in
 plant) plant=plant ;;
 record) record=record ;;
 esac
-only=${ONLY:-certify metamorphic soak oracle kills faults fuzz}
+only=${ONLY:-certify metamorphic soak oracle answers kills faults fuzz}
 case $profile in
-quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 ;;
-*) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 ;;
+quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=2 ;;
+*) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 runs=100 ;;
 esac
 rm -rf "$out"
 mkdir -p "$out"
@@ -57,6 +57,7 @@ study() { # NAME
     oracle)
         program "triangle pairs against rational arithmetic" oracle '"pairs": *[0-9]+' \
             "$build/tests/oracle" --pairs $pairs --out "$out/oracle.json" ;;
+    answers) log answers tests/determinism.sh "$build" $runs "${JOBS:-1}" "$checks" ;;
     kills)
         program "sweeps killed at random: a cell lost, changed or twice" kills \
             '[0-9]+ kills within' "$build/tests/kills" "$out/kills" $kills 1 ${plant:+plant} ;;

@@ -83,9 +83,29 @@ static void pose_apply_agrees_with_long_double(void **unused)
     }
 }
 
+/* A single has 24 bits: of a double's 53 the last 29 are 0. */
+static void as_floats_of_random_vectors_keeps_24_bits(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 4;
+    for (int k = 0; k < 1000; ++k) {
+        const mote_vec3 v = random_vec3(&seed, 1);
+        const mote_vec3 w = mote_as_floats(mote_scale(v, 1.1));
+        const double from[3] = {v.x * 1.1, v.y * 1.1, v.z * 1.1};
+        const double to[3] = {w.x, w.y, w.z};
+        for (int c = 0; c < 3; ++c) {
+            uint64_t bits;
+            memcpy(&bits, &to[c], sizeof bits);
+            assert_int_equal(bits & 0x1fffffff, 0);
+            assert_true(fabs(to[c] - from[c]) <= 0x1p-24 * fabs(from[c]));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(as_floats_of_random_vectors_keeps_24_bits),
         cmocka_unit_test(arithmetic_of_known_vectors_is_exact),
         cmocka_unit_test(cross_of_random_vectors_obeys_lagrange),
         cmocka_unit_test(rotate_quarter_turn_about_z_takes_x_to_y),

@@ -1,0 +1,278 @@
+/* One hash over what our methods answer on the built-in scenarios of two bodies: distance,
+   lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames. The
+   same bits are expected of every compiler, optimisation and number of threads, again and
+   again.
+
+   answers [--runs N] [--threads K] [--check FILE]
+   prints a line {scenario, method, hash} each, and one over all. --check: compares with FILE,
+   exit status 1 where a line differs. --threads: so many answer at once, each a scenario and
+   method of its own. Who changes a method on purpose renews tests/answers.txt with what this
+   prints, once make determinism agrees on it. */
+#include "harness/catalog.h"
+#include "harness/command.h"
+#include "harness/file.h"
+#include "harness/probe.h"
+#include "harness/scenario.h"
+
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const methods[] = {"certified", "particle:n=8", "particle-paper:n=5"};
+/* Built in minutes, and ww again. */
+static const char *const large[] = {"ww-100k", "ww-1m", "ww-10m"};
+
+enum {
+    METHODS = sizeof methods / sizeof methods[0],
+    LARGE = sizeof large / sizeof large[0],
+    LEAPS = 8,
+    STEPS = 3,
+    THREADS_MAX = 64
+};
+
+typedef struct job {
+    const mote_scenario *scenario;
+    const char *method;
+    uint64_t hash;
+    mote_status status; /* whether it is refused is part of the answer */
+} job;
+
+typedef struct work {
+    job *jobs;
+    size_t count, next;
+    pthread_mutex_t lock;
+} work;
+
+/* FNV-1a over 64-bit words, least significant byte first. */
+static void hash_word(uint64_t *hash, uint64_t word)
+{
+    for (int k = 0; k < 8; ++k)
+        *hash = (*hash ^ (word >> (8 * k) & 0xff)) * 0x100000001b3u;
+}
+
+static void hash_double(uint64_t *hash, double value)
+{
+    uint64_t word = 0;
+    memcpy(&word, &value, sizeof word);
+    hash_word(hash, word);
+}
+
+static void hash_answer(uint64_t *hash, const mote_answer *a)
+{
+    hash_word(hash, (uint64_t)a->has_distance | (uint64_t)a->has_lower << 1 |
+                        (uint64_t)a->has_witness << 2 | (uint64_t)a->has_contact << 3 |
+                        (uint64_t)(a->has_contact && a->contact) << 4);
+    if (a->has_distance)
+        hash_double(hash, a->distance);
+    if (a->has_lower)
+        hash_double(hash, a->lower);
+    for (int k = 0; a->has_witness && k < 2; ++k) {
+        hash_double(hash, a->witness[k].x);
+        hash_double(hash, a->witness[k].y);
+        hash_double(hash, a->witness[k].z);
+    }
+}
+
+static mote_status answer_frames(const job *j, mote_probe *probe, mote_frame_buffer *buffer,
+                                 uint64_t *hash)
+{
+    const uint32_t frames = j->scenario->frames;
+    mote_status status = MOTE_OK;
+    uint32_t previous = 0;
+    for (uint32_t k = 0; k < LEAPS * STEPS && status == MOTE_OK; ++k) {
+        uint32_t number = 1 + (uint32_t)((uint64_t)(frames - 1) * (k / STEPS) / LEAPS);
+        number = number + k % STEPS <= frames ? number + k % STEPS : frames;
+        const mote_frame *frame = mote_scenario_frame(j->scenario, buffer, number, previous);
+        mote_answer answer;
+        status = mote_probe_answer(probe, frame, &answer);
+        if (status == MOTE_OK)
+            hash_answer(hash, &answer);
+        previous = number;
+    }
+    return status;
+}
+
+static void answer(job *j)
+{
+    j->hash = 0xcbf29ce484222325u;
+    mote_method_choice choice;
+    mote_frame_buffer *buffer = NULL;
+    mote_probe *probe = NULL;
+    mote_status status = mote_method_choice_read(j->method, &choice);
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(j->scenario, &buffer);
+    if (status == MOTE_OK)
+        status = mote_probe_create(&j->scenario->body[0], &j->scenario->body[1], &choice,
+                                   j->scenario->ask, j->scenario->tolerance, 1, &probe);
+    if (status == MOTE_OK)
+        status = answer_frames(j, probe, buffer, &j->hash);
+    hash_word(&j->hash, status);
+    j->status = status;
+    mote_probe_destroy(probe);
+    mote_frame_buffer_destroy(buffer);
+}
+
+static void *answer_jobs(void *context)
+{
+    work *w = context;
+    for (;;) {
+        (void)pthread_mutex_lock(&w->lock);
+        const size_t k = w->next < w->count ? w->next++ : w->count;
+        (void)pthread_mutex_unlock(&w->lock);
+        if (k == w->count)
+            return NULL;
+        answer(&w->jobs[k]);
+    }
+}
+
+static mote_status answer_all(work *w, uint64_t threads)
+{
+    pthread_t thread[THREADS_MAX];
+    uint64_t started = 0;
+    w->next = 0;
+    while (started < threads && pthread_create(&thread[started], NULL, answer_jobs, w) == 0)
+        ++started;
+    for (uint64_t k = 0; k < started; ++k)
+        (void)pthread_join(thread[k], NULL);
+    return started == threads ? MOTE_OK : mote_fail(MOTE_EIO, "cannot start a thread");
+}
+
+static bool is_large(const char *name)
+{
+    bool found = false;
+    for (int k = 0; k < LARGE; ++k)
+        found = found || strcmp(name, large[k]) == 0;
+    return found;
+}
+
+/* Scenarios are loaded here, one by one; each makes METHODS jobs. */
+static mote_status load(const mote_catalog *catalog, mote_scenario **scenarios, work *w)
+{
+    mote_status status = MOTE_OK;
+    size_t loaded = 0;
+    for (size_t k = 0; k < catalog->count && status == MOTE_OK; ++k) {
+        if (catalog->entries[k].several || is_large(catalog->entries[k].name))
+            continue;
+        status = mote_scenario_load(catalog->entries[k].name, &scenarios[loaded]);
+        for (int m = 0; m < METHODS && status == MOTE_OK; ++m)
+            w->jobs[w->count++] = (job){.scenario = scenarios[loaded], .method = methods[m]};
+        loaded += status == MOTE_OK;
+    }
+    return status;
+}
+
+/* What is printed, as one text; the caller frees it. */
+static char *report(const work *w)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+        return NULL;
+    uint64_t all = 0xcbf29ce484222325u;
+    for (size_t k = 0; k < w->count; ++k) {
+        (void)fprintf(file, "%s %s %016" PRIx64 "%s\n", w->jobs[k].scenario->name,
+                      w->jobs[k].method, w->jobs[k].hash,
+                      w->jobs[k].status == MOTE_OK ? "" : " refused");
+        hash_word(&all, w->jobs[k].hash);
+    }
+    (void)fprintf(file, "all %zu %016" PRIx64 "\n", w->count, all);
+    return fclose(file) == 0 ? text : (free(text), NULL);
+}
+
+/* Prints lines of text that are not in expected; true when there is none. */
+static bool compare(const char *text, const char *expected)
+{
+    if (strcmp(text, expected) == 0)
+        return true;
+    for (const char *line = text; *line != '\0'; line = strchr(line, '\n') + 1) {
+        const int length = (int)(strchr(line, '\n') - line) + 1;
+        char *copy = mote_format("%.*s", length, line);
+        if (copy && !strstr(expected, copy))
+            (void)printf("differs: %s", copy);
+        free(copy);
+    }
+    (void)printf("answers changed; when that was wanted: build/tests/answers > "
+                 "tests/answers.txt\n");
+    return false;
+}
+
+typedef struct options {
+    uint64_t runs, threads;
+    const char *check;
+} options;
+
+static bool read_options(int argc, char **argv, options *o)
+{
+    bool good = argc % 2 == 1;
+    for (int i = 1; i + 1 < argc && good; i += 2) {
+        if (strcmp(argv[i], "--check") == 0)
+            o->check = argv[i + 1];
+        else if (strcmp(argv[i], "--runs") == 0)
+            good = mote_read_unsigned(argv[i + 1], 1, 1000000, &o->runs);
+        else
+            good = strcmp(argv[i], "--threads") == 0 &&
+                   mote_read_unsigned(argv[i + 1], 1, THREADS_MAX, &o->threads);
+    }
+    if (!good)
+        (void)fprintf(stderr, "usage: answers [--runs N] [--threads K] [--check FILE]\n");
+    return good;
+}
+
+/* All runs; *same: each gave what the first gave, which is what --check names. */
+static mote_status run(const options *o, work *w, bool *same)
+{
+    char *first = NULL;
+    size_t size;
+    mote_status status = MOTE_OK;
+    *same = true;
+    if (o->check)
+        status = mote_file_read(o->check, 1 << 20, &first, &size);
+    for (uint64_t k = 0; k < o->runs && status == MOTE_OK; ++k) {
+        status = answer_all(w, o->threads);
+        char *text = status == MOTE_OK ? report(w) : NULL;
+        if (status == MOTE_OK && !text)
+            status = mote_fail(MOTE_ENOMEM, "no memory for a report");
+        if (text && k == 0)
+            (void)fputs(o->check ? strstr(text, "\nall ") + 1 : text, stdout);
+        if (text && first)
+            *same = compare(text, first) && *same;
+        if (!first)
+            first = text;
+        else
+            free(text);
+    }
+    free(first);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    options o = {.runs = 1, .threads = 1};
+    if (!read_options(argc, argv, &o))
+        return MOTE_EXIT_USAGE;
+    mote_catalog catalog = {0};
+    work w = {.lock = PTHREAD_MUTEX_INITIALIZER};
+    mote_status status = mote_catalog_read(&catalog);
+    mote_scenario **scenarios = calloc(catalog.count + 1, sizeof *scenarios);
+    w.jobs = calloc(METHODS * catalog.count + 1, sizeof *w.jobs);
+    if (status == MOTE_OK && (!scenarios || !w.jobs))
+        status = mote_fail(MOTE_ENOMEM, "no memory for the scenarios");
+    bool same = false;
+    if (status == MOTE_OK)
+        status = load(&catalog, scenarios, &w);
+    if (status == MOTE_OK)
+        status = run(&o, &w, &same);
+    if (status != MOTE_OK)
+        (void)fprintf(stderr, "answers: %s\n", mote_error_text());
+    for (size_t k = 0; scenarios && k < catalog.count; ++k)
+        mote_scenario_destroy(scenarios[k]);
+    free(scenarios);
+    free(w.jobs);
+    mote_catalog_free(&catalog);
+    return status != MOTE_OK ? MOTE_EXIT_BAD_INPUT
+           : same            ? MOTE_EXIT_DONE
+                             : MOTE_EXIT_CHECK_FAILED;
+}
