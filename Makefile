@@ -18,6 +18,7 @@
 #   make determinism                                 one hash over all answers: compilers, threads
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
+#   make bodies [PROFILE=quick|full] [OUT=DIR]       several bodies: time, memory, missed contacts
 #   make perf-check                                 measure again, compare with results/reference
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-kill                                  200 random kill -9 of a sweep: is a cell lost?
@@ -122,6 +123,11 @@ soak: build
 
 extremes: build
 	@$(MOTE) extremes --out $(if $(filter file,$(origin OUT)),results/extremes,$(OUT)) \
+	    $(if $(filter quick,$(PROFILE)),--quick)
+
+.PHONY: bodies
+bodies: build
+	@$(MOTE) bodies --out $(if $(filter file,$(origin OUT)),results/bodies,$(OUT)) \
 	    $(if $(filter quick,$(PROFILE)),--quick)
 
 dynamics: build

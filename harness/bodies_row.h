@@ -21,6 +21,7 @@ typedef struct mote_bodies_row {
     size_t steps;
     double near_pairs;           /* a body and step */
     double near_total;           /* a step */
+    double step_mean_ns;         /* of a step without motion, all but the first */
     double step_ns, step_p95_ns; /* median and 95th of a step without motion */
     double motion_ns, bounds_ns, deform_ns, update_ns, broad_ns, query_ns; /* medians */
     double wall_ns; /* a step, motion and records included */
@@ -30,7 +31,8 @@ typedef struct mote_bodies_row {
     char reference[256]; /* the method whose contacts count as true; empty: none */
     size_t common;       /* steps of both */
     size_t missed, false_contacts;
-    double ratio; /* the reference's step_ns over this one's; MOTE_NONE without */
+    double ratio; /* the reference's time over this one's on the steps of both; MOTE_NONE
+                     without */
 } mote_bodies_row;
 
 /* Sums up a result. */

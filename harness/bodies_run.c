@@ -36,7 +36,7 @@ static void tell(const mote_bodies_row *row)
 {
     if (row->ok)
         (void)fprintf(stderr, "%s %s r%u: %zu steps, %.6g us each\n", row->scenario,
-                      row->method, row->replicate, row->steps, row->step_ns / 1e3);
+                      row->method, row->replicate, row->steps, row->step_mean_ns / 1e3);
     else
         (void)fprintf(stderr, "%s %s r%u: %s: %s\n", row->scenario, row->method, row->replicate,
                       mote_cell_status_names[row->status], row->reason);

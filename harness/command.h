@@ -46,6 +46,8 @@ typedef enum mote_exit {
     X(dynamics,                                                                                \
       "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K] [--keep]",    \
       "how often n particles let a body pass through, in the closed loop")                     \
+    X(bodies, "bodies [--out DIR] [--quick]",                                                  \
+      "several bodies by every method, over their number and density")                         \
     X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
       "the rows of a run, computed from its cells")                                            \
     X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \

@@ -39,6 +39,10 @@ mote_figure_writer mote_figure_claims;      /* 11: the claims table */
 mote_figure_writer mote_figure_history;     /* 12: distance and error over frames */
 mote_figure_writer mote_figure_ingredients; /* 13: what each part of tracked particles adds */
 mote_figure_writer mote_figure_tracked;     /* 14: tracked particles over their parameters */
+mote_figure_writer mote_figure_bodies;      /* 15: several bodies: a step's time over N */
+
+/* 15, moving: 100 letters in a box, as mote_figure_animation is of two. */
+mote_figure_writer mote_figure_letters;
 
 /* 2, moving: every few frames of the whole scenario. Writes the frames' geometry to
    DIRECTORY/figures/frames, 20 MB that mote_figure_animation_clear deletes after drawing; the

@@ -47,6 +47,8 @@ static const figure_kind kinds[] = {
      mote_figure_ingredients, PAPER},
     {14, "tracked", "Tracked particles, speed against error", SCOPE_EACH, NULL,
      mote_figure_tracked, PAPER},
+    {15, "bodies", "Several bodies", SCOPE_RUN, NULL, mote_figure_bodies, PAPER},
+    {15, "letters", "100 letters in a box", SCOPE_RUN, NULL, mote_figure_letters, "gif"},
 };
 
 /* What is needed while a run's figures are drawn. */
@@ -272,7 +274,7 @@ static mote_status draw_all(drawing *d)
     d->missing = json_array();
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0] && status == MOTE_OK; ++k) {
         status = draw_kind(d, &kinds[k]);
-        if (kinds[k].write == mote_figure_animation)
+        if (kinds[k].write == mote_figure_animation || kinds[k].write == mote_figure_letters)
             mote_figure_animation_clear(d->run.directory);
     }
     free(d->folder);
@@ -326,7 +328,8 @@ mote_status mote_figures_draw(const char *directory, size_t *drawn)
         (void)fprintf(stderr, "mote: %s/manifest.json: not there; figures name no run\n",
                       directory);
     drawing d = {.run = {directory, &summary, claims}};
-    if (status == MOTE_OK && summary.count == 0 && !claims)
+    if (status == MOTE_OK && summary.count == 0 && !claims &&
+        !is_file(directory, "bodies.json"))
         status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
                            directory);
     if (status == MOTE_OK) {

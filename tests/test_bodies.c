@@ -1,6 +1,7 @@
 /* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
 #include "harness/bodies_engine.h"
 
+#include "harness/figure.h"
 #include "harness/file.h"
 #include "tests/program.h"
 #include "tests/solids.h"
@@ -440,6 +441,44 @@ static void mote_run_bad_requests_have_their_exit_codes(void **state)
     }
 }
 
+/* Two rows of bodies.json, one of them of a cell that failed. */
+static const char stored[] =
+    "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": "
+    "1000,"
+    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": 2500000, \"rss_peak_bytes\": 9000000,"
+    "\"ratio\": 260.4}, {\"method\": \"aabb-tree\", \"status\": \"timeout\", \"bodies\": 1000,"
+    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": null, \"rss_peak_bytes\": 1, \"ratio\": "
+    "null}]}\n";
+
+static void mote_figure_bodies_stored_rows_become_lines(void **state)
+{
+    (void)state;
+    const mote_figure_run run = {.directory = FOLDER "/stored"};
+    mote_figure figure = {0};
+    assert_int_equal(mote_directory_make(FOLDER "/stored"), MOTE_OK);
+    (void)remove(FOLDER "/stored/bodies.json");
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_non_null(strstr(figure.missing.data, "make bodies"));
+    free(figure.missing.data);
+    figure = (mote_figure){0};
+    assert_int_equal(mote_file_write(FOLDER "/stored/bodies.json", stored, sizeof stored - 1),
+                     MOTE_OK);
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_null(figure.missing.data);
+    size_t blocks = 0, empty = 0;
+    for (const char *at = figure.data.data; (at = strstr(at, "\"\n")) != NULL; ++at)
+        ++blocks;
+    for (const char *at = figure.data.data; (at = strstr(at, "NaN NaN NaN\n")) != NULL; ++at)
+        ++empty;
+    assert_int_equal(blocks, 18);
+    assert_int_equal(empty, 17);
+    assert_non_null(strstr(figure.data.data, "\"certified\"\n1000 2500 9\n"));
+    assert_non_null(strstr(figure.caption.data, "one 260th of the time"));
+    free(figure.data.data);
+    free(figure.caption.data);
+}
+
 static int make_folder(void **state)
 {
     (void)state;
@@ -460,6 +499,7 @@ int main(void)
         cmocka_unit_test(mote_bodies_load_bad_input_names_the_place),
         cmocka_unit_test(mote_bodies_choice_read_keys_are_taken_apart),
         cmocka_unit_test(mote_run_bad_requests_have_their_exit_codes),
+        cmocka_unit_test(mote_figure_bodies_stored_rows_become_lines),
     };
     return cmocka_run_group_tests(tests, make_folder, NULL);
 }

@@ -1,0 +1,17 @@
+/* make bodies: several bodies by every method, over their number and density. */
+#ifndef MOTE_HARNESS_STUDY_BODIES_H
+#define MOTE_HARNESS_STUDY_BODIES_H
+
+#include "core/status.h"
+
+#include <stdbool.h>
+
+/* Letters W of 11,920 triangles, 10, 100 and 1,000 of them, and 10,000 letters of 4 shapes,
+   with 0.1, 1 and 4 near pairs a body, all deforming: the certified scene with and without
+   threads, FCL and aabb-tree with every body or only near ones refitted, particles. Writes the
+   scenarios to directory/scenarios, bodies.json ({"schema": 1, "profile", "rows", "gains",
+   "requirements", "met"}) and bodies.csv, draws the figures, prints the table. *met: every
+   stated requirement is. quick: fewer steps a cell, about 3 minutes in all. */
+mote_status mote_study_bodies(const char *directory, bool quick, bool *met);
+
+#endif
