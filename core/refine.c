@@ -38,6 +38,7 @@ typedef struct search {
     /* Set by aim: */
     double distance;
     mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
+    mote_vec3 across[2];            /* unit vectors at right angles to it and each other */
     double rounding;                /* of a reach */
     uint32_t checked[2]; /* the rings of these vertices were measured against each other and no
                             pair was nearer; NONE: no such */
@@ -57,14 +58,16 @@ typedef struct face_cursor {
     double reach[3];
 } face_cursor;
 
-/* A face with its reach and, once it was chosen, its bounding box. */
+/* A face with its reach and, once it was chosen, the box of its shadow: where it is across the
+   line of the witnesses. */
 typedef struct listed_face {
     mote_vec3 corner[3];
     uint32_t vertex[3];
     double reach;
     bool measured; /* with those of the other side that are marked too */
     bool boxed;
-    mote_vec3 low, high;
+    double low[2], high[2]; /* of its shadow along the line of the witnesses */
+    double blur;            /* how wrong they, and the reach, may be */
 } listed_face;
 
 typedef struct face_list {
@@ -94,6 +97,14 @@ static bool done(const search *s)
     return s->best->squared <= s->enough_squared;
 }
 
+/* A unit vector at right angles to another. */
+static mote_vec3 perpendicular(mote_vec3 u)
+{
+    const mote_vec3 v =
+        fabs(u.x) < fabs(u.y) ? mote_vec3_make(0, -u.z, u.y) : mote_vec3_make(u.z, 0, -u.x);
+    return mote_scale(v, 1 / mote_length(v));
+}
+
 static void aim(search *s)
 {
     const mote_refined *best = s->best;
@@ -104,6 +115,8 @@ static void aim(search *s)
     s->origin[1] = best->witness[1];
     s->toward[0] = u;
     s->toward[1] = mote_scale(u, -1);
+    s->across[0] = perpendicular(u);
+    s->across[1] = mote_cross(u, s->across[0]);
     s->rounding =
         ROUNDING * (largest_coordinate(s->origin[0]) + largest_coordinate(s->origin[1]));
     s->slack = MARGIN * s->distance - s->rounding;
@@ -283,17 +296,23 @@ static bool fill_list(const search *s, int side, face_cursor *c, face_list *list
     return list->count > 0;
 }
 
-static void box_face(listed_face *f)
+static void box_face(const search *s, listed_face *f)
 {
-    mote_vec3 low = f->corner[0];
-    mote_vec3 high = low;
-    for (int i = 1; i < 3; ++i) {
-        const mote_vec3 p = f->corner[i];
-        low = mote_vec3_make(min2(low.x, p.x), min2(low.y, p.y), min2(low.z, p.z));
-        high = mote_vec3_make(max2(high.x, p.x), max2(high.y, p.y), max2(high.z, p.z));
+    double far = 0;
+    for (int k = 0; k < 2; ++k) {
+        f->low[k] = HUGE_VAL;
+        f->high[k] = -HUGE_VAL;
     }
-    f->low = low;
-    f->high = high;
+    for (int i = 0; i < 3; ++i) {
+        const mote_vec3 p = mote_sub(f->corner[i], s->origin[0]);
+        far = max2(far, largest_coordinate(p));
+        for (int k = 0; k < 2; ++k) {
+            const double x = mote_dot(p, s->across[k]);
+            f->low[k] = min2(f->low[k], x);
+            f->high[k] = max2(f->high[k], x);
+        }
+    }
+    f->blur = ROUNDING * far + s->rounding;
     f->boxed = true;
 }
 
@@ -306,16 +325,23 @@ static void choose_faces(const search *s, face_list *list, double partner)
             continue;
         list->chosen[list->chosen_count++] = i;
         if (!list->face[i].boxed)
-            box_face(&list->face[i]);
+            box_face(s, &list->face[i]);
     }
 }
 
-static double box_gap_squared(const listed_face *a, const listed_face *b)
+/* What two faces are apart at least, squared: along the line of the witnesses by their reaches,
+   across it by their shadows. */
+static double gap_squared(const search *s, const listed_face *a, const listed_face *b)
 {
-    const double x = max2(0, max2(a->low.x - b->high.x, b->low.x - a->high.x));
-    const double y = max2(0, max2(a->low.y - b->high.y, b->low.y - a->high.y));
-    const double z = max2(0, max2(a->low.z - b->high.z, b->low.z - a->high.z));
-    return x * x + y * y + z * z;
+    const double blur = a->blur + b->blur;
+    const double along = max2(0, s->distance - a->reach - b->reach - blur);
+    double squared = along * along;
+    for (int k = 0; k < 2; ++k) {
+        const double gap = max2(a->low[k] - b->high[k], b->low[k] - a->high[k]) - blur;
+        if (gap > 0)
+            squared += gap * gap;
+    }
+    return squared;
 }
 
 static void measure_pair(search *s, const listed_face *a, const listed_face *b)
@@ -324,7 +350,7 @@ static void measure_pair(search *s, const listed_face *a, const listed_face *b)
     if (a->reach + b->reach <= s->slack || (a->measured && b->measured))
         return;
     const double bound = min2(best->squared, s->worth_squared) * (1 - MARGIN);
-    if (box_gap_squared(a, b) >= bound)
+    if (gap_squared(s, a, b) >= bound)
         return;
     mote_vec3 p, q;
     ++best->triangle_tests;
