@@ -1,5 +1,7 @@
 #include "harness/child.h"
 
+#include "harness/confine.h"
+
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -72,8 +74,8 @@ static size_t mapped_bytes(void)
     return got ? strtoul(line, NULL, 10) * (size_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
-static _Noreturn void be_child(mote_child_work work, void *context, size_t memory_bytes,
-                               pid_t parent, int output)
+static _Noreturn void be_child(mote_child_work work, void *context,
+                               const mote_child_limits *limits, pid_t parent, int output)
 {
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
@@ -82,8 +84,10 @@ static _Noreturn void be_child(mote_child_work work, void *context, size_t memor
        it had crashed. */
     (void)signal(SIGINT, SIG_IGN);
     (void)signal(SIGTERM, SIG_IGN);
-    if (memory_bytes > 0) {
-        const rlim_t bytes = mapped_bytes() + memory_bytes;
+    if (limits->confined)
+        (void)mote_confine(); /* as far as this kernel can */
+    if (limits->memory_bytes > 0) {
+        const rlim_t bytes = mapped_bytes() + limits->memory_bytes;
         const struct rlimit limit = {bytes, bytes};
         (void)setrlimit(RLIMIT_AS, &limit);
     }
@@ -118,7 +122,7 @@ mote_status mote_child_start(mote_child_work work, void *context, mote_child_lim
     pid_t pid = fork();
     if (pid == 0) {
         (void)close(ends[0]);
-        be_child(work, context, limits.memory_bytes, parent, ends[1]);
+        be_child(work, context, &limits, parent, ends[1]);
     }
     int error = errno;
     (void)close(ends[1]);
@@ -177,8 +181,13 @@ static void conclude(mote_child *child, int ended)
     } else {
         child->size -= sizeof last;
         memcpy(&last, child->output + child->size, sizeof last);
-        child->status = (mote_status)last.status;
-        memcpy(child->text, last.text, sizeof child->text);
+        const bool sense = last.status <= MOTE_ENUMERIC &&
+                           memchr(last.text, '\0', sizeof last.text) && WEXITSTATUS(ended) == 0;
+        child->status = sense ? (mote_status)last.status : MOTE_EIO;
+        (void)snprintf(child->text, sizeof child->text, "%s",
+                       sense ? last.text : "ended with what is no answer");
+        if (!sense)
+            child->end = MOTE_CHILD_CRASHED;
     }
 }
 

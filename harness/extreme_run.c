@@ -278,7 +278,9 @@ mote_status mote_extreme_run(const mote_extreme *e, const char *method, mote_ext
         (void)snprintf(cell->reason, sizeof cell->reason, "%s", e->refusal);
         return MOTE_OK;
     }
-    const mote_child_limits limits = {SECONDS_WAITED, MEMORY_BYTES, sizeof(message)};
+    const mote_child_limits limits = {.seconds = SECONDS_WAITED,
+                                      .memory_bytes = MEMORY_BYTES,
+                                      .output_bytes = sizeof(message)};
     const double used = children_seconds();
     mote_child child = {0};
     size_t index = 0;

@@ -1,5 +1,6 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command.h"
+#include "harness/reach.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -22,8 +23,11 @@ static int print_help(void)
         "saves in time and memory, against bounding volume hierarchies.\n\n");
     for (size_t i = 0; i < command_count; ++i)
         (void)printf("  mote %s\n        %s\n", commands[i].usage, commands[i].summary);
-    (void)printf("\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
-                 "5 a cell failed.\n");
+    (void)printf(
+        "\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
+        "5 a cell failed.\n\n"
+        "Scenario files name only files of their own folder, unless others are allowed:\n"
+        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
@@ -45,6 +49,10 @@ int main(int argc, char **argv)
 {
     /* A reader that goes away is an error of a write, not a death. */
     (void)signal(SIGPIPE, SIG_IGN);
+    for (; argc > 2 && strcmp(argv[1], "--allow") == 0; argc -= 2, argv += 2) {
+        if (mote_reach_allow(argv[2]) != MOTE_OK)
+            return mote_command_fail();
+    }
     if (argc < 2) {
         (void)fprintf(stderr, "mote: no command; `mote --help` lists them\n");
         return MOTE_EXIT_USAGE;

@@ -144,7 +144,8 @@ mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *im
                          FILE_LIMIT);
     const mote_child_limits limits = {.seconds = SECONDS + (double)size / 8e6,
                                       .memory_bytes = MEMORY_BYTES + 60 * size,
-                                      .output_bytes = MEMORY_BYTES + 60 * size};
+                                      .output_bytes = MEMORY_BYTES + 60 * size,
+                                      .confined = true};
     char *output = NULL;
     size_t got = 0;
     /* The child only reads the name. */

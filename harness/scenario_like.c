@@ -5,6 +5,7 @@
 
 #include "harness/catalog.h"
 #include "harness/file.h"
+#include "harness/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -64,7 +65,9 @@ mote_status mote_scenario_merge_like(mote_json_file *file)
     mote_json_file base;
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
-    status = mote_json_open(path, &base);
+    status = mote_reach_check(file->path, path);
+    if (status == MOTE_OK)
+        status = mote_json_open(path, &base);
     free(path);
     if (status != MOTE_OK)
         return mote_json_blame(&like, status);

@@ -4,6 +4,7 @@
 #include "datasets/letter.h"
 #include "harness/file.h"
 #include "harness/mesh_import.h"
+#include "harness/reach.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +37,9 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
     char *path = mote_format("%.*s%s", length, file->file->path, name);
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
-    status = mote_mesh_import(path, mesh, NULL);
+    status = mote_reach_check(file->file->path, path);
+    if (status == MOTE_OK)
+        status = mote_mesh_import(path, mesh, NULL);
     free(path);
     return mote_json_blame(file, status);
 }

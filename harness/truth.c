@@ -271,7 +271,7 @@ static mote_status work(void *context, int output)
 mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth)
 {
     const size_t size = sizeof(uint32_t) + scenario->frames * sizeof(truth_row);
-    const mote_child_limits limits = {0, 0, size};
+    const mote_child_limits limits = {.output_bytes = size};
     char *output = NULL;
     size_t got = 0;
     mote_truth *made = NULL;

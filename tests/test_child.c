@@ -1,0 +1,228 @@
+/* Children that crash, hang, say rubbish or too much; that are confined; and files that a
+   scenario may not name. */
+#define _DEFAULT_SOURCE /* mkdtemp, symlink */
+#include "harness/child.h"
+#include "harness/confine.h"
+#include "harness/file.h"
+#include "harness/reach.h"
+
+#include <fcntl.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static char folder[] = "/tmp/mote-child-XXXXXX";
+
+static const mote_child_limits limits = {.seconds = 20, .output_bytes = 1 << 16};
+
+static mote_status crash(void *context, int output)
+{
+    (void)context, (void)output;
+    (void)raise(SIGKILL);
+    return MOTE_OK;
+}
+
+static mote_status leave(void *context, int output)
+{
+    (void)context, (void)output;
+    _exit(7);
+}
+
+static mote_status hang(void *context, int output)
+{
+    (void)context, (void)output;
+    while (pause() != 0) {
+    }
+    return MOTE_OK;
+}
+
+/* As many bytes as the context says, none of them zero, and no answer after them. */
+static mote_status say_rubbish(void *context, int output)
+{
+    char block[4096];
+    size_t left = *(const size_t *)context;
+    memset(block, 'x', sizeof block);
+    while (left > 0) {
+        const size_t part = left < sizeof block ? left : sizeof block;
+        if (mote_child_put(output, block, part) != MOTE_OK)
+            break;
+        left -= part;
+    }
+    _exit(0);
+}
+
+static void run_of_children_that_die_says_how(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    assert_int_equal(mote_child_run("it", crash, NULL, limits, &text, &size), MOTE_EIO);
+    assert_non_null(strstr(mote_error_text(), "it: crashed: ended by signal 9"));
+    assert_int_equal(mote_child_run("it", leave, NULL, limits, &text, &size), MOTE_EIO);
+    assert_non_null(strstr(mote_error_text(), "ended with status 7 and no answer"));
+    const mote_child_limits brief = {.seconds = 0.05, .output_bytes = 16};
+    assert_int_equal(mote_child_run("it", hang, NULL, brief, &text, &size), MOTE_EIO);
+    assert_string_equal(mote_error_text(), "it: took too long");
+    assert_null(text);
+}
+
+static void run_of_children_that_say_rubbish_is_an_error(void **state)
+{
+    (void)state;
+    const size_t sizes[] = {1, 1027, 1028, 1029, 5000, 1 << 16};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; ++k) {
+        size_t wanted = sizes[k], size;
+        char *text = NULL;
+        assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
+                         MOTE_EIO);
+        assert_non_null(strstr(mote_error_text(), "no answer"));
+        assert_null(text);
+    }
+    size_t wanted = 1 << 20, size;
+    char *text = NULL;
+    assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
+                     MOTE_EIO);
+    assert_string_equal(mote_error_text(), "it: gave more than fits");
+}
+
+typedef struct attempts {
+    bool landlock, privileges, wrote, opened, made, removed, renamed;
+} attempts;
+
+static mote_status attempt(void *context, int output)
+{
+    const char *kept = context;
+    char other[128];
+    (void)snprintf(other, sizeof other, "%s-other", kept);
+    attempts a;
+    memset(&a, 0, sizeof a);
+    a.landlock = mote_confine(); /* again: says whether there is Landlock */
+    a.privileges = prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) != 1;
+    const int made = open(other, O_CREAT | O_WRONLY, 0600);
+    a.made = made >= 0;
+    a.wrote = made >= 0 && write(made, "x", 1) == 1;
+    const int file = open(kept, O_WRONLY);
+    a.opened = file >= 0;
+    a.wrote =
+        a.wrote || (file >= 0 && lseek(file, 0, SEEK_END) >= 0 && write(file, "x", 1) == 1);
+    if (a.landlock) {
+        a.renamed = rename(kept, other) == 0;
+        a.removed = remove(kept) == 0;
+    }
+    char byte;
+    const int read_only = open(kept, O_RDONLY);
+    if (read_only < 0 || read(read_only, &byte, 1) != 1)
+        return mote_fail(MOTE_EIO, "%s cannot be read any more", kept);
+    return mote_child_put(output, &a, sizeof a);
+}
+
+static void run_of_a_confined_child_changes_no_file(void **state)
+{
+    (void)state;
+    char path[64];
+    (void)snprintf(path, sizeof path, "%s/kept", folder);
+    assert_int_equal(mote_file_write(path, "kept", 4), MOTE_OK);
+    mote_child_limits confined = limits;
+    confined.confined = true;
+    char *output = NULL;
+    size_t size;
+    if (mote_child_run("it", attempt, path, confined, &output, &size) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    attempts a;
+    assert_int_equal(size, sizeof a);
+    memcpy(&a, output, sizeof a);
+    free(output);
+    assert_false(a.privileges);
+    assert_false(a.wrote);
+    if (a.landlock)
+        assert_false(a.made || a.opened || a.removed || a.renamed);
+    char *text = NULL;
+    assert_int_equal(mote_file_read(path, 100, &text, &size), MOTE_OK);
+    assert_string_equal(text, "kept");
+    free(text);
+}
+
+static void make_file(const char *name)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_int_equal(mote_file_write(path, "v 0 0 0\n", 8), MOTE_OK);
+}
+
+static mote_status check(const char *scenario, const char *file)
+{
+    char from[128], to[128];
+    (void)snprintf(from, sizeof from, "%s/%s", folder, scenario);
+    (void)snprintf(to, sizeof to, "%s/%s", folder, file);
+    return mote_reach_check(from, to);
+}
+
+static void reach_check_of_files_outside_is_an_error_until_allowed(void **state)
+{
+    (void)state;
+    char inner[64], outside[64], link[64];
+    (void)snprintf(inner, sizeof inner, "%s/inner", folder);
+    (void)snprintf(outside, sizeof outside, "%s/outside.obj", folder);
+    (void)snprintf(link, sizeof link, "%s/inner/link.obj", folder);
+    assert_int_equal(mkdir(inner, 0700), 0);
+    make_file("inner/a.json");
+    make_file("inner/mesh.obj");
+    make_file("outside.obj");
+    assert_int_equal(symlink(outside, link), 0);
+    assert_int_equal(check("inner/a.json", "inner/mesh.obj"), MOTE_OK);
+    assert_int_equal(check("inner/a.json", "inner/../inner/mesh.obj"), MOTE_OK);
+    assert_int_equal(check("a.json", "inner/mesh.obj"), MOTE_OK);
+    assert_int_equal(check("inner/a.json", "inner/none.obj"), MOTE_OK);
+    assert_int_equal(check("inner/a.json", "inner/../outside.obj"), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "--allow DIR"));
+    assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_EINVAL);
+    assert_int_equal(mote_reach_check(inner, "/etc/passwd"), MOTE_EINVAL);
+    assert_int_equal(mote_reach_check(inner, MOTE_SOURCE_DIR "/datasets/meshes/box.obj"),
+                     MOTE_OK);
+    assert_int_equal(mote_reach_allow("/nowhere/at/all"), MOTE_EIO);
+    assert_int_equal(mote_reach_allow(folder), MOTE_OK);
+    assert_int_equal(check("inner/a.json", "inner/../outside.obj"), MOTE_OK);
+    assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_OK);
+    assert_int_equal(mote_reach_check(inner, "/etc/passwd"), MOTE_EINVAL);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char path[128];
+    static const char *const names[] = {
+        "kept",           "kept-other", "inner/a.json", "inner/mesh.obj",
+        "inner/link.obj", "inner",      "outside.obj",  ""};
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        (void)remove(path);
+    }
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(run_of_children_that_die_says_how),
+        cmocka_unit_test(run_of_children_that_say_rubbish_is_an_error),
+        cmocka_unit_test(run_of_a_confined_child_changes_no_file),
+        cmocka_unit_test(reach_check_of_files_outside_is_an_error_until_allowed),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
