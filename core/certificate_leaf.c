@@ -62,6 +62,23 @@ static float place_along(const mote_cert_group *restrict groups, uint32_t count,
     return largest_of(most);
 }
 
+/* The same, only the largest. */
+MOTE_CLONES
+static float farthest_along(const mote_cert_group *restrict groups, uint32_t count, float base,
+                            const float slant[3])
+{
+    float most[WIDTH];
+    add_up(&groups[0], base, slant, most);
+    for (uint32_t g = 1; g < count; ++g) {
+        float more[WIDTH];
+        add_up(&groups[g], base, slant, more);
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l)
+            most[l] = most[l] > more[l] ? most[l] : more[l];
+    }
+    return largest_of(most);
+}
+
 MOTE_CLONES
 void mote_cert_leaf_hull(const mote_cert_side *restrict side,
                          const mote_cert_node *restrict node, size_t lane,
@@ -86,7 +103,7 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
     const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
     if (side->reached == leaf && side->reached_stamp == stamp)
         return side->reached_at;
-    float base = 0, slant[3] = {0, 0, 0}, at[MOTE_CERT_LEAF_VERTICES];
+    float base = 0, slant[3] = {0, 0, 0};
     for (size_t r = 0; r < 3; ++r) {
         base += node->centre[r][lane] * d[r];
         for (size_t k = 0; k < 3; ++k)
@@ -94,8 +111,8 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
     }
     side->reached = leaf;
     side->reached_stamp = stamp;
-    side->reached_at = place_along(side->tree->groups + leaf->first_group,
-                                   mote_cert_group_count(leaf), base, slant, at);
+    side->reached_at = farthest_along(side->tree->groups + leaf->first_group,
+                                      mote_cert_group_count(leaf), base, slant);
     return side->reached_at;
 }
 

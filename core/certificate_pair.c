@@ -3,6 +3,7 @@
 #include "core/clones.h"
 #include "core/triangle.h"
 
+#include <float.h>
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
@@ -20,18 +21,6 @@ typedef struct pair {
                        */
 } pair;
 
-/* Projections of a hull's vertices on a direction. */
-MOTE_INLINE void project(const mote_cert_hull *restrict hull, const float d[3],
-                         float p[MOTE_CERT_LEAF_VERTICES])
-{
-    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < WIDTH; ++l)
-            p[g + l] =
-                hull->x[0][g + l] * d[0] + hull->x[1][g + l] * d[1] + hull->x[2][g + l] * d[2];
-    }
-}
-
 /* The largest of eight, in a fixed order. */
 MOTE_INLINE float largest_of(const float x[WIDTH])
 {
@@ -45,33 +34,37 @@ MOTE_INLINE float largest_of(const float x[WIDTH])
     return two[0] > two[1] ? two[0] : two[1];
 }
 
-MOTE_INLINE float largest(const mote_cert_hull *hull, const float p[MOTE_CERT_LEAF_VERTICES])
+/* How far each lane of a hull reaches along a direction, and which group's vertex does; returns
+   the largest. */
+MOTE_INLINE float reach_along(const mote_cert_hull *restrict hull, const float d[3],
+                              float most[WIDTH], uint32_t group[WIDTH])
 {
-    float most[WIDTH];
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < WIDTH; ++l)
-        most[l] = p[l];
-    for (size_t g = WIDTH; g < hull->groups * WIDTH; g += WIDTH) {
+    for (size_t l = 0; l < WIDTH; ++l) {
+        most[l] = -FLT_MAX;
+        group[l] = 0;
+    }
+    for (uint32_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
         MOTE_LANE_LOOP
-        for (size_t l = 0; l < WIDTH; ++l)
-            most[l] = most[l] > p[g + l] ? most[l] : p[g + l];
+        for (size_t l = 0; l < WIDTH; ++l) {
+            const float p =
+                hull->x[0][g + l] * d[0] + hull->x[1][g + l] * d[1] + hull->x[2][g + l] * d[2];
+            group[l] = p > most[l] ? g : group[l];
+            most[l] = p > most[l] ? p : most[l];
+        }
     }
     return largest_of(most);
 }
 
-/* The first vertex whose projection is `most`. */
-MOTE_INLINE size_t first_at(const mote_cert_hull *hull, const float p[MOTE_CERT_LEAF_VERTICES],
-                            float most)
+/* A vertex that reaches as far as the farthest lane. */
+MOTE_INLINE size_t vertex_at(const float most[WIDTH], const uint32_t group[WIDTH],
+                             float largest)
 {
-    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
-        uint32_t bits = 0;
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < WIDTH; ++l)
-            bits |= p[g + l] >= most ? 1u << l : 0;
-        if (bits)
-            return g + mote_lowest_bit(bits);
-    }
-    return 0;
+    uint32_t bits = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        bits |= most[l] >= largest ? 1u << l : 0;
+    const size_t lane = bits ? mote_lowest_bit(bits) : 0;
+    return group[lane] + lane;
 }
 
 /* Whether a gap along a vector is at least need times its length. */
@@ -81,23 +74,24 @@ MOTE_INLINE bool far_enough(float gap, float need, float length_squared)
 }
 
 /* Along w, from body 0 to body 1: whether the gap, less what the hulls may be off, is at least
-   need times |w|; the vertices that bound it. */
+   need times |w|; if not, the vertices that bound it. */
 MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float need, size_t at[2])
 {
     const float back[3] = {-w[0], -w[1], -w[2]};
-    float along0[MOTE_CERT_LEAF_VERTICES] = {0}, along1[MOTE_CERT_LEAF_VERTICES] = {0};
-    project(p->hull[0], w, along0);
-    project(p->hull[1], back, along1);
-    const float most0 = largest(p->hull[0], along0);
-    const float most1 = largest(p->hull[1], along1);
+    float most[2][WIDTH];
+    uint32_t group[2][WIDTH];
+    const float reach0 = reach_along(p->hull[0], w, most[0], group[0]);
+    const float reach1 = reach_along(p->hull[1], back, most[1], group[1]);
     const float gap =
-        -(most0 + most1) -
+        -(reach0 + reach1) -
         (p->loose[0] * fabsf(w[0]) + p->loose[1] * fabsf(w[1]) + p->loose[2] * fabsf(w[2]));
+    if (far_enough(gap, need, w[0] * w[0] + w[1] * w[1] + w[2] * w[2]))
+        return true;
     if (at) {
-        at[0] = first_at(p->hull[0], along0, most0);
-        at[1] = first_at(p->hull[1], along1, most1);
+        at[0] = vertex_at(most[0], group[0], reach0);
+        at[1] = vertex_at(most[1], group[1], reach1);
     }
-    return far_enough(gap, need, w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    return false;
 }
 
 /* Gilbert's search for the least difference of two hulls: w, the difference of a point in each,
@@ -322,7 +316,8 @@ static void find_near(const mote_certificate *c, const pair *p, left_pairs *near
                                  faces[0].mask, far_enough.open);
     if (used)
         used = filter_along(faces, p->nearest, c->need, p->loose, used, far_enough.open);
-    mote_cert_face_pairs pairs = {.count = 0};
+    mote_cert_face_pairs pairs;
+    pairs.count = 0;
     for (; used; used &= used - 1) {
         const size_t i = mote_lowest_bit(used);
         for (uint32_t left = far_enough.open[i]; left; left &= left - 1) {
