@@ -8,6 +8,10 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
+/* The traversal starts again where the upper bound falls below this part of itself: what it
+   still has to look at is then much less. */
+#define WORTH_RESTART 0.95
+
 /* Steps of the search for a direction that separates two leaves. */
 #define STEPS 3
 
@@ -390,7 +394,9 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
         return;
     if (take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
         return;
-    if (measure_all(c, &p) && c->restarts < c->options.restarts) {
+    const double before = c->upper;
+    if (measure_all(c, &p) && c->upper < WORTH_RESTART * before &&
+        c->restarts < c->options.restarts) {
         c->improved = true;
         c->done = true;
     }
