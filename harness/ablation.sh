@@ -1,8 +1,8 @@
 #!/bin/sh
 # ablation.sh MOTE PROFILE OUT: what each step of the certified query brings: one left out at a
-# time, and every start. Leaves OUT/summary.json, the table in OUT/ablation.txt, and prints it. A
-# run that was stopped goes on where it stopped. quick: 200 frames of three scenarios, once; full:
-# all frames, three times, a million triangles too.
+# time, and every start. Leaves OUT/summary.json, the table in OUT/ablation.txt, which it prints,
+# and OUT/report.html with intervals. A run that was stopped goes on where it stopped. quick: 200
+# frames of three scenarios, once; full: all frames, three times, a million triangles too.
 set -eu
 mote=$1
 profile=$2
@@ -30,4 +30,5 @@ status=0
     --method 'certified:slack=0.000001|0.001' >/dev/null || status=$?
 [ "$status" = 0 ] || [ "$status" = 5 ] || exit "$status"
 "$mote" summarize "$out" --format table | tee "$out/ablation.txt"
+"$mote" report "$out"
 exit "$status"
