@@ -1,4 +1,5 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line. */
+#include "harness/bodies_simulate_print.h"
 #include "harness/film.h"
 #include "harness/json_print.h"
 #include "harness/simulate.h"
@@ -63,19 +64,25 @@ static void print_lines(const request *wish, const mote_simulation_result *r)
     (void)printf("\n");
 }
 
+/* What the command line says over the defaults. */
+static void take_wishes(const request *wish, mote_simulation_options *options)
+{
+    if (!isnan(wish->density))
+        options->density = wish->density;
+    if (!isnan(wish->restitution))
+        options->restitution = wish->restitution;
+    if (!isnan(wish->tolerance))
+        options->tolerance = wish->tolerance;
+    if (!isnan(wish->time_step))
+        options->time_step = wish->time_step;
+    options->gravity = wish->gravity;
+}
+
 static mote_status simulate(const request *wish, const mote_scenario *scenario,
                             mote_simulation_result *result)
 {
     mote_simulation_options options = mote_default_simulation_options(scenario);
-    if (!isnan(wish->density))
-        options.density = wish->density;
-    if (!isnan(wish->restitution))
-        options.restitution = wish->restitution;
-    if (!isnan(wish->tolerance))
-        options.tolerance = wish->tolerance;
-    if (!isnan(wish->time_step))
-        options.time_step = wish->time_step;
-    options.gravity = wish->gravity;
+    take_wishes(wish, &options);
     mote_simulator *simulator;
     mote_status status = mote_simulator_create(scenario, &wish->choice, &options, &simulator);
     if (status != MOTE_OK)
@@ -105,6 +112,33 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
                                   &options, wish->trace);
     free(trace);
     mote_simulator_destroy(simulator);
+    return status;
+}
+
+/* The same for a scenario of several bodies. */
+static mote_status simulate_several(const request *wish)
+{
+    mote_bodies_choice choice;
+    mote_bodies *bodies;
+    mote_status status = mote_bodies_choice_read(wish->method, &choice);
+    if (status == MOTE_OK)
+        status = mote_bodies_load(wish->scenario, &bodies);
+    if (status != MOTE_OK)
+        return status;
+    const double own = bodies->tolerance / bodies->length;
+    mote_simulation_options options = {
+        .density = 1, .restitution = 1, .tolerance = own > 0 ? own : 0.005, .time_step = 1};
+    take_wishes(wish, &options);
+    const double frames = ceil((bodies->frames - 1.0) / options.time_step);
+    const double steps = wish->steps > 0 ? (double)wish->steps
+                                         : fmin(fmax(frames, 1), MOTE_SIMULATION_STEPS_MAX);
+    mote_bodies_simulation result;
+    status = mote_bodies_simulate(bodies, &choice, &options, (uint32_t)steps, &result);
+    if (status == MOTE_OK && wish->json)
+        status = mote_bodies_simulation_json(bodies, &choice, &result);
+    else if (status == MOTE_OK)
+        mote_bodies_simulation_print(bodies, &choice, &result);
+    mote_bodies_destroy(bodies);
     return status;
 }
 
@@ -206,6 +240,13 @@ int mote_command_simulate(int argc, char **argv)
     if (!wish.scenario || !wish.method)
         return mote_command_usage("simulate", "something is missing; write `mote simulate "
                                               "SCENARIO --method NAME`");
+    if (mote_bodies_is(wish.scenario)) {
+        if (wish.trace || wish.film || wish.seed != 1)
+            return mote_command_usage(
+                "simulate", "--trace, --film and --seed are for two bodies; leave them out");
+        return simulate_several(&wish) == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE)
+                                                  : mote_command_fail();
+    }
     mote_scenario *scenario;
     if (mote_method_choice_read(wish.method, &wish.choice) != MOTE_OK ||
         mote_scenario_load(wish.scenario, &scenario) != MOTE_OK)

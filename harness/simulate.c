@@ -46,7 +46,7 @@ mote_simulation_options mote_default_simulation_options(const mote_scenario *sce
         .density = 1, .restitution = 1, .tolerance = own > 0 ? own : 0.005, .time_step = 1};
 }
 
-static mote_status check_options(const mote_simulation_options *options)
+mote_status mote_simulation_options_check(const mote_simulation_options *options)
 {
     if (!(options->tolerance > 0 && options->tolerance <= MOTE_SIMULATION_NEAR))
         return mote_fail(MOTE_EINVAL,
@@ -97,7 +97,7 @@ mote_status mote_simulator_create(const mote_scenario *scenario,
                                   const mote_simulation_options *options,
                                   mote_simulator **simulator)
 {
-    mote_status status = check_options(options);
+    mote_status status = mote_simulation_options_check(options);
     if (status != MOTE_OK)
         return status;
     mote_simulator *made = calloc(1, sizeof *made);

@@ -28,6 +28,9 @@ typedef struct mote_simulation_options {
    frame a step. */
 mote_simulation_options mote_default_simulation_options(const mote_scenario *scenario);
 
+/* MOTE_EINVAL, saying what would be right, for options out of range. */
+mote_status mote_simulation_options_check(const mote_simulation_options *options);
+
 /* A step, before the bodies respond: for pictures. Borrowed for the call. */
 typedef struct mote_simulation_view {
     uint32_t step;            /* from 0 */
