@@ -150,6 +150,19 @@ static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANE
     }
 }
 
+/* Where the near hull of a leaf is kept. */
+static mote_cert_hull *hull_place(mote_cert_side *side, const mote_cert_node *node, size_t lane)
+{
+    return &side->hulls[(uint32_t)~node->block->child[lane] % MOTE_CERT_HULLS];
+}
+
+const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
+                                                const mote_cert_node *node, size_t lane)
+{
+    const mote_cert_hull *hull = hull_place(side, node, lane);
+    return hull->leaf == leaf_of(side->tree, node, lane) ? hull : NULL;
+}
+
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane)
 {
@@ -157,7 +170,7 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
     const mote_body *body = tree->body;
     const mote_cert_block *block = node->block;
     const mote_cert_leaf *leaf = leaf_of(tree, node, lane);
-    mote_cert_hull *hull = &side->hulls[(uint32_t)~block->child[lane] % MOTE_CERT_HULLS];
+    mote_cert_hull *hull = hull_place(side, node, lane);
     if (body->field->count > 0 && !body->field->kind->estimate)
         return NULL;
     if (hull->leaf == leaf)

@@ -382,17 +382,22 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
     ++c->counters.leaf_pairs;
     if (c->options.directions && latest_separates(c, nodes, lanes))
         return;
+    bool near = true;
     for (int s = 0; s < 2; ++s) {
-        mote_cert_leaf_hull(&c->side[s], nodes[s], lanes[s], &hulls[s]);
-        p.leaf[s] = hulls[s].leaf;
-        p.hull[s] = &hulls[s];
+        p.hull[s] = mote_cert_leaf_known_hull(&c->side[s], nodes[s], lanes[s]);
+        if (!p.hull[s]) {
+            mote_cert_leaf_hull(&c->side[s], nodes[s], lanes[s], &hulls[s]);
+            p.hull[s] = &hulls[s];
+            near = false;
+        }
+        p.leaf[s] = p.hull[s]->leaf;
     }
     set_loose(&p);
     for (size_t r = 0; r < 3; ++r)
         p.nearest[r] = nodes[1]->centre[r][lanes[1]] - nodes[0]->centre[r][lanes[0]];
     if (c->options.directions && separated(c, &p))
         return;
-    if (take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
+    if (!near && take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
         return;
     const double before = c->upper;
     if (measure_all(c, &p) && c->upper < WORTH_RESTART * before &&

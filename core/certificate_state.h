@@ -168,6 +168,10 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane);
 
+/* The last if it is still kept, else NULL. */
+const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
+                                                const mote_cert_node *node, size_t lane);
+
 /* certificate_row.c */
 
 /* The gaps between box `lane` of node d and the boxes of node e along the plane's normal.
