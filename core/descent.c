@@ -150,15 +150,36 @@ static double gain_below(const mote_ground *ground, int level)
                                                 : ground->levels->level[level].spacing);
 }
 
+/* True if two vertices are at most two edges apart. */
+static bool within_two_rings(const mote_mesh *mesh, uint32_t v, uint32_t w)
+{
+    if (v == w)
+        return true;
+    const uint32_t *ring = mesh->ring, *start = mesh->ring_start;
+    for (uint32_t k = start[v]; k < start[v + 1]; ++k) {
+        const uint32_t beside = MOTE_RING_VERTEX(ring[k]);
+        if (beside == w)
+            return true;
+        for (uint32_t j = start[w]; j < start[w + 1]; ++j) {
+            if (MOTE_RING_VERTEX(ring[j]) == beside)
+                return true;
+        }
+    }
+    return false;
+}
+
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
-                    double worth, double *least, uint64_t *moves)
+                    double worth, const uint32_t *known, double *least, uint64_t *moves)
 {
     int on[2] = {level[0], level[1]};
     while (on[0] != MOTE_MESH_LEVEL || on[1] != MOTE_MESH_LEVEL) {
         double squared = mote_distance_squared(at[0].world, at[1].world);
-        for (int side = 0; side < 2; ++side)
-            *moves +=
-                move_by_shape(&ground[side], on[side], &at[side], at[1 - side].world, &squared);
+        for (int side = 0; side < 2; ++side) {
+            /* Out over the mesh and back is a long way, edge by edge. */
+            if (level[side] != MOTE_MESH_LEVEL)
+                *moves += move_by_shape(&ground[side], on[side], &at[side], at[1 - side].world,
+                                        &squared);
+        }
         *least = sqrt(squared) - gain_below(&ground[0], on[0]) - gain_below(&ground[1], on[1]);
         if (*least > worth)
             return HUGE_VAL;
@@ -167,7 +188,11 @@ double mote_descend(const mote_ground ground[2], const int level[2], mote_place 
                 at[side].node = at[side].vertex;
         }
     }
-    const double squared = mote_walk(ground, on, at, moves);
+    const bool joins = known &&
+                       within_two_rings(ground[0].lazy->body->mesh, at[0].vertex, known[0]) &&
+                       within_two_rings(ground[1].lazy->body->mesh, at[1].vertex, known[1]);
+    const double squared = joins ? mote_distance_squared(at[0].world, at[1].world)
+                                 : mote_walk(ground, on, at, moves);
     *least = sqrt(squared) - gain_below(&ground[0], on[0]) - gain_below(&ground[1], on[1]);
-    return squared;
+    return joins ? HUGE_VAL : squared;
 }

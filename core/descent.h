@@ -44,11 +44,14 @@ mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node);
 double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
                  uint64_t *moves);
 
-/* Moves both places once on the levels given and on each finer one, then walks on the mesh.
+/* Moves both places once on the levels given and on each finer one, then walks on the mesh; a
+   place that is given on the mesh waits there for the other one.
    Gives up, and returns HUGE_VAL, on the level where what is left of the way can hardly lead
-   within the distance worth (may be infinite: never). *least: what it can hardly come below. */
+   within the distance worth (may be infinite: never), and on the mesh where both places are
+   within two edges of the vertices known[2] of a minimum (NULL: none): most descents end at the
+   nearest one. *least: what it can hardly come below. */
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
-                    double worth, double *least, uint64_t *moves);
+                    double worth, const uint32_t *known, double *least, uint64_t *moves);
 
 #ifdef __cplusplus
 }

@@ -201,6 +201,12 @@ static mote_place opposite(mote_request *r, int b, mote_vec3 world)
     return nearest_place(&t->body[1 - b], world);
 }
 
+/* The vertices of the nearest pair that was checked exactly; NULL: none was. */
+static const uint32_t *nearest_known(const mote_request *r)
+{
+    return r->best->squared < HUGE_VAL ? r->best->vertex : NULL;
+}
+
 static void launch(mote_request *r, int b, uint32_t i)
 {
     mote_tracker *t = r->tracker;
@@ -219,8 +225,8 @@ static void launch(mote_request *r, int b, uint32_t i)
     }
     mote_outcome *end = &t->body[b].outcome[i];
     end->travelled = t->travelled;
-    const double squared =
-        mote_descend(r->ground, level, at, wanted(r), &end->least, &r->counters->moves);
+    const double squared = mote_descend(r->ground, level, at, wanted(r), nearest_known(r),
+                                        &end->least, &r->counters->moves);
     if (squared < HUGE_VAL)
         keep_places(r, at, squared);
 }
@@ -292,8 +298,8 @@ static void leap(mote_request *r, int b, const uint32_t vertex[2])
     at[b] = mote_place_at(&r->ground[b], level[b], body->near[body->near_turn]);
     at[1 - b] = mote_place_at(&r->ground[1 - b], MOTE_MESH_LEVEL, vertex[1 - b]);
     ++r->counters->launches;
-    const double squared =
-        mote_descend(r->ground, level, at, wanted(r), &least, &r->counters->moves);
+    const double squared = mote_descend(r->ground, level, at, wanted(r), nearest_known(r),
+                                        &least, &r->counters->moves);
     if (squared < HUGE_VAL)
         keep_places(r, at, squared);
 }
@@ -326,8 +332,8 @@ static void launch_first(mote_request *r)
         level[b] = (int)t->body[b].levels->depth - 1;
         at[b] = mote_place_at(&r->ground[b], level[b], 0);
     }
-    keep_places(r, at,
-                mote_descend(r->ground, level, at, HUGE_VAL, &least, &r->counters->moves));
+    keep_places(
+        r, at, mote_descend(r->ground, level, at, HUGE_VAL, NULL, &least, &r->counters->moves));
 }
 
 /* Checks the nearest candidates that no check has ended at. */

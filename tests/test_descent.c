@@ -93,7 +93,8 @@ static void check_descents(bool deforming, bool given)
             random_places(&w, level, at);
             const double before = mote_distance_squared(at[0].world, at[1].world);
             double least;
-            const double squared = mote_descend(w.ground, level, at, HUGE_VAL, &least, &moves);
+            const double squared =
+                mote_descend(w.ground, level, at, HUGE_VAL, NULL, &least, &moves);
             assert_true(squared <= before && least <= sqrt(squared));
             assert_true((squared < before) == (moves > 0));
             assert_places(&w, at, squared);
@@ -159,8 +160,10 @@ static void descend_not_worth_it_gives_up(void **context)
         mote_place far[2] = {start[0], start[1]}, all[2] = {start[0], start[1]};
         double least[2];
         uint64_t moves[2] = {0, 0};
-        const double squared = mote_descend(w.ground, level, far, worth, &least[0], &moves[0]);
-        const double ends = mote_descend(w.ground, level, all, HUGE_VAL, &least[1], &moves[1]);
+        const double squared =
+            mote_descend(w.ground, level, far, worth, NULL, &least[0], &moves[0]);
+        const double ends =
+            mote_descend(w.ground, level, all, HUGE_VAL, NULL, &least[1], &moves[1]);
         assert_true(ends < HUGE_VAL);
         if (squared < HUGE_VAL) {
             assert_true(squared == ends && moves[0] == moves[1] && least[0] == least[1]);
@@ -190,10 +193,46 @@ static void descend_evaluates_few_positions(void **context)
         double least;
         random_places(&w, level, at);
         const uint64_t before = w.lazy[0].evaluated + w.lazy[1].evaluated;
-        mote_descend(w.ground, level, at, HUGE_VAL, &least, &all_moves);
+        mote_descend(w.ground, level, at, HUGE_VAL, NULL, &least, &all_moves);
         all_evaluated += w.lazy[0].evaluated + w.lazy[1].evaluated - before;
     }
     assert_true(all_evaluated < 2 * all_moves + 50 * 32);
+    walk_scene_free(&w);
+}
+
+/* With the end known, a descent ends beside it, for fewer moves, or comes to it as before. */
+static void descend_beside_known_ends_there(void **context)
+{
+    (void)context;
+    walk_scene w;
+    walk_scene_init(&w, true);
+    int joined = 0;
+    for (int frame = 0; frame < 100; ++frame) {
+        walk_scene_next(&w, false);
+        const int level[2] = {(int)w.levels[0]->depth - 1, MOTE_MESH_LEVEL};
+        mote_place start[2];
+        random_places(&w, level, start);
+        mote_place all[2] = {start[0], start[1]}, beside[2] = {start[0], start[1]};
+        double least;
+        uint64_t moves[2] = {0, 0};
+        const double ends =
+            mote_descend(w.ground, level, all, HUGE_VAL, NULL, &least, &moves[0]);
+        const uint32_t known[2] = {all[0].vertex, all[1].vertex};
+        const double squared =
+            mote_descend(w.ground, level, beside, HUGE_VAL, known, &least, &moves[1]);
+        if (squared < HUGE_VAL) {
+            assert_true(squared == ends && moves[0] == moves[1]);
+            continue;
+        }
+        ++joined;
+        assert_true(moves[1] <= moves[0] && least <= sqrt(ends) + 1e-12 * w.s.length);
+        for (int b = 0; b < 2; ++b) /* two edges at most */
+            assert_true(mote_length(mote_sub(w.s.mesh[b]->positions[beside[b].vertex],
+                                             w.s.mesh[b]->positions[known[b]])) <=
+                        6 * w.s.mesh[b]->mean_edge);
+        assert_same_point(beside[1].world, start[1].world); /* it has waited */
+    }
+    assert_in_range(joined, 1, 99);
     walk_scene_free(&w);
 }
 
@@ -205,6 +244,7 @@ int main(void)
         cmocka_unit_test(descend_deforming_local_minimum),
         cmocka_unit_test(walk_one_level_stays_on_it),
         cmocka_unit_test(descend_not_worth_it_gives_up),
+        cmocka_unit_test(descend_beside_known_ends_there),
         cmocka_unit_test(descend_evaluates_few_positions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
