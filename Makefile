@@ -24,7 +24,7 @@
 #   make test-kill                                  200 random kill -9 of a sweep: is a cell lost?
 #   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
-#   make test-threads                               the pool, the queue, scenes under ThreadSanitizer
+#   make test-threads                               several bodies, threads, under ThreadSanitizer
 #   make claims [OUT=DIR]                             measure the claims of the paper
 #   make test-library                               the library alone: gcc, clang, musl-gcc
 #   make test-stranger                              a method, field, scenario from README.md alone
@@ -150,13 +150,13 @@ test-statistics: build
 	@cmake --build $(BUILD) -j $(JOBS) --target coverage
 	@$(BUILD)/tests/coverage
 
-THREADED = test_threads test_scene
+THREADED = test_threads test_scene test_bodies
 .PHONY: test-threads
 test-threads: deps
 	@cmake --preset tsan > /dev/null
 	@cmake --build build-tsan -j $(JOBS) --target $(THREADED) > /dev/null
 	@for t in $(THREADED); do echo "== $$t"; \
-	    TSAN_OPTIONS=halt_on_error=1 build-tsan/tests/$$t || exit 1; done
+	    (cd build-tsan/tests && TSAN_OPTIONS=halt_on_error=1 ./$$t) || exit 1; done
 
 perf-accept: build
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }

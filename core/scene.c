@@ -43,6 +43,9 @@ static mote_status check(uint32_t shape_count, const uint32_t *shape_of, uint32_
     if (shape_count < 1 || body_count < 1)
         return mote_fail(MOTE_EINVAL, "a scene of %u bodies of %u shapes; give at least one",
                          body_count, shape_count);
+    if (options->threads < 1 || options->threads > MOTE_POOL_MAX)
+        return mote_fail(MOTE_EINVAL, "%u threads; give 1 to %u", options->threads,
+                         MOTE_POOL_MAX);
     if (!(options->tolerance >= 0) || !isfinite(options->tolerance))
         return mote_fail(MOTE_EINVAL, "tolerance %g; give a finite number from 0 on",
                          options->tolerance);
@@ -72,7 +75,7 @@ static mote_status build(mote_scene *s, const mote_body *const *shapes,
 {
     for (uint32_t i = 0; i < s->shape_count; ++i)
         s->length = fmax(s->length, shapes[i]->mesh->diagonal);
-    s->trees = calloc(s->shape_count, sizeof(mote_cert_tree *));
+    s->trees = calloc((size_t)s->shape_count + 1, sizeof(mote_cert_tree *));
     s->shape_of = malloc(s->body_count * sizeof *s->shape_of);
     s->workspaces = calloc(s->options.threads, sizeof(mote_certificate *));
     if (!s->trees || !s->shape_of || !s->workspaces)

@@ -38,7 +38,7 @@ mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_fram
         const uint32_t padded = bodies->shapes[s].body.field->padded;
         most = padded > most ? padded : most;
     }
-    mote_bodies_frame made = {.states = calloc(bodies->count, sizeof *made.states),
+    mote_bodies_frame made = {.states = calloc((size_t)bodies->count + 1, sizeof *made.states),
                               .weights = calloc(numbers, sizeof *made.weights),
                               .scratch = calloc(most, sizeof *made.scratch)};
     if (!made.states || !made.weights || !made.scratch) {

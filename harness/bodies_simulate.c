@@ -52,7 +52,7 @@ static mote_status weigh_shapes(simulation *s)
         status = mote_deform_create(body, &s->deform[k]);
     }
     const size_t pairs = (size_t)s->bodies.shape_count * s->bodies.shape_count;
-    s->penetration = calloc(pairs, sizeof(mote_penetration *));
+    s->penetration = calloc(pairs + 1, sizeof(mote_penetration *));
     for (int b = 0; b < 2; ++b)
         s->world[b] = malloc(most * sizeof(mote_vec3));
     if (status == MOTE_OK && (!s->penetration || !s->world[0] || !s->world[1]))

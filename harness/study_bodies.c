@@ -14,17 +14,17 @@
 
 /* Letters: every body a W, or four shapes in turn. */
 typedef struct scene {
-    uint32_t count;
-    uint32_t steps[2];   /* of every way to ask: in full, quick */
     const char *density; /* near pairs a body */
+    uint32_t count;
+    uint32_t steps[2]; /* of every way to ask: in full, quick */
     bool four;
 } scene;
 
 static const scene scenes[] = {
-    {10, {200, 60}, "0.1", false}, {10, {200, 30}, "1", false}, {10, {200, 15}, "4", false},
-    {100, {60, 12}, "0.1", false}, {100, {60, 8}, "1", false},  {100, {60, 4}, "4", false},
-    {1000, {12, 4}, "0.1", false}, {1000, {8, 3}, "1", false},  {1000, {8, 2}, "4", false},
-    {10000, {12, 4}, "0.1", true}, {10000, {12, 4}, "1", true}, {10000, {12, 3}, "4", true}};
+    {"0.1", 10, {200, 60}, false}, {"1", 10, {200, 30}, false}, {"4", 10, {200, 15}, false},
+    {"0.1", 100, {60, 12}, false}, {"1", 100, {60, 8}, false},  {"4", 100, {60, 4}, false},
+    {"0.1", 1000, {12, 4}, false}, {"1", 1000, {8, 3}, false},  {"4", 1000, {8, 2}, false},
+    {"0.1", 10000, {12, 4}, true}, {"1", 10000, {12, 4}, true}, {"4", 10000, {12, 3}, true}};
 
 /* The first control: FCL's manager, every body refitted. */
 #define FIRST_CONTROL "fcl-aabb:refit=every"
