@@ -5,25 +5,27 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the boxes of the two bodies overlap: no vertex outside of it is inside the other body.
- */
-typedef struct overlap {
+/* Triangles that follow each other in the mesh and share a box: mostly they are neighbours. */
+#define BLOCK 32u
+
+typedef struct box {
     mote_vec3 low, high;
-} overlap;
+} box;
 
 /* Triangles that a ray from the overlap may meet, by the cells of a grid across the ray's
    direction, x: entries of cell c are entry[first[c]] .. entry[first[c + 1] - 1]. */
 typedef struct shadow {
     const mote_mesh *mesh;
     const mote_vec3 *world;
-    overlap box;   /* of the body; then, what is in the other's as well */
+    box bounds;    /* of the body; then, what is in the other's as well: no vertex outside of
+                      it is inside the other body */
     uint32_t side; /* cells along y, and along z */
     uint32_t *met; /* [triangle_count]; the triangles that may be met */
     uint32_t met_count;
     uint32_t *first; /* [most_side^2 + 1] */
     uint32_t *entry;
     size_t capacity;
-    double longest;      /* edge */
+    box *blocks;         /* [triangle_count / BLOCK, rounded up] */
     uint32_t deepest[2]; /* the last deepest vertex of the other body, and its nearest triangle:
                             tried first, it lets most others be dropped soon */
 } shadow;
@@ -54,7 +56,8 @@ mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
         const size_t side = side_for(mesh[i]->triangle_count);
         s->first = malloc((side * side + 1) * sizeof *s->first);
         s->met = malloc(mesh[i]->triangle_count * sizeof *s->met);
-        status = s->first && s->met ? MOTE_OK : MOTE_ENOMEM;
+        s->blocks = malloc((mesh[i]->triangle_count / BLOCK + 1) * sizeof *s->blocks);
+        status = s->first && s->met && s->blocks ? MOTE_OK : MOTE_ENOMEM;
     }
     if (status != MOTE_OK) {
         mote_penetration_destroy(made);
@@ -72,6 +75,7 @@ void mote_penetration_destroy(mote_penetration *penetration)
         free(penetration->of[i].first);
         free(penetration->of[i].met);
         free(penetration->of[i].entry);
+        free(penetration->of[i].blocks);
     }
     free(penetration);
 }
@@ -95,26 +99,14 @@ static void set_bounds(shadow *s, const mote_vec3 *world)
         high = mote_vec3_make(more(high.x, p.x), more(high.y, p.y), more(high.z, p.z));
     }
     s->world = world;
-    s->box = (overlap){low, high};
+    s->bounds = (box){low, high};
 }
 
-static overlap overlap_of(const overlap *a, const overlap *b)
+static box overlap_of(const box *a, const box *b)
 {
-    return (overlap){
+    return (box){
         {more(a->low.x, b->low.x), more(a->low.y, b->low.y), more(a->low.z, b->low.z)},
         {less(a->high.x, b->high.x), less(a->high.y, b->high.y), less(a->high.z, b->high.z)}};
-}
-
-static void set_longest(shadow *s)
-{
-    double squared = 0;
-    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
-        const uint32_t *t = s->mesh->triangles[f];
-        for (int k = 0; k < 3; ++k)
-            squared =
-                more(squared, mote_distance_squared(s->world[t[k]], s->world[t[(k + 1) % 3]]));
-    }
-    s->longest = sqrt(squared);
 }
 
 /* Monotone in at, so that a point's cell lies between those of its triangle's ends. */
@@ -127,24 +119,41 @@ static uint32_t cell_of(const shadow *s, double at, double low, double high)
 }
 
 /* What a triangle spans. */
-static overlap span_of(const shadow *s, uint32_t triangle)
+static box span_of(const shadow *s, uint32_t triangle)
 {
     const uint32_t *t = s->mesh->triangles[triangle];
     const mote_vec3 a = s->world[t[0]], b = s->world[t[1]], c = s->world[t[2]];
-    return (overlap){
+    return (box){
         {less(a.x, less(b.x, c.x)), less(a.y, less(b.y, c.y)), less(a.z, less(b.z, c.z))},
         {more(a.x, more(b.x, c.x)), more(a.y, more(b.y, c.y)), more(a.z, more(b.z, c.z))}};
+}
+
+static void set_blocks(shadow *s)
+{
+    for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
+        const box span = span_of(s, f);
+        box *block = &s->blocks[f / BLOCK];
+        if (f % BLOCK == 0)
+            *block = span;
+        block->low =
+            mote_vec3_make(less(block->low.x, span.low.x), less(block->low.y, span.low.y),
+                           less(block->low.z, span.low.z));
+        block->high =
+            mote_vec3_make(more(block->high.x, span.high.x), more(block->high.y, span.high.y),
+                           more(block->high.z, span.high.z));
+    }
 }
 
 /* Lists the triangles that rays towards +x from points of the box may meet. */
 static void find_met(shadow *s)
 {
-    const overlap *box = &s->box;
+    const box *within = &s->bounds;
     s->met_count = 0;
     for (uint32_t f = 0; f < s->mesh->triangle_count; ++f) {
-        const overlap span = span_of(s, f);
-        if (span.high.x >= box->low.x && span.high.y >= box->low.y &&
-            span.low.y <= box->high.y && span.high.z >= box->low.z && span.low.z <= box->high.z)
+        const box span = span_of(s, f);
+        if (span.high.x >= within->low.x && span.high.y >= within->low.y &&
+            span.low.y <= within->high.y && span.high.z >= within->low.z &&
+            span.low.z <= within->high.z)
             s->met[s->met_count++] = f;
     }
     s->side = side_for(s->met_count);
@@ -156,11 +165,11 @@ typedef struct cell_range {
 
 static cell_range cells_of(const shadow *s, uint32_t triangle)
 {
-    const overlap *box = &s->box, span = span_of(s, triangle);
-    return (cell_range){cell_of(s, span.low.y, box->low.y, box->high.y),
-                        cell_of(s, span.high.y, box->low.y, box->high.y),
-                        cell_of(s, span.low.z, box->low.z, box->high.z),
-                        cell_of(s, span.high.z, box->low.z, box->high.z)};
+    const box *within = &s->bounds, span = span_of(s, triangle);
+    return (cell_range){cell_of(s, span.low.y, within->low.y, within->high.y),
+                        cell_of(s, span.high.y, within->low.y, within->high.y),
+                        cell_of(s, span.low.z, within->low.z, within->high.z),
+                        cell_of(s, span.high.z, within->low.z, within->high.z)};
 }
 
 /* Counting sort of what may be met into the cells that it may cover. */
@@ -230,8 +239,8 @@ static bool is_ahead(const mote_vec3 t[3], mote_vec3 p)
 /* The winding number of the surface around p is not 0. */
 static bool is_inside(const shadow *s, mote_vec3 p)
 {
-    const uint32_t y = cell_of(s, p.y, s->box.low.y, s->box.high.y);
-    const uint32_t z = cell_of(s, p.z, s->box.low.z, s->box.high.z);
+    const uint32_t y = cell_of(s, p.y, s->bounds.low.y, s->bounds.high.y);
+    const uint32_t z = cell_of(s, p.z, s->bounds.low.z, s->bounds.high.z);
     const size_t cell = (size_t)y * s->side + z;
     int winding = 0;
     for (uint32_t e = s->first[cell]; e < s->first[cell + 1]; ++e) {
@@ -247,34 +256,49 @@ static bool is_inside(const shadow *s, mote_vec3 p)
     return winding != 0;
 }
 
+/* Squared distance of p from a box, rounded down: nothing in it is nearer. */
+static double box_distance_squared(const box *b, mote_vec3 p)
+{
+    const mote_vec3 out = mote_vec3_make(more(0, more(b->low.x - p.x, p.x - b->high.x)),
+                                         more(0, more(b->low.y - p.y, p.y - b->high.y)),
+                                         more(0, more(b->low.z - p.z, p.z - b->high.z)));
+    return mote_dot(out, out) * (1 - 1e-12);
+}
+
+/* Lowers *best to the squared distance of p from one of the triangles of a block. */
+static void near_block(const shadow *s, uint32_t block, mote_vec3 p, double *best,
+                       uint32_t *nearest)
+{
+    if (box_distance_squared(&s->blocks[block], p) >= *best)
+        return;
+    const uint32_t count = s->mesh->triangle_count, first = block * BLOCK;
+    for (uint32_t f = first; f < first + BLOCK && f < count; ++f) {
+        const uint32_t *t = s->mesh->triangles[f];
+        const mote_vec3 corner[3] = {s->world[t[0]], s->world[t[1]], s->world[t[2]]};
+        const double squared = mote_point_triangle(p, corner, NULL);
+        if (squared < *best) {
+            *best = squared;
+            *nearest = f;
+        }
+    }
+}
+
 /* Squared distance of p from the surface, or something at most `bound`. *nearest: the triangle
    to try first, and then the nearest one. */
 static double distance_above(const shadow *s, mote_vec3 p, double bound, uint32_t *nearest)
 {
-    double best = HUGE_VAL, far = HUGE_VAL;
-    const uint32_t count = s->mesh->triangle_count;
-    const uint32_t from = *nearest;
-    for (uint32_t i = 0; i < count && best > bound; ++i) {
-        const uint32_t f = from + i < count ? from + i : from + i - count;
-        const uint32_t *t = s->mesh->triangles[f];
-        const mote_vec3 corner[3] = {s->world[t[0]], s->world[t[1]], s->world[t[2]]};
-        if (mote_distance_squared(p, corner[0]) > far)
-            continue; /* no point of it can be nearer */
-        const double squared = mote_point_triangle(p, corner, NULL);
-        if (squared < best) {
-            best = squared;
-            far = sqrt(best) + s->longest;
-            far *= far * (1 + 1e-12);
-            *nearest = f;
-        }
-    }
+    double best = HUGE_VAL;
+    const uint32_t count = (s->mesh->triangle_count + BLOCK - 1) / BLOCK;
+    const uint32_t from = *nearest / BLOCK;
+    for (uint32_t i = 0; i < count && best > bound; ++i)
+        near_block(s, from + i < count ? from + i : from + i - count, p, &best, nearest);
     return best;
 }
 
-static bool in_box(const overlap *box, mote_vec3 p)
+static bool in_box(const box *within, mote_vec3 p)
 {
-    return p.x >= box->low.x && p.x <= box->high.x && p.y >= box->low.y && p.y <= box->high.y &&
-           p.z >= box->low.z && p.z <= box->high.z;
+    return p.x >= within->low.x && p.x <= within->high.x && p.y >= within->low.y &&
+           p.y <= within->high.y && p.z >= within->low.z && p.z <= within->high.z;
 }
 
 /* One vertex of the other body. */
@@ -282,7 +306,7 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
                       double *squared)
 {
     const mote_vec3 p = other->world[vertex];
-    if (!in_box(&s->box, p) || !is_inside(s, p))
+    if (!in_box(&s->bounds, p) || !is_inside(s, p))
         return;
     const double depth = distance_above(s, p, *squared, nearest);
     if (depth > *squared) {
@@ -296,7 +320,7 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
 static mote_status deepen(shadow *s, const shadow *other, double *squared)
 {
     uint32_t v = 0;
-    while (v < other->mesh->vertex_count && !in_box(&s->box, other->world[v]))
+    while (v < other->mesh->vertex_count && !in_box(&s->bounds, other->world[v]))
         ++v;
     if (v == other->mesh->vertex_count)
         return MOTE_OK;
@@ -304,7 +328,7 @@ static mote_status deepen(shadow *s, const shadow *other, double *squared)
     const mote_status status = fill(s);
     if (status != MOTE_OK)
         return status;
-    set_longest(s);
+    set_blocks(s);
     uint32_t nearest = s->deepest[1];
     deepen_by(s, other, s->deepest[0], &nearest, squared);
     for (; v < other->mesh->vertex_count; ++v)
@@ -318,7 +342,7 @@ mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec
     shadow *a = &penetration->of[0], *b = &penetration->of[1];
     set_bounds(a, world_a);
     set_bounds(b, world_b);
-    a->box = b->box = overlap_of(&a->box, &b->box);
+    a->bounds = b->bounds = overlap_of(&a->bounds, &b->bounds);
     double squared = above * above;
     mote_status status = deepen(a, b, &squared);
     if (status == MOTE_OK)
