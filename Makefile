@@ -31,6 +31,7 @@
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
 #   make test-exports                               exports read by jq, pandas, scipy
 #   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
+#   make check-static, check-threads, valgrind       cppcheck; ThreadSanitizer; a smoke run
 #   make lint, make deps, make build, make clean
 
 PROFILE ?= paper
@@ -198,6 +199,28 @@ lint: format build
 	@run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint \
 	    -extra-arg=-include -extra-arg=$(CURDIR)/cmake/lint.h \
 	    '$(CURDIR)/(core|baselines|harness|datasets)/'
+
+# Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
+.PHONY: check-static check-threads valgrind
+check-static: deps
+	@cppcheck --quiet --enable=warning,performance,portability --inline-suppr --std=c17 \
+	    -j $(JOBS) --error-exitcode=1 -I. --suppressions-list=cmake/cppcheck.txt \
+	    core harness datasets baselines
+
+# ThreadSanitizer over what has threads.
+check-threads: deps
+	@cmake --preset tsan > /dev/null
+	@cmake --build build-tsan -j $(JOBS) --target test_threads answers > /dev/null
+	@build-tsan/tests/test_threads
+	@build-tsan/tests/answers --threads 4 --check tests/answers.txt
+
+# A smoke run: a mesh read in a child, a query on two files, every change of the metamorphic study.
+VALGRIND = valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite
+valgrind: build
+	@$(VALGRIND) $(MOTE) mesh datasets/meshes/box.obj > /dev/null
+	@$(VALGRIND) $(MOTE) distance datasets/meshes/box.obj datasets/meshes/flat-t.obj \
+	    --method certified --method particle:n=8 --method particle-paper:n=5 > /dev/null
+	@$(VALGRIND) $(BUILD)/tests/metamorphic --queries 200 > /dev/null
 
 clean:
 	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz

@@ -278,8 +278,8 @@ static void append_rows(builder *b, const draft *d, mote_cert_block *block)
     block->active_count = count;
     size_t room = b->row_room;
     void *moved = make_room(b, tree->rows, &room, tree->row_count, count, sizeof *tree->rows);
-    if (!moved && b->status != MOTE_OK)
-        return;
+    if (!moved)
+        return; /* none are needed, or there is no room */
     tree->rows = moved;
     if (room != b->row_room) {
         void *active = realloc(tree->active, room);

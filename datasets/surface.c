@@ -39,7 +39,7 @@ mote_status mote_surface_link(mote_vec3 *positions, size_t vertex_count, uint32_
     mote_surface s = {vertex_count, triangle_count, triangle_count, positions, vertex, 0, 0};
     const size_t corners = 3 * triangle_count;
     uint32_t *start = calloc(vertex_count + 1, sizeof *start);
-    uint32_t *bucket = malloc(corners * sizeof *bucket);
+    uint32_t *bucket = calloc(corners, sizeof *bucket);
     s.opposite = malloc(corners * sizeof *s.opposite);
     s.at_vertex = malloc(vertex_count * sizeof *s.at_vertex);
     mote_status status = MOTE_OK;

@@ -199,6 +199,8 @@ static int open_front(const mote_summary *summary, const char *scenario, front *
             ++count;
         }
     }
+    if (count == 0)
+        return 0;
     f->low_x = log10(low / BEYOND_X);
     f->per_x = WIDTH / (log10(high * BEYOND_X) - f->low_x);
     f->per_y = HEIGHT / log10(3 * HIGHEST_PERCENT / LEAST_PERCENT);

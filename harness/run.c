@@ -469,6 +469,7 @@ static void close_run(run *r)
 static mote_status prepare(run *r)
 {
     mote_plan_options plan = r->options->plan;
+    mote_plan made = {0};
     mote_status status = mote_program_hash(&plan.program);
     r->process.program = plan.program;
     r->process.jobs = plan.jobs > 1 ? plan.jobs : 1;
@@ -476,7 +477,8 @@ static mote_status prepare(run *r)
         status = load_subjects(r);
     if (status == MOTE_OK)
         status = mote_plan_make(&plan, r->subjects, r->options->scenario_count,
-                                r->options->choices, &r->plan);
+                                r->options->choices, &made);
+    r->plan = made;
     if (status == MOTE_OK)
         status = look_ahead(r);
     if (status == MOTE_OK)

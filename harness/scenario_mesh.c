@@ -88,7 +88,7 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh)
                               letter.value ? "both" : "neither");
     mote_status status =
         file.value ? read_file(&file, &made) : read_letter(&letter, body, &made);
-    if (status == MOTE_OK && scale.value)
+    if (status == MOTE_OK && made && scale.value)
         status = scale_mesh(&scale, &made);
     if (status == MOTE_OK)
         *mesh = made;

@@ -129,7 +129,7 @@ static void mote_extreme_judge_of_distances_follows_the_promise(void **state)
         {1, -0.01, false, true, MOTE_EXTREME_INEXACT},
         {1, 0.3, false, true, MOTE_EXTREME_WRONG},
         {-1, 0, false, false, MOTE_EXTREME_WRONG},
-        {NAN, 0, false, false, MOTE_EXTREME_NAN},
+        {(double)NAN, 0, false, false, MOTE_EXTREME_NAN},
         {HUGE_VAL, 0, true, false, MOTE_EXTREME_NAN},
     };
     mote_extreme e;
@@ -179,7 +179,7 @@ static void mote_extreme_judge_of_bounds_points_and_contacts(void **state)
     said.answer.witness[0] = mote_vec3_make(9, 9, 9);
     said.answer.witness[1] = mote_vec3_make(9 + e.truth[0], 9, 9);
     expect(&e, 0, &said, MOTE_EXTREME_WRONG);
-    said.answer.witness[1].x = NAN;
+    said.answer.witness[1].x = (double)NAN;
     expect(&e, 0, &said, MOTE_EXTREME_NAN);
 
     const mote_extreme_said nothing = {0};

@@ -94,7 +94,7 @@ static void write_not_finite_refused_and_old_file_kept(void **state)
     mote_vec3 *broken = malloc(bytes);
     assert_non_null(broken);
     memcpy(broken, f->mesh->positions, bytes);
-    broken[7].y = NAN;
+    broken[7].y = (double)NAN;
     assert_int_equal(mote_obj_write(f->path, broken, f->mesh), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "vertex 7"));
     assert_file_holds(f, f->mesh->positions);

@@ -62,11 +62,11 @@ static void check_answer(const mote_answer *answer, const mote_body *const bodie
                          const char *method)
 {
     if (!answer->has_distance || !answer->has_witness)
-        fail_msg("%s, frame %u: %s tells no witnesses", where, frame->number, method);
+        fail_msg("%s, frame %u: %s tells no witnesses", where, (unsigned)frame->number, method);
     const double apart = mote_length(mote_sub(answer->witness[1], answer->witness[0]));
     if (!(fabs(apart - answer->distance) <= RIGHT * length))
         fail_msg("%s, frame %u: %s says %.17g, its witnesses are %.17g apart", where,
-                 frame->number, method, answer->distance, apart);
+                 (unsigned)frame->number, method, answer->distance, apart);
     for (int b = 0; b < 2; ++b) {
         if (!is_on(bodies[b]->mesh, frame->body[b].vertices, answer->witness[b],
                    RIGHT * length))
