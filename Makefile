@@ -208,11 +208,8 @@ check-static: deps
 	    core harness datasets baselines
 
 # ThreadSanitizer over what has threads.
-check-threads: deps
-	@cmake --preset tsan > /dev/null
-	@cmake --build build-tsan -j $(JOBS) --target test_threads answers > /dev/null
-	@build-tsan/tests/test_threads
-	@build-tsan/tests/answers --threads 4 --check tests/answers.txt
+check-threads: build
+	@ONLY=tsan tests/determinism.sh $(BUILD) 1 $(JOBS)
 
 # A smoke run: a mesh read in a child, a query on two files, every change of the metamorphic study.
 VALGRIND = valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite

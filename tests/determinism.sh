@@ -3,7 +3,8 @@
 # sanitizers, and runs each build again and again with 1 to 8 threads: every run must give the
 # answers of tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the
 # root; BUILD holds the table of methods. RUNS: with one thread, of each build (1). CHECKS: a
-# file that make reliability makes its table of.
+# file that make reliability makes its table of. ONLY=tsan: with ThreadSanitizer alone, which then
+# looks at tests/test_threads.c too.
 set -eu
 build=$1 runs=${2:-1} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)
@@ -15,7 +16,7 @@ libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread 
 cache=$(command -v ccache || true)
 
 sources=$(ls core/*.c datasets/*.c harness/scenario*.c harness/mesh_*.c | grep -v core/plain.c)
-for name in approach catalog child command curve data file json_line json_read motion number_text probe \
+for name in approach catalog child command confine curve data file json_line json_read motion number_text probe reach \
     spread turn; do
     sources="$sources harness/$name.c"
 done
@@ -37,7 +38,7 @@ tried=0
 failed=0
 check() { # PROGRAM WORDS...
     tried=$((tried + 1))
-    "$@" --check tests/answers.txt >"$work/log" 2>&1 && return
+    "$@" >"$work/log" 2>&1 && return
     cat "$work/log"
     echo "other answers: $*"
     failed=$((failed + 1))
@@ -51,15 +52,25 @@ try_build() { # NAME COMPILER FLAGS
         return
     fi
     for ((run = 0; run < runs; ++run)); do
-        check "$work/$1/answers"
+        check "$work/$1/answers" --check tests/answers.txt
     done
     for threads in 2 3 4 5 6 7 8; do
-        check "$work/$1/answers" --threads $threads
+        check "$work/$1/answers" --check tests/answers.txt --threads $threads
     done
     rm -r "${work:?}/$1"
     echo "answered: $2 $3"
 }
 
+if [ "${ONLY:-}" = tsan ]; then
+    try_build tsan gcc "-O1 -g -fsanitize=thread"
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    gcc $flags -O1 -g -fsanitize=thread tests/test_threads.c datasets/*.c \
+        $(ls core/*.c | grep -v -e csrbf_fit -e linear_algebra) -lcmocka -lpthread -lm \
+        -o "$work/threads"
+    check "$work/threads"
+    echo "$tried runs, $failed failed"
+    exit $failed
+fi
 for compiler in gcc clang; do
     for level in -O0 -O2 -O3; do
         try_build "$compiler$level" $compiler $level
