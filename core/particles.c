@@ -274,6 +274,7 @@ static bool move_particle(mote_particles *p, int b, uint32_t i)
     find_sources(&search, i);
     search.batch.count = 0;
     search.started = search.moved = false;
+    search.major = search.minor = 0; /* looked at, though of no account, before the first */
     const mote_site here = p->site[b][i];
     consider(&search, here, search.here);
     if (p->options.surface)
