@@ -71,7 +71,7 @@ static void check_answer(const mote_answer *answer, const mote_body *const bodie
         if (!is_on(bodies[b]->mesh, frame->body[b].vertices, answer->witness[b],
                    RIGHT * length))
             fail_msg("%s, frame %u: witness %d of %s is not on its surface", where,
-                     frame->number, b, method);
+                     (unsigned)frame->number, b, method);
     }
 }
 
