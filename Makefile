@@ -111,7 +111,8 @@ build-fuzz: deps
 	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell > /dev/null
 
 fuzz: build-fuzz
-	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) $(if $(filter file,$(origin OUT)),results/fuzz,$(OUT))
+	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
+	    $(if $(filter file,$(origin OUT)),results/fuzz,$(OUT)) $(SEED)
 	@$(if $(RECORD),tests/record.sh --fuzz results/fuzz/fuzz.tsv)
 
 # Cases that fail are shrunk and kept in OUT/cases.

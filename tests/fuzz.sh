@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # make fuzz: each fuzz target for some seconds, several at a time, from the committed corpus.
-#   fuzz.sh BUILD_FUZZ SECONDS JOBS OUT
+#   fuzz.sh BUILD_FUZZ SECONDS JOBS OUT [SEED]
+# SEED of the tries, 0: another one each time (1).
 # OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings}; what was found lies in
 # OUT as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing tried.
 # A slow machine makes fewer tries, and fails nothing: 120 s for one input are a hang anywhere.
 set -u
-build=$1 seconds=$2 jobs=$3 out=$4
+build=$1 seconds=$2 jobs=$3 out=$4 seed=${5:-1}
 targets="scenario mesh options cell"
 mkdir -p "$out"
 rm -f "$out"/*.tsv "$out"/*.log "$out"/*.found
@@ -13,7 +14,7 @@ rm -f "$out"/*.tsv "$out"/*.log "$out"/*.found
 fuzz_one() { # TARGET
     mkdir -p "$out/corpus/$1"
     local found=0 tried cpu TIMEFORMAT='%U %S'
-    cpu=$({ time "$build/tests/fuzz_$1" -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4096 \
+    cpu=$({ time "$build/tests/fuzz_$1" -seed="$seed" -max_total_time="$seconds" -timeout=120 -rss_limit_mb=4096 \
         -print_final_stats=1 -artifact_prefix="$out/$1-" "$out/corpus/$1" \
         "tests/corpus/fuzz_$1" >"$out/$1.log" 2>&1 || touch "$out/$1.found"; } 2>&1 |
         awk '{ print $1 + $2 }')
