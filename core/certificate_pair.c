@@ -71,10 +71,16 @@ MOTE_INLINE size_t vertex_at(const float most[WIDTH], const uint32_t group[WIDTH
     return group[lane] + lane;
 }
 
+/* A shorter vector is no direction: floats of its length squared lose their bits, and along
+   none at all everything is as far as anything else. Where hulls meet the search ends at such.
+ */
+#define SHORTEST_SQUARED 0x1p-100F
+
 /* Whether a gap along a vector is at least need times its length. */
 MOTE_INLINE bool far_enough(float gap, float need, float length_squared)
 {
-    return gap > 0 && gap * gap >= need * need * (1 + 0x1p-18F) * length_squared;
+    return gap > 0 && length_squared >= SHORTEST_SQUARED &&
+           gap * gap >= need * need * (1 + 0x1p-18F) * length_squared;
 }
 
 /* Along w, from body 0 to body 1: whether the gap, less what the hulls may be off, is at least
@@ -245,17 +251,20 @@ static bool measure(mote_certificate *c, const exact_face *s, const exact_face *
 
 /* Of the pairs in `open` (by face of the first leaf), keeps those that reach far enough towards
    each other along a direction from the first leaf to the second; returns the faces of the
-   first that have any left. */
+   first that have any left: all, where there is no direction. */
 static uint32_t filter_along(const mote_cert_faces faces[2], const float direction[3],
                              float need, const float loose[3], uint32_t used,
                              uint32_t open[MOTE_CERT_LEAF_TRIANGLES])
 {
     const float *d = direction;
     const float back[3] = {-d[0], -d[1], -d[2]};
+    const float squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (!(squared >= SHORTEST_SQUARED))
+        return used;
     mote_cert_reaches reaches[2];
     mote_cert_reach_faces(&faces[0], d, &reaches[0]);
     mote_cert_reach_faces(&faces[1], back, &reaches[1]);
-    const float length = sqrtf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const float length = sqrtf(squared);
     const float slack =
         loose[0] * fabsf(d[0]) + loose[1] * fabsf(d[1]) + loose[2] * fabsf(d[2]);
     /* the sum of two reaches that is not far yet */

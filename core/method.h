@@ -99,7 +99,8 @@ typedef struct mote_method {
        steady state for our own methods. */
     mote_status (*query)(void *state, const mote_frame *frame, mote_answer *answer);
 
-    /* For pictures: the world positions of the particles of body 0 or 1 after the last query.
+    /* For pictures: the world positions of the particles of body 0 or 1 after the last query,
+       the frame of which is still there.
        Returns how many there are and writes at most capacity of them. NULL: it has none. */
     size_t (*particles)(const void *state, int body, mote_vec3 *positions, size_t capacity);
 } mote_method;

@@ -12,6 +12,7 @@ struct mote_probe {
     void *state;
     mote_deform *deform[2];
     mote_vec3 *world[2];
+    mote_frame frame; /* the last: particles are where it has them */
 };
 
 static mote_status build(mote_probe *probe, mote_ask ask, double tolerance, uint64_t seed)
@@ -83,15 +84,16 @@ const mote_vec3 *mote_probe_vertices(mote_probe *probe, const mote_frame *frame,
 mote_status mote_probe_answer(mote_probe *probe, const mote_frame *frame, mote_answer *answer)
 {
     const mote_method *method = probe->choice.method;
-    mote_frame full = *frame;
+    mote_frame *full = &probe->frame;
+    *full = *frame;
     if (probe->traits.needs_vertices || probe->traits.given_vertices) {
         for (int i = 0; i < 2; ++i)
-            full.body[i].vertices = mote_probe_vertices(probe, frame, i);
+            full->body[i].vertices = mote_probe_vertices(probe, frame, i);
     }
     mote_answer given = {0};
-    mote_status status = method->update ? method->update(probe->state, &full) : MOTE_OK;
+    mote_status status = method->update ? method->update(probe->state, full) : MOTE_OK;
     if (status == MOTE_OK)
-        status = method->query(probe->state, &full, &given);
+        status = method->query(probe->state, full, &given);
     if (status == MOTE_OK)
         *answer = given;
     return status;

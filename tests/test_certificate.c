@@ -126,6 +126,59 @@ static void query_separate_triangles_equals_all_pairs(void **state)
     }
 }
 
+static mote_mesh *make_cube(void)
+{
+    static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
+                                          {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
+                                          {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    double corners[24];
+    for (int i = 0; i < 24; ++i)
+        corners[i] = i / 3 >> i % 3 & 1;
+    mote_mesh *mesh = NULL;
+    need(mote_mesh_create(corners, 8, faces[0], 12, &mesh) == MOTE_OK);
+    return mesh;
+}
+
+/* Corners, edges and faces that touch exactly: hulls in which the search for a direction ends
+   at none. Asked cold, and warm after another place. */
+static void query_cubes_of_whole_numbers_equals_the_closed_form(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = make_cube();
+    mote_field *field = NULL;
+    need(mote_field_create_static(&field) == MOTE_OK);
+    const mote_body body = {mesh, field};
+    const mote_body *const bodies[2] = {&body, &body};
+    const mote_certificate_options options = mote_default_certificate_options(mesh->diagonal);
+    mote_certificate *c[2] = {NULL, NULL};
+    assert_int_equal(mote_certificate_create(bodies, &options, &c[1]), MOTE_OK);
+    mote_frame frame = {0};
+    for (int b = 0; b < 2; ++b) {
+        for (int r = 0; r < 3; ++r)
+            frame.body[b].pose.rotation.m[r][r] = 1;
+        frame.body[b].pose_changed = frame.body[b].shape_changed = true;
+    }
+    for (int place = 0; place < 343; ++place) {
+        const mote_vec3 t = {place % 7 * 0.5 - 1.5, place / 7 % 7 * 0.5 - 1.5,
+                             place / 49 * 0.5 - 1.5};
+        const mote_vec3 gap = {fmax(0, fabs(t.x) - 1), fmax(0, fabs(t.y) - 1),
+                               fmax(0, fabs(t.z) - 1)};
+        ++frame.number;
+        frame.body[1].pose.translation = t;
+        assert_int_equal(mote_certificate_create(bodies, &options, &c[0]), MOTE_OK);
+        for (int i = 0; i < 2; ++i) {
+            mote_certificate_answer a;
+            mote_certificate_query(c[i], &frame, NULL, -1, &a);
+            assert_true(fabs(a.distance - mote_length(gap)) <= 1e-15);
+            assert_true(a.lower <= mote_length(gap) && a.lower >= mote_length(gap) - 1e-12);
+        }
+        mote_certificate_destroy(c[0]);
+    }
+    mote_certificate_destroy(c[1]);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
 static void query_after_another_history_gives_the_same_distance(void **state)
 {
     (void)state;
@@ -243,6 +296,7 @@ int main(void)
         cmocka_unit_test(query_linear_modes_equals_all_pairs),
         cmocka_unit_test(query_without_a_step_equals_all_pairs),
         cmocka_unit_test(query_separate_triangles_equals_all_pairs),
+        cmocka_unit_test(query_cubes_of_whole_numbers_equals_the_closed_form),
         cmocka_unit_test(query_after_another_history_gives_the_same_distance),
         cmocka_unit_test(query_contact_agrees_with_the_distance),
         cmocka_unit_test(query_scaled_by_powers_of_two_gives_the_same_bits),
