@@ -1,7 +1,9 @@
 /* A small random sequence from a seed (splitmix64: Steele, Lea, Flood 2014): the same on every
-   machine, for start positions. */
+   machine, for start positions and drawn scenes. */
 #ifndef MOTE_CORE_RANDOM_H
 #define MOTE_CORE_RANDOM_H
+
+#include "core/vec3.h"
 
 #include <stdint.h>
 
@@ -31,6 +33,20 @@ static inline uint64_t mote_random_below(mote_random *random, uint64_t bound)
 static inline double mote_random_unit(mote_random *random)
 {
     return (double)(mote_random_next(random) >> 11) * 0x1p-53;
+}
+
+/* Uniform on the unit sphere (rejection in a ball). */
+static inline mote_vec3 mote_random_direction(mote_random *random)
+{
+    for (;;) {
+        const double x = 2 * mote_random_unit(random) - 1;
+        const double y = 2 * mote_random_unit(random) - 1;
+        const double z = 2 * mote_random_unit(random) - 1;
+        const mote_vec3 v = mote_vec3_make(x, y, z);
+        const double square = mote_length_squared(v);
+        if (square > 0.01 && square <= 1)
+            return mote_scale(v, 1 / sqrt(square));
+    }
 }
 
 #endif

@@ -5,19 +5,6 @@
 
 #include <stdio.h>
 
-static mote_vec3 random_direction(mote_random *random)
-{
-    for (;;) {
-        mote_vec3 v;
-        v.x = 2 * mote_random_unit(random) - 1;
-        v.y = 2 * mote_random_unit(random) - 1;
-        v.z = 2 * mote_random_unit(random) - 1;
-        const double square = mote_length_squared(v);
-        if (square > 0.01 && square <= 1)
-            return mote_scale(v, 1 / sqrt(square));
-    }
-}
-
 /* Evenly from all rotations (Shoemake 1992). */
 static mote_quaternion random_turn(mote_random *random)
 {
@@ -53,10 +40,10 @@ mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mo
         start.state[i].turn = random_turn(&random);
         const double turning = MOTE_APPROACH_DEGREES * radian * mote_random_unit(&random);
         start.state[i].angular_momentum = mote_rigid_angular_momentum(
-            &masses[i], &start.state[i], mote_scale(random_direction(&random), turning));
+            &masses[i], &start.state[i], mote_scale(mote_random_direction(&random), turning));
     }
-    const mote_vec3 from = random_direction(&random);
-    mote_vec3 aside = mote_cross(from, random_direction(&random));
+    const mote_vec3 from = mote_random_direction(&random);
+    mote_vec3 aside = mote_cross(from, mote_random_direction(&random));
     aside = mote_scale(aside, MOTE_APPROACH_ASIDE * length * sqrt(mote_random_unit(&random)));
     const double far = reach_of(scenario->body[0].mesh, masses[0].centre) +
                        reach_of(scenario->body[1].mesh, masses[1].centre) +

@@ -27,19 +27,6 @@ typedef struct placing {
     mote_scene_box *boxes; /* [count] */
 } placing;
 
-static mote_vec3 draw_direction(mote_random *random)
-{
-    for (;;) {
-        const double x = 2 * mote_random_unit(random) - 1;
-        const double y = 2 * mote_random_unit(random) - 1;
-        const double z = 2 * mote_random_unit(random) - 1;
-        const mote_vec3 v = mote_vec3_make(x, y, z);
-        const double square = mote_length_squared(v);
-        if (square > 0.01 && square <= 1)
-            return mote_scale(v, 1 / sqrt(square));
-    }
-}
-
 static void draw_path(placing *p, uint32_t i)
 {
     mote_bodies_path *path = &p->bodies->paths[i];
@@ -48,8 +35,8 @@ static void draw_path(placing *p, uint32_t i)
     u->x = 2 * mote_random_unit(&p->random) - 1;
     u->y = 2 * mote_random_unit(&p->random) - 1;
     u->z = 2 * mote_random_unit(&p->random) - 1;
-    path->velocity = mote_scale(draw_direction(&p->random), p->wish->speed * length);
-    path->axis = draw_direction(&p->random);
+    path->velocity = mote_scale(mote_random_direction(&p->random), p->wish->speed * length);
+    path->axis = mote_random_direction(&p->random);
     path->degrees = 360 * mote_random_unit(&p->random);
     path->spin = p->wish->spin;
     /* Keyed deformations end with their last key: those all have one time. */

@@ -1,5 +1,6 @@
 #include "harness/motion.h"
 
+#include "core/random.h"
 #include "harness/turn.h"
 
 #include <math.h>
@@ -27,33 +28,6 @@ void mote_quaternions_align(mote_quaternion *keys, uint32_t count)
     }
 }
 
-/* splitmix64: Steele, Lea and Flood 2014. */
-static uint64_t draw_bits(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
-static double draw_unit(uint64_t *state)
-{
-    return (double)(draw_bits(state) >> 11) * 0x1p-53;
-}
-
-static mote_vec3 draw_direction(uint64_t *state)
-{
-    for (;;) {
-        const double x = 2 * draw_unit(state) - 1;
-        const double y = 2 * draw_unit(state) - 1;
-        const double z = 2 * draw_unit(state) - 1;
-        const mote_vec3 v = mote_vec3_make(x, y, z);
-        const double square = mote_length_squared(v);
-        if (square > 0.01 && square <= 1)
-            return mote_scale(v, 1 / sqrt(square));
-    }
-}
-
 /* low (high / low)^part by bisection of the exponent: pow may differ between machines. */
 static double between(double low, double high, double part)
 {
@@ -74,14 +48,14 @@ static double between(double low, double high, double part)
 void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, double amplitude,
                      double low, double high, mote_wave *waves)
 {
-    uint64_t state = seed;
+    mote_random random = {seed};
     for (uint32_t j = 0; j < control_count; ++j) {
         for (uint32_t t = 0; t < terms; ++t) {
             mote_wave *wave = &waves[(size_t)j * terms + t];
             wave->control = j;
-            wave->amplitude = mote_scale(draw_direction(&state), amplitude / terms);
-            wave->period = between(low, high, draw_unit(&state));
-            wave->phase = draw_unit(&state);
+            wave->amplitude = mote_scale(mote_random_direction(&random), amplitude / terms);
+            wave->period = between(low, high, mote_random_unit(&random));
+            wave->phase = mote_random_unit(&random);
         }
     }
 }
