@@ -187,20 +187,13 @@ mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
     return status;
 }
 
-static int compare(const uint32_t a[2], const uint32_t b[2])
-{
-    if (a[0] != b[0])
-        return a[0] < b[0] ? -1 : 1;
-    return a[1] < b[1] ? -1 : a[1] > b[1];
-}
-
 static mote_status check_pairs(const mote_scene *s, const uint32_t (*pairs)[2], size_t count)
 {
     for (size_t k = 0; k < count; ++k) {
         if (pairs[k][0] >= pairs[k][1] || pairs[k][1] >= s->body_count)
             return mote_fail(MOTE_EINVAL, "pair %u, %u; give i < j below %u bodies",
                              pairs[k][0], pairs[k][1], s->body_count);
-        if (k > 0 && compare(pairs[k - 1], pairs[k]) >= 0)
+        if (k > 0 && mote_pair_order(pairs[k - 1], pairs[k]) >= 0)
             return mote_fail(MOTE_EINVAL, "pair %u, %u after %u, %u; give them ascending",
                              pairs[k][0], pairs[k][1], pairs[k - 1][0], pairs[k - 1][1]);
     }
@@ -232,10 +225,10 @@ static void take_over(const pair_list *before, const uint32_t (*pairs)[2], size_
     size_t old = 0;
     list->count = count;
     for (size_t k = 0; k < count; ++k) {
-        while (old < before->count && compare(before->pairs[old].body, pairs[k]) < 0)
+        while (old < before->count && mote_pair_order(before->pairs[old].body, pairs[k]) < 0)
             ++old;
         const bool known =
-            old < before->count && compare(before->pairs[old].body, pairs[k]) == 0;
+            old < before->count && mote_pair_order(before->pairs[old].body, pairs[k]) == 0;
         list->pairs[k] = (mote_scene_pair){.body = {pairs[k][0], pairs[k][1]}, .steps = 1};
         list->memories[k] = (mote_cert_memory){.has_last = false};
         if (known) {

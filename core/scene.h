@@ -32,6 +32,15 @@ typedef struct mote_scene_box {
     mote_vec3 low, high;
 } mote_scene_box;
 
+/* The order of pairs of bodies, by the first and then the second: < 0, 0, > 0 as a is before,
+   the same as or behind b. */
+static inline int mote_pair_order(const uint32_t a[2], const uint32_t b[2])
+{
+    if (a[0] != b[0])
+        return a[0] < b[0] ? -1 : 1;
+    return a[1] < b[1] ? -1 : a[1] > b[1];
+}
+
 /* What is known of a near pair. */
 typedef struct mote_scene_pair {
     uint32_t body[2];     /* body[0] < body[1] */

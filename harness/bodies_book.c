@@ -3,20 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int compare(const uint32_t a[2], const uint32_t b[2])
-{
-    if (a[0] != b[0])
-        return a[0] < b[0] ? -1 : 1;
-    return a[1] < b[1] ? -1 : a[1] > b[1];
-}
-
 /* The pair of these bodies from *at on, which is moved there; NULL: none. */
 static const mote_bodies_pair *seek(const mote_bodies_pair *pairs, size_t count, size_t *at,
                                     const uint32_t body[2])
 {
-    while (*at < count && compare(pairs[*at].body, body) < 0)
+    while (*at < count && mote_pair_order(pairs[*at].body, body) < 0)
         ++*at;
-    return *at < count && compare(pairs[*at].body, body) == 0 ? &pairs[*at] : NULL;
+    return *at < count && mote_pair_order(pairs[*at].body, body) == 0 ? &pairs[*at] : NULL;
 }
 
 static void end_touch(mote_bodies_book *book, const mote_bodies_touch *touch)
@@ -86,11 +79,12 @@ mote_status mote_bodies_book_step(mote_bodies_book *book, uint32_t k,
         const mote_bodies_pair *pair = &truth[i];
         if (!pair->answer.contact)
             continue;
-        for (; old < book->count && compare(book->touches[old].body, pair->body) < 0; ++old)
+        for (; old < book->count && mote_pair_order(book->touches[old].body, pair->body) < 0;
+             ++old)
             end_touch(book, &book->touches[old]);
         mote_bodies_touch *touch = &book->spare[count++];
         *touch = (mote_bodies_touch){.body = {pair->body[0], pair->body[1]}, .began = k};
-        if (old < book->count && compare(book->touches[old].body, pair->body) == 0)
+        if (old < book->count && mote_pair_order(book->touches[old].body, pair->body) == 0)
             *touch = book->touches[old++];
         const mote_bodies_pair *other = seek(said, said_count, &at, pair->body);
         status =

@@ -237,13 +237,6 @@ static mote_status make_room(pair_list *list, size_t count)
     return MOTE_OK;
 }
 
-static int compare(const uint32_t a[2], const uint32_t b[2])
-{
-    if (a[0] != b[0])
-        return a[0] < b[0] ? -1 : 1;
-    return a[1] < b[1] ? -1 : a[1] > b[1];
-}
-
 /* Makes the pairs those of the step, each with its state or none; states of others go. */
 static void take_over(mote_bodies_engine *e, const uint32_t (*pairs)[2], size_t count)
 {
@@ -252,11 +245,11 @@ static void take_over(mote_bodies_engine *e, const uint32_t (*pairs)[2], size_t 
     size_t at = 0;
     list->count = count;
     for (size_t k = 0; k < count; ++k) {
-        for (; at < old->count && compare(old->pairs[at].body, pairs[k]) < 0; ++at)
+        for (; at < old->count && mote_pair_order(old->pairs[at].body, pairs[k]) < 0; ++at)
             drop_state(e, &old->memories[at]);
         list->pairs[k] = (mote_bodies_pair){.body = {pairs[k][0], pairs[k][1]}, .steps = 1};
         list->memories[k] = (pair_memory){.state = NULL};
-        if (at < old->count && compare(old->pairs[at].body, pairs[k]) == 0) {
+        if (at < old->count && mote_pair_order(old->pairs[at].body, pairs[k]) == 0) {
             list->pairs[k].steps += old->pairs[at].steps;
             list->memories[k] = old->memories[at++];
         }

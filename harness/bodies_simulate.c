@@ -107,13 +107,6 @@ static void set_frame(simulation *s, uint32_t k)
     }
 }
 
-static int compare(const uint32_t a[2], const uint32_t b[2])
-{
-    if (a[0] != b[0])
-        return a[0] < b[0] ? -1 : 1;
-    return a[1] < b[1] ? -1 : a[1] > b[1];
-}
-
 /* Makes normals those of the near pairs: from this answer where they are apart, else from the
    last one. */
 static mote_status update_normals(simulation *s, const mote_bodies_pair *pairs, size_t count)
@@ -133,9 +126,9 @@ static mote_status update_normals(simulation *s, const mote_bodies_pair *pairs, 
         const mote_answer *a = &pairs[k].answer;
         normal *made = &s->spare[k];
         *made = (normal){.body = {pairs[k].body[0], pairs[k].body[1]}};
-        while (old < s->normal_count && compare(s->normals[old].body, made->body) < 0)
+        while (old < s->normal_count && mote_pair_order(s->normals[old].body, made->body) < 0)
             ++old;
-        if (old < s->normal_count && compare(s->normals[old].body, made->body) == 0)
+        if (old < s->normal_count && mote_pair_order(s->normals[old].body, made->body) == 0)
             *made = s->normals[old];
         if (a->has_witness && a->has_distance && a->distance > 0 &&
             mote_distance_squared(a->witness[0], a->witness[1]) > 0) {
