@@ -108,6 +108,24 @@ int mote_option_next(mote_option_reader *reader, const char **value)
     return index;
 }
 
+int mote_study_options(int argc, char **argv, const char **directory, bool *quick)
+{
+    static const mote_option options[] = {{"out", "DIR"}, {"quick", NULL}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
+    const char *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN)
+            return mote_command_usage(
+                argv[0], "%s: takes no argument; write `mote %s --out DIR`", value, argv[0]);
+        if (option == 0)
+            *directory = value;
+        *quick = *quick || option == 1;
+    }
+    return MOTE_EXIT_DONE;
+}
+
 bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, uint64_t *value)
 {
     if (text[0] < '0' || text[0] > '9')

@@ -117,6 +117,10 @@ bool mote_read_triple(const char *text, double value[3]);
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
                             uint64_t *last);
 
+/* Reads a study's options, "--out DIR" and "--quick"; argv[0] is its name, *directory where it
+   writes unless told. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE, told on stderr. */
+int mote_study_options(int argc, char **argv, const char **directory, bool *quick);
+
 /* A method and its parameters, as named on the command line. */
 typedef struct mote_method_choice {
     const mote_method *method;
