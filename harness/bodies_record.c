@@ -1,6 +1,7 @@
 #include "harness/bodies_record.h"
 
 #include "harness/file.h"
+#include "harness/hash.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -11,11 +12,8 @@
 char *mote_bodies_cell_name(const mote_bodies *bodies, const mote_bodies_choice *choice,
                             uint32_t replicate)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
-    for (const char *c = choice->text; *c; ++c)
-        hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
     char *name = mote_format("%s-%.60s-%08" PRIx64 "-r%u", bodies->name, choice->text,
-                             hash >> 32, replicate);
+                             mote_hash_text(choice->text) >> 32, replicate);
     for (char *c = name; c && *c; ++c) {
         const bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
                            (*c >= '0' && *c <= '9') || *c == '.';

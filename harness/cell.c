@@ -1,5 +1,6 @@
 #include "harness/cell.h"
 
+#include "harness/hash.h"
 #include "harness/manifest.h"
 #include "harness/record.h"
 
@@ -11,14 +12,6 @@
 
 const char *const mote_cache_names[] = {"hot", "evict"};
 const char *const mote_cell_status_names[] = {"ok", "crashed", "timeout", "unsupported"};
-
-static uint64_t fnv1a(const char *text)
-{
-    uint64_t hash = 14695981039346656037u;
-    for (; *text; ++text)
-        hash = (hash ^ (unsigned char)*text) * 1099511628211u;
-    return hash;
-}
 
 /* The name as part of a file's name. */
 static void plain(const char *name, char *out, size_t size)
@@ -58,7 +51,7 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
     plain(scenario->name, name, sizeof name);
     plain(cell->choice->method->name, method, sizeof method);
     (void)snprintf(cell->id, sizeof cell->id, "%s-%s-r%u-%016" PRIx64, name, method,
-                   cell->replicate, text.data ? fnv1a(text.data) : 0);
+                   cell->replicate, text.data ? mote_hash_text(text.data) : 0);
     free(text.data);
 }
 

@@ -7,13 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-uint64_t mote_figure_hash(uint64_t hash, const char *text, size_t size)
-{
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ (unsigned char)text[i]) * 1099511628211u;
-    return hash;
-}
-
 void mote_figure_quote(mote_text *text, const char *string)
 {
     mote_text_add(text, "\"");

@@ -50,10 +50,6 @@ mote_figure_writer mote_figure_letters;
 mote_figure_writer mote_figure_animation;
 void mote_figure_animation_clear(const char *directory);
 
-/* 64-bit FNV-1a of text, going on from hash: MOTE_FIGURE_HASH to begin with. */
-#define MOTE_FIGURE_HASH 14695981039346656037u
-uint64_t mote_figure_hash(uint64_t hash, const char *text, size_t size);
-
 /* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: this one), where BASE.dat
    is: all text reaches gnuplot as arguments that are never run. formats: "svg png pdf", or
    "gif". MOTE_EIO when gnuplot is missing or refuses. */

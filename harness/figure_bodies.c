@@ -3,6 +3,7 @@
 
 #include "core/deform.h"
 #include "harness/bodies_engine.h"
+#include "harness/hash.h"
 #include "harness/record.h"
 
 #include <math.h>
@@ -278,7 +279,7 @@ static mote_status draw_film(const mote_figure_run *run, film *f, mote_figure *f
         char name[64];
         status = add_picture(f, k, &text);
         (void)snprintf(name, sizeof name, "figures/frames/%03u.dat", picture);
-        const uint64_t hash = mote_figure_hash(MOTE_FIGURE_HASH, text.data, text.size);
+        const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
         if (status == MOTE_OK)
             status = mote_record_text(run->directory, name, &text);
         free(text.data);

@@ -3,6 +3,7 @@
 #include "harness/figure.h"
 
 #include "harness/figure_scene.h"
+#include "harness/hash.h"
 #include "harness/probe.h"
 #include "harness/record.h"
 
@@ -247,7 +248,7 @@ static mote_status write_frame(const mote_figure_run *run, mote_figure_scene *sc
     mote_text_add(&text, "\n\n");
     mote_figure_quote(&text, label);
     mote_text_add(&text, "\n");
-    *hash = mote_figure_hash(MOTE_FIGURE_HASH, text.data ? text.data : "", text.size);
+    *hash = mote_hash_bytes(MOTE_HASH_START, text.data ? text.data : "", text.size);
     const mote_status status = mote_record_text(run->directory, name, &text);
     free(name);
     return status;

@@ -1,6 +1,7 @@
 #include "harness/figures.h"
 
 #include "harness/figure.h"
+#include "harness/hash.h"
 #include "harness/record.h"
 
 #include <errno.h>
@@ -110,9 +111,8 @@ static char *file_name(const figure_kind *kind, const char *scenario)
     safe[length] = '\0';
     if (same)
         return mote_format("%s-%s", kind->name, safe);
-    return mote_format(
-        "%s-%s-%08" PRIx32, kind->name, safe,
-        (uint32_t)mote_figure_hash(MOTE_FIGURE_HASH, scenario, strlen(scenario)));
+    return mote_format("%s-%s-%08" PRIx32, kind->name, safe,
+                       (uint32_t)mote_hash_text(scenario));
 }
 
 /* "ww, 11,920 triangles", "mv, 2,968 and 1,764 triangles"; the title of a figure of the run. */
@@ -168,7 +168,7 @@ static mote_status draw_data(drawing *d, const figure_kind *kind, const char *sc
 {
     char heading[160], footer[256];
     const uint64_t data =
-        mote_figure_hash(MOTE_FIGURE_HASH, figure->data.data, figure->data.size);
+        mote_hash_bytes(MOTE_HASH_START, figure->data.data, figure->data.size);
     char *name = file_name(kind, scenario);
     char *file = name ? mote_format("figures/%s.dat", name) : NULL;
     mote_status status =
@@ -357,7 +357,7 @@ mote_status mote_figures_plot(const char *directory, const char *name, const cha
                              : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
     if (status == MOTE_OK) {
         run_identity(directory, identity, sizeof identity);
-        make_footer(identity, mote_figure_hash(MOTE_FIGURE_HASH, text, size), footer,
+        make_footer(identity, mote_hash_bytes(MOTE_HASH_START, text, size), footer,
                     sizeof footer);
         status = mote_figure_gnuplot(folder, script, name, "", footer, PAPER);
     }

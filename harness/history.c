@@ -2,6 +2,7 @@
 
 #include "harness/command.h"
 #include "harness/figure.h"
+#include "harness/hash.h"
 #include "harness/record.h"
 #include "harness/summary.h"
 
@@ -233,7 +234,7 @@ static mote_status plot(const char *base, const mote_text *series)
 {
     char footer[64];
     (void)snprintf(footer, sizeof footer, "data %016" PRIx64,
-                   mote_figure_hash(MOTE_FIGURE_HASH, series->data, series->size));
+                   mote_hash_bytes(MOTE_HASH_START, series->data, series->size));
     mote_status status =
         mote_figure_gnuplot(NULL, "history", base, "Accepted references", footer, "svg png");
     if (status == MOTE_OK)

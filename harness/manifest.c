@@ -1,5 +1,6 @@
 #include "harness/manifest.h"
 
+#include "harness/hash.h"
 #include "harness/record.h"
 #include "harness/spawn.h"
 
@@ -27,11 +28,8 @@ mote_status mote_program_hash(uint64_t *hash)
     mote_status status = mote_file_read(path, PROGRAM_LIMIT, &data, &size);
     if (status != MOTE_OK)
         return status;
-    uint64_t value = 14695981039346656037u;
-    for (size_t i = 0; i < size; ++i)
-        value = (value ^ (unsigned char)data[i]) * 1099511628211u;
+    *hash = mote_hash_bytes(MOTE_HASH_START, data, size);
     free(data);
-    *hash = value;
     return MOTE_OK;
 }
 

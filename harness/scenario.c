@@ -1,6 +1,7 @@
 #include "harness/scenario.h"
 
 #include "core/deform.h"
+#include "harness/hash.h"
 #include "harness/motion.h"
 
 #include <assert.h>
@@ -185,31 +186,18 @@ void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *vel
     *spin = motion->has_spin ? motion->spin : rotation_between(&from.rotation, &to.rotation);
 }
 
-/* FNV-1a, 64 bits, over the bytes of a number from the lowest. */
-static uint64_t hash_number(uint64_t hash, double number)
-{
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    for (int byte = 0; byte < 8; ++byte) {
-        hash ^= bits & 0xff;
-        hash *= 0x100000001b3u;
-        bits >>= 8;
-    }
-    return hash;
-}
-
 static uint64_t hash_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
                             mote_deform *const deform[2], mote_vec3 *world)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = MOTE_HASH_START;
     for (uint32_t number = 1; number <= scenario->frames; ++number) {
         const mote_frame *frame = mote_scenario_frame(scenario, buffer, number, 0);
         for (int i = 0; i < 2; ++i) {
             mote_deform_all(deform[i], &frame->body[i], world);
             for (uint32_t v = 0; v < scenario->body[i].mesh->vertex_count; ++v) {
-                hash = hash_number(hash, world[v].x);
-                hash = hash_number(hash, world[v].y);
-                hash = hash_number(hash, world[v].z);
+                hash = mote_hash_double(hash, world[v].x);
+                hash = mote_hash_double(hash, world[v].y);
+                hash = mote_hash_double(hash, world[v].z);
             }
         }
     }

@@ -1,6 +1,7 @@
 #include "harness/study_dynamics.h"
 
 #include "harness/figure.h"
+#include "harness/hash.h"
 #include "harness/measure.h"
 #include "harness/record.h"
 
@@ -117,7 +118,7 @@ static off_t byte_of(const mote_dynamics_row *row)
 {
     char name[160];
     (void)snprintf(name, sizeof name, "%s %s", row->scene, row->method);
-    return (off_t)(mote_figure_hash(MOTE_FIGURE_HASH, name, strlen(name)) & 0x7fffffff);
+    return (off_t)(mote_hash_text(name) & 0x7fffffff);
 }
 
 /* Locks or unlocks a row's byte against other processes; false: somebody has it, or an error.

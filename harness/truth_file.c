@@ -3,6 +3,7 @@
 #include "harness/truth.h"
 
 #include "harness/file.h"
+#include "harness/hash.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -11,14 +12,6 @@
 #include <string.h>
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
-
-static uint64_t hash_text(const char *text, size_t size)
-{
-    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
-    return hash;
-}
 
 static char *first_line(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames,
                         uint32_t checked)
@@ -56,7 +49,7 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
                              ? MOTE_OK
                              : mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path);
     if (status == MOTE_OK) {
-        const uint64_t hash = hash_text(text.data, text.size);
+        const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
         mote_text_add(&text, "# hash %016" PRIx64 "\n", hash);
         status = text.failed ? mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path)
                              : mote_file_write(path, text.data, text.size);
@@ -110,7 +103,7 @@ static bool check_hash(char *text, size_t size)
     char *last = text + size - last_size;
     char expected[32];
     (void)snprintf(expected, sizeof expected, "# hash %016" PRIx64 "\n",
-                   hash_text(text, size - last_size));
+                   mote_hash_bytes(MOTE_HASH_START, text, size - last_size));
     bool same = strcmp(last, expected) == 0;
     *last = '\0';
     return same;

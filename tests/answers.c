@@ -11,6 +11,7 @@
 #include "harness/catalog.h"
 #include "harness/command.h"
 #include "harness/file.h"
+#include "harness/hash.h"
 #include "harness/probe.h"
 #include "harness/scenario.h"
 
@@ -45,33 +46,20 @@ typedef struct work {
     pthread_mutex_t lock;
 } work;
 
-/* FNV-1a over 64-bit words, least significant byte first. */
-static void hash_word(uint64_t *hash, uint64_t word)
-{
-    for (int k = 0; k < 8; ++k)
-        *hash = (*hash ^ (word >> (8 * k) & 0xff)) * 0x100000001b3u;
-}
-
-static void hash_double(uint64_t *hash, double value)
-{
-    uint64_t word = 0;
-    memcpy(&word, &value, sizeof word);
-    hash_word(hash, word);
-}
-
 static void hash_answer(uint64_t *hash, const mote_answer *a)
 {
-    hash_word(hash, (uint64_t)a->has_distance | (uint64_t)a->has_lower << 1 |
-                        (uint64_t)a->has_witness << 2 | (uint64_t)a->has_contact << 3 |
-                        (uint64_t)(a->has_contact && a->contact) << 4);
+    *hash = mote_hash_word(*hash, (uint64_t)a->has_distance | (uint64_t)a->has_lower << 1 |
+                                      (uint64_t)a->has_witness << 2 |
+                                      (uint64_t)a->has_contact << 3 |
+                                      (uint64_t)(a->has_contact && a->contact) << 4);
     if (a->has_distance)
-        hash_double(hash, a->distance);
+        *hash = mote_hash_double(*hash, a->distance);
     if (a->has_lower)
-        hash_double(hash, a->lower);
+        *hash = mote_hash_double(*hash, a->lower);
     for (int k = 0; a->has_witness && k < 2; ++k) {
-        hash_double(hash, a->witness[k].x);
-        hash_double(hash, a->witness[k].y);
-        hash_double(hash, a->witness[k].z);
+        *hash = mote_hash_double(*hash, a->witness[k].x);
+        *hash = mote_hash_double(*hash, a->witness[k].y);
+        *hash = mote_hash_double(*hash, a->witness[k].z);
     }
 }
 
@@ -96,7 +84,7 @@ static mote_status answer_frames(const job *j, mote_probe *probe, mote_frame_buf
 
 static void answer(job *j)
 {
-    j->hash = 0xcbf29ce484222325u;
+    j->hash = MOTE_HASH_START;
     mote_method_choice choice;
     mote_frame_buffer *buffer = NULL;
     mote_probe *probe = NULL;
@@ -108,7 +96,7 @@ static void answer(job *j)
                                    j->scenario->ask, j->scenario->tolerance, 1, &probe);
     if (status == MOTE_OK)
         status = answer_frames(j, probe, buffer, &j->hash);
-    hash_word(&j->hash, status);
+    j->hash = mote_hash_word(j->hash, status);
     j->status = status;
     mote_probe_destroy(probe);
     mote_frame_buffer_destroy(buffer);
@@ -171,12 +159,12 @@ static char *report(const work *w)
     FILE *file = open_memstream(&text, &size);
     if (!file)
         return NULL;
-    uint64_t all = 0xcbf29ce484222325u;
+    uint64_t all = MOTE_HASH_START;
     for (size_t k = 0; k < w->count; ++k) {
         (void)fprintf(file, "%s %s %016" PRIx64 "%s\n", w->jobs[k].scenario->name,
                       w->jobs[k].method, w->jobs[k].hash,
                       w->jobs[k].status == MOTE_OK ? "" : " refused");
-        hash_word(&all, w->jobs[k].hash);
+        all = mote_hash_word(all, w->jobs[k].hash);
     }
     (void)fprintf(file, "all %zu %016" PRIx64 "\n", w->count, all);
     return fclose(file) == 0 ? text : (free(text), NULL);

@@ -1,6 +1,7 @@
 /* mote figures: what a small stored run gives, what is missing, names that would be commands.
  */
 #include "harness/figure.h"
+#include "harness/hash.h"
 #include "harness/record.h"
 #include "tests/program.h"
 
@@ -157,7 +158,7 @@ static void footers_name_run_and_data(void **state)
     path_of("run/figures/shares-tt.dat", path);
     program_read(path, text, sizeof text);
     (void)snprintf(expected, sizeof expected, "data %016llx",
-                   (unsigned long long)mote_figure_hash(MOTE_FIGURE_HASH, text, strlen(text)));
+                   (unsigned long long)mote_hash_text(text));
     path_of("run/figures/shares-tt.svg", path);
     program_read(path, text, sizeof text);
     assert_non_null(strstr(text, expected));
@@ -170,8 +171,8 @@ static void footers_name_run_and_data(void **state)
 static void hash_is_fnv_1a(void **state)
 {
     (void)state;
-    assert_true(mote_figure_hash(MOTE_FIGURE_HASH, "", 0) == 0xcbf29ce484222325u);
-    assert_true(mote_figure_hash(MOTE_FIGURE_HASH, "foobar", 6) == 0x85944171f73967e8u);
+    assert_true(mote_hash_text("") == 0xcbf29ce484222325u);
+    assert_true(mote_hash_text("foobar") == 0x85944171f73967e8u);
 }
 
 static void drawing_again_gives_the_same_bytes(void **state)

@@ -1,5 +1,6 @@
 /* Every property of a letter is recomputed here from its positions and indices alone. */
 #include "datasets/letter.h"
+#include "harness/hash.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -316,22 +317,15 @@ static void create_twice_same_bits(void **state)
     mote_mesh_destroy(second);
 }
 
-static uint64_t hash_bytes(uint64_t hash, const void *data, size_t bytes)
-{
-    const unsigned char *p = data;
-    for (size_t i = 0; i < bytes; i++)
-        hash = (hash ^ p[i]) * 0x100000001b3u;
-    return hash;
-}
-
 /* FNV-1a of positions and triangles: the same on every compiler and optimisation level. */
 static void create_papers_w_known_bits(void **state)
 {
     (void)state;
     mote_mesh *mesh = letter('W', 11920);
-    uint64_t hash = 0xcbf29ce484222325u;
-    hash = hash_bytes(hash, mesh->positions, mesh->vertex_count * sizeof *mesh->positions);
-    hash = hash_bytes(hash, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    uint64_t hash = MOTE_HASH_START;
+    hash = mote_hash_bytes(hash, mesh->positions, mesh->vertex_count * sizeof *mesh->positions);
+    hash =
+        mote_hash_bytes(hash, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
     assert_int_equal(hash, 0x16e8cc3a702b1bc4u);
     mote_mesh_destroy(mesh);
 }

@@ -9,31 +9,16 @@
 #include "core/particles.h"
 #include "core/refine.h"
 #include "core/tracker.h"
+#include "harness/hash.h"
 
 #include "tests/bodies.h"
 
-/* FNV-1a over 64-bit words, most significant byte last. */
-static void hash_word(uint64_t *hash, uint64_t word)
-{
-    for (int k = 0; k < 8; ++k)
-        *hash = (*hash ^ (word >> (8 * k) & 0xff)) * 0x100000001b3u;
-}
-
-static void hash_double(uint64_t *hash, double value)
-{
-    uint64_t word = 0;
-    memcpy(&word, &value, sizeof word);
-    hash_word(hash, word);
-}
-
 static void hash_vec3(uint64_t *hash, mote_vec3 v)
 {
-    hash_double(hash, v.x);
-    hash_double(hash, v.y);
-    hash_double(hash, v.z);
+    *hash = mote_hash_double(*hash, v.x);
+    *hash = mote_hash_double(*hash, v.y);
+    *hash = mote_hash_double(*hash, v.z);
 }
-
-static const uint64_t hash_start = 0xcbf29ce484222325u;
 
 static void expect_hash(uint64_t hash, uint64_t expected)
 {
@@ -55,7 +40,7 @@ static void deform_of_fixed_bodies_has_the_committed_hash(void **unused)
     (void)unused;
     const int sizes[] = {0, 1, 9, 14, 16, 256, -1, -3};
     uint64_t seed = 1;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     for (int k = 0; k < 8; ++k) {
         test_body b;
         test_body_init(&b, solid_to_mesh(solid_icosphere(2)), sizes[k], &seed);
@@ -70,8 +55,8 @@ static void deform_of_fixed_bodies_has_the_committed_hash(void **unused)
             hash_vec3(&hash, mote_field_displacement(b.field, b.mesh, v, &state.weights));
         }
         hash_gradient(&hash, &b, 17);
-        hash_double(&hash, b.mesh->diagonal);
-        hash_double(&hash, b.mesh->mean_edge);
+        hash = mote_hash_double(hash, b.mesh->diagonal);
+        hash = mote_hash_double(hash, b.mesh->mean_edge);
         free(world);
         mote_deform_destroy(deform);
         test_body_free(&b);
@@ -84,7 +69,7 @@ static void single_positions_of_fixed_bodies_have_the_committed_hash(void **unus
     (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 2;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     for (int k = 0; k < 3; ++k) {
         test_body b;
         test_body_init(&b, solid_to_mesh(solid_icosphere(2)), sizes[k], &seed);
@@ -104,7 +89,7 @@ static void single_positions_of_fixed_bodies_have_the_committed_hash(void **unus
 static uint64_t particles_hash(const mote_particles_options *options)
 {
     uint64_t seed = 3;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     test_body b[2];
     test_body_init(&b[0], solid_to_mesh(solid_icosphere(3)), 14, &seed);
     test_body_init(&b[1], solid_to_mesh(solid_icosphere(2)), 9, &seed);
@@ -122,14 +107,14 @@ static uint64_t particles_hash(const mote_particles_options *options)
         mote_particles_begin(particles, &frame, false);
         mote_particles_relax(particles, -1, &counters);
         uint32_t pair[2];
-        hash_double(&hash, mote_particles_closest(particles, pair));
-        hash_word(&hash, counters.moves);
-        hash_word(&hash, counters.steps);
+        hash = mote_hash_double(hash, mote_particles_closest(particles, pair));
+        hash = mote_hash_word(hash, counters.moves);
+        hash = mote_hash_word(hash, counters.steps);
         for (int k = 0; k < 2; ++k) {
             for (uint32_t i = 0; i < options->count; ++i) {
                 const mote_site site = mote_particles_site(particles, k, i);
-                hash_word(&hash, site.a);
-                hash_word(&hash, (uint64_t)site.b << 32 | site.c);
+                hash = mote_hash_word(hash, site.a);
+                hash = mote_hash_word(hash, (uint64_t)site.b << 32 | site.c);
             }
         }
     }
@@ -161,7 +146,7 @@ static void refined_pairs_of_fixed_bodies_have_the_committed_hash(void **unused)
 {
     (void)unused;
     uint64_t seed = 4;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     test_body b[2];
     mote_lazy lazy[2];
     for (int k = 0; k < 2; ++k) {
@@ -179,7 +164,7 @@ static void refined_pairs_of_fixed_bodies_have_the_committed_hash(void **unused)
         const uint32_t vertices[2] = {number * 13, number * 3};
         mote_refined refined;
         mote_refine_vertices(both, vertices, 0, &refined);
-        hash_double(&hash, refined.squared);
+        hash = mote_hash_double(hash, refined.squared);
         hash_vec3(&hash, refined.witness[0]);
         hash_vec3(&hash, refined.witness[1]);
     }
@@ -196,7 +181,7 @@ static void certified_queries_of_fixed_bodies_have_the_committed_hash(void **unu
     (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 5;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     for (int size = 0; size < 3; ++size) {
         test_body b[2];
         for (int k = 0; k < 2; ++k)
@@ -214,12 +199,12 @@ static void certified_queries_of_fixed_bodies_have_the_committed_hash(void **unu
             frame.body[1].pose.translation.x += 2.6 - 0.04 * (double)number;
             mote_certificate_answer answer;
             mote_certificate_query(certificate, &frame, NULL, -1, &answer);
-            hash_double(&hash, answer.distance);
-            hash_double(&hash, answer.lower);
+            hash = mote_hash_double(hash, answer.distance);
+            hash = mote_hash_double(hash, answer.lower);
             hash_vec3(&hash, answer.witness[0]);
-            hash_word(&hash, answer.counters.blocks);
-            hash_word(&hash, answer.counters.rows);
-            hash_word(&hash, answer.counters.triangle_tests);
+            hash = mote_hash_word(hash, answer.counters.blocks);
+            hash = mote_hash_word(hash, answer.counters.rows);
+            hash = mote_hash_word(hash, answer.counters.triangle_tests);
         }
         mote_certificate_destroy(certificate);
         test_body_free(&b[0]);
@@ -234,7 +219,7 @@ static void tracked_queries_of_fixed_bodies_have_the_committed_hash(void **unuse
     (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 6;
-    uint64_t hash = hash_start;
+    uint64_t hash = MOTE_HASH_START;
     for (int size = 0; size < 3; ++size) {
         test_body b[2];
         for (int k = 0; k < 2; ++k)
@@ -257,12 +242,12 @@ static void tracked_queries_of_fixed_bodies_have_the_committed_hash(void **unuse
             mote_counters counters = {0};
             mote_refined best;
             mote_tracker_query(tracker, &frame, false, HUGE_VAL, 0, &counters, &best);
-            hash_double(&hash, best.squared);
+            hash = mote_hash_double(hash, best.squared);
             hash_vec3(&hash, best.witness[0]);
             hash_vec3(&hash, best.witness[1]);
-            hash_word(&hash, counters.positions);
-            hash_word(&hash, counters.moves);
-            hash_word(&hash, counters.launches);
+            hash = mote_hash_word(hash, counters.positions);
+            hash = mote_hash_word(hash, counters.moves);
+            hash = mote_hash_word(hash, counters.launches);
         }
         mote_tracker_destroy(tracker);
         test_body_free(&b[0]);
