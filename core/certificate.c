@@ -4,7 +4,6 @@
 #include "core/triangle.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <string.h>
 
 mote_certificate_options mote_default_certificate_options(double length)
@@ -22,92 +21,6 @@ mote_certificate_options mote_default_certificate_options(double length)
 /* Where the last faces have moved apart by more than this part of L, others are sought in the
    trees: refining from far off takes longer. */
 #define LEAP 0.1
-
-static uint32_t at_most(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
-/* Memory for count elements that begins on a cache line; count is at least 1. */
-static void *allocate_aligned(size_t count, size_t size)
-{
-    return aligned_alloc(64, (count * size + 63) / 64 * 64);
-}
-
-/* Rooms for what one query deforms: a query that needs more computes it again instead of
-   allocating. They grow with the mesh up to a size that does not. */
-static mote_status side_create(mote_cert_side *side, const mote_body *body,
-                               const mote_cert_tree_options *options)
-{
-    mote_status status = mote_cert_tree_create(body, options, &side->tree);
-    const uint32_t vertices = body->mesh->vertex_count;
-    const uint32_t expected = at_most(128 + vertices / 8, 2048);
-    if (status == MOTE_OK)
-        status = mote_lazy_init(&side->lazy, body, expected);
-    if (status != MOTE_OK)
-        return status;
-    side->lazy.fixed = true;
-    side->node_room = at_most(side->tree->block_count, at_most(24 + vertices / 64, 4096));
-    side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
-    if (!side->nodes)
-        return mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
-    return MOTE_OK;
-}
-
-mote_status mote_certificate_create(const mote_body *const body[2],
-                                    const mote_certificate_options *options,
-                                    mote_certificate **certificate)
-{
-    mote_certificate *c = allocate_aligned(1, sizeof *c);
-    if (!c)
-        return mote_fail(MOTE_ENOMEM, "no memory for a certificate");
-    memset(c, 0, sizeof *c);
-    c->options = *options;
-    const mote_cert_tree_options tree = {.length = options->length,
-                                         .width = options->width,
-                                         .linear_fits = options->linear_fits};
-    mote_status status = side_create(&c->side[0], body[0], &tree);
-    if (status == MOTE_OK)
-        status = side_create(&c->side[1], body[1], &tree);
-    if (status == MOTE_OK) {
-        c->scale = c->side[0].tree->scale;
-        c->spare_room = 2 * (c->side[0].tree->depth + c->side[1].tree->depth);
-        c->spare = allocate_aligned(c->spare_room, sizeof *c->spare);
-        if (!c->spare)
-            status = mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
-    }
-    if (status != MOTE_OK) {
-        mote_certificate_destroy(c);
-        return status;
-    }
-    *certificate = c;
-    return MOTE_OK;
-}
-
-void mote_certificate_destroy(mote_certificate *certificate)
-{
-    if (!certificate)
-        return;
-    for (int s = 0; s < 2; ++s) {
-        mote_cert_tree_destroy(certificate->side[s].tree);
-        mote_lazy_free(&certificate->side[s].lazy);
-        free(certificate->side[s].nodes);
-    }
-    free(certificate->spare);
-    free(certificate);
-}
-
-size_t mote_certificate_bytes(const mote_certificate *certificate)
-{
-    size_t bytes = sizeof *certificate + certificate->spare_room * sizeof *certificate->spare;
-    for (int s = 0; s < 2; ++s) {
-        const mote_cert_side *side = &certificate->side[s];
-        bytes += mote_cert_tree_bytes(side->tree) +
-                 (side->lazy.mask + (size_t)1) * sizeof(mote_lazy_slot) +
-                 side->node_room * sizeof *side->nodes;
-    }
-    return bytes;
-}
 
 /* What has to be proven: that nothing is nearer than the limit. Pairs whose bound is at least
    the limit are left out, so that the distance is proven to 1e-13 of itself. */
@@ -185,18 +98,18 @@ static void find_seed(mote_certificate *c, const mote_frame *frame, const uint32
     const bool witness = c->options.seed == MOTE_CERT_SEED_WITNESS;
     for (int s = 0; s < 2; ++s)
         mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);
-    if (!first && c->has_last && c->options.seed != MOTE_CERT_SEED_NONE)
-        first = (const uint32_t(*)[3])c->last;
+    if (!first && c->memory.has_last && c->options.seed != MOTE_CERT_SEED_NONE)
+        first = (const uint32_t(*)[3])c->memory.last;
     if (first)
         measure_first(c, first);
-    const bool leapt = first == (const uint32_t(*)[3])c->last && witness &&
-                       c->best.squared > c->leap * c->leap;
+    const bool leapt = first == (const uint32_t(*)[3])c->memory.last && witness &&
+                       c->best.squared > c->memory.leap * c->memory.leap;
     if (!first || leapt)
         find_anew(c, frame);
-    else if (witness && !c->steady)
+    else if (witness && !c->memory.steady)
         (void)slide_best(c);
     else
-        c->unrefined = witness && !c->saddle;
+        c->unrefined = witness && !c->memory.saddle;
 }
 
 /* Whether two faces, given by their vertices in any order, are the same. */
@@ -234,8 +147,8 @@ static bool plane_clears(mote_certificate *c)
         if (!c->crossed)
             return clear0 && clear1;
         c->crossed = c->unrefined = false;
-        c->saddle = !slide_best(c);
-        if (c->saddle)
+        c->memory.saddle = !slide_best(c);
+        if (c->memory.saddle)
             continue;
         mote_cert_set_best(c, c->best.squared);
         if (!c->done)
@@ -274,7 +187,7 @@ static void begin(mote_certificate *c, double enough)
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
     if (c->options.seed == MOTE_CERT_SEED_NONE)
-        c->direction_count = 0;
+        c->memory.direction_count = 0;
     c->open = DBL_MAX;
 }
 
@@ -293,12 +206,13 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
     answer->counters = c->counters;
     answer->counters.positions +=
         c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
-    c->steady = c->has_last && same_face(c->last[0], c->best.triangle[0]) &&
-                same_face(c->last[1], c->best.triangle[1]);
-    c->saddle = c->saddle && c->steady;
-    memcpy(c->last, c->best.triangle, sizeof c->last);
-    c->has_last = true;
-    c->leap = c->upper + LEAP * c->options.length;
+    mote_cert_memory *memory = &c->memory;
+    memory->steady = memory->has_last && same_face(memory->last[0], c->best.triangle[0]) &&
+                     same_face(memory->last[1], c->best.triangle[1]);
+    memory->saddle = memory->saddle && memory->steady;
+    memcpy(memory->last, c->best.triangle, sizeof memory->last);
+    memory->has_last = true;
+    memory->leap = c->upper + LEAP * c->options.length;
 }
 
 void mote_certificate_query(mote_certificate *c, const mote_frame *frame,

@@ -144,8 +144,9 @@ static void remember(mote_certificate *c, const float direction[3], uint32_t pla
 {
     const float d[3] = {direction[0], direction[1], direction[2]};
     for (uint32_t i = place; i > 0; --i)
-        memcpy(c->direction[i], c->direction[i - 1], sizeof c->direction[i]);
-    memcpy(c->direction[0], d, sizeof d);
+        memcpy(c->memory.direction[i], c->memory.direction[i - 1],
+               sizeof c->memory.direction[i]);
+    memcpy(c->memory.direction[0], d, sizeof d);
     ++c->direction_stamp;
 }
 
@@ -154,17 +155,17 @@ static bool found(mote_certificate *c, pair *p)
 {
     if (!search_direction(p, c->need, p->nearest))
         return false;
-    if (c->direction_count < MOTE_CERT_DIRECTIONS)
-        ++c->direction_count;
-    remember(c, p->nearest, c->direction_count - 1);
+    if (c->memory.direction_count < MOTE_CERT_DIRECTIONS)
+        ++c->memory.direction_count;
+    remember(c, p->nearest, c->memory.direction_count - 1);
     return true;
 }
 
 static bool separated(mote_certificate *c, pair *p)
 {
-    for (uint32_t i = 1; i < c->direction_count; ++i) {
-        if (direction_separates(p, c->direction[i], c->need)) {
-            remember(c, c->direction[i], i);
+    for (uint32_t i = 1; i < c->memory.direction_count; ++i) {
+        if (direction_separates(p, c->memory.direction[i], c->need)) {
+            remember(c, c->memory.direction[i], i);
             return true;
         }
     }
@@ -176,9 +177,9 @@ static bool separated(mote_certificate *c, pair *p)
 static bool latest_separates(mote_certificate *c, const mote_cert_node *const nodes[2],
                              const size_t lanes[2])
 {
-    if (c->direction_count == 0)
+    if (c->memory.direction_count == 0)
         return false;
-    const float *d = c->direction[0];
+    const float *d = c->memory.direction[0];
     const float back[3] = {-d[0], -d[1], -d[2]};
     const float reach =
         mote_cert_leaf_reach(&c->side[0], nodes[0], lanes[0], d, c->direction_stamp) +

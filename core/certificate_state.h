@@ -2,8 +2,7 @@
 #ifndef MOTE_CORE_CERTIFICATE_STATE_H
 #define MOTE_CORE_CERTIFICATE_STATE_H
 
-#include "core/certificate.h"
-#include "core/certificate_tree.h"
+#include "core/certificate_shared.h"
 #include "core/lazy.h"
 #include "core/refine.h"
 
@@ -77,9 +76,6 @@ typedef struct mote_cert_side {
     float reached_at;
 } mote_cert_side;
 
-/* Directions that separated leaf pairs, the latest first. */
-#define MOTE_CERT_DIRECTIONS 4
-
 struct mote_certificate {
     mote_certificate_options options;
     double scale; /* of both trees */
@@ -103,15 +99,8 @@ struct mote_certificate {
     bool proven;    /* all pairs were ruled out or measured, or are in `open` */
     bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
     bool crossed;   /* ... which it was */
-    bool steady; /* the last query ended at the faces it began with: the next one is likely to,
-                    too, so that it is not refined at first */
-    bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
-    bool has_last;
-    double leap;         /* a distance of the last faces that tells of a leap */
-    uint32_t last[2][3]; /* faces of the last query's witnesses */
-    float direction[MOTE_CERT_DIRECTIONS][3];
-    uint32_t direction_count;
-    uint32_t direction_stamp; /* of the first */
+    mote_cert_memory memory;
+    uint32_t direction_stamp; /* of the first direction remembered */
     mote_counters counters;
 };
 

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I."
 sources="tests/test_portability.c"
 for name in status mesh mesh_ring field csrbf modes body deform lazy potential site start \
-    far_cache particles triangle refine certificate certificate_tree certificate_fit \
+    far_cache particles triangle refine certificate certificate_create certificate_tree certificate_fit \
     certificate_deform certificate_leaf certificate_row certificate_pair \
     certificate_triangles certificate_search levels descent coherence pairs \
     tracker tracker_search; do

@@ -1,4 +1,5 @@
 /* Several bodies: bounds against all vertices, answers against all pairs of triangles. */
+#include "core/certificate_shared.h"
 #include "core/scene.h"
 
 #include "harness/heap_count.h"
@@ -178,21 +179,25 @@ static void mote_scene_query_contact_question_says_the_same(void **state)
     crowd_free(&c);
 }
 
+static void check_same_pair(const mote_scene_pair *a, const mote_scene_pair *b)
+{
+    assert_memory_equal(a->body, b->body, sizeof a->body);
+    assert_int_equal(a->steps, b->steps);
+    assert_int_equal(a->contact, b->contact);
+    assert_memory_equal(&a->distance, &b->distance, sizeof a->distance);
+    assert_memory_equal(&a->lower, &b->lower, sizeof a->lower);
+    assert_memory_equal(a->witness, b->witness, sizeof a->witness);
+    assert_memory_equal(&a->counters, &b->counters, sizeof a->counters);
+}
+
 static void check_same_bits(const mote_scene *one, const mote_scene *many)
 {
     size_t count, others;
     const mote_scene_pair *a = mote_scene_pairs(one, &count);
     const mote_scene_pair *b = mote_scene_pairs(many, &others);
     assert_int_equal(count, others);
-    for (size_t k = 0; k < count; ++k) {
-        assert_memory_equal(a[k].body, b[k].body, sizeof a[k].body);
-        assert_int_equal(a[k].steps, b[k].steps);
-        assert_int_equal(a[k].contact, b[k].contact);
-        assert_memory_equal(&a[k].distance, &b[k].distance, sizeof a[k].distance);
-        assert_memory_equal(&a[k].lower, &b[k].lower, sizeof a[k].lower);
-        assert_memory_equal(a[k].witness, b[k].witness, sizeof a[k].witness);
-        assert_memory_equal(&a[k].counters, &b[k].counters, sizeof a[k].counters);
-    }
+    for (size_t k = 0; k < count; ++k)
+        check_same_pair(&a[k], &b[k]);
 }
 
 /* The pairs of every other step only, so that states come and go. */
@@ -230,30 +235,97 @@ static void mote_scene_query_more_threads_same_bits(void **state)
     crowd_free(&c);
 }
 
-/* What a workspace was used for before must not show: one scene asks for a pair alone. */
+/* What a workspace was used for before must not show: each pair has a scene of its own, too.
+   The meshes are large enough for leaves to be told apart by directions that are remembered. */
 static void mote_scene_query_other_pairs_do_not_change_an_answer(void **state)
 {
     (void)state;
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 10, 400, 2);
-    mote_scene *alone = crowd_scene(&c, &options), *all = crowd_scene(&c, &options);
-    uint32_t pairs[CROWD_MAX * CROWD_MAX][2];
-    const size_t count = crowd_pairs(&c, pairs);
-    for (int step = 0; step < 6; ++step) {
-        size_t size;
-        const uint32_t(*every)[2] = (const uint32_t(*)[2])pairs;
-        assert_int_equal(mote_scene_query(alone, c.states, every + 37, 1), MOTE_OK);
-        assert_int_equal(mote_scene_query(all, c.states, every, count), MOTE_OK);
-        const mote_scene_pair *a = mote_scene_pairs(alone, &size);
-        const mote_scene_pair *b = &mote_scene_pairs(all, &size)[37];
-        assert_memory_equal(&a->distance, &b->distance, sizeof a->distance);
-        assert_memory_equal(a->witness, b->witness, sizeof a->witness);
-        assert_memory_equal(&a->counters, &b->counters, sizeof a->counters);
+    mote_scene_options options = mote_default_scene_options();
+    enum { PAIRS = 6 };
+    crowd_init(&c, 4, 12000, 1.2);
+    mote_scene *alone[PAIRS], *all[3];
+    for (int k = 0; k < PAIRS; ++k)
+        alone[k] = crowd_scene(&c, &options);
+    for (int t = 0; t < 3; ++t) {
+        options.threads = (uint32_t)t + 1;
+        all[t] = crowd_scene(&c, &options);
+    }
+    uint32_t pairs[PAIRS][2];
+    assert_int_equal(crowd_pairs(&c, pairs), PAIRS);
+    const uint32_t(*every)[2] = (const uint32_t(*)[2])pairs;
+    for (int step = 0; step < 5; ++step) {
+        for (int t = 0; t < 3; ++t)
+            assert_int_equal(mote_scene_query(all[t], c.states, every, PAIRS), MOTE_OK);
+        for (int k = 0; k < PAIRS; ++k) {
+            assert_int_equal(mote_scene_query(alone[k], c.states, every + k, 1), MOTE_OK);
+            size_t size;
+            for (int t = 0; t < 3; ++t)
+                check_same_pair(mote_scene_pairs(alone[k], &size),
+                                &mote_scene_pairs(all[t], &size)[k]);
+        }
         crowd_move(&c, 0.02);
     }
-    mote_scene_destroy(alone);
-    mote_scene_destroy(all);
+    for (int k = 0; k < PAIRS; ++k)
+        mote_scene_destroy(alone[k]);
+    for (int t = 0; t < 3; ++t)
+        mote_scene_destroy(all[t]);
+    crowd_free(&c);
+}
+
+/* Answers pairs of a crowd through workspaces in turn, from the last pair to the first or the
+   other way round. */
+static void ask_pairs(const crowd *c, mote_cert_tree *const *trees, const uint32_t (*pairs)[2],
+                      size_t count, bool turned, mote_certificate *const *workspaces,
+                      size_t workspace_count, mote_cert_memory *memories,
+                      mote_certificate_answer *answers)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const size_t k = turned ? count - 1 - i : i;
+        const uint32_t *pair = pairs[k];
+        mote_cert_tree *const both[2] = {trees[c->shape_of[pair[0]]],
+                                         trees[c->shape_of[pair[1]]]};
+        const mote_frame frame = {.number = 1,
+                                  .body = {c->states[pair[0]], c->states[pair[1]]}};
+        mote_cert_workspace_query(workspaces[i % workspace_count], both, &frame, -1,
+                                  &memories[k], &answers[k]);
+    }
+}
+
+static void mote_cert_workspace_query_any_order_and_workspace_same_bits(void **state)
+{
+    (void)state;
+    static crowd c;
+    enum { PAIRS = 6, WORKSPACES = 3 };
+    crowd_init(&c, 4, 12000, 1.2);
+    uint32_t pairs[PAIRS][2];
+    assert_int_equal(crowd_pairs(&c, pairs), PAIRS);
+    const uint32_t(*every)[2] = (const uint32_t(*)[2])pairs;
+    const mote_certificate_options options = mote_default_certificate_options(2);
+    const mote_cert_tree_options tree = {
+        .length = options.length, .width = options.width, .linear_fits = true};
+    mote_cert_tree *trees[CROWD_SHAPES];
+    mote_certificate *workspaces[WORKSPACES];
+    for (int i = 0; i < CROWD_SHAPES; ++i)
+        assert_int_equal(mote_cert_tree_create(c.shape[i], &tree, &trees[i]), MOTE_OK);
+    for (int i = 0; i < WORKSPACES; ++i)
+        assert_int_equal(
+            mote_cert_workspace_create(trees, CROWD_SHAPES, &options, &workspaces[i]), MOTE_OK);
+    mote_cert_memory memories[3][PAIRS] = {0};
+    mote_certificate_answer answers[3][PAIRS] = {0};
+    for (int step = 0; step < 5; ++step) {
+        ask_pairs(&c, trees, every, PAIRS, false, workspaces, 1, memories[0], answers[0]);
+        ask_pairs(&c, trees, every, PAIRS, true, workspaces, 1, memories[1], answers[1]);
+        ask_pairs(&c, trees, every, PAIRS, step % 2, workspaces, WORKSPACES, memories[2],
+                  answers[2]);
+        assert_memory_equal(answers[1], answers[0], sizeof answers[0]);
+        assert_memory_equal(answers[2], answers[0], sizeof answers[0]);
+        crowd_move(&c, 0.02);
+    }
+    for (int i = 0; i < WORKSPACES; ++i)
+        mote_cert_workspace_destroy(workspaces[i]);
+    for (int i = 0; i < CROWD_SHAPES; ++i)
+        mote_cert_tree_destroy(trees[i]);
     crowd_free(&c);
 }
 
@@ -390,6 +462,7 @@ int main(void)
         cmocka_unit_test(mote_scene_query_contact_question_says_the_same),
         cmocka_unit_test(mote_scene_query_more_threads_same_bits),
         cmocka_unit_test(mote_scene_query_other_pairs_do_not_change_an_answer),
+        cmocka_unit_test(mote_cert_workspace_query_any_order_and_workspace_same_bits),
         cmocka_unit_test(mote_scene_query_pair_state_lives_while_near),
         cmocka_unit_test(mote_scene_query_bad_pairs_are_refused),
         cmocka_unit_test(mote_scene_create_bad_input_is_refused),

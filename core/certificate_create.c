@@ -1,0 +1,153 @@
+/* Rooms for what one query deforms, of a certificate with trees of its own or of a workspace
+   for the trees of others. */
+#include "core/certificate_state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static uint32_t at_most(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+static uint32_t larger(uint32_t a, uint32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* Memory for count elements that begins on a cache line; count is at least 1. */
+static void *allocate_aligned(size_t count, size_t size)
+{
+    return aligned_alloc(64, (count * size + 63) / 64 * 64);
+}
+
+/* What the rooms of one side have to hold: any of some trees. */
+typedef struct rooms {
+    const mote_body *widest; /* of most vertices */
+    uint32_t blocks, depth;  /* of the tree that has most */
+} rooms;
+
+static rooms rooms_for(mote_cert_tree *const *trees, uint32_t count)
+{
+    rooms most = {.widest = trees[0]->body};
+    for (uint32_t i = 0; i < count; ++i) {
+        const mote_body *body = trees[i]->body;
+        if (body->mesh->vertex_count > most.widest->mesh->vertex_count)
+            most.widest = body;
+        most.blocks = larger(most.blocks, trees[i]->block_count);
+        most.depth = larger(most.depth, trees[i]->depth);
+    }
+    return most;
+}
+
+/* A query that needs more computes it again instead of allocating: rooms grow with the mesh up
+   to a size that does not. */
+static mote_status side_create(mote_cert_side *side, const rooms *most)
+{
+    const uint32_t vertices = most->widest->mesh->vertex_count;
+    const uint32_t expected = at_most(128 + vertices / 8, 2048);
+    mote_status status = mote_lazy_init(&side->lazy, most->widest, expected);
+    if (status != MOTE_OK)
+        return status;
+    side->lazy.fixed = true;
+    side->node_room = at_most(most->blocks, at_most(24 + vertices / 64, 4096));
+    side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
+    return side->nodes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+}
+
+/* A workspace for trees of one scale. */
+static mote_status create(const mote_certificate_options *options, double scale,
+                          const rooms most[2], mote_certificate **made)
+{
+    mote_certificate *c = allocate_aligned(1, sizeof *c);
+    if (!c)
+        return mote_fail(MOTE_ENOMEM, "no memory for a certificate");
+    memset(c, 0, sizeof *c);
+    c->options = *options;
+    c->scale = scale;
+    mote_status status = side_create(&c->side[0], &most[0]);
+    if (status == MOTE_OK)
+        status = side_create(&c->side[1], &most[1]);
+    c->spare_room = 2 * (most[0].depth + most[1].depth);
+    if (status == MOTE_OK && !(c->spare = allocate_aligned(c->spare_room, sizeof *c->spare)))
+        status = mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+    if (status == MOTE_OK)
+        *made = c;
+    else
+        mote_cert_workspace_destroy(c);
+    return status;
+}
+
+mote_status mote_certificate_create(const mote_body *const body[2],
+                                    const mote_certificate_options *options,
+                                    mote_certificate **certificate)
+{
+    const mote_cert_tree_options plan = {.length = options->length,
+                                         .width = options->width,
+                                         .linear_fits = options->linear_fits};
+    mote_cert_tree *trees[2] = {NULL, NULL};
+    mote_certificate *made = NULL;
+    mote_status status = mote_cert_tree_create(body[0], &plan, &trees[0]);
+    if (status == MOTE_OK)
+        status = mote_cert_tree_create(body[1], &plan, &trees[1]);
+    if (status == MOTE_OK) {
+        const rooms own[2] = {rooms_for(&trees[0], 1), rooms_for(&trees[1], 1)};
+        status = create(options, trees[0]->scale, own, &made);
+    }
+    if (status != MOTE_OK) {
+        mote_cert_tree_destroy(trees[0]);
+        mote_cert_tree_destroy(trees[1]);
+        return status;
+    }
+    made->side[0].tree = trees[0];
+    made->side[1].tree = trees[1];
+    *certificate = made;
+    return MOTE_OK;
+}
+
+mote_status mote_cert_workspace_create(mote_cert_tree *const *trees, uint32_t count,
+                                       const mote_certificate_options *options,
+                                       mote_certificate **workspace)
+{
+    const rooms any = rooms_for(trees, count);
+    return create(options, trees[0]->scale, (const rooms[2]){any, any}, workspace);
+}
+
+void mote_cert_workspace_destroy(mote_certificate *workspace)
+{
+    if (!workspace)
+        return;
+    for (int s = 0; s < 2; ++s) {
+        mote_lazy_free(&workspace->side[s].lazy);
+        free(workspace->side[s].nodes);
+    }
+    free(workspace->spare);
+    free(workspace);
+}
+
+void mote_certificate_destroy(mote_certificate *certificate)
+{
+    if (!certificate)
+        return;
+    for (int s = 0; s < 2; ++s)
+        mote_cert_tree_destroy(certificate->side[s].tree);
+    mote_cert_workspace_destroy(certificate);
+}
+
+size_t mote_cert_workspace_bytes(const mote_certificate *workspace)
+{
+    size_t bytes = sizeof *workspace + workspace->spare_room * sizeof *workspace->spare;
+    for (int s = 0; s < 2; ++s) {
+        const mote_cert_side *side = &workspace->side[s];
+        bytes += (side->lazy.mask + (size_t)1) * sizeof(mote_lazy_slot) +
+                 side->node_room * sizeof *side->nodes;
+    }
+    return bytes;
+}
+
+size_t mote_certificate_bytes(const mote_certificate *certificate)
+{
+    return mote_cert_workspace_bytes(certificate) +
+           mote_cert_tree_bytes(certificate->side[0].tree) +
+           mote_cert_tree_bytes(certificate->side[1].tree);
+}
