@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# make coverage: runs the tests of a build that counts branches (preset coverage), and prints what
+# share of the branches of core and of harness they take. Fails below 98 and 90 %.
+#   coverage.sh BUILD JOBS OUT [TESTS]   TESTS: only these (ctest -R), added to what has been counted
+# OUT gets coverage.html (line by line), coverage.csv (a row a file), tests.log.
+# Left out are branches of exceptions that nobody throws, and lines marked GCOVR_EXCL_*: each mark
+# stands beside the reason why no test can get there.
+set -u
+build=$1 jobs=$2 out=$3 only=${4:-}
+mkdir -p "$out"
+[ -n "$only" ] || find "$build" -name '*.gcda' -delete
+(cd "$build" && ctest -j "$jobs" --output-on-failure ${only:+-R "$only"}) >"$out/tests.log" 2>&1 ||
+    { sed -n '/tests failed/,$p' "$out/tests.log"; failed=1; }
+gcovr --root . --filter '(core|harness)/' -j "$jobs" \
+    --exclude-throw-branches --exclude-unreachable-branches \
+    --csv "$out/coverage.csv" --html-details "$out/coverage.html" "$build" || exit 1
+awk -F, '
+    NR > 1 { sub(/\/.*/, "", $1); all[$1] += $5; taken[$1] += $6 }
+    END {
+        least["core"] = 98; least["harness"] = 90
+        printf "%-10s %10s %10s %8s %8s\n", "folder", "branches", "taken", "%", "least"
+        for (i = 1; i <= split("core harness", folder, " "); ++i) {
+            f = folder[i]
+            share = all[f] ? 100 * taken[f] / all[f] : 0
+            printf "%-10s %10d %10d %8.2f %8d\n", f, all[f], taken[f], share, least[f]
+            if (share < least[f]) low = 1
+        }
+        exit low
+    }' "$out/coverage.csv" && [ -z "${failed:-}" ]
