@@ -79,8 +79,9 @@ mote_status create_particles(const mote_setup *setup, Hybrid *hybrid)
 {
     static const char *const refine[] = {"no", "near", "always"};
     char text[128];
-    std::snprintf(text, sizeof text, "n=%u,start=fps,refine=%s,tolerance=0,positions=given",
-                  count_of(setup), refine[static_cast<int>(setup->values[HYBRID_REFINE])]);
+    (void)std::snprintf(text, sizeof text,
+                        "n=%u,start=fps,refine=%s,tolerance=0,positions=given", count_of(setup),
+                        refine[static_cast<int>(setup->values[HYBRID_REFINE])]);
     mote_parameters_default(particles.parameters, particles.parameter_count, hybrid->values);
     mote_status status = mote_parameters_parse(particles.parameters, particles.parameter_count,
                                                text, hybrid->values);

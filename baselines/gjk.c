@@ -135,10 +135,10 @@ mote_gjk_result mote_gjk_distance(mote_gjk_support support, void *context, mote_
 {
     simplex s = {.count = 0};
     add_point(&s, support(context, start));
-    double lower = 0, size = mote_length(s.w[0]), distance = size;
+    double lower = 0, size = mote_length(s.w[0]);
     for (unsigned i = 1; i <= max_iterations; ++i) {
         mote_vec3 v = nearest_point(&s);
-        distance = mote_length(v);
+        const double distance = mote_length(v);
         /* The rounding of the coordinates: nothing below it can be told from contact. */
         if (distance <= 4e-16 * size)
             return finish(&s, 0, 0, i);

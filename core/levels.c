@@ -2,6 +2,7 @@
 
 #include "core/random.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,7 +144,7 @@ static mote_status link_cells(cells *c, mote_level *coarse)
     for (uint32_t i = 0; i < coarse->count; ++i)
         coarse->start[i + 1] = coarse->start[i] + neighbours_of_cell(c, i, i, NULL);
     const size_t links = coarse->start[coarse->count];
-    coarse->neighbour = malloc((links ? links : 1) * sizeof *coarse->neighbour);
+    coarse->neighbour = calloc(links ? links : 1, sizeof *coarse->neighbour);
     if (!coarse->neighbour)
         return no_memory();
     memset(c->seen, 0xff, coarse->count * sizeof *c->seen);
@@ -156,6 +157,7 @@ static mote_status link_cells(cells *c, mote_level *coarse)
    node i. */
 static mote_status coarsen(const stage *fine, mote_level *coarse, uint32_t *chosen)
 {
+    assert(fine->count > 0 && coarse->count > 0); /* a mesh has a vertex */
     cells c = {.fine = fine};
     c.number = malloc(fine->count * sizeof *c.number);
     c.member = malloc(fine->count * sizeof *c.member);
@@ -271,7 +273,8 @@ static mote_status add_level(mote_levels *levels, const mote_mesh *mesh, uint32_
     ++levels->depth;
     level->count = choose_independent(&fine);
     join_cells(&fine);
-    chosen[l] = malloc(level->count * sizeof *chosen[l]);
+    assert(level->count > 0);
+    chosen[l] = calloc(level->count, sizeof *chosen[l]);
     uint32_t *names = malloc(level->count * sizeof *names);
     mote_status status = chosen[l] && names ? coarsen(&fine, level, chosen[l]) : no_memory();
     if (status == MOTE_OK) {

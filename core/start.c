@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static mote_status check_count(const mote_mesh *mesh, uint32_t count)
 {
@@ -51,8 +52,7 @@ static mote_status choose_random(const mote_mesh *mesh, uint32_t count, mote_ran
             swap(&order[i], &order[front++]);
         }
     }
-    for (uint32_t i = 0; i < count; ++i)
-        vertices[i] = order[i];
+    memcpy(vertices, order, count * sizeof *order);
     free(order);
     free(seen);
     return MOTE_OK;

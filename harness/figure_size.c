@@ -53,9 +53,10 @@ static size_t find_series(const mote_summary *summary, size_series series[SERIES
     for (size_t i = 0; i < summary->count && count < SERIES_MAX; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         size_series made = {.label = row->label};
-        for (size_t k = 0; k < count && made.label; ++k)
-            made.label = strcmp(series[k].label, row->label) == 0 ? NULL : made.label;
-        for (size_t k = 0; k < summary->count && made.label; ++k) {
+        bool is_new = true;
+        for (size_t k = 0; k < count; ++k)
+            is_new = is_new && strcmp(series[k].label, row->label) != 0;
+        for (size_t k = 0; k < summary->count && is_new; ++k) {
             const mote_summary_row *other = &summary->rows[k];
             if (other->status == MOTE_CELL_OK && other->jobs == 1 &&
                 is_size(other->first->scenario) && strcmp(other->label, made.label) == 0 &&

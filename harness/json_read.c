@@ -182,7 +182,7 @@ mote_status mote_json_reals(const mote_json *node, size_t count, double minimum,
 mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum,
                            mote_vec3 *value)
 {
-    double xyz[3];
+    double xyz[3] = {0};
     mote_status status = mote_json_reals(node, 3, minimum, maximum, xyz);
     if (status == MOTE_OK)
         *value = mote_vec3_make(xyz[0], xyz[1], xyz[2]);

@@ -4,6 +4,7 @@
 #include "harness/catalog.h"
 #include "harness/file.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -238,10 +239,11 @@ mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenari
 {
     if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0)
         return mote_scenario_make_pair(name_or_path, scenario);
-    mote_json_file file;
+    mote_json_file file = {0};
     mote_status status = mote_scenario_open(name_or_path, &file);
     if (status != MOTE_OK)
         return status;
+    assert(file.path); /* it was opened */
     mote_json root = mote_json_root(&file);
     mote_json bodies = mote_json_member(&root, "bodies");
     if (mote_scenario_of_bodies(&file))

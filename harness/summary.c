@@ -177,12 +177,15 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
         qsort(made.rows, made.count, sizeof *made.rows, by_place);
     if (status == MOTE_OK)
         status = take_ratios(&made);
+    double noise_floor = 0, smallest_change = 0;
     if (status == MOTE_OK)
-        status = mote_summary_noise_floor(made.rows, made.count, &made.noise_floor);
+        status = mote_summary_noise_floor(made.rows, made.count, &noise_floor);
     if (status == MOTE_OK)
         status = take_overhead(&made);
     if (status == MOTE_OK)
-        status = mote_summary_smallest_change(made.rows, made.count, &made.smallest_change);
+        status = mote_summary_smallest_change(made.rows, made.count, &smallest_change);
+    made.noise_floor = noise_floor;
+    made.smallest_change = smallest_change;
     if (status == MOTE_OK)
         *summary = made;
     else

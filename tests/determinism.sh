@@ -3,8 +3,7 @@
 # sanitizers, and runs each build again and again with 1 to 8 threads: every run must give the
 # answers of tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the
 # root; BUILD holds the table of methods. RUNS: with one thread, of each build (1). CHECKS: a
-# file that make reliability makes its table of. ONLY=tsan: with ThreadSanitizer alone, which then
-# looks at tests/test_threads.c too.
+# file that make reliability makes its table of.
 set -eu
 build=$1 runs=${2:-1} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)
@@ -34,17 +33,11 @@ make_program() { # NAME COMPILER FLAGS
         $cxx $3 "$work/$1"/*.o -o "$work/$1/answers" $libraries
 }
 
-# ThreadSanitizer of gcc 12 does not start where the system spreads addresses widely.
-fixed_addresses=
-if [ "${ONLY:-}" = tsan ] && setarch -R true 2>"$work/log"; then
-    fixed_addresses="setarch -R"
-fi
-
 tried=0
 failed=0
 check() { # PROGRAM WORDS...
     tried=$((tried + 1))
-    $fixed_addresses "$@" >"$work/log" 2>&1 && return
+    "$@" >"$work/log" 2>&1 && return
     cat "$work/log"
     echo "other answers: $*"
     failed=$((failed + 1))
@@ -67,16 +60,6 @@ try_build() { # NAME COMPILER FLAGS
     echo "answered: $2 $3"
 }
 
-if [ "${ONLY:-}" = tsan ]; then
-    try_build tsan gcc "-O1 -g -fsanitize=thread"
-    # shellcheck disable=SC2046,SC2086 # lists of words
-    gcc $flags -O1 -g -fsanitize=thread tests/test_threads.c datasets/*.c \
-        $(ls core/*.c | grep -v -e csrbf_fit -e linear_algebra) -lcmocka -lpthread -lm \
-        -o "$work/threads"
-    check "$work/threads"
-    echo "$tried runs, $failed failed"
-    exit $failed
-fi
 for compiler in gcc clang; do
     for level in -O0 -O2 -O3; do
         try_build "$compiler$level" $compiler $level
