@@ -1,70 +1,27 @@
 /* What happens when the n-th allocation, or the n-th write, sync or rename, fails, for every n:
-   an error with a text, nothing leaked (under AddressSanitizer), nothing half-written. The
-   linker puts the functions below in the place of libc's (--wrap), for our own objects. */
+   an error with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap,
+   as in tests/failing.h). */
 #include "core/method.h"
 #include "harness/file.h"
 #include "harness/probe.h"
 #include "harness/summary.h"
+#include "tests/failing.h"
 #include "tests/shapes.h"
 
 #include <errno.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 /* Calls until one fails; below 0: none does. */
-static long allocations_left = -1, writes_left = -1;
-static long calls_failed; /* in all */
+static long writes_left = -1;
 
-static bool is_due(long *left)
-{
-    if (*left < 0)
-        return false;
-    if ((*left)-- > 0)
-        return false;
-    ++calls_failed;
-    return true;
-}
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
 ssize_t __real_write(int file, const void *data, size_t size);
 int __real_fsync(int file);
 int __real_rename(const char *from, const char *to);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-void *__wrap_aligned_alloc(size_t alignment, size_t size);
 ssize_t __wrap_write(int file, const void *data, size_t size);
 int __wrap_fsync(int file);
 int __wrap_rename(const char *from, const char *to);
-
-void *__wrap_malloc(size_t size)
-{
-    return is_due(&allocations_left) ? NULL : __real_malloc(size);
-}
-
-void *__wrap_calloc(size_t count, size_t size)
-{
-    return is_due(&allocations_left) ? NULL : __real_calloc(count, size);
-}
-
-void *__wrap_realloc(void *old, size_t size)
-{
-    return is_due(&allocations_left) ? NULL : __real_realloc(old, size);
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size)
-{
-    return is_due(&allocations_left) ? NULL : __real_aligned_alloc(alignment, size);
-}
 
 ssize_t __wrap_write(int file, const void *data, size_t size)
 {
@@ -91,35 +48,6 @@ int __wrap_rename(const char *from, const char *to)
         return -1;
     }
     return __real_rename(from, to);
-}
-
-static const long never = -1;
-
-/* Runs work with its n-th allocation failing, for every n until none is left to fail. Each time
-   it must have failed and said so, or have gone well all the same (memory is not given back
-   when a block cannot be made smaller); without a failing one it must have gone well. */
-static void fail_each_allocation(mote_status (*work)(void *), void *context, const char *what)
-{
-    for (long n = 0;; ++n) {
-        assert_int_equal(mote_fail(MOTE_OK, "nothing said"), MOTE_OK);
-        allocations_left = n;
-        const mote_status status = work(context);
-        const bool failed = allocations_left < 0;
-        allocations_left = never;
-        if (!failed) {
-            if (status != MOTE_OK)
-                fail_msg("%s: %s", what, mote_error_text());
-            assert_true(n > 0);
-            return;
-        }
-        if (status == MOTE_OK)
-            continue;
-        if (status != MOTE_ENOMEM)
-            fail_msg("%s: allocation %ld failed, status %s: %s", what, n,
-                     mote_status_text(status), mote_error_text());
-        if (strcmp(mote_error_text(), "nothing said") == 0)
-            fail_msg("%s: allocation %ld failed without a text", what, n);
-    }
 }
 
 typedef struct method_work {
