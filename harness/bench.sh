@@ -5,18 +5,7 @@ set -eu
 mote=$1
 profile=$2
 out=$3
-failed=0
-
-# measure ARGUMENT...: one mote run; a cell that failed (5) is a row of the table, not the end.
-measure() {
-    status=0
-    "$mote" run "$@" --out "$out" >/dev/null || status=$?
-    case $status in
-    0) ;;
-    5) failed=5 ;;
-    *) exit "$status" ;;
-    esac
-}
+. "$(dirname "$0")/measure.sh"
 
 # FCL as its users call it, and at the best setting that we know of for coherent scenes.
 plain=fcl-aabb:seed=none,queue=2

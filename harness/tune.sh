@@ -6,18 +6,7 @@ set -eu
 mote=$1
 profile=$2
 out=$3
-failed=0
-
-# A cell that failed (5) is a row, not the end.
-measure() {
-    status=0
-    "$mote" run "$@" --out "$out" >/dev/null || status=$?
-    case $status in
-    0) ;;
-    5) failed=5 ;;
-    *) exit "$status" ;;
-    esac
-}
+. "$(dirname "$0")/measure.sh"
 
 case $profile in
 quick) replicates=1 ;;
