@@ -126,6 +126,24 @@ int mote_study_options(int argc, char **argv, const char **directory, bool *quic
     return MOTE_EXIT_DONE;
 }
 
+int mote_directory_argument(int argc, char **argv, const char **directory)
+{
+    mote_option_reader reader = {NULL, 0, argc, argv, 0};
+    const char *value, *given = NULL;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (given)
+            return mote_command_usage(argv[0], "%s: one directory at a time", value);
+        given = value;
+    }
+    if (!given)
+        return mote_command_usage(argv[0], "no directory; write `mote %s results/paper`",
+                                  argv[0]);
+    *directory = given;
+    return MOTE_EXIT_DONE;
+}
+
 bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, uint64_t *value)
 {
     if (text[0] < '0' || text[0] > '9')

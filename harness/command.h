@@ -121,6 +121,10 @@ mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
    writes unless told. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE, told on stderr. */
 int mote_study_options(int argc, char **argv, const char **directory, bool *quick);
 
+/* Reads a command line that is one directory; argv[0] is the command's name. MOTE_EXIT_DONE, or
+   MOTE_EXIT_USAGE, told on stderr. */
+int mote_directory_argument(int argc, char **argv, const char **directory);
+
 /* A method and its parameters, as named on the command line. */
 typedef struct mote_method_choice {
     const mote_method *method;

@@ -4,17 +4,10 @@
 
 int mote_command_figures(int argc, char **argv)
 {
-    mote_option_reader reader = {NULL, 0, argc, argv, 0};
-    const char *directory = NULL, *value;
-    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
-        if (option == MOTE_OPTION_ERROR)
-            return MOTE_EXIT_USAGE;
-        if (directory)
-            return mote_command_usage(argv[0], "%s: one directory at a time", value);
-        directory = value;
-    }
-    if (!directory)
-        return mote_command_usage(argv[0], "no directory; write `mote figures results/paper`");
+    const char *directory = NULL;
+    const int understood = mote_directory_argument(argc, argv, &directory);
+    if (understood != MOTE_EXIT_DONE)
+        return understood;
     size_t drawn = 0;
     if (mote_figures_draw(directory, &drawn) != MOTE_OK)
         return mote_command_fail();
