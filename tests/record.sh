@@ -3,23 +3,34 @@
 #   record.sh CHECKS.tsv [COMMIT [DATE]]      lines of {check, tried, failed}, as make reliability
 #                                             leaves them; COMMIT and DATE: of what was tested
 #   record.sh --fuzz FUZZ.tsv [COMMIT [DATE]] lines of fuzz.sh, added to tests/corpus/log.csv
+#   record.sh --soak SOAK.csv [COMMIT [DATE]] of make soak, added to results/reference/soak.csv
 # results/reference/reliability.csv holds the last line of every check.
 set -eu
-fuzz=
-if [ "$1" = --fuzz ]; then
-    fuzz=1
+kind=checks
+case $1 in
+--fuzz | --soak)
+    kind=${1#--}
     shift
-fi
+    ;;
+esac
 here=$(git rev-parse --short HEAD)
 if [ -n "$(git status --porcelain -- core harness baselines datasets cmake CMakeLists.txt)" ]; then
     here=$here+
 fi
 commit=${2:-$here}
 date=${3:-$(date -u +%Y-%m-%d)}
-csv=results/reference/reliability.csv log=tests/corpus/log.csv
+csv=results/reference/reliability.csv log=tests/corpus/log.csv errors=results/reference/soak.csv
 [ -f $log ] || echo "date,commit,target,cpu_seconds,executions,findings" >$log
 [ -f $csv ] || echo "check,tried,failed,date,commit" >$csv
-if [ -n "$fuzz" ]; then
+soak_header() {
+    printf 'date,commit,method,queries,missed,false_contacts,largest_error'
+    for k in 16 15 14 13 12 11 10 9 8 7 6 5 4 3 2 1 0; do printf ',below_1e-%s' $k; done
+    echo ',more'
+}
+[ -f $errors ] || soak_header >$errors
+if [ $kind = soak ]; then
+    sed "s/^/$date,$commit,/" "$1" >>$errors
+elif [ $kind = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
 else
@@ -39,6 +50,32 @@ else
     mv $csv.part $csv
 fi
 
+# Errors over L, all runs together: the share of queries that is exact or nearly, by method. The
+# names of methods are quoted, for they have commas.
+distribution() {
+    echo
+    echo "| errors on random scenarios | queries | exact | below 1e-6 L | 1e-3 L | 1e-2 L | 0.1 L | largest / L | contacts missed |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    sed 1d $errors | awk -F'"' '
+        {
+            split($3, v, ",")
+            if (!($2 in queries)) order[++n] = $2
+            queries[$2] += v[2]; missed[$2] += v[3]
+            if (v[5] > largest[$2]) largest[$2] = v[5]
+            for (k = 0; k < 18; ++k) count[$2, k] += v[6 + k]
+        }
+        function share(method, last,    k, sum) {
+            for (k = 0; k <= last; ++k) sum += count[method, k]
+            return sum == queries[method] ? "100 %" : sprintf("%.2f %%", 100 * sum / queries[method])
+        }
+        END {
+            for (i = 1; i <= n; ++i) {
+                m = order[i]
+                printf "| `%s` | %d | %s | %s | %s | %s | %s | %.2g | %d |\n", m, queries[m],
+                    share(m, 4), share(m, 10), share(m, 13), share(m, 14), share(m, 15), largest[m], missed[m]
+            }
+        }'
+}
 table() {
     echo "| check | tried | failed | date, commit |"
     echo "| --- | ---: | ---: | --- |"
@@ -53,7 +90,10 @@ table() {
                         s[t[i]] / 3600, e[t[i]], f[t[i]], last[t[i]]
         }'
 }
-table >README.table
+{
+    table
+    distribution
+} >README.table
 awk '/^<!-- reliability -->$/ {
         print; print ""
         while ((getline line < "README.table") > 0) print line

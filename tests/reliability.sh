@@ -53,7 +53,8 @@ study() { # NAME
             --out "$out/certify.json" ;;
     metamorphic) log metamorphic "$build/tests/metamorphic" --queries $queries --checks "$checks" ;;
     soak) # shellcheck disable=SC2086 # two words
-        log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} ;;
+        log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} || return
+        [ -z "$record" ] || tests/record.sh --soak "$out/soak.csv" ;;
     oracle)
         program "triangle pairs against rational arithmetic" oracle '"pairs": *[0-9]+' \
             "$build/tests/oracle" --pairs $pairs --out "$out/oracle.json" ;;

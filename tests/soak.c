@@ -2,8 +2,8 @@
    case that fails is shrunk and kept as DIR/cases/SEED.json; put it into tests/cases, with
    paths of meshes from there, and it is a test. Usage: soak [--hours H | --cases N] [--seed S]
    [--out DIR] [--checks FILE] [--plant], or soak --replay FILE...: S is the first case's seed;
-   --plant alters one answer of the first case, which must then be found. Exit status 1 where
-   something failed. */
+   DIR/soak.json and soak.csv have the errors of each method by decades; --plant alters one
+   answer of the first case, which must then be found. Exit status 1 where something failed. */
 #include "tests/checks.h"
 #include "tests/soak_case.h"
 #include "tests/soak_judge.h"
@@ -148,6 +148,26 @@ static mote_status write_json(const soak *s)
     return written == 0 ? MOTE_OK : mote_fail(MOTE_EIO, "cannot write %s", path);
 }
 
+/* A line a method: how many errors lie in each decade of L, the first below 1e-16. */
+static mote_status write_csv(const soak *s)
+{
+    char path[4096];
+    (void)snprintf(path, sizeof path, "%s/soak.csv", s->out);
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return mote_fail(MOTE_EIO, "cannot write %s: %s", path, strerror(errno));
+    for (int m = 0; m < SOAK_METHODS; ++m) {
+        const soak_tally *t = &s->sum[m];
+        fprintf(file, "\"%s\",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.17g", soak_methods[m],
+                t->queries, t->missed, t->false_contacts, t->largest);
+        for (int k = 0; k < SOAK_DECADES; ++k)
+            fprintf(file, ",%" PRIu64, t->decades[k]);
+        fputc('\n', file);
+    }
+    const bool lost = ferror(file) != 0;
+    return fclose(file) == 0 && !lost ? MOTE_OK : mote_fail(MOTE_EIO, "cannot write %s", path);
+}
+
 static void print(const soak *s)
 {
     const soak_tally certified = certified_sum(s);
@@ -246,6 +266,8 @@ int main(int argc, char **argv)
     }
     if (status == MOTE_OK)
         status = write_json(&s);
+    if (status == MOTE_OK)
+        status = write_csv(&s);
     if (status != MOTE_OK) {
         fprintf(stderr, "soak: %s\n", mote_error_text());
         return 4;
