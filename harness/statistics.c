@@ -275,8 +275,7 @@ mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count
     mote_confidence interval = {MOTE_NONE, MOTE_NONE};
     /* The most values that may lie outside on one side. */
     unsigned outside = 0;
-    while (2 * (outside + 1) < count &&
-           gsl_cdf_binomial_P(outside, 0.5, (unsigned)count) <= 0.025)
+    while (gsl_cdf_binomial_P(outside, 0.5, (unsigned)count) <= 0.025)
         ++outside;
     if (outside == 0)
         return interval;

@@ -212,6 +212,30 @@ static void run_beside_another_in_one_directory_is_refused(void **state)
     assert_int_equal(program_wait(pid), 5);
 }
 
+/* Started at the same moment: one measures, and the other says why it does not. */
+static void runs_started_together_in_one_directory_are_as_one(void **state)
+{
+    (void)state;
+    char other[64];
+    (void)snprintf(other, sizeof other, "%s/said-together", base);
+    const pid_t first = start(SWEEP), second = program_start(line, other);
+    const int status[2] = {program_wait(first), program_wait(second)};
+    assert_true(status[0] == 0 || status[1] == 0);
+    for (int k = 0; k < 2; ++k) {
+        program_read(k ? other : said, text, sizeof text);
+        if (status[k] != 0) {
+            assert_int_equal(status[k], 4);
+            assert_non_null(strstr(text, "another run is measuring into it"));
+        }
+    }
+    run_files finished = {0};
+    check(&finished);
+    assert_int_equal(finished.count, SWEEP_CELLS);
+    assert_int_equal(run_files_count(directory, ".csv"), SWEEP_CELLS);
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+    run_files_free(&finished);
+}
+
 static void run_beyond_the_largest_file_allowed_fails_with_a_message(void **state)
 {
     (void)state;
@@ -299,6 +323,7 @@ int main(void)
         TEST(run_after_sigint_keeps_its_cells_and_goes_on),
         TEST(child_of_a_killed_run_dies_with_it),
         TEST(run_beside_another_in_one_directory_is_refused),
+        TEST(runs_started_together_in_one_directory_are_as_one),
         TEST(run_beyond_the_largest_file_allowed_fails_with_a_message),
         TEST(run_on_a_full_then_read_only_disk_keeps_its_cells), /* last: it changes mounts */
     };

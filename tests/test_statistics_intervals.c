@@ -1,0 +1,520 @@
+/* Intervals and tests of means, shares and figures of processes, against closed forms: of
+   Student's t with one and two degrees of freedom, and of sums of binomial terms. */
+#include "harness/statistics.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+#define PI 3.14159265358979323846
+
+static void assert_near(double value, double expected, double tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance * fmax(1, fabs(expected))))
+        fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
+}
+
+/* The value that Student's t exceeds with this probability: one degree of freedom, and two. */
+static double t_one(double above)
+{
+    return tan(PI * (0.5 - above));
+}
+
+static double t_two(double above)
+{
+    return (1 - 2 * above) / sqrt(2 * above * (1 - above));
+}
+
+/* Two-sided p of a t with one degree of freedom, and with two. */
+static double p_one(double t)
+{
+    return 1 - 2 / PI * atan(t);
+}
+
+static double p_two(double t)
+{
+    return 1 - t / sqrt(2 + t * t);
+}
+
+/* P(at least k of n), each with probability p. */
+static double at_least(size_t k, size_t n, double p)
+{
+    double sum = 0;
+    for (size_t i = k; i <= n; ++i)
+        sum += exp(lgamma((double)n + 1) - lgamma((double)i + 1) - lgamma((double)(n - i) + 1) +
+                   (double)i * log(p) + (double)(n - i) * log1p(-p));
+    return sum;
+}
+
+static void mean_of_three_values_is_a_third_of_their_sum(void **state)
+{
+    (void)state;
+    const double values[] = {1, 2, 6};
+    assert_near(mote_statistics_mean(values, 3), 3, 1e-15);
+    assert_true(isnan(mote_statistics_mean(values, 0)));
+}
+
+static void t_interval_of_two_and_three_values_is_the_closed_form(void **state)
+{
+    (void)state;
+    const double values[] = {1, 2, 6};
+    mote_confidence two = mote_statistics_t_interval(values, 2);
+    assert_near(two.low, 1.5 - t_one(0.025) * 0.5, 1e-9);
+    assert_near(two.high, 1.5 + t_one(0.025) * 0.5, 1e-9);
+    mote_confidence three = mote_statistics_t_interval(values, 3);
+    assert_near(three.low, 3 - t_two(0.025) * sqrt(7.0 / 3), 1e-9);
+    assert_near(three.high, 3 + t_two(0.025) * sqrt(7.0 / 3), 1e-9);
+}
+
+static void share_interval_leaves_a_fortieth_on_each_side(void **state)
+{
+    (void)state;
+    static const size_t of[][2] = {{1, 2}, {5, 10}, {1, 40}, {39, 40}, {30, 1000}};
+    for (size_t i = 0; i < COUNT(of); ++i) {
+        const size_t k = of[i][0], n = of[i][1];
+        mote_confidence interval = mote_statistics_share_interval(k, n);
+        assert_near(at_least(k, n, interval.low), 0.025, 1e-9);
+        assert_near(1 - at_least(k + 1, n, interval.high), 0.025, 1e-9);
+    }
+}
+
+static void share_interval_of_none_and_all_ends_at_0_and_1(void **state)
+{
+    (void)state;
+    mote_confidence none = mote_statistics_share_interval(0, 10);
+    assert_near(none.low, 0, 0);
+    assert_near(none.high, 1 - pow(0.025, 0.1), 1e-9);
+    mote_confidence all = mote_statistics_share_interval(10, 10);
+    assert_near(all.low, pow(0.025, 0.1), 1e-9);
+    assert_near(all.high, 1, 0);
+    mote_confidence untried = mote_statistics_share_interval(0, 0);
+    assert_true(isnan(untried.low) && isnan(untried.high));
+}
+
+static void t_test_of_two_and_three_values_is_the_closed_form(void **state)
+{
+    (void)state;
+    const double values[] = {1, 2, 6}, below[] = {-1, -2, -6};
+    assert_near(mote_statistics_t_test(values, 2), p_one(3), 1e-9);
+    assert_near(mote_statistics_t_test(values, 3), p_two(3 / sqrt(7.0 / 3)), 1e-9);
+    assert_near(mote_statistics_t_test(below, 3), p_two(3 / sqrt(7.0 / 3)), 1e-9);
+    assert_true(isnan(mote_statistics_t_test(values, 1)));
+}
+
+static void t_test_of_equal_values_is_certain(void **state)
+{
+    (void)state;
+    const double zero[] = {0, 0}, above[] = {0.5, 0.5}, below[] = {-0.5, -0.5};
+    assert_near(mote_statistics_t_test(zero, 2), 1, 0);
+    assert_near(mote_statistics_t_test(above, 2), 0, 0);
+    assert_near(mote_statistics_t_test(below, 2), 0, 0);
+}
+
+static void welch_of_equal_variances_is_students_test(void **state)
+{
+    (void)state;
+    /* Two values on each side, variances 2: two degrees of freedom, an error of sqrt 2. */
+    const double a[] = {1, 3}, b[] = {6, 8};
+    mote_difference d = mote_statistics_welch(a, 2, b, 2);
+    assert_near(d.value, 5, 1e-15);
+    assert_near(d.p, p_two(5 / sqrt(2)), 1e-9);
+    assert_near(d.interval.low, 5 - t_two(0.025) * sqrt(2), 1e-9);
+    assert_near(d.interval.high, 5 + t_two(0.025) * sqrt(2), 1e-9);
+    mote_difference back = mote_statistics_welch(b, 2, a, 2);
+    assert_near(back.value, -5, 1e-15);
+    assert_near(back.p, d.p, 1e-15);
+}
+
+static void welch_of_one_constant_side_has_the_freedom_of_the_other(void **state)
+{
+    (void)state;
+    /* Five equal values add nothing: the freedom of three values is two, the error sqrt 7/3. */
+    const double constant[] = {1, 1, 1, 1, 1}, values[] = {1, 2, 6};
+    mote_difference d = mote_statistics_welch(constant, 5, values, 3);
+    assert_near(d.value, 2, 1e-15);
+    assert_near(d.p, p_two(2 / sqrt(7.0 / 3)), 1e-9);
+    mote_difference back = mote_statistics_welch(values, 3, constant, 5);
+    assert_near(back.p, d.p, 1e-12);
+}
+
+static void welch_without_spread_is_certain(void **state)
+{
+    (void)state;
+    const double one[] = {1, 1}, two[] = {2, 2};
+    mote_difference same = mote_statistics_welch(one, 2, one, 2);
+    mote_difference up = mote_statistics_welch(one, 2, two, 2);
+    mote_difference down = mote_statistics_welch(two, 2, one, 2);
+    assert_near(same.p, 1, 0);
+    assert_near(up.p, 0, 0);
+    assert_near(down.p, 0, 0);
+    assert_near(up.interval.low, 1, 0);
+    assert_near(up.interval.high, 1, 0);
+    assert_near(down.interval.low, -1, 0);
+}
+
+static void welch_of_too_few_values_says_what_it_can(void **state)
+{
+    (void)state;
+    const double a[] = {1, 2}, b[] = {5, 7};
+    assert_true(isnan(mote_statistics_welch(a, 0, b, 2).value));
+    assert_true(isnan(mote_statistics_welch(a, 2, b, 0).value));
+    mote_difference left = mote_statistics_welch(a, 1, b, 2);
+    mote_difference right = mote_statistics_welch(a, 2, b, 1);
+    assert_near(left.value, 5, 1e-15);
+    assert_near(right.value, 3.5, 1e-15);
+    assert_true(isnan(left.p) && isnan(left.interval.low) && isnan(left.interval.high));
+    assert_true(isnan(right.p) && isnan(right.interval.low) && isnan(right.interval.high));
+}
+
+enum { PROCESSES = 12, FRAMES = 9, MANY = 20 };
+
+/* values[r][k] = process[r], or twice that in odd frames. */
+static void fill(const double *process, size_t count, double values[][FRAMES],
+                 mote_replicate *replicates)
+{
+    for (size_t r = 0; r < count; ++r) {
+        for (size_t k = 0; k < FRAMES; ++k)
+            values[r][k] = process[r] * (k % 2 ? 2 : 1);
+        replicates[r] = (mote_replicate){values[r], FRAMES};
+    }
+}
+
+static void median_interval_of_two_processes_is_t_with_one_degree(void **state)
+{
+    (void)state;
+    const double a[] = {3, 1, 2}, b[] = {7, 6, 9};
+    const mote_replicate replicates[] = {{a, 3}, {b, 3}};
+    mote_confidence interval;
+    assert_int_equal(mote_statistics_median_interval(replicates, 2, false, 1, &interval),
+                     MOTE_OK);
+    assert_near(interval.low, 4.5 - t_one(0.025) * 2.5, 1e-9);
+    assert_near(interval.high, 4.5 + t_one(0.025) * 2.5, 1e-9);
+    assert_int_equal(mote_statistics_median_interval(replicates, 2, true, 1, &interval),
+                     MOTE_OK);
+    const double half = t_one(0.025) * log(3.5) / 2;
+    assert_near(log(interval.low), log(14) / 2 - half, 1e-9);
+    assert_near(log(interval.high), log(14) / 2 + half, 1e-9);
+    assert_int_equal(mote_statistics_median_interval(replicates, 1, true, 1, &interval),
+                     MOTE_OK);
+    assert_true(isnan(interval.low) && isnan(interval.high));
+}
+
+static void median_interval_where_frames_are_missing_is_t_of_medians(void **state)
+{
+    (void)state;
+    double process[PROCESSES], values[PROCESSES][FRAMES];
+    mote_replicate replicates[PROCESSES];
+    for (size_t r = 0; r < PROCESSES; ++r)
+        process[r] = (double)(r * r + 5);
+    fill(process, PROCESSES, values, replicates);
+    /* Frames 1, 2, 1, ..., 1 times the process: the median is the process's own value. */
+    const mote_confidence expected = mote_statistics_t_interval(process, PROCESSES);
+    for (size_t missing = 0; missing < PROCESSES; ++missing) {
+        mote_confidence interval;
+        replicates[missing].count = FRAMES - 2;
+        assert_int_equal(
+            mote_statistics_median_interval(replicates, PROCESSES, false, 1, &interval),
+            MOTE_OK);
+        assert_near(interval.low, expected.low, 1e-12);
+        assert_near(interval.high, expected.high, 1e-12);
+        replicates[missing].count = FRAMES;
+    }
+}
+
+static void median_interval_where_a_process_has_no_frame_is_none(void **state)
+{
+    (void)state;
+    const double values[] = {1, 2, 3};
+    for (size_t empty = 0; empty < 3; ++empty) {
+        mote_replicate replicates[] = {{values, 3}, {values, 3}, {values, 3}};
+        mote_confidence interval;
+        replicates[empty].count = 0;
+        assert_int_equal(mote_statistics_median_interval(replicates, 3, false, 1, &interval),
+                         MOTE_OK);
+        assert_true(isnan(interval.low) && isnan(interval.high));
+    }
+}
+
+/* A third of the processes takes four times as long. More than half of twelve drawn do with a
+   probability of 6.6 %, fewer than half with 82 %: the ends are those of the two sorts. */
+static void median_interval_of_two_sorts_of_processes_spans_both(void **state)
+{
+    (void)state;
+    for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
+        double process[PROCESSES], values[PROCESSES][FRAMES];
+        mote_replicate replicates[PROCESSES];
+        mote_confidence interval;
+        for (size_t r = 0; r < PROCESSES; ++r)
+            process[r] = r % 3 ? 100 : 400;
+        fill(process, PROCESSES, values, replicates);
+        for (size_t r = 0; r < PROCESSES; ++r) {
+            for (size_t k = 0; k < FRAMES; ++k)
+                values[r][k] = process[r];
+        }
+        assert_int_equal(mote_statistics_median_interval(replicates, PROCESSES,
+                                                         logarithmic == 1, 3, &interval),
+                         MOTE_OK);
+        assert_near(interval.low, 100, 1e-12);
+        assert_near(interval.high, 400, 1e-12);
+    }
+}
+
+/* Eleven of twenty drawn of 1 .. 20 are at most 6 with a probability of 1.7 %, ten with 4.8 %.
+ */
+static void median_interval_of_twenty_processes_cuts_a_fortieth(void **state)
+{
+    (void)state;
+    for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
+        double process[MANY], values[MANY][FRAMES];
+        mote_replicate replicates[MANY];
+        mote_confidence interval, other;
+        for (size_t r = 0; r < MANY; ++r)
+            process[r] = (double)r + 1;
+        fill(process, MANY, values, replicates);
+        for (size_t r = 0; r < MANY; ++r) {
+            for (size_t k = 0; k < FRAMES; ++k)
+                values[r][k] = process[r];
+        }
+        assert_int_equal(
+            mote_statistics_median_interval(replicates, MANY, logarithmic == 1, 5, &interval),
+            MOTE_OK);
+        assert_true(interval.low > 5.4 && interval.low < 7.1);
+        assert_true(interval.high > 13.9 && interval.high < 15.6);
+        assert_int_equal(
+            mote_statistics_median_interval(replicates, MANY, logarithmic == 1, 6, &other),
+            MOTE_OK);
+        assert_true(other.low > 5.4 && other.low < 7.1);
+    }
+}
+
+/* Frames of a process differ by a known profile and nothing else: no process adds to it, and
+   the interval has no width. */
+static void median_interval_of_processes_alike_is_a_point(void **state)
+{
+    (void)state;
+    for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
+        double process[PROCESSES], values[PROCESSES][FRAMES];
+        mote_replicate replicates[PROCESSES];
+        mote_confidence interval;
+        for (size_t r = 0; r < PROCESSES; ++r)
+            process[r] = 3;
+        fill(process, PROCESSES, values, replicates);
+        assert_int_equal(mote_statistics_median_interval(replicates, PROCESSES,
+                                                         logarithmic == 1, 3, &interval),
+                         MOTE_OK);
+        assert_near(interval.low, 3, 1e-12); /* 3 and 6: five of nine frames are 3 */
+        assert_near(interval.high, 3, 1e-12);
+    }
+}
+
+/* Figures for process_interval: the mean of the numbers that are drawn, each looked up. */
+typedef struct figures {
+    const double *of;
+    size_t count;
+    size_t calls, largest; /* of a call */
+} figures;
+
+static double mean_figure(void *context, const size_t *drawn, size_t count)
+{
+    figures *f = context;
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k) {
+        assert_true(drawn[k] < f->count);
+        sum += f->of[drawn[k]];
+    }
+    ++f->calls;
+    f->largest = count > f->largest ? count : f->largest;
+    return sum / (double)count;
+}
+
+static void process_interval_of_few_is_t_on_logarithms(void **state)
+{
+    (void)state;
+    const double of[] = {10, 100, 1000, -5, MOTE_NONE};
+    mote_confidence interval;
+    /* 10, 100, 1000: a standard deviation of one decade. Those below 0 have no figure. */
+    for (size_t processes = 3; processes <= COUNT(of); ++processes) {
+        figures f = {.of = of, .count = processes};
+        assert_int_equal(
+            mote_statistics_process_interval(mean_figure, &f, processes, 1, &interval),
+            MOTE_OK);
+        assert_near(log10(interval.low), 2 - t_two(0.025) / sqrt(3), 1e-9);
+        assert_near(log10(interval.high), 2 + t_two(0.025) / sqrt(3), 1e-9);
+        assert_int_equal(f.calls, processes);
+        assert_int_equal(f.largest, 1);
+    }
+    figures one = {.of = &of[2], .count = 3};
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &one, 3, 1, &interval),
+                     MOTE_OK);
+    assert_true(isnan(interval.low) && isnan(interval.high));
+}
+
+static void process_interval_of_many_is_that_of_the_mean(void **state)
+{
+    (void)state;
+    double of[MANY];
+    for (size_t k = 0; k < MANY; ++k)
+        of[k] = (double)(k + 1);
+    figures f = {.of = of, .count = MANY};
+    mote_confidence interval, again, other;
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &f, MANY, 4, &interval),
+                     MOTE_OK);
+    assert_int_equal(f.calls, 1000);
+    assert_int_equal(f.largest, MANY);
+    /* The mean of 20 drawn of 1 .. 20: a standard deviation of sqrt(399 / 12 / 20). */
+    const double half = 1.959964 * sqrt(399.0 / 12 / 20);
+    assert_near(interval.low, 10.5 - half, 0.04);
+    assert_near(interval.high, 10.5 + half, 0.04);
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &f, MANY, 4, &again),
+                     MOTE_OK);
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &f, MANY, 5, &other),
+                     MOTE_OK);
+    assert_memory_equal(&interval, &again, sizeof interval);
+    assert_true(other.low != interval.low || other.high != interval.high);
+}
+
+/* A tenth process: the bootstrap; where no draw has a figure: none. */
+static void process_interval_from_ten_on_is_a_bootstrap(void **state)
+{
+    (void)state;
+    double of[MOTE_BOOTSTRAP_REPLICATES];
+    mote_confidence interval;
+    for (size_t k = 0; k < COUNT(of); ++k)
+        of[k] = (double)(k + 1);
+    figures nine = {.of = of, .count = COUNT(of) - 1}, ten = {.of = of, .count = COUNT(of)};
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &nine, 9, 1, &interval),
+                     MOTE_OK);
+    assert_int_equal(nine.calls, 9);
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &ten, 10, 1, &interval),
+                     MOTE_OK);
+    assert_int_equal(ten.calls, 1000);
+    /* 8.25 / 10: the variance of the mean of ten drawn of 1 .. 10. */
+    assert_near(interval.low, 5.5 - 1.96 * sqrt(0.825), 0.05);
+    assert_near(interval.high, 5.5 + 1.96 * sqrt(0.825), 0.05);
+    for (size_t k = 0; k < COUNT(of); ++k)
+        of[k] = -1;
+    assert_int_equal(mote_statistics_process_interval(mean_figure, &ten, 10, 1, &interval),
+                     MOTE_OK);
+    assert_true(isnan(interval.low) && isnan(interval.high));
+}
+
+static void detectable_of_two_and_three_values_is_the_closed_form(void **state)
+{
+    (void)state;
+    const double logs[] = {0.1, 0.2, 0.6};
+    const double sd = 0.1 / sqrt(2), sd_three = sqrt(0.07);
+    assert_near(mote_statistics_detectable(logs, 2, 1), exp((t_one(0.0125) + t_one(0.2)) * sd),
+                1e-9);
+    assert_near(mote_statistics_detectable(logs, 3, 1),
+                exp((t_two(0.0125) + t_two(0.2)) * sd_three * sqrt(2.0 / 3)), 1e-9);
+    assert_near(mote_statistics_detectable(logs, 3, 5),
+                exp((t_two(0.0025) + t_two(0.2)) * sd_three * sqrt(2.0 / 3)), 1e-9);
+    assert_true(isnan(mote_statistics_detectable(logs, 1, 1)));
+    assert_true(isnan(mote_statistics_detectable(logs, 3, 0)));
+}
+
+/* The exponent of x^e, and its interval where nothing is left to chance. */
+static void check_power(const double *x, size_t count, double e)
+{
+    double y[16], exponent;
+    mote_confidence interval;
+    for (size_t i = 0; i < count; ++i)
+        y[i] = 7 * pow(x[i], e) * (1 + 1e-6 * (double)(i % 3));
+    assert_int_equal(mote_statistics_exponent(x, y, count, &exponent, &interval), MOTE_OK);
+    assert_near(exponent, e, 1e-4);
+    assert_near(interval.low, e, 1e-4);
+    assert_near(interval.high, e, 1e-4);
+    assert_true(interval.low < exponent && exponent < interval.high);
+}
+
+static void exponent_of_exact_powers_is_the_power(void **state)
+{
+    (void)state;
+    const double up[] = {1, 2, 4, 8, 16, 32}, down[] = {9, 8, 7, 5, 3}, one[] = {3, 3, 3, 3, 4};
+    const double second[] = {3, 4, 3, 3, 3};
+    check_power(up, 6, 0.25);
+    check_power(up, 5, -1);
+    check_power(down, 5, 2);
+    check_power(one, 5, 1);
+    check_power(second, 5, 1);
+    const double same[] = {3, 3, 3, 3}, y[] = {1, 2, 3, 4};
+    double exponent;
+    mote_confidence interval;
+    assert_int_equal(mote_statistics_exponent(same, y, 4, &exponent, &interval), MOTE_OK);
+    assert_true(isnan(exponent) && isnan(interval.low) && isnan(interval.high));
+}
+
+/* Half of the values lie above, half below, all equally far: nothing is an outlier, and robust
+   weights change the interval of least squares by a few percent only. */
+static void exponent_interval_without_outliers_is_that_of_least_squares(void **state)
+{
+    (void)state;
+    enum { POINTS = 5 };
+    static const double off[POINTS] = {1, -2, 2, -2, 1}; /* sum 0, and at right angles to x */
+    double x[POINTS], y[POINTS], exponent;
+    for (size_t i = 0; i < POINTS; ++i) {
+        x[i] = exp((double)i);
+        y[i] = exp(2 * (double)i + 0.01 * off[i]);
+    }
+    mote_confidence interval;
+    assert_int_equal(mote_statistics_exponent(x, y, POINTS, &exponent, &interval), MOTE_OK);
+    assert_near(exponent, 2, 2e-3);
+    /* t(0.975, 3) = 3.182446, residuals 14e-4 over 3 degrees, sum of (x - mean)^2 = 10. */
+    const double half = 3.182446 * sqrt(14e-4 / 3 / 10);
+    assert_near((interval.high - interval.low) / 2 / half, 1, 0.25);
+}
+
+static mote_verdict verdict(double ratio, double low, double high, double p)
+{
+    const mote_confidence interval = {low, high};
+    return mote_statistics_verdict(ratio, interval, p, 0.25); /* 0.8 .. 1.25 */
+}
+
+static void verdict_on_a_border_is_no_change(void **state)
+{
+    (void)state;
+    assert_int_equal(verdict(1.25, 1.1, 1.4, 0.001), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(1.26, 1.1, 1.4, 0.001), MOTE_VERDICT_SLOWER);
+    assert_int_equal(verdict(1.26, 1.0, 1.4, 0.001), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(0.80, 0.7, 0.9, 0.001), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(0.79, 0.7, 0.9, 0.001), MOTE_VERDICT_FASTER);
+    assert_int_equal(verdict(0.79, 0.7, 1.0, 0.001), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(0.79, 0.7, 0.9, MOTE_SIGNIFICANT), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(1.26, 1.1, 1.4, MOTE_SIGNIFICANT), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(1, 0.8, 1.25, 0.5), MOTE_VERDICT_SAME);
+    assert_int_equal(verdict(1, 0.79, 1.25, 0.5), MOTE_VERDICT_UNDECIDED);
+    assert_int_equal(verdict(1, 0.8, 1.26, 0.5), MOTE_VERDICT_UNDECIDED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mean_of_three_values_is_a_third_of_their_sum),
+        cmocka_unit_test(t_interval_of_two_and_three_values_is_the_closed_form),
+        cmocka_unit_test(share_interval_leaves_a_fortieth_on_each_side),
+        cmocka_unit_test(share_interval_of_none_and_all_ends_at_0_and_1),
+        cmocka_unit_test(t_test_of_two_and_three_values_is_the_closed_form),
+        cmocka_unit_test(t_test_of_equal_values_is_certain),
+        cmocka_unit_test(welch_of_equal_variances_is_students_test),
+        cmocka_unit_test(welch_of_one_constant_side_has_the_freedom_of_the_other),
+        cmocka_unit_test(welch_without_spread_is_certain),
+        cmocka_unit_test(welch_of_too_few_values_says_what_it_can),
+        cmocka_unit_test(median_interval_of_two_processes_is_t_with_one_degree),
+        cmocka_unit_test(median_interval_where_frames_are_missing_is_t_of_medians),
+        cmocka_unit_test(median_interval_where_a_process_has_no_frame_is_none),
+        cmocka_unit_test(median_interval_of_two_sorts_of_processes_spans_both),
+        cmocka_unit_test(median_interval_of_twenty_processes_cuts_a_fortieth),
+        cmocka_unit_test(median_interval_of_processes_alike_is_a_point),
+        cmocka_unit_test(process_interval_of_few_is_t_on_logarithms),
+        cmocka_unit_test(process_interval_of_many_is_that_of_the_mean),
+        cmocka_unit_test(process_interval_from_ten_on_is_a_bootstrap),
+        cmocka_unit_test(detectable_of_two_and_three_values_is_the_closed_form),
+        cmocka_unit_test(exponent_of_exact_powers_is_the_power),
+        cmocka_unit_test(exponent_interval_without_outliers_is_that_of_least_squares),
+        cmocka_unit_test(verdict_on_a_border_is_no_change),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
