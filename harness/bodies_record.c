@@ -27,17 +27,6 @@ static mote_status cannot(const char *name)
     return mote_fail(MOTE_EIO, "%s: cannot be written: %s", name, strerror(errno));
 }
 
-/* A file beside its final name. */
-static mote_status open_part(const char *name, FILE **file)
-{
-    char *part = mote_format("%s.part", name);
-    if (!part)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
-    *file = fopen(part, "w");
-    free(part);
-    return *file ? MOTE_OK : cannot(name);
-}
-
 mote_status mote_bodies_record_open(const char *directory, const char *name,
                                     mote_bodies_record *record)
 {
@@ -48,9 +37,11 @@ mote_status mote_bodies_record_open(const char *directory, const char *name,
     mote_status status = folder ? mote_directory_make(folder)
                                 : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
     for (int k = 0; k < 2 && status == MOTE_OK; ++k) {
-        record->name[k] = mote_format("%s/%s.%s.csv", folder, name, kinds[k]);
-        status = record->name[k] ? open_part(record->name[k], files[k])
-                                 : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+        record->part[k] = mote_format("%s/%s.%s.csv" MOTE_BODIES_PART, folder, name, kinds[k]);
+        if (!record->part[k])
+            status = mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+        else if (!(*files[k] = fopen(record->part[k], "w")))
+            status = cannot(record->part[k]);
     }
     free(folder);
     if (status != MOTE_OK) {
@@ -111,20 +102,20 @@ void mote_bodies_record_step(mote_bodies_record *record, const mote_bodies_timed
         put_pair(record->pairs, step->frame, &pairs[k]);
 }
 
-static mote_status close_part(FILE *file, const char *name, bool whole)
+static mote_status close_part(FILE *file, const char *part, bool whole)
 {
-    char *part = mote_format("%s.part", name);
-    if (!part)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+    char *name = mote_format("%.*s", (int)(strlen(part) - strlen(MOTE_BODIES_PART)), part);
     const bool lost = ferror(file) != 0;
     bool good = fflush(file) == 0 && !lost && fsync(fileno(file)) == 0;
     good = fclose(file) == 0 && good;
     mote_status status = MOTE_OK;
-    if (whole && (!good || rename(part, name) != 0))
+    if (!name)
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its name", part);
+    else if (whole && (!good || rename(part, name) != 0))
         status = cannot(name);
     if (!whole || status != MOTE_OK)
         (void)remove(part);
-    free(part);
+    free(name);
     return status;
 }
 
@@ -134,10 +125,10 @@ mote_status mote_bodies_record_close(mote_bodies_record *record, bool whole)
     mote_status status = MOTE_OK;
     for (int k = 0; k < 2; ++k) {
         mote_status closed =
-            files[k] ? close_part(files[k], record->name[k], whole && status == MOTE_OK)
+            files[k] ? close_part(files[k], record->part[k], whole && status == MOTE_OK)
                      : MOTE_OK;
         status = status == MOTE_OK ? closed : status;
-        free(record->name[k]);
+        free(record->part[k]);
     }
     *record = (mote_bodies_record){.steps = NULL};
     return status;

@@ -6,9 +6,11 @@
 
 #include <stdio.h>
 
+#define MOTE_BODIES_PART ".part"
+
 typedef struct mote_bodies_record {
     FILE *steps, *pairs; /* NULL: no records */
-    char *name[2];       /* of the files when they are whole */
+    char *part[2];       /* their names until they are whole: ended by MOTE_BODIES_PART */
 } mote_bodies_record;
 
 /* The name of a cell's files: "SCENARIO-METHOD-rK", other characters than letters, digits and

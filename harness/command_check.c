@@ -1,5 +1,6 @@
 /* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether it is what it says. */
 #include "harness/command.h"
+#include "harness/record.h"
 #include "harness/truth.h"
 
 #include <inttypes.h>
@@ -80,14 +81,8 @@ static int print_json(const mote_scenario *scenario, const findings *found)
         (void)json_object_set_new(root, "active_near", json_integer(found->active_near));
         (void)json_object_set_new(root, "active_holds", json_boolean(active_holds(found)));
     }
-    if (!root || json_dumpf(root, stdout, JSON_INDENT(2)) != 0) {
-        json_decref(root);
-        (void)mote_fail(MOTE_EIO, "check: its JSON could not be written");
-        return mote_command_fail();
-    }
-    (void)fputc('\n', stdout);
-    json_decref(root);
-    return MOTE_EXIT_DONE;
+    return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
+                                                                  : mote_command_fail();
 }
 
 static void print_lines(const mote_scenario *scenario, const findings *found)

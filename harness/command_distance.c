@@ -3,6 +3,7 @@
 #include "harness/command.h"
 #include "harness/mesh_import.h"
 #include "harness/probe.h"
+#include "harness/record.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -107,9 +108,8 @@ static int distance(const request *wish)
             json_string(bodies.import[0].single_precision || bodies.import[1].single_precision
                             ? "float"
                             : "double"));
-        (void)json_dumpf(answers, stdout,
-                         JSON_INDENT(2) | JSON_PRESERVE_ORDER | JSON_REAL_PRECISION(17));
-        (void)fputc('\n', stdout);
+        status = mote_json_put(json_incref(answers), JSON_INDENT(2) | JSON_REAL_PRECISION(17),
+                               stdout);
     } else if (status == MOTE_OK) {
         for (int i = 0; i < 2; ++i) {
             if (bodies.import[i].single_precision)

@@ -2,6 +2,7 @@
 #include "core/field_maker.h"
 #include "harness/catalog.h"
 #include "harness/command.h"
+#include "harness/record.h"
 
 #include <jansson.h>
 #include <stdio.h>
@@ -9,13 +10,8 @@
 
 static int print_json(json_t *value)
 {
-    if (!value) {
-        (void)mote_fail(MOTE_ENOMEM, "list: no memory for its JSON");
+    if (mote_json_put(value, JSON_INDENT(2), stdout) != MOTE_OK)
         return mote_command_fail();
-    }
-    (void)json_dumpf(value, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
-    (void)fputc('\n', stdout);
-    json_decref(value);
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 

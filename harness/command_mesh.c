@@ -2,6 +2,7 @@
 #include "core/parts.h"
 #include "harness/command.h"
 #include "harness/mesh_import.h"
+#include "harness/record.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -102,11 +103,9 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
         return mote_command_fail();
     }
     /* The part of each vertex, in the vertices' order. */
-    json_object_set_new(root, "part_labels", labels_json(parts));
-    (void)json_dumpf(root, stdout, JSON_INDENT(2) | JSON_PRESERVE_ORDER);
-    (void)fputc('\n', stdout);
-    json_decref(root);
-    return MOTE_EXIT_DONE;
+    (void)json_object_set_new(root, "part_labels", labels_json(parts));
+    return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
+                                                                  : mote_command_fail();
 }
 
 int mote_command_mesh(int argc, char **argv)

@@ -337,6 +337,9 @@ static int execute_bodies(request *q)
     size_t failed;
     if (mote_bodies_run(&wish, &failed) != MOTE_OK)
         return mote_command_fail();
+    if (failed > 0)
+        (void)fprintf(stderr, "mote: %zu cells failed; see their reason in %s/bodies.json\n",
+                      failed, q->run.directory);
     return mote_command_finish(failed > 0 ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_DONE);
 }
 

@@ -14,7 +14,7 @@ enum { FORMAT_TABLE, FORMAT_JSON, FORMAT_CSV, FORMAT_GBENCH, FORMAT_GHA, FORMAT_
 
 static int print_json(json_t *object)
 {
-    if (mote_json_put(object, stdout) != MOTE_OK)
+    if (mote_json_put(object, MOTE_JSON_FLAGS, stdout) != MOTE_OK)
         return mote_command_fail();
     return mote_command_finish(MOTE_EXIT_DONE);
 }

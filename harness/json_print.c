@@ -5,6 +5,36 @@
 
 #define WIDTH 96
 
+static bool memory_short;
+
+static void *allocate(size_t size)
+{
+    void *block = malloc(size);
+    memory_short = memory_short || !block;
+    return block;
+}
+
+void mote_json_heed_memory(void)
+{
+    json_set_alloc_funcs(allocate, free);
+}
+
+bool mote_json_memory_short(void)
+{
+    const bool was = memory_short;
+    memory_short = false;
+    return was;
+}
+
+char *mote_json_text(const json_t *value, size_t flags)
+{
+    char *text = json_dumps(value, flags);
+    if (!mote_json_memory_short())
+        return text;
+    free(text);
+    return NULL;
+}
+
 static void print_value(const json_t *value, int digits, size_t indent, size_t before,
                         mote_text *text);
 
@@ -44,7 +74,7 @@ static void print_value(const json_t *value, int digits, size_t indent, size_t b
 {
     const size_t flags =
         JSON_ENCODE_ANY | JSON_REAL_PRECISION((size_t)digits) | JSON_PRESERVE_ORDER;
-    char *line = json_dumps(value, flags);
+    char *line = mote_json_text(value, flags);
     if (!line)
         text->failed = 1;
     else if (indent + before + strlen(line) < WIDTH || json_is_string(value))

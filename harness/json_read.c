@@ -1,6 +1,7 @@
 #include "harness/json_read.h"
 
 #include "harness/file.h"
+#include "harness/json_print.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -14,11 +15,12 @@ mote_status mote_json_parse(const char *path, const char *text, size_t size, con
                             json_t **root)
 {
     json_error_t error;
+    (void)mote_json_memory_short(); /* of what was made before */
     json_t *parsed = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
-    /* Jansson tells a place of whatever is wrong with the text, and none when memory ran out.
-     */
-    if (!parsed && (error.line < 0 || json_error_code(&error) == json_error_out_of_memory))
+    if (mote_json_memory_short()) {
+        json_decref(parsed);
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its JSON", path);
+    }
     if (!parsed)
         return mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; %s", path, error.line, error.column,
                          error.text, advice);

@@ -1,5 +1,6 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command.h"
+#include "harness/json_print.h"
 #include "harness/reach.h"
 
 #include <signal.h>
@@ -49,6 +50,7 @@ int main(int argc, char **argv)
 {
     /* A reader that goes away is an error of a write, not a death. */
     (void)signal(SIGPIPE, SIG_IGN);
+    mote_json_heed_memory();
     for (; argc > 2 && strcmp(argv[1], "--allow") == 0; argc -= 2, argv += 2) {
         if (mote_reach_allow(argv[2]) != MOTE_OK)
             return mote_command_fail();

@@ -1,5 +1,6 @@
 #include "harness/record.h"
 
+#include "harness/json_print.h"
 #include "harness/json_read.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ mote_status mote_record_text(const char *directory, const char *name, mote_text 
 
 mote_status mote_record_json(const char *directory, const char *name, json_t *object)
 {
-    char *dump = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    char *dump = mote_json_text(object, MOTE_JSON_FLAGS);
     mote_text text = {0};
     text.failed = !dump;
     if (dump)
@@ -62,9 +63,9 @@ json_t *mote_json_number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-mote_status mote_json_put(json_t *object, FILE *out)
+mote_status mote_json_put(json_t *object, size_t flags, FILE *out)
 {
-    char *text = object ? json_dumps(object, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    char *text = mote_json_text(object, flags);
     json_decref(object);
     if (!text)
         return mote_fail(MOTE_ENOMEM, "no memory for JSON");

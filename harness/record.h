@@ -21,8 +21,11 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
 /* A real, or null where it is not finite. */
 json_t *mote_json_number(double value);
 
-/* Prints object, indented, numbers with 17 digits, and a line end; object is taken over
+/* Prints object with jansson's flags and a line end; object is taken over
    (decref'd), NULL is MOTE_ENOMEM. Whether out took it is the caller's to check. */
-mote_status mote_json_put(json_t *object, FILE *out);
+mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
+
+/* Indented, numbers with 17 digits. */
+#define MOTE_JSON_FLAGS (JSON_INDENT(1) | JSON_REAL_PRECISION(17))
 
 #endif

@@ -1,6 +1,7 @@
 #include "harness/replay.h"
 
 #include "harness/escape.h"
+#include "harness/json_print.h"
 #include "harness/report_rows.h"
 
 #include <inttypes.h>
@@ -236,7 +237,7 @@ mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t 
         if (starts_block(report, i))
             status = add_scene(report, i, text, shown, notes);
     }
-    char *list = notes ? json_dumps(notes, JSON_COMPACT) : NULL;
+    char *list = mote_json_text(notes, JSON_COMPACT);
     if (status == MOTE_OK && !list)
         status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
     if (status == MOTE_OK) {

@@ -2,6 +2,7 @@
    points have 16 bits a coordinate, on a grid over all that is shown; 65535: there is no point.
  */
 #include "harness/escape.h"
+#include "harness/json_print.h"
 #include "harness/replay.h"
 
 #include "core/quaternion.h"
@@ -116,7 +117,7 @@ static void add_grid(mote_text *text, const grid *g)
 static void add_string(mote_text *text, const char *key, const char *value)
 {
     json_t *string = json_string(value);
-    char *dump = string ? json_dumps(string, JSON_ENCODE_ANY) : NULL;
+    char *dump = mote_json_text(string, JSON_ENCODE_ANY);
     mote_text_add(text, "\"%s\": ", key);
     if (dump)
         mote_escape_script(text, dump);
@@ -385,7 +386,7 @@ mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, mot
     json_t *notes = json_deep_copy(scene->notes);
     mote_text one = {0};
     mote_status status = notes ? add_scene(&one, scene, budget, notes) : no_memory();
-    char *list = status == MOTE_OK ? json_dumps(notes, JSON_COMPACT) : NULL;
+    char *list = status == MOTE_OK ? mote_json_text(notes, JSON_COMPACT) : NULL;
     if (status == MOTE_OK && (!list || one.failed))
         status = no_memory();
     if (status == MOTE_OK) {

@@ -4,6 +4,7 @@
 
 #include "harness/approach.h"
 #include "harness/file.h"
+#include "harness/json_print.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -64,7 +65,7 @@ static mote_status make_file(const char *a, const char *b, mote_json_file *file)
     *file = (mote_json_file){NULL, NULL, root};
     if (stems[0] && stems[1] && root) {
         file->path = mote_format("%s-%s.json", stems[0], stems[1]);
-        file->text = json_dumps(root, JSON_COMPACT);
+        file->text = mote_json_text(root, JSON_COMPACT);
     }
     if (!root)
         status = mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them", a, b);

@@ -1,6 +1,7 @@
 #include "harness/summary_row.h"
 
 #include "harness/file.h"
+#include "harness/json_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -219,7 +220,7 @@ static char *value_text(const mote_method *method, const char *key, const json_t
         *usual = strcmp(text, fallback) == 0;
         return mote_format("%s", text);
     }
-    return json_dumps(value, JSON_ENCODE_ANY);
+    return mote_json_text(value, JSON_ENCODE_ANY);
 }
 
 /* "method:key=value,..." with what differs from the defaults. */
@@ -235,7 +236,8 @@ static char *make_label(const mote_stored_cell *cell)
     {
         bool usual;
         char *shown = value_text(method, key, value, &usual);
-        if (shown && !usual) {
+        text.failed = text.failed || !shown;
+        if (!text.failed && !usual) {
             mote_text_add(&text, "%c%s=%s", separator, key, shown);
             separator = ',';
         }

@@ -1,0 +1,42 @@
+/* Calls of libc that fail, each once, wherever the code under test makes one.
+
+   A work (a command of the program, say) is run once in a process of its own while every place
+   that calls for memory, files or processes is noted: a place is a function of libc and the
+   four innermost callers of our own. Then the work is run again for each place, and there the
+   call fails (MOTE_FAULT_FAIL), is interrupted by a signal (EINTR), or transfers one byte only.
+   The linker puts our functions in libc's place (--wrap: see tests/CMakeLists.txt); jansson is
+   given ours for its memory. Children of the work are part of it. */
+#ifndef MOTE_TESTS_FAULT_POINTS_H
+#define MOTE_TESTS_FAULT_POINTS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum fault_mode {
+    FAULT_NONE,
+    FAULT_FAIL,      /* no memory, no space, no such process */
+    FAULT_INTERRUPT, /* EINTR, of the calls that a signal interrupts */
+    FAULT_SHORT      /* read and write move one byte */
+} fault_mode;
+
+typedef struct fault_work {
+    int (*run)(void *context); /* its result is the exit status, below 100 */
+    void *context;
+    const char *out, *error; /* files that its standard output and error go to */
+} fault_work;
+
+typedef struct fault_end {
+    int status;           /* exit status, or -1 when a signal ended it */
+    bool happened;        /* the call was made, and failed */
+    const char *function; /* that failed */
+    long call;            /* its number */
+} fault_end;
+
+/* Runs the work in a child without a fault, and notes its places: their number. *end: how it
+   ended. */
+size_t fault_points_find(const fault_work *work, fault_end *end);
+
+/* Runs the work with the fault at place k; false when there is no fault of that mode there. */
+bool fault_points_run(const fault_work *work, fault_mode mode, size_t k, fault_end *end);
+
+#endif
