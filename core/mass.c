@@ -122,8 +122,8 @@ mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *
     made.centre = mote_add_scaled(middle, length, centre);
     made.inertia =
         mote_scale(made.inertia, density * length * length * length * length * length);
-    if (!is_positive(made.mass) || !is_positive(made.inertia.x) ||
-        !is_positive(made.inertia.y) || !is_positive(made.inertia.z))
+    /* Moments rise. */
+    if (!is_positive(made.mass) || !is_positive(made.inertia.x) || !isfinite(made.inertia.z))
         return mote_fail(MOTE_EINVAL,
                          "mass %g with main moments %g, %g, %g: not those of a solid; give a "
                          "mesh of moderate size that overlaps itself nowhere",

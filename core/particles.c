@@ -58,9 +58,7 @@ static mote_status allocate_body(mote_particles *p, const mote_body *body, int b
     p->place[b][2] = p->place[b][1] + n;
     /* A warm query looks at about one ring a particle and a few steps; with few particles there
        is room for many steps, so that the table hardly ever grows in a query. */
-    const uint32_t few = 1024;
-    const uint32_t many = n < 1u << 24 ? 16 * (uint32_t)n : 1u << 28;
-    const uint32_t expected = many > few ? many : few;
+    const uint32_t expected = (uint32_t)fmin(fmax(16.0 * (double)n, 1024), 0x1p28);
     return p->options.single ? mote_lazy_init_single(&p->lazy[b], body, expected)
                              : mote_lazy_init(&p->lazy[b], body, expected);
 }

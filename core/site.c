@@ -45,7 +45,7 @@ static void visit_around_vertex(const mote_mesh *mesh, uint32_t v, mote_site_vis
         const uint32_t u = MOTE_RING_VERTEX(mesh->ring[k]);
         const uint32_t next = next_entry(mesh, first, end, k);
         /* The end of a closed fan among several repeats its first neighbour. */
-        const bool repeated = next == UINT32_MAX && k > fan && u == mesh->ring[fan];
+        const bool repeated = next == UINT32_MAX && u == mesh->ring[fan];
         if (!repeated) {
             visit(context, mote_site_vertex(u));
             visit(context, edge_site(v, u));

@@ -233,12 +233,16 @@ static void solve_with_a_displacement_not_finite_names_the_point(void **unused)
     const mote_vec3 centres[2] = {{0, 0, 0}, {0.5, 0, 0}};
     mote_field *field = csrbf_field(centres, 2, 1);
     mote_csrbf_fit *fit = fit_of(field, NULL);
-    mote_vec3 wanted[2] = {{1, 2, 3}, {4, nan(""), 6}};
+    const mote_vec3 bad[3] = {{nan(""), 5, 6}, {4, HUGE_VAL, 6}, {4, 5, -HUGE_VAL}};
     mote_vec3 weights[2] = {{1, 1, 1}, {2, 2, 2}};
     const mote_vec3 before[2] = {{1, 1, 1}, {2, 2, 2}};
-    assert_int_equal(mote_csrbf_fit_solve(fit, wanted, weights), MOTE_EINVAL);
-    assert_string_equal(mote_error_text(), "the displacement of control point 1 is not finite");
-    assert_memory_equal(weights, before, sizeof weights);
+    for (int c = 0; c < 3; ++c) {
+        const mote_vec3 wanted[2] = {{1, 2, 3}, bad[c]};
+        assert_int_equal(mote_csrbf_fit_solve(fit, wanted, weights), MOTE_EINVAL);
+        assert_string_equal(mote_error_text(),
+                            "the displacement of control point 1 is not finite");
+        assert_memory_equal(weights, before, sizeof weights);
+    }
     mote_csrbf_fit_destroy(fit);
     mote_field_destroy(field);
 }

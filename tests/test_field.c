@@ -452,9 +452,13 @@ static void create_csrbf_with_bad_input_says_what(void **unused)
                        "the support radius is -1; it must be positive and finite");
     expect_csrbf_error(centre, 2, HUGE_VAL,
                        "the support radius is inf; it must be positive and finite");
+    expect_csrbf_error(centre, 2, 1e-310, /* no finite number times it is 1 */
+                       "the support radius is 1e-310; it must be positive and finite");
     expect_csrbf_error(centre, 2, nan(""),
                        "the support radius is nan; it must be positive and finite");
-    centre[1].y = nan("");
+    centre[1].x = nan("");
+    expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");
+    centre[1] = mote_vec3_make(0, nan(""), 0);
     expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");
     centre[1] = mote_vec3_make(0, 0, -HUGE_VAL);
     expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");

@@ -108,9 +108,17 @@ static void growth_keeps_values_and_counts(void **unused)
         mote_lazy_begin(&lazy, &state, false);
         mote_vec3 *first = malloc(n * sizeof *first);
         assert_non_null(first);
-        for (uint32_t v = 0; v < n; ++v) {
-            first[v] = mote_lazy_position(&lazy, v);
-            assert_int_equal(lazy.filled, v + 1);
+        /* In any order: hashes of consecutive numbers hardly ever meet. */
+        uint32_t *order = malloc(n * sizeof *order);
+        assert_non_null(order);
+        for (uint32_t i = 0; i < n; ++i) {
+            const uint32_t j = (uint32_t)(random_bits(&seed) % (i + 1));
+            order[i] = order[j];
+            order[j] = i;
+        }
+        for (uint32_t i = 0; i < n; ++i) {
+            first[order[i]] = mote_lazy_position(&lazy, order[i]);
+            assert_int_equal(lazy.filled, i + 1);
             assert_true(lazy.filled <= (lazy.mask + 1) / 2);
         }
         assert_int_equal(lazy.evaluated, n);
@@ -120,6 +128,7 @@ static void growth_keeps_values_and_counts(void **unused)
         }
         assert_int_equal(lazy.evaluated, n);
         assert_int_equal(lazy.mask, 2047); /* twice 642, to a power of two */
+        free(order);
         free(first);
         mote_lazy_free(&lazy);
     }
@@ -284,6 +293,53 @@ static void fetch_same_bits_as_one_by_one(void **unused)
     }
 }
 
+static void fetch_in_single_precision_evaluates_nothing(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 9;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 5, &seed);
+    const mote_body_state state = test_body_state(&b, 1, &seed);
+    const uint32_t vertices[3] = {1, 4, 9};
+    mote_lazy lazy;
+    init_lazy(&lazy, &b.body, 42, true);
+    mote_lazy_begin(&lazy, &state, false);
+    mote_lazy_fetch(&lazy, vertices, 3);
+    mote_lazy_fetch_rings(&lazy, vertices, 3);
+    assert_int_equal(lazy.evaluated, 0);
+    assert_int_equal(lazy.filled, 0);
+    mote_lazy_free(&lazy);
+    test_body_free(&b);
+}
+
+/* A table of 2^31 places is the largest; it forgets what it has no room for. (No such table is
+   made: only its first place is looked at.) */
+static void position_in_the_largest_table_is_not_remembered(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 9;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 5, &seed);
+    const mote_body_state state = test_body_state(&b, 1, &seed);
+    for (int single = 0; single <= 1; ++single) {
+        mote_lazy lazy;
+        init_lazy(&lazy, &b.body, 42, single);
+        mote_lazy_begin(&lazy, &state, false);
+        const mote_vec3 expected = mote_lazy_position(&lazy, 0);
+        mote_lazy_begin(&lazy, &state, false);
+        lazy.shift = 1;
+        lazy.filled = lazy.limit = 1u << 30;
+        const uint64_t before = lazy.evaluated;
+        for (int k = 1; k <= 3; ++k) {
+            const mote_vec3 got = mote_lazy_position(&lazy, 0);
+            assert_memory_equal(&got, &expected, sizeof got);
+            assert_int_equal(lazy.evaluated, before + (uint64_t)k);
+        }
+        mote_lazy_free(&lazy);
+    }
+    test_body_free(&b);
+}
+
 static void fetch_evaluates_each_vertex_once(void **unused)
 {
     (void)unused;
@@ -318,6 +374,8 @@ int main(void)
         cmocka_unit_test(given_positions_are_read_and_not_evaluated),
         cmocka_unit_test(single_positions_stay_near_double),
         cmocka_unit_test(fetch_same_bits_as_one_by_one),
+        cmocka_unit_test(fetch_in_single_precision_evaluates_nothing),
+        cmocka_unit_test(position_in_the_largest_table_is_not_remembered),
         cmocka_unit_test(fetch_evaluates_each_vertex_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -151,6 +151,16 @@ static void create_open_and_tiny_meshes_as_defined(void **context)
     check_levels(solid_to_mesh(solid_fan(3000, 1)));
 }
 
+/* Squares of its edges are beyond doubles. */
+static void create_mesh_as_large_as_1e200_as_defined(void **context)
+{
+    (void)context;
+    solid s = solid_torus(40, 15);
+    for (size_t i = 0; i < 3 * s.vertex_count; ++i)
+        s.xyz[i] *= 1e200;
+    check_levels(solid_to_mesh(s));
+}
+
 static void create_many_components_as_defined(void **context)
 {
     (void)context;
@@ -225,6 +235,10 @@ static void spread_covers_components_with_different_nodes(void **context)
             }
             for (int c = 0; c < 12; ++c)
                 assert_true(seen[c]);
+            /* As many as there are components are the first of those. */
+            assert_int_equal(
+                mote_levels_spread(levels, mesh, 0, 12, farthest != 0, seed, again), MOTE_OK);
+            assert_memory_equal(node, again, 12 * sizeof *node);
         }
     }
     mote_levels_destroy(levels);
@@ -280,6 +294,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(create_closed_meshes_as_defined),
         cmocka_unit_test(create_open_and_tiny_meshes_as_defined),
+        cmocka_unit_test(create_mesh_as_large_as_1e200_as_defined),
         cmocka_unit_test(create_many_components_as_defined),
         cmocka_unit_test(create_letter_lean_and_coarse),
         cmocka_unit_test(spread_farthest_is_farthest),

@@ -221,7 +221,22 @@ static void mass_of_mesh_bad_input_refused_with_reason(void **state)
     (void)state;
     solid twisted = solid_box(1, 1, 1);
     flip_faces(&twisted, 3, 4);
+    /* Beside a solid its mirror image, wound as it was: their volumes cancel. */
+    solid mirrored = solid_box(1, 1, 1);
+    flip_faces(&mirrored, 0, mirrored.triangle_count);
+    /* Most of a long bar taken off again, far from its middle: no solid has such moments. */
+    solid taken = solid_box(1, 1, 1);
+    flip_faces(&taken, 0, taken.triangle_count);
+    /* Many plates in one place. */
+    solid piled = solid_box(1e60, 1e60, 5e59);
+    for (int k = 1; k < 120; ++k)
+        piled = solid_join(piled, solid_box(1e60, 1e60, 5e59), 0);
     refusal cases[] = {
+        {solid_join(solid_box(1, 1, 1), mirrored, 3), 1, "no volume"},
+        {solid_join(solid_box(1, 1, 1.5), taken, 9), 1, "not those of a solid"},
+        {solid_box(1e-120, 1e-120, 1e-120), 1, "mass 0 "},
+        {solid_box(1e60, 1e63, 1e63), 1, "not those of a solid"}, /* moments of inf */
+        {piled, 2.24e7, "inf: not those of a solid"},             /* the larger ones */
         {solid_grid(3, 3), 1, "open"},
         {twisted, 1, "wound differently"},
         {solid_box(1, 1, 0), 1, "no volume"},

@@ -133,6 +133,29 @@ static void modes_gradient_in_a_flat_ring_has_no_normal_part(void **unused)
     mote_mesh_destroy(mesh);
 }
 
+/* A ring that has no extent at all tells of no slope. */
+static void modes_gradient_where_all_neighbours_coincide_is_zero(void **unused)
+{
+    (void)unused;
+    solid s = solid_triangle();
+    for (size_t i = 0; i < 3; ++i)
+        solid_set_vertex(&s, i, 2, 3, 4);
+    mote_mesh *mesh = solid_to_mesh(solid_join(s, solid_tetrahedron(), 1));
+    mote_vec3 modes[7];
+    for (int i = 0; i < 7; ++i)
+        modes[i] = mote_vec3_make(i, 1 - i, i * i);
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_modes(modes, 1, 7, &field), MOTE_OK);
+    mote_vec3 gradient[MOTE_FIELD_MAX];
+    field->kind->gradient(field, mesh, 1, gradient);
+    for (uint32_t j = 0; j < field->padded; ++j)
+        assert_true(gradient[j].x == 0 && gradient[j].y == 0 && gradient[j].z == 0);
+    field->kind->gradient(field, mesh, 4, gradient);
+    assert_true(mote_length(gradient[0]) > 0);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
 static void create_modes_with_bad_input_says_what(void **unused)
 {
     (void)unused;
@@ -143,9 +166,12 @@ static void create_modes_with_bad_input_says_what(void **unused)
     assert_string_equal(mote_error_text(), "a field has 1 to 85 linear modes, not 0");
     assert_int_equal(mote_field_create_modes(modes, 86, 3, &field), MOTE_EINVAL);
     assert_string_equal(mote_error_text(), "a field has 1 to 85 linear modes, not 86");
-    modes[4].z = HUGE_VAL;
-    assert_int_equal(mote_field_create_modes(modes, 2, 3, &field), MOTE_EINVAL);
-    assert_string_equal(mote_error_text(), "mode 1 is not finite at vertex 1");
+    const mote_vec3 bad[3] = {{nan(""), 0, 0}, {0, -HUGE_VAL, 0}, {0, 0, HUGE_VAL}};
+    for (int c = 0; c < 3; ++c) {
+        modes[4] = bad[c];
+        assert_int_equal(mote_field_create_modes(modes, 2, 3, &field), MOTE_EINVAL);
+        assert_string_equal(mote_error_text(), "mode 1 is not finite at vertex 1");
+    }
     assert_ptr_equal(field, &mark);
 }
 
@@ -156,6 +182,7 @@ int main(void)
         cmocka_unit_test(modes_with_one_mode_is_exact),
         cmocka_unit_test(modes_gradient_of_a_linear_map_is_the_map),
         cmocka_unit_test(modes_gradient_in_a_flat_ring_has_no_normal_part),
+        cmocka_unit_test(modes_gradient_where_all_neighbours_coincide_is_zero),
         cmocka_unit_test(create_modes_with_bad_input_says_what),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

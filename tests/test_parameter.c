@@ -175,6 +175,27 @@ static void parse_of_an_unknown_key_lists_the_keys(void **unused)
     assert_string_equal(mote_error_text(), "unknown key \"n\"; nothing can be set here");
 }
 
+/* What there is room for in an error's text. */
+static void parse_of_an_unknown_key_among_many_names_the_first(void **unused)
+{
+    (void)unused;
+    char keys[MOTE_PARAMETERS_MAX][40];
+    mote_parameter many[MOTE_PARAMETERS_MAX];
+    double values[MOTE_PARAMETERS_MAX];
+    for (int k = 0; k < MOTE_PARAMETERS_MAX; ++k) {
+        (void)snprintf(keys[k], sizeof keys[k], "a_key_that_is_thirty_bytes_long%02d", k);
+        many[k] = table[N];
+        many[k].key = keys[k];
+        many[k].fallback = "1";
+    }
+    mote_parameters_default(many, MOTE_PARAMETERS_MAX, values);
+    assert_int_equal(mote_parameters_parse(many, MOTE_PARAMETERS_MAX, "m=3", values),
+                     MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "unknown key \"m\"; the keys are a_key"));
+    assert_non_null(strstr(mote_error_text(), keys[20]));
+    assert_null(strstr(mote_error_text(), keys[22]));
+}
+
 static void parse_of_a_key_given_twice_is_an_error(void **unused)
 {
     (void)unused;
@@ -250,6 +271,8 @@ static void text_is_short_and_whole_numbers_are_plain(void **unused)
     assert_string_equal(mote_parameter_text(&table[LAW], 2, buffer, sizeof buffer),
                         "inverse-square");
     assert_string_equal(mote_parameter_text(&table[N], 1000, buffer, sizeof buffer), "1000");
+    /* What no text reads back as equal to. */
+    assert_string_equal(mote_parameter_text(&table[RADIUS], NAN, buffer, sizeof buffer), "nan");
 }
 
 int main(void)
@@ -266,6 +289,7 @@ int main(void)
         cmocka_unit_test(parse_of_a_bad_choice_lists_the_choices),
         cmocka_unit_test(parse_of_a_very_long_value_is_an_error),
         cmocka_unit_test(parse_of_an_unknown_key_lists_the_keys),
+        cmocka_unit_test(parse_of_an_unknown_key_among_many_names_the_first),
         cmocka_unit_test(parse_of_a_key_given_twice_is_an_error),
         cmocka_unit_test(parse_of_an_item_without_a_value_is_an_error),
         cmocka_unit_test(parse_failing_at_the_end_changes_nothing),

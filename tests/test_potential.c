@@ -1,5 +1,6 @@
 /* Potentials of the forces between particles against sums of logarithms and powers in long
-   double. */
+   double; with the distant ones cached, too. */
+#include "core/far_cache.h"
 #include "core/potential.h"
 
 #include "tests/solids.h"
@@ -200,6 +201,89 @@ static void potential_of_attraction_has_no_jump_at_the_reach(void **unused)
     }
 }
 
+/* The largest error of the differences of potentials at candidates up to h around particle 7,
+   whose distant particles are an expansion. */
+static double error_of_expansion(const mote_sources *same, const mote_sources *other, double h)
+{
+    uint64_t seed = 6;
+    const mote_vec3 here = {same->x[7], same->y[7], same->z[7]};
+    mote_candidates c = draw_candidates(h, &seed);
+    for (int l = 0; l < MOTE_LANES; ++l) {
+        c.x[l] += here.x;
+        c.y[l] += here.y;
+        c.z[l] += here.z;
+    }
+    mote_far_cache *cache = NULL;
+    mote_far_split split;
+    mote_potentials p;
+    assert_int_equal(mote_far_cache_create(same->count, 0.1, 1.2, 2, &cache), MOTE_OK);
+    mote_far_cache_split(cache, 0, 7, here, same, other, INFINITY, &split);
+    assert_in_range(split.same.count + split.other.count, 2, same->count);
+    mote_potential(&c, &split.same, &split.other, 0.25, INFINITY, &p);
+    mote_far_cache_add(&split, &c, 2, &p);
+    double most = 0;
+    for (int l = 1; l < MOTE_LANES; ++l) {
+        const long double truth =
+            sum_of(&c, l, same, 2, INFINITY) - sum_of(&c, l, other, 2, INFINITY) -
+            sum_of(&c, 0, same, 2, INFINITY) + sum_of(&c, 0, other, 2, INFINITY);
+        most = fmax(most, (double)fabsl(p.major[l] - p.major[0] - truth));
+        assert_true(p.minor[l] == 0);
+    }
+    mote_far_cache_destroy(cache);
+    return most;
+}
+
+/* What is left out of a potential of second order falls with the third power. */
+static void far_cache_with_every_pair_of_laws_is_of_second_order(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 5;
+    crowd a;
+    crowd b;
+    draw_crowd(&a, 60, 2, &seed);
+    draw_crowd(&b, 60, 2, &seed);
+    for (int pair = 0; pair < 9; ++pair) {
+        const mote_sources same = sources_of(&a, 60, 7, (mote_law)(pair / 3));
+        const mote_sources other = sources_of(&b, 60, 60, (mote_law)(pair % 3));
+        const double wide = error_of_expansion(&same, &other, 0.08);
+        const double narrow = error_of_expansion(&same, &other, 0.01);
+        assert_true(wide > 0 && wide < 0.2);
+        assert_true(narrow * 300 < wide);
+        assert_true(narrow * 900 > wide);
+    }
+}
+
+/* An expansion is computed anew once a particle may have moved by more than half of part times
+   the near distance. */
+static void far_cache_keeps_an_expansion_while_all_moved_little(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 5;
+    crowd a;
+    crowd b;
+    draw_crowd(&a, 60, 2, &seed);
+    draw_crowd(&b, 60, 2, &seed);
+    const mote_sources same = sources_of(&a, 60, 7, MOTE_LAW_INVERSE);
+    const mote_sources other = sources_of(&b, 60, 60, MOTE_LAW_LOG);
+    const mote_vec3 here = {a.x[7], a.y[7], a.z[7]};
+    mote_far_cache *cache = NULL;
+    mote_far_split split;
+    assert_int_equal(mote_far_cache_create(60, 0.1, 0.8, 2, &cache), MOTE_OK);
+    mote_far_cache_split(cache, 0, 7, here, &same, &other, INFINITY, &split);
+    for (int step = 0; step < 2; ++step) {
+        const mote_vec3 there = mote_add(here, mote_vec3_make(0.02 * (step + 1), 0, 0));
+        mote_far_cache_moved(cache, 0.025);
+        mote_far_cache_step(cache);
+        mote_far_cache_split(cache, 0, 7, there, &same, &other, INFINITY, &split);
+        assert_true(split.centre.x == (step == 0 ? here.x : there.x));
+    }
+    const mote_vec3 last = mote_add(here, mote_vec3_make(0.05, 0, 0));
+    mote_far_cache_reset(cache);
+    mote_far_cache_split(cache, 0, 7, last, &same, &other, INFINITY, &split);
+    assert_true(split.centre.x == last.x);
+    mote_far_cache_destroy(cache);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -208,6 +292,8 @@ int main(void)
         cmocka_unit_test(potential_of_hundreds_at_extreme_distances_stays_exact),
         cmocka_unit_test(potential_on_a_particle_is_infinite),
         cmocka_unit_test(potential_of_attraction_has_no_jump_at_the_reach),
+        cmocka_unit_test(far_cache_with_every_pair_of_laws_is_of_second_order),
+        cmocka_unit_test(far_cache_keeps_an_expansion_while_all_moved_little),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -399,6 +399,8 @@ static void mote_scene_create_bad_input_is_refused(void **state)
     c.shape_of[2] = 2;
     options.tolerance = NAN;
     check_refused(&c, 3, 4, &options, "tolerance");
+    options.tolerance = HUGE_VAL;
+    check_refused(&c, 3, 4, &options, "tolerance");
     options.tolerance = -1;
     check_refused(&c, 3, 4, &options, "tolerance");
     options.tolerance = 0;

@@ -18,6 +18,7 @@ static void status_text_every_code_is_its_own_phrase(void **unused)
                             "not supported", "numerical failure"};
     for (int code = 0; code < 6; ++code)
         assert_string_equal(mote_status_text((mote_status)code), phrase[code]);
+    assert_string_equal(mote_status_text((mote_status)6), "unknown status");
 }
 
 static void fail_formats_text_and_returns_its_status(void **unused)

@@ -324,7 +324,32 @@ static void particles_after_query_are_vertices_nearest_first(void **context)
     p[0][1] = none;
     assert_true(u.method->particles(u.state, 0, p[0], 1) >= 1);
     assert_memory_equal(&p[0][1], &none, sizeof none);
+    p[0][0] = none;
+    assert_true(u.method->particles(u.state, 0, p[0], 0) >= 1);
+    assert_memory_equal(&p[0][0], &none, sizeof none);
     subject_free(&u);
+    scene_free(&s);
+}
+
+/* Without seeds there is nothing that forces could move. */
+static void forces_without_seeds_change_nothing(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    subject with, without;
+    subject_init(&with, &s, MOTE_ASK_DISTANCE, 0, "n=0,forces=on");
+    subject_init(&without, &s, MOTE_ASK_DISTANCE, 0, "n=0");
+    for (int i = 0; i < 20; ++i) {
+        const mote_frame *frame = smooth_frame(&s, 0.6);
+        const mote_answer a = ask(&with, frame);
+        const mote_answer b = ask(&without, frame);
+        assert_true(a.distance == b.distance);
+        assert_int_equal(a.counters.positions, b.counters.positions);
+        assert_int_equal(a.counters.steps, 0);
+    }
+    subject_free(&with);
+    subject_free(&without);
     scene_free(&s);
 }
 
@@ -362,6 +387,7 @@ int main(void)
         cmocka_unit_test(query_warm_no_allocation),
         cmocka_unit_test(query_scaled_by_powers_of_two_same_bits),
         cmocka_unit_test(particles_after_query_are_vertices_nearest_first),
+        cmocka_unit_test(forces_without_seeds_change_nothing),
         cmocka_unit_test(create_bad_options_rejected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
