@@ -15,7 +15,7 @@
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
-#   make determinism                                 one hash over all answers: compilers, threads
+#   make determinism [RUNS=56]                       one hash over all answers: compilers, threads
 #   make extremes [PROFILE=quick|full] [OUT=DIR]     every method where numbers are tiny, huge, equal
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make bodies [PROFILE=quick|full] [OUT=DIR]       several bodies: time, memory, missed contacts
@@ -30,6 +30,7 @@
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
 #   make test-exports                               exports read by jq, pandas, scipy
 #   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
+#   make mutation [FILES=GLOB] [COUNT=120] [OUT=DIR] small errors, planted one by one: does a test fail?
 #   make coverage [OUT=DIR]                         branches that tests take: core 98 %, harness 90 %
 #   make lint [DEEP='core|harness'], check-static    clang-tidy, its analyzer on DEEP (core); cppcheck
 #   make check-threads, valgrind                     ThreadSanitizer over what has threads; a smoke run
@@ -93,16 +94,19 @@ PLANT ?=
 RECORD ?=
 reliability: build build-fuzz
 	@cmake --build $(BUILD) -j $(JOBS) --target kills > /dev/null
-	@cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) --target test_faults > /dev/null
+	@cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) \
+	    --target test_faults test_allocations > /dev/null
+	@cmake --preset tsan > /dev/null && cmake --build build-tsan -j $(JOBS) --target answers > /dev/null
 	@mkdir -p results
-	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/reliability.sh $(BUILD) build-asan build-fuzz \
+	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
 	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) \
 	    $(if $(PLANT),plant,$(if $(RECORD),record))
 
+RUNS ?= 56
 .PHONY: determinism
 determinism: build
-	@tests/determinism.sh $(BUILD) 1 $(JOBS)
+	@tests/determinism.sh $(BUILD) $(RUNS) $(JOBS)
 
 # As many targets at a time as there are cores.
 SECONDS ?= 60
@@ -211,6 +215,17 @@ coverage: deps
 	@cmake --build build-coverage -j $(JOBS) > /dev/null
 	@tests/coverage.sh build-coverage $(JOBS) \
 	    $(if $(filter file,$(origin OUT)),results/coverage,$(OUT)) $(TESTS)
+
+# A seeded sample of each module; FILES='core/triangle*' looks at one file. RECORD=1: into README.md.
+# An hour on two cores; below 85 % it fails.
+COUNT ?= 120
+FILES ?= *
+.PHONY: mutation
+mutation: build
+	@/usr/bin/python3 tests/mutate.py $(BUILD) \
+	    $(if $(filter file,$(origin OUT)),results/mutation,$(OUT)) \
+	    --files '$(FILES)' --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
+	@$(if $(RECORD),tests/record.sh --mutation results/mutation/mutation.tsv)
 
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.

@@ -1,13 +1,14 @@
 /* One hash over what our methods answer on the built-in scenarios of two bodies: distance,
-   lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames. The
+   lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames; and one
+   over what they counted on the way (core/method.h), which is how they got there. The
    same bits are expected of every compiler, optimisation and number of threads, again and
    again.
 
    answers [--runs N] [--threads K] [--check FILE]
-   prints a line {scenario, method, hash} each, and one over all. --check: compares with FILE,
-   exit status 1 where a line differs. --threads: so many answer at once, each a scenario and
-   method of its own. Who changes a method on purpose renews tests/answers.txt with what this
-   prints, once make determinism agrees on it. */
+   prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
+   compares with FILE, exit status 1 where a line differs. --threads: so many answer at once,
+   each a scenario and method of its own. Who changes a method on purpose renews
+   tests/answers.txt with what this prints, once make determinism agrees on it. */
 #include "harness/catalog.h"
 #include "harness/command.h"
 #include "harness/file.h"
@@ -36,7 +37,7 @@ enum {
 typedef struct job {
     const mote_scenario *scenario;
     const char *method;
-    uint64_t hash;
+    uint64_t hash, counts;
     mote_status status; /* whether it is refused is part of the answer */
 } job;
 
@@ -63,8 +64,15 @@ static void hash_answer(uint64_t *hash, const mote_answer *a)
     }
 }
 
-static mote_status answer_frames(const job *j, mote_probe *probe, mote_frame_buffer *buffer,
-                                 uint64_t *hash)
+static void hash_counts(uint64_t *hash, const mote_counters *c)
+{
+#define HASH_COUNT(name) *hash = mote_hash_word(*hash, c->name);
+    MOTE_COUNTERS(HASH_COUNT)
+    MOTE_COUNTERS_MORE(HASH_COUNT)
+#undef HASH_COUNT
+}
+
+static mote_status answer_frames(job *j, mote_probe *probe, mote_frame_buffer *buffer)
 {
     const uint32_t frames = j->scenario->frames;
     mote_status status = MOTE_OK;
@@ -75,8 +83,10 @@ static mote_status answer_frames(const job *j, mote_probe *probe, mote_frame_buf
         const mote_frame *frame = mote_scenario_frame(j->scenario, buffer, number, previous);
         mote_answer answer;
         status = mote_probe_answer(probe, frame, &answer);
-        if (status == MOTE_OK)
-            hash_answer(hash, &answer);
+        if (status == MOTE_OK) {
+            hash_answer(&j->hash, &answer);
+            hash_counts(&j->counts, &answer.counters);
+        }
         previous = number;
     }
     return status;
@@ -84,7 +94,7 @@ static mote_status answer_frames(const job *j, mote_probe *probe, mote_frame_buf
 
 static void answer(job *j)
 {
-    j->hash = MOTE_HASH_START;
+    j->hash = j->counts = MOTE_HASH_START;
     mote_method_choice choice;
     mote_frame_buffer *buffer = NULL;
     mote_probe *probe = NULL;
@@ -95,7 +105,7 @@ static void answer(job *j)
         status = mote_probe_create(&j->scenario->body[0], &j->scenario->body[1], &choice,
                                    j->scenario->ask, j->scenario->tolerance, 1, &probe);
     if (status == MOTE_OK)
-        status = answer_frames(j, probe, buffer, &j->hash);
+        status = answer_frames(j, probe, buffer);
     j->hash = mote_hash_word(j->hash, status);
     j->status = status;
     mote_probe_destroy(probe);
@@ -161,10 +171,10 @@ static char *report(const work *w)
         return NULL;
     uint64_t all = MOTE_HASH_START;
     for (size_t k = 0; k < w->count; ++k) {
-        (void)fprintf(file, "%s %s %016" PRIx64 "%s\n", w->jobs[k].scenario->name,
-                      w->jobs[k].method, w->jobs[k].hash,
-                      w->jobs[k].status == MOTE_OK ? "" : " refused");
-        all = mote_hash_word(all, w->jobs[k].hash);
+        (void)fprintf(file, "%s %s %016" PRIx64 " %016" PRIx64 "%s\n",
+                      w->jobs[k].scenario->name, w->jobs[k].method, w->jobs[k].hash,
+                      w->jobs[k].counts, w->jobs[k].status == MOTE_OK ? "" : " refused");
+        all = mote_hash_word(mote_hash_word(all, w->jobs[k].hash), w->jobs[k].counts);
     }
     (void)fprintf(file, "all %zu %016" PRIx64 "\n", w->count, all);
     return fclose(file) == 0 ? text : (free(text), NULL);

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Builds tests/answers.c, and what it needs, with each compiler and optimisation, and once with
-# sanitizers, and runs each build again and again with 1 to 8 threads: every run must give the
-# answers of tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the
-# root; BUILD holds the table of methods. RUNS: with one thread, of each build (1). CHECKS: a
-# file that make reliability makes its table of.
+# sanitizers, and runs each build with 1 to 8 threads: every run must give the answers of
+# tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the root; BUILD holds
+# the table of methods. RUNS in all: those beyond eight of each build (56) are shared by the
+# optimised ones. CHECKS: a file that make reliability makes its table of.
 set -eu
-build=$1 runs=${2:-1} jobs=${3:-2} checks=${4:-}
+build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I.
@@ -43,29 +43,30 @@ check() { # PROGRAM WORDS...
     failed=$((failed + 1))
 }
 
-try_build() { # NAME COMPILER FLAGS
+try_build() { # NAME COMPILER FLAGS MORE_RUNS
     command -v "$2" >"$work/log" || { echo "left out: $2 is not installed"; return; }
     if ! make_program "$1" "$2" "$3"; then
         echo "not built: $2 $3"
         failed=$((failed + 1))
         return
     fi
-    for ((run = 0; run < runs; ++run)); do
-        check "$work/$1/answers" --check tests/answers.txt
-    done
-    for threads in 2 3 4 5 6 7 8; do
+    for threads in 1 2 3 4 5 6 7 8; do
         check "$work/$1/answers" --check tests/answers.txt --threads $threads
+    done
+    for ((run = 0; run < $4; ++run)); do
+        check "$work/$1/answers" --check tests/answers.txt
     done
     rm -r "${work:?}/$1"
     echo "answered: $2 $3"
 }
 
+more=$((runs > 56 ? (runs - 56 + 3) / 4 : 0))
 for compiler in gcc clang; do
-    for level in -O0 -O2 -O3; do
-        try_build "$compiler$level" $compiler $level
-    done
+    try_build $compiler-O0 $compiler -O0 0
+    try_build $compiler-O2 $compiler -O2 $more
+    try_build $compiler-O3 $compiler -O3 $more
 done
-try_build asan gcc "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined"
+try_build asan gcc "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined" 0
 echo "$tried runs, $failed with other answers"
 [ -z "$checks" ] ||
     printf 'one hash over all answers: builds, threads and runs\t%d\t%d\n' $tried $failed >>"$checks"

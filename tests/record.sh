@@ -4,11 +4,13 @@
 #                                             leaves them; COMMIT and DATE: of what was tested
 #   record.sh --fuzz FUZZ.tsv [COMMIT [DATE]] lines of fuzz.sh, added to tests/corpus/log.csv
 #   record.sh --soak SOAK.csv [COMMIT [DATE]] of make soak, added to results/reference/soak.csv
+#   record.sh --mutation MUTATION.tsv [COMMIT [DATE]] of make mutation: lines of {module, mutants,
+#                                             killed, equivalent}; the last of each module is kept
 # results/reference/reliability.csv holds the last line of every check.
 set -eu
 kind=checks
 case $1 in
---fuzz | --soak)
+--fuzz | --soak | --mutation)
     kind=${1#--}
     shift
     ;;
@@ -20,6 +22,7 @@ fi
 commit=${2:-$here}
 date=${3:-$(date -u +%Y-%m-%d)}
 csv=results/reference/reliability.csv log=tests/corpus/log.csv errors=results/reference/soak.csv
+mutants=results/reference/mutation.csv
 [ -f $log ] || echo "date,commit,target,cpu_seconds,executions,findings" >$log
 [ -f $csv ] || echo "check,tried,failed,date,commit" >$csv
 soak_header() {
@@ -28,8 +31,16 @@ soak_header() {
     echo ',more'
 }
 [ -f $errors ] || soak_header >$errors
+[ -f $mutants ] || echo "module,mutants,killed,equivalent,date,commit" >$mutants
 if [ $kind = soak ]; then
     sed "s/^/$date,$commit,/" "$1" >>$errors
+elif [ $kind = mutation ]; then
+    {
+        sed -n 1p $mutants
+        { sed 1d $mutants; tr '\t' , <"$1" | sed "s/\$/,$date,$commit/"; } |
+            awk -F, '{ last[$1] = $0 } END { for (m in last) print last[m] }' | sort
+    } >$mutants.part
+    mv $mutants.part $mutants
 elif [ $kind = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
@@ -76,6 +87,16 @@ distribution() {
             }
         }'
 }
+# Mutants, module by module; those that change nothing that is promised count neither way.
+mutation() {
+    echo
+    echo "| mutants of | tried | killed | change nothing | score | date, commit |"
+    echo "| --- | ---: | ---: | ---: | ---: | --- |"
+    sed 1d $mutants | awk -F, '{
+        printf "| %s | %d | %d | %d | %.1f %% | %s, %s |\n", $1, $2, $3, $4,
+            100 * $3 / ($2 - $4), $5, $6
+    }'
+}
 table() {
     echo "| check | tried | failed | date, commit |"
     echo "| --- | ---: | ---: | --- |"
@@ -92,6 +113,7 @@ table() {
 }
 {
     table
+    [ "$(wc -l <$mutants)" -eq 1 ] || mutation
     distribution
 } >README.table
 awk '/^<!-- reliability -->$/ {

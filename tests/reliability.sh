@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # make reliability: what was tried, how often, what failed. Runs the studies one after another,
 # prints a table and writes OUT/reliability.json, a list of {check, tried, failed}.
-#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ quick|full OUT [plant|record]
+#   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ BUILD_TSAN quick|full OUT [plant|record]
 # plant: one wrong answer, one lost row and one leak, which must be reported, and nothing else.
 # record: the table goes into results/reference and README.md. Full takes hours: JOBS=2 fuzzes two
 # targets at a time, ONLY="kills fuzz" runs some of the studies.
 set -u
-build=$1 asan=$2 fuzz=$3 profile=$4 out=$5 plant= record=
-case ${6:-} in
+build=$1 asan=$2 fuzz=$3 tsan=$4 profile=$5 out=$6 plant= record=
+case ${7:-} in
 plant) plant=plant ;;
 record) record=record ;;
 esac
-only=${ONLY:-certify metamorphic soak oracle answers kills faults fuzz}
+only=${ONLY:-certify metamorphic soak oracle answers threads kills stops faults fuzz}
 case $profile in
-quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=2 ;;
+quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=56 ;;
 *) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 runs=100 ;;
 esac
 rm -rf "$out"
@@ -46,6 +46,34 @@ fuzz() {
     awk -F'\t' '{ printf "fuzz: %s\t%d\t%d\n", $1, $3, $4 }' "$out/fuzz/fuzz.tsv" >>"$checks"
     [ -z "$record" ] || tests/record.sh --fuzz "$out/fuzz/fuzz.tsv"
 }
+# Programs one after another, and how much each tried: a number found in what it wrote, or one
+# where there is no pattern; into OUT/NAME.log.
+programs() { # CHECK NAME PATTERN PROGRAM...
+    local check=$1 name=$2 pattern=$3 tried=0 failed=0 program count
+    shift 3
+    : >"$out/$name.log"
+    for program in "$@"; do
+        log one $program || failed=$((failed + 1))
+        count=$(grep -aoE "$pattern" "$out/one.log" | grep -oE '[0-9]+' | tail -1)
+        [ -z "$pattern" ] && count=1
+        tried=$((tried + ${count:-0}))
+        cat "$out/one.log" >>"$out/$name.log"
+    done
+    rm -f "$out/one.log"
+    add "$check" $tried $failed
+    [ $failed -eq 0 ]
+}
+# Eight runs under ThreadSanitizer; that of gcc 12 does not start where addresses are spread widely.
+threads() {
+    local fixed= k runs=()
+    ! setarch -R true 2>"$out/threads.log" || fixed="setarch -R"
+    for k in 1 2 3 4 5 6 7 8; do
+        runs+=("$fixed $tsan/tests/answers --check tests/answers.txt --threads $k")
+    done
+    TSAN_OPTIONS=halt_on_error=1 programs \
+        "one hash over all answers: under ThreadSanitizer, 1 to 8 threads" threads '' \
+        "${runs[@]}"
+}
 study() { # NAME
     case $1 in
     certify)
@@ -62,10 +90,16 @@ study() { # NAME
     kills)
         program "sweeps killed at random: a cell lost, changed or twice" kills \
             '[0-9]+ kills within' "$build/tests/kills" "$out/kills" $kills 1 ${plant:+plant} ;;
+    threads) threads ;;
+    stops)
+        programs "runs stopped, disks full, clocks set, children that crash or hang: tests" stops \
+            '[0-9]+ test\(s\) run' "$build/tests/test_durability" "$build/tests/test_clock" \
+            "$build/tests/test_child" ;;
     faults)
-        program "allocations, writes, syncs and renames that fail: no error, or a leak" faults \
-            '[0-9]+ calls failed' env ${plant:+MOTE_PLANT_LEAK=1} ASAN_OPTIONS=detect_leaks=1 \
-            "$asan/tests/test_faults" ;;
+        ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 programs \
+            "allocations, writes, syncs and renames that fail: no error, or a leak" faults \
+            '[0-9]+ calls failed' "${plant:+env MOTE_PLANT_LEAK=1 }$asan/tests/test_faults" \
+            "$asan/tests/test_allocations" ;;
     fuzz) fuzz ;;
     *)
         echo "reliability: no study $1" >&2
