@@ -96,11 +96,11 @@ mote_status mote_eigen_symmetric(const mote_mat3 *matrix, mote_vec3 *values, mot
     gsl_matrix_view columns_view = gsl_matrix_view_array(columns, 3, 3);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(3);
     int failed = 0;
-    if (work)
-        failed =
-            gsl_eigen_symmv(&view.matrix, &found_view.vector, &columns_view.matrix, work) ||
-            gsl_eigen_symmv_sort(&found_view.vector, &columns_view.matrix,
-                                 GSL_EIGEN_SORT_VAL_ASC);
+    if (work) {
+        failed = gsl_eigen_symmv(&view.matrix, &found_view.vector, &columns_view.matrix, work);
+        (void)gsl_eigen_symmv_sort(&found_view.vector, &columns_view.matrix,
+                                   GSL_EIGEN_SORT_VAL_ASC);
+    }
     gsl_set_error_handler(handler);
     if (!work)
         return mote_fail(MOTE_ENOMEM, "no memory for main axes");

@@ -145,7 +145,9 @@ bool Decomposition::cluster(std::vector<Point> &points, std::vector<Face> &faces
     uint32_t clusters = static_cast<uint32_t>(hacd.GetNClusters());
     for (size_t i = 0; i < corners.size(); ++i) {
         long part = partition[i / 3];
-        if (part < 0 || part >= static_cast<long>(clusters))
+        /* No mesh makes HACD number its clusters otherwise; should one, nothing is written
+           outside of the arrays. */
+        if (part < 0 || part >= static_cast<long>(clusters)) /* GCOVR_EXCL_BR_LINE: see above */
             return false;
         if (label[corners[i]] == NO_LABEL)
             label[corners[i]] = count + static_cast<uint32_t>(part);

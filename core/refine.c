@@ -244,12 +244,13 @@ static bool same_faces(const mote_refined *a, const mote_refined *b)
     return memcmp(a->triangle, b->triangle, sizeof a->triangle) == 0;
 }
 
-/* Ends as soon as a round stays on the faces where it began: what is left between two faces is
-   measured in one step, while alternate projection of two that meet would go on halving the
-   distance until it is subnormal. */
+/* Each round halves the square of the distance or is the last, so that 3,200 are the most that
+   doubles have room for. Ends as soon as a round stays on the faces where it began: what is
+   left between two faces is measured in one step, while alternate projection of two that meet
+   would go on halving the distance until it is subnormal. */
 static void alternate(search *s)
 {
-    for (int round = 0; round < ROUNDS_MAX && !done(s); ++round) {
+    for (int round = 0; !done(s); ++round) {
         const mote_refined before = *s->best;
         approach(s, 1);
         if (!done(s))

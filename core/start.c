@@ -45,7 +45,7 @@ static mote_status choose_random(const mote_mesh *mesh, uint32_t count, mote_ran
     for (uint32_t i = 0; i + 1 < n; ++i)
         swap(&order[i], &order[i + mote_random_below(random, n - i)]);
     uint32_t front = 0;
-    for (uint32_t i = 0; i < n && front < mesh->component_count; ++i) {
+    for (uint32_t i = 0; front < mesh->component_count; ++i) {
         const uint32_t label = mesh->component[order[i]];
         if (!seen[label]) {
             seen[label] = 1;

@@ -334,6 +334,9 @@ static void methods_when_an_allocation_fails_say_so(void **state)
                                .values = values};
         fail_each_allocation(make_method, &w, cases[k].name);
     }
+    static const mote_method least = {.name = "least"}; /* its state is a copy of the setup */
+    method_work w = {.method = &least, .setup = {.length = 1}};
+    fail_each_allocation(make_method, &w, "least");
     test_body_free(&b[0]);
     test_body_free(&b[1]);
 }

@@ -189,12 +189,34 @@ static void certified_contact_question_says_what_it_knows(void **unused)
     scene_free(&s);
 }
 
+/* Exact is what neither slack nor a budget ends early. */
+static void certified_claims_to_be_exact_where_nothing_ends_it(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *keys;
+        bool exact;
+    } cases[] = {{"", true}, {"slack=1e-6", false}, {"budget=100", false}, {"seed=none", true}};
+    const mote_method *m = mote_method_find("certified");
+    for (int k = 0; k < 4; ++k) {
+        double values[MOTE_PARAMETERS_MAX];
+        mote_parameters_default(m->parameters, m->parameter_count, values);
+        assert_int_equal(
+            mote_parameters_parse(m->parameters, m->parameter_count, cases[k].keys, values),
+            MOTE_OK);
+        const mote_traits t = mote_method_traits(m, values);
+        assert_int_equal(t.exact, cases[k].exact);
+        assert_int_equal(t.keeps_state, k != 3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(automatic_numbers_are_those_of_the_paper),
         cmocka_unit_test(automatic_number_of_one_mesh_twice_is_that_of_one),
         cmocka_unit_test(far_cache_without_coherence_answers_the_same_again),
+        cmocka_unit_test(certified_claims_to_be_exact_where_nothing_ends_it),
         cmocka_unit_test(certified_contact_question_says_what_it_knows),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

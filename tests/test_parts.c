@@ -1,6 +1,7 @@
 /* Convex parts of letters, combs and awkward meshes. */
 #include "core/parts.h"
 #include "datasets/letter.h"
+#include "tests/solids.h"
 
 #include <stdarg.h>
 #include <setjmp.h>
@@ -194,6 +195,28 @@ static void parts_create_of_a_mesh_that_cannot_be_simplified_succeeds(void **unu
     mote_mesh_destroy(mesh);
 }
 
+/* Components so small that in floats of the mesh's size nothing of them is left. */
+static void parts_create_of_components_simplified_to_nothing_is_one_part_each(void **unused)
+{
+    (void)unused;
+    solid all = solid_icosphere(2);
+    for (int k = 1; k < 16; ++k)
+        all = solid_join(all, solid_icosphere(2), 0);
+    const size_t each = all.vertex_count / 16;
+    for (size_t i = 0; i < all.vertex_count; ++i) {
+        const double *p = all.xyz + 3 * i;
+        const double at = (double)(i / each);
+        solid_set_vertex(&all, i, 1e-12 * p[0] + at, 1e-12 * p[1] + at, 1e-12 * p[2] + at);
+    }
+    mote_mesh *mesh = solid_to_mesh(all);
+    mote_parts *parts = checked_parts(mesh, NULL);
+    /* All but the first, which the floats are counted from. */
+    for (uint32_t v = (uint32_t)each; v < mesh->vertex_count; ++v)
+        assert_int_equal(parts->label[v], parts->label[v / each * each]);
+    mote_parts_destroy(parts);
+    mote_mesh_destroy(mesh);
+}
+
 static void parts_create_of_the_smallest_meshes_is_one_part(void **unused)
 {
     (void)unused;
@@ -237,11 +260,16 @@ static void parts_create_with_a_position_not_finite_is_refused(void **unused)
 {
     (void)unused;
     mote_mesh *mesh = make_letter('T', 400);
-    mesh->positions[17].z = (double)NAN;
+    const mote_vec3 good = mesh->positions[17];
+    const mote_vec3 bad[3] = {
+        {NAN, good.y, good.z}, {good.x, -HUGE_VAL, good.z}, {good.x, good.y, NAN}};
     mote_parts *parts = NULL;
-    assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_EINVAL);
-    assert_null(parts);
-    assert_non_null(strstr(mote_error_text(), "vertex 17"));
+    for (int k = 0; k < 3; ++k) {
+        mesh->positions[17] = bad[k];
+        assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_EINVAL);
+        assert_null(parts);
+        assert_non_null(strstr(mote_error_text(), "vertex 17"));
+    }
     mote_parts_destroy(NULL);
     mote_mesh_destroy(mesh);
 }
@@ -254,6 +282,7 @@ int main(void)
         cmocka_unit_test(parts_create_of_a_comb_counts_its_teeth),
         cmocka_unit_test(parts_create_gives_each_component_its_own_parts),
         cmocka_unit_test(parts_create_of_a_mesh_that_cannot_be_simplified_succeeds),
+        cmocka_unit_test(parts_create_of_components_simplified_to_nothing_is_one_part_each),
         cmocka_unit_test(parts_create_of_the_smallest_meshes_is_one_part),
         cmocka_unit_test(parts_create_again_or_scaled_gives_the_same_labels),
         cmocka_unit_test(parts_create_with_a_position_not_finite_is_refused),

@@ -411,6 +411,35 @@ static void mote_scene_create_bad_input_is_refused(void **state)
     crowd_free(&c);
 }
 
+/* The rooms of a query are those of the widest tree, wherever it stands. */
+static void mote_scene_create_shapes_in_any_order_same_bits(void **state)
+{
+    (void)state;
+    static const uint32_t pair[1][2] = {{0, 1}}, shape_of[2][2] = {{0, 1}, {1, 0}};
+    uint64_t seed = 3;
+    test_body b[2];
+    test_body_init(&b[0], solid_to_mesh(solid_icosphere(1)), 4, &seed);
+    test_body_init(&b[1], solid_to_mesh(solid_torus(60, 30)), 4, &seed);
+    const mote_body *shapes[2][2] = {{&b[0].body, &b[1].body}, {&b[1].body, &b[0].body}};
+    mote_body_state states[2] = {test_body_state(&b[0], 0.3, &seed),
+                                 test_body_state(&b[1], 0.3, &seed)};
+    states[0].pose.translation = mote_vec3_make(2, 1, 0.5);
+    const mote_scene_options options = mote_default_scene_options();
+    mote_scene *scenes[2];
+    size_t count;
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(mote_scene_create(shapes[k], 2, shape_of[k], 2, &options, &scenes[k]),
+                         MOTE_OK);
+        assert_int_equal(mote_scene_query(scenes[k], states, pair, 1), MOTE_OK);
+    }
+    check_same_pair(mote_scene_pairs(scenes[0], &count), mote_scene_pairs(scenes[1], &count));
+    assert_int_equal(mote_scene_bytes(scenes[0]), mote_scene_bytes(scenes[1]));
+    for (int k = 0; k < 2; ++k) {
+        mote_scene_destroy(scenes[k]);
+        test_body_free(&b[k]);
+    }
+}
+
 static void mote_scene_query_steady_state_allocates_nothing(void **state)
 {
     (void)state;
@@ -468,6 +497,7 @@ int main(void)
         cmocka_unit_test(mote_scene_query_pair_state_lives_while_near),
         cmocka_unit_test(mote_scene_query_bad_pairs_are_refused),
         cmocka_unit_test(mote_scene_create_bad_input_is_refused),
+        cmocka_unit_test(mote_scene_create_shapes_in_any_order_same_bits),
         cmocka_unit_test(mote_scene_query_steady_state_allocates_nothing),
         cmocka_unit_test(mote_scene_bytes_do_not_grow_with_bodies_times_triangles),
     };
