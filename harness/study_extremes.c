@@ -155,14 +155,14 @@ static json_t *cell_json(const study *s, const scene_row *row, size_t m)
 
 static json_t *scene_json(const scene_row *row)
 {
-    json_t *truth = json_array();
-    for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES; ++f)
+    const bool made = row->length > 0;
+    json_t *truth = made ? json_array() : json_null();
+    for (uint32_t f = 0; made && f < MOTE_EXTREME_FRAMES; ++f)
         (void)json_array_append_new(truth, json_real(row->truth[f]));
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "family", row->family, "extreme",
-                     row->label, "length",
-                     row->length > 0 ? json_real(row->length) : json_null(), "truth",
-                     row->length > 0 ? truth : json_null(), "rounding",
-                     row->length > 0 ? json_real(row->rounding) : json_null(), "condition",
+                     row->label, "length", made ? json_real(row->length) : json_null(), "truth",
+                     truth, "rounding", made ? json_real(row->rounding) : json_null(),
+                     "condition",
                      row->condition > 0 ? mote_json_number(row->condition) : json_null());
 }
 
