@@ -14,12 +14,13 @@
    - The empty corners that a reach is shortened by are stored a 25,000th too small, which is
    more than the three roundings of their product.
    - Dividing a gap, at most 2 sqrt(3) B, by a length of 1 + 6 u changes it by 21 u B, half of
-   it for each box. A direction rounded to float shifts a projection by sqrt(3) u B, and so does
-   a threshold. The sum is below (n + 40) u B. To it are added tree->leak, by which rest
-   vertices stick out of boxes whose axes are rounded, and the rounding of the double precision
-   positions themselves, at most 2^-50 of the coordinates' size in the world for each function.
-   The half width grows by this in every coordinate, and so the projection on any direction by
-   at least as much. */
+   it for each box. Along a line that is not divided by its length, all of this is multiplied by
+   the length, and a root and two products more are 4 u of what it is compared with. A direction
+   rounded to float shifts a projection by sqrt(3) u B, and so does a threshold. The sum is
+   below (n + 40) u B. To it are added tree->leak, by which rest vertices stick out of boxes
+   whose axes are rounded, and the rounding of the double precision positions themselves, at
+   most 2^-50 of the coordinates' size in the world for each function. The half width grows by
+   this in every coordinate, and so the projection on any direction by at least as much. */
 #include "core/certificate_state.h"
 #include "core/clones.h"
 
@@ -278,7 +279,7 @@ MOTE_INLINE void add_field(const mote_cert_side *restrict side,
     }
 }
 
-/* Normals of the two longest axes, thickness along them, and sizes. */
+/* Sizes of the boxes. */
 MOTE_INLINE void measure(mote_cert_node *restrict node)
 {
     MOTE_LANE_LOOP
@@ -289,21 +290,6 @@ MOTE_INLINE void measure(mote_cert_node *restrict node)
         const float bx = node->axis[1][0][l];
         const float by = node->axis[1][1][l];
         const float bz = node->axis[1][2][l];
-        float x = ay * bz - az * by;
-        float y = az * bx - ax * bz;
-        float z = ax * by - ay * bx;
-        const float inverse = 1 / sqrtf(x * x + y * y + z * z + 0x1p-100F);
-        x *= inverse;
-        y *= inverse;
-        z *= inverse;
-        node->normal[0][l] = x;
-        node->normal[1][l] = y;
-        node->normal[2][l] = z;
-        node->thickness[l] =
-            fabsf(ax * x + ay * y + az * z) + fabsf(bx * x + by * y + bz * z) +
-            fabsf(node->axis[2][0][l] * x + node->axis[2][1][l] * y + node->axis[2][2][l] * z) +
-            (node->width[0][l] * fabsf(x) + node->width[1][l] * fabsf(y) +
-             node->width[2][l] * fabsf(z));
         node->size[l] = (ax * ax + ay * ay + az * az) + (bx * bx + by * by + bz * bz);
     }
 }

@@ -12,8 +12,6 @@ typedef struct mote_cert_node {
     float centre[3][MOTE_CERT_WIDTH];
     float axis[3][3][MOTE_CERT_WIDTH]; /* half axes [axis][coordinate][child] */
     float width[3][MOTE_CERT_WIDTH];   /* half widths of the box to be added, margin included */
-    float normal[3][MOTE_CERT_WIDTH];  /* of the two longest axes; unit, or shorter */
-    float thickness[MOTE_CERT_WIDTH];  /* half extent along it */
     float size[MOTE_CERT_WIDTH];       /* squares of the two longest half axes, added up */
     float reach[MOTE_CERT_WIDTH];      /* largest coordinate towards the other body */
     float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
