@@ -187,7 +187,7 @@ static void begin(mote_certificate *c, double enough)
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
     if (c->options.seed == MOTE_CERT_SEED_NONE)
-        c->memory.direction_count = 0;
+        c->memory.has_direction = false;
     c->open = DBL_MAX;
 }
 

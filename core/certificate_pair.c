@@ -97,10 +97,8 @@ MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float nee
         (p->loose[0] * fabsf(w[0]) + p->loose[1] * fabsf(w[1]) + p->loose[2] * fabsf(w[2]));
     if (far_enough(gap, need, w[0] * w[0] + w[1] * w[1] + w[2] * w[2]))
         return true;
-    if (at) {
-        at[0] = vertex_at(most[0], group[0], reach0);
-        at[1] = vertex_at(most[1], group[1], reach1);
-    }
+    at[0] = vertex_at(most[0], group[0], reach0);
+    at[1] = vertex_at(most[1], group[1], reach1);
     return false;
 }
 
@@ -133,43 +131,16 @@ static bool search_direction(const pair *restrict p, float need, float w[3])
     return false;
 }
 
-MOTE_CLONES
-static bool direction_separates(const pair *restrict p, const float w[3], float need)
-{
-    return apart_along(p, w, need, NULL);
-}
-
-/* Puts a direction that separated first, and those before `place` behind it. */
-static void remember(mote_certificate *c, const float direction[3], uint32_t place)
-{
-    const float d[3] = {direction[0], direction[1], direction[2]};
-    for (uint32_t i = place; i > 0; --i)
-        memcpy(c->memory.direction[i], c->memory.direction[i - 1],
-               sizeof c->memory.direction[i]);
-    memcpy(c->memory.direction[0], d, sizeof d);
-    ++c->direction_stamp;
-}
-
-/* Looks for a direction that separates two leaves, starting from the nearest known. */
+/* Looks for a direction that separates two leaves, starting from the nearest known; it is tried
+   first on the leaves that follow. */
 static bool found(mote_certificate *c, pair *p)
 {
     if (!search_direction(p, c->need, p->nearest))
         return false;
-    if (c->memory.direction_count < MOTE_CERT_DIRECTIONS)
-        ++c->memory.direction_count;
-    remember(c, p->nearest, c->memory.direction_count - 1);
+    memcpy(c->memory.direction, p->nearest, sizeof c->memory.direction);
+    c->memory.has_direction = true;
+    ++c->direction_stamp;
     return true;
-}
-
-static bool separated(mote_certificate *c, pair *p)
-{
-    for (uint32_t i = 1; i < c->memory.direction_count; ++i) {
-        if (direction_separates(p, c->memory.direction[i], c->need)) {
-            remember(c, c->memory.direction[i], i);
-            return true;
-        }
-    }
-    return found(c, p);
 }
 
 /* Whether the latest direction separates two leaves: most often it does, and to ask costs less
@@ -177,9 +148,9 @@ static bool separated(mote_certificate *c, pair *p)
 static bool latest_separates(mote_certificate *c, const mote_cert_node *const nodes[2],
                              const size_t lanes[2])
 {
-    if (c->memory.direction_count == 0)
+    if (!c->memory.has_direction)
         return false;
-    const float *d = c->memory.direction[0];
+    const float *d = c->memory.direction;
     const float back[3] = {-d[0], -d[1], -d[2]};
     const float reach =
         mote_cert_leaf_reach(&c->side[0], nodes[0], lanes[0], d, c->direction_stamp) +
@@ -250,36 +221,6 @@ static bool measure(mote_certificate *c, const exact_face *s, const exact_face *
     return true;
 }
 
-/* Of the pairs in `open` (by face of the first leaf), keeps those that reach far enough towards
-   each other along a direction from the first leaf to the second; returns the faces of the
-   first that have any left: all, where there is no direction. */
-static uint32_t filter_along(const mote_cert_faces faces[2], const float direction[3],
-                             float need, const float loose[3], uint32_t used,
-                             uint32_t open[MOTE_CERT_LEAF_TRIANGLES])
-{
-    const float *d = direction;
-    const float back[3] = {-d[0], -d[1], -d[2]};
-    const float squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-    if (!(squared >= SHORTEST_SQUARED))
-        return used;
-    mote_cert_reaches reaches[2];
-    mote_cert_reach_faces(&faces[0], d, &reaches[0]);
-    mote_cert_reach_faces(&faces[1], back, &reaches[1]);
-    const float length = sqrtf(squared);
-    const float slack =
-        loose[0] * fabsf(d[0]) + loose[1] * fabsf(d[1]) + loose[2] * fabsf(d[2]);
-    /* the sum of two reaches that is not far yet */
-    const float least = -(need * length + slack) * (1 + 0x1p-19F);
-    uint32_t kept = 0;
-    used &= mote_cert_reaching(&reaches[0], least - reaches[1].farthest);
-    for (; used; used &= used - 1) {
-        const size_t i = mote_lowest_bit(used);
-        open[i] &= mote_cert_reaching(&reaches[1], least - reaches[0].reach[i]);
-        kept |= open[i] ? 1u << i : 0;
-    }
-    return kept;
-}
-
 /* Pairs of faces that are left: bit k of open[i] is face i of the first leaf and k of the
    second. */
 typedef struct left_pairs {
@@ -287,25 +228,52 @@ typedef struct left_pairs {
     uint32_t open[MOTE_CERT_LEAF_TRIANGLES];
 } left_pairs;
 
-static void add_pair(const mote_cert_faces faces[2], size_t i, size_t k,
-                     mote_cert_face_pairs *pairs)
+/* Keeps pairs that reach far enough towards each other along a direction from the first leaf to
+   the second: all, where there is no direction. */
+static void filter_along(const mote_certificate *c, const pair *p, const float direction[3],
+                         left_pairs *left)
 {
-    const uint32_t l = pairs->count++;
-    pairs->face[0][l] = (uint8_t)i;
-    pairs->face[1][l] = (uint8_t)k;
-    for (size_t corner = 0; corner < 3; ++corner) {
-        for (size_t r = 0; r < 3; ++r) {
-            pairs->s[corner][r][l] = faces[0].corner[corner][r][i];
-            pairs->t[corner][r][l] = faces[1].corner[corner][r][k];
-        }
+    const float *d = direction;
+    const float back[3] = {-d[0], -d[1], -d[2]};
+    const float squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (!(squared >= SHORTEST_SQUARED))
+        return;
+    mote_cert_reaches reaches[2];
+    mote_cert_reach_faces(c->side[0].tree, p->hull[0], d, &reaches[0]);
+    mote_cert_reach_faces(c->side[1].tree, p->hull[1], back, &reaches[1]);
+    const float length = sqrtf(squared);
+    const float slack =
+        p->loose[0] * fabsf(d[0]) + p->loose[1] * fabsf(d[1]) + p->loose[2] * fabsf(d[2]);
+    /* the sum of two reaches that is not far yet */
+    const float least = -(c->need * length + slack) * (1 + 0x1p-19F);
+    uint32_t used = left->used & mote_cert_reaching(&reaches[0], least - reaches[1].farthest);
+    left->used = 0;
+    for (; used; used &= used - 1) {
+        const size_t i = mote_lowest_bit(used);
+        left->open[i] &= mote_cert_reaching(&reaches[1], least - reaches[0].reach[i]);
+        left->used |= left->open[i] ? 1u << i : 0;
     }
 }
 
+/* Pairs of faces gathered for a test. */
+typedef struct gathered {
+    uint8_t face[2][MOTE_CERT_FACE_LANES];
+    uint32_t count;
+} gathered;
+
 /* Moves the near ones of the pairs gathered to `near`. */
-static void sift(const mote_certificate *c, const pair *p, mote_cert_face_pairs *pairs,
-                 left_pairs *near)
+static void sift(const mote_certificate *c, const pair *p, gathered *pairs, left_pairs *near)
 {
-    uint32_t left = pairs->count > 0 ? mote_cert_near_pairs(pairs, c->need, p->loose) : 0;
+    mote_cert_face_lanes lanes[2];
+    if (pairs->count == 0)
+        return;
+    for (int s = 0; s < 2; ++s) {
+        for (uint32_t l = pairs->count; l < MOTE_CERT_FACE_LANES; ++l)
+            pairs->face[s][l] = pairs->face[s][0];
+        mote_cert_take_faces(c->side[s].tree, p->hull[s], pairs->face[s], &lanes[s]);
+    }
+    uint32_t left =
+        mote_cert_near_pairs(&lanes[0], &lanes[1], (1u << pairs->count) - 1, c->need, p->loose);
     for (; left; left &= left - 1) {
         const size_t l = mote_lowest_bit(left);
         near->open[pairs->face[0][l]] |= 1u << pairs->face[1][l];
@@ -314,33 +282,40 @@ static void sift(const mote_certificate *c, const pair *p, mote_cert_face_pairs 
     pairs->count = 0;
 }
 
-/* The pairs of faces of two leaves that may be nearer than the limit. */
-static void find_near(const mote_certificate *c, const pair *p, left_pairs *near)
+/* The near ones of the pairs that are left. */
+static void sift_all(const mote_certificate *c, const pair *p, const left_pairs *left,
+                     left_pairs *near)
 {
-    mote_cert_faces faces[2];
-    left_pairs far_enough;
-    for (int s = 0; s < 2; ++s)
-        mote_cert_take_faces(c->side[s].tree, p->leaf[s], p->hull[s], &faces[s]);
-    for (size_t i = 0; i < p->leaf[0]->triangle_count; ++i) {
-        far_enough.open[i] = faces[1].mask;
-        near->open[i] = 0;
-    }
-    near->used = 0;
-    uint32_t used = filter_along(faces, c->side[0].facing_world, c->need, p->loose,
-                                 faces[0].mask, far_enough.open);
-    if (used)
-        used = filter_along(faces, p->nearest, c->need, p->loose, used, far_enough.open);
-    mote_cert_face_pairs pairs;
+    gathered pairs;
     pairs.count = 0;
-    for (; used; used &= used - 1) {
+    for (uint32_t used = left->used; used; used &= used - 1) {
         const size_t i = mote_lowest_bit(used);
-        for (uint32_t left = far_enough.open[i]; left; left &= left - 1) {
-            add_pair(faces, i, mote_lowest_bit(left), &pairs);
-            if (pairs.count == 8)
+        for (uint32_t open = left->open[i]; open; open &= open - 1) {
+            pairs.face[0][pairs.count] = (uint8_t)i;
+            pairs.face[1][pairs.count++] = (uint8_t)mote_lowest_bit(open);
+            if (pairs.count == MOTE_CERT_FACE_LANES)
                 sift(c, p, &pairs, near);
         }
     }
     sift(c, p, &pairs, near);
+}
+
+/* The pairs of faces of two leaves that may be nearer than the limit. */
+static void find_near(const mote_certificate *c, const pair *p, left_pairs *near)
+{
+    left_pairs left;
+    const uint32_t all = 0xffffffffu >> (32u - p->leaf[1]->triangle_count);
+    left.used = 0xffffffffu >> (32u - p->leaf[0]->triangle_count);
+    near->used = 0;
+    for (size_t i = 0; i < p->leaf[0]->triangle_count; ++i) {
+        left.open[i] = all;
+        near->open[i] = 0;
+    }
+    filter_along(c, p, c->side[0].facing_world, &left);
+    if (left.used)
+        filter_along(c, p, p->nearest, &left);
+    if (left.used)
+        sift_all(c, p, &left, near);
 }
 
 /* Measures the pairs of faces of two leaves that may be nearer than the limit; true when the
@@ -405,7 +380,7 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
     set_loose(&p);
     for (size_t r = 0; r < 3; ++r)
         p.nearest[r] = nodes[1]->centre[r][lanes[1]] - nodes[0]->centre[r][lanes[0]];
-    if (c->options.directions && separated(c, &p))
+    if (c->options.directions && found(c, &p))
         return;
     if (!near && take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
         return;

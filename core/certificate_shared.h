@@ -2,7 +2,7 @@
    keeps between its queries, and the bounds of a deformed body from the root of its tree.
 
    A workspace holds everything that one query needs and nothing that the next one does: a pair
-   keeps 88 bytes, a body nothing. Answers do not depend on which workspace gave them, nor on
+   keeps 48 bytes, a body nothing. Answers do not depend on which workspace gave them, nor on
    what it was used for before. */
 #ifndef MOTE_CORE_CERTIFICATE_SHARED_H
 #define MOTE_CORE_CERTIFICATE_SHARED_H
@@ -14,9 +14,6 @@
 extern "C" {
 #endif
 
-/* Directions that separated leaf pairs, at most. */
-#define MOTE_CERT_DIRECTIONS 4
-
 /* What a pair keeps between queries; zeroed for a pair that was not asked about yet. */
 typedef struct mote_cert_memory {
     uint32_t last[2][3]; /* faces of the last query's witnesses */
@@ -25,8 +22,8 @@ typedef struct mote_cert_memory {
     bool steady; /* the last query ended at the faces it began with: the next one is likely to,
                     too, so that it is not refined at first */
     bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
-    uint32_t direction_count;
-    float direction[MOTE_CERT_DIRECTIONS][3]; /* that separated leaves, the latest first */
+    bool has_direction;
+    float direction[3]; /* the latest that separated two leaves */
 } mote_cert_memory;
 
 /* Makes a workspace for queries of any two of count >= 1 trees, which are borrowed, were made

@@ -98,7 +98,7 @@ struct mote_certificate {
     bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
     bool crossed;   /* ... which it was */
     mote_cert_memory memory;
-    uint32_t direction_stamp; /* of the first direction remembered */
+    uint32_t direction_stamp; /* of the direction remembered */
     mote_counters counters;
 };
 
@@ -179,41 +179,36 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
 
 /* certificate_triangles.c */
 
-/* The faces of one leaf in lanes: corners of its hull, the lanes filled up with copies of the
-   last. */
-typedef struct mote_cert_faces {
-    float corner[3][3][MOTE_CERT_LEAF_TRIANGLES]; /* [corner][coordinate][face] */
-    size_t lanes;                                 /* in use: a multiple of 8 */
-    uint32_t mask;                                /* bit l: lane l has a face */
-} mote_cert_faces;
-
-void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
-                          const mote_cert_hull *hull, mote_cert_faces *faces);
-
-/* How far faces reach along a direction. */
+/* How far the faces of a leaf reach along a direction. */
 typedef struct mote_cert_reaches {
-    float reach[MOTE_CERT_LEAF_TRIANGLES];
+    float reach[MOTE_CERT_LEAF_TRIANGLES]; /* filled up with the least of floats */
     float farthest;
-    size_t lanes;
+    size_t lanes; /* in use: a multiple of 8 */
 } mote_cert_reaches;
 
-void mote_cert_reach_faces(const mote_cert_faces *faces, const float direction[3],
-                           mote_cert_reaches *reaches);
+void mote_cert_reach_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+                           const float direction[3], mote_cert_reaches *reaches);
 
-/* Which lanes reach farther than `least`. */
+/* Which faces reach farther than `least`. */
 uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least);
 
-/* Up to eight pairs of faces, one of each leaf. */
-typedef struct mote_cert_face_pairs {
-    float s[3][3][8], t[3][3][8]; /* [corner][coordinate][pair] */
-    uint32_t count;
-    uint8_t face[2][8];
-} mote_cert_face_pairs;
+/* Faces in lanes: twice the width of boxes, since each step of the search for their distance
+   waits for the one before. */
+#define MOTE_CERT_FACE_LANES 16
 
-/* Which pairs are not proven to be at least `need` apart. loose: half width of the box by which
-   a difference of two corners may be wrong. */
-uint32_t mote_cert_near_pairs(const mote_cert_face_pairs *pairs, float need,
-                              const float loose[3]);
+typedef struct mote_cert_face_lanes {
+    float corner[3][3][MOTE_CERT_FACE_LANES]; /* [corner][coordinate][lane] */
+} mote_cert_face_lanes;
+
+/* Takes faces of a hull's leaf, given by their numbers. */
+void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+                          const uint8_t faces[MOTE_CERT_FACE_LANES],
+                          mote_cert_face_lanes *lanes);
+
+/* Of the lanes in `open`, which are not proven to be at least `need` apart. loose: half width
+   of the box by which a difference of two corners may be wrong. */
+uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *s, const mote_cert_face_lanes *t,
+                              uint32_t open, float need, const float loose[3]);
 
 /* certificate_search.c */
 

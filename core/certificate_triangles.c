@@ -2,59 +2,69 @@
 #include "core/certificate_state.h"
 #include "core/clones.h"
 
-#include <string.h>
+#include <float.h>
 
-#define WIDTH MOTE_CERT_LEAF_TRIANGLES
+#define WIDTH MOTE_CERT_WIDTH
+#define LANES MOTE_CERT_FACE_LANES
 
-void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_leaf *leaf,
-                          const mote_cert_hull *hull, mote_cert_faces *faces)
+static inline const uint8_t (*corners_of(const mote_cert_tree *tree,
+                                         const mote_cert_hull *hull))[3]
 {
-    const size_t lanes = (leaf->triangle_count + 7u) / 8 * 8;
-    for (size_t i = 0; i < lanes; ++i) {
-        const size_t l = i < leaf->triangle_count ? i : leaf->triangle_count - 1u;
-        const uint8_t *places = tree->corners[leaf->first_corner + l];
-        for (size_t k = 0; k < 3; ++k) {
-            for (size_t r = 0; r < 3; ++r)
-                faces->corner[k][r][i] = hull->x[r][places[k]];
-        }
-    }
-    faces->lanes = lanes;
-    faces->mask = 0xffffffffu >> (32u - leaf->triangle_count);
+    return (const uint8_t(*)[3])tree->corners + hull->leaf->first_corner;
 }
 
-/* The largest of the projections of a face's corners on a direction. */
+void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+                          const uint8_t faces[MOTE_CERT_FACE_LANES],
+                          mote_cert_face_lanes *lanes)
+{
+    const uint8_t(*corners)[3] = corners_of(tree, hull);
+    for (size_t k = 0; k < 3; ++k) {
+        size_t place[LANES];
+        for (size_t l = 0; l < LANES; ++l)
+            place[l] = corners[faces[l]][k];
+        for (size_t r = 0; r < 3; ++r) {
+            for (size_t l = 0; l < LANES; ++l)
+                lanes->corner[k][r][l] = hull->x[r][place[l]];
+        }
+    }
+}
+
+/* Coordinates of a hull's vertices along a direction. */
 MOTE_CLONES
-void mote_cert_reach_faces(const mote_cert_faces *restrict faces, const float direction[3],
-                           mote_cert_reaches *restrict reaches)
+static void project_hull(const mote_cert_hull *restrict hull, const float direction[3],
+                         float at[MOTE_CERT_LEAF_VERTICES])
 {
     const float x = direction[0];
     const float y = direction[1];
     const float z = direction[2];
-    float farthest[8];
-    for (size_t g = 0; g < faces->lanes; g += 8) {
+    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
         MOTE_LANE_LOOP
-        for (size_t l = 0; l < 8; ++l) {
-            const float a = faces->corner[0][0][g + l] * x + faces->corner[0][1][g + l] * y +
-                            faces->corner[0][2][g + l] * z;
-            const float b = faces->corner[1][0][g + l] * x + faces->corner[1][1][g + l] * y +
-                            faces->corner[1][2][g + l] * z;
-            const float c = faces->corner[2][0][g + l] * x + faces->corner[2][1][g + l] * y +
-                            faces->corner[2][2][g + l] * z;
-            const float ab = a > b ? a : b;
-            reaches->reach[g + l] = ab > c ? ab : c;
-        }
+        for (size_t l = 0; l < WIDTH; ++l)
+            at[g + l] = hull->x[0][g + l] * x + hull->x[1][g + l] * y + hull->x[2][g + l] * z;
     }
-    memcpy(farthest, reaches->reach, sizeof farthest);
-    for (size_t g = 8; g < faces->lanes; g += 8) {
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < 8; ++l)
-            farthest[l] =
-                farthest[l] > reaches->reach[g + l] ? farthest[l] : reaches->reach[g + l];
+}
+
+/* The largest of the projections of a face's corners on a direction. */
+void mote_cert_reach_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+                           const float direction[3], mote_cert_reaches *reaches)
+{
+    const uint8_t(*corners)[3] = corners_of(tree, hull);
+    const size_t count = hull->leaf->triangle_count;
+    float at[MOTE_CERT_LEAF_VERTICES];
+    project_hull(hull, direction, at);
+    float most = -FLT_MAX;
+    for (size_t i = 0; i < count; ++i) {
+        const float a = at[corners[i][0]];
+        const float b = at[corners[i][1]];
+        const float c = at[corners[i][2]];
+        const float ab = a > b ? a : b;
+        const float abc = ab > c ? ab : c;
+        reaches->reach[i] = abc;
+        most = most > abc ? most : abc;
     }
-    float most = farthest[0];
-    for (size_t l = 1; l < 8; ++l)
-        most = farthest[l] > most ? farthest[l] : most;
-    reaches->lanes = faces->lanes;
+    reaches->lanes = (count + WIDTH - 1) / WIDTH * WIDTH;
+    for (size_t i = count; i < reaches->lanes; ++i)
+        reaches->reach[i] = -FLT_MAX;
     reaches->farthest = most;
 }
 
@@ -74,28 +84,32 @@ uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least)
 
 /* What a step of the search for the nearest points of two triangles knows, in lanes. */
 typedef struct search {
-    float w[3][8];      /* the difference of a point on each */
-    float clearance[8]; /* >= 0: the pair is far */
+    float w[3][LANES];      /* the difference of a point on each */
+    float clearance[LANES]; /* >= 0: the pair is far */
 } search;
 
 /* Projects both triangles on w, and moves w towards the difference of the corners that are
    nearest to each other along it: Gilbert's search for the least difference. The gap of the
    projections, less what the corners may be off, is at most |w| times the distance. */
-MOTE_INLINE void step(const mote_cert_face_pairs *restrict p, float need, const float loose[3],
+MOTE_INLINE void step(const mote_cert_face_lanes *restrict s,
+                      const mote_cert_face_lanes *restrict t, float need, const float loose[3],
                       search *restrict g)
 {
     const float enough = need * need * (1 + 0x1p-18F);
     MOTE_LANE_LOOP
-    for (size_t l = 0; l < 8; ++l) {
+    for (size_t l = 0; l < LANES; ++l) {
         const float x = g->w[0][l];
         const float y = g->w[1][l];
         const float z = g->w[2][l];
-        const float ax = p->t[0][0][l], ay = p->t[0][1][l], az = p->t[0][2][l];
-        const float bx = p->t[1][0][l], by = p->t[1][1][l], bz = p->t[1][2][l];
-        const float cx = p->t[2][0][l], cy = p->t[2][1][l], cz = p->t[2][2][l];
-        const float s0 = p->s[0][0][l] * x + p->s[0][1][l] * y + p->s[0][2][l] * z;
-        const float s1 = p->s[1][0][l] * x + p->s[1][1][l] * y + p->s[1][2][l] * z;
-        const float s2 = p->s[2][0][l] * x + p->s[2][1][l] * y + p->s[2][2][l] * z;
+        const float ax = t->corner[0][0][l], ay = t->corner[0][1][l], az = t->corner[0][2][l];
+        const float bx = t->corner[1][0][l], by = t->corner[1][1][l], bz = t->corner[1][2][l];
+        const float cx = t->corner[2][0][l], cy = t->corner[2][1][l], cz = t->corner[2][2][l];
+        const float s0 =
+            s->corner[0][0][l] * x + s->corner[0][1][l] * y + s->corner[0][2][l] * z;
+        const float s1 =
+            s->corner[1][0][l] * x + s->corner[1][1][l] * y + s->corner[1][2][l] * z;
+        const float s2 =
+            s->corner[2][0][l] * x + s->corner[2][1][l] * y + s->corner[2][2][l] * z;
         const float a = ax * x + ay * y + az * z;
         const float b = bx * x + by * y + bz * z;
         const float c = cx * x + cy * y + cz * z;
@@ -108,15 +122,15 @@ MOTE_INLINE void step(const mote_cert_face_pairs *restrict p, float need, const 
         const float ww = x * x + y * y + z * z;
         const float over = gap * gap - enough * ww;
         g->clearance[l] = gap > 0 ? over : -1;
-        const float px = s1 > s0 ? p->s[1][0][l] : p->s[0][0][l];
-        const float py = s1 > s0 ? p->s[1][1][l] : p->s[0][1][l];
-        const float pz = s1 > s0 ? p->s[1][2][l] : p->s[0][2][l];
+        const float px = s1 > s0 ? s->corner[1][0][l] : s->corner[0][0][l];
+        const float py = s1 > s0 ? s->corner[1][1][l] : s->corner[0][1][l];
+        const float pz = s1 > s0 ? s->corner[1][2][l] : s->corner[0][2][l];
         const float qx = b < a ? bx : ax;
         const float qy = b < a ? by : ay;
         const float qz = b < a ? bz : az;
-        const float dx = ((c < ab ? cx : qx) - (s2 > s01 ? p->s[2][0][l] : px)) - x;
-        const float dy = ((c < ab ? cy : qy) - (s2 > s01 ? p->s[2][1][l] : py)) - y;
-        const float dz = ((c < ab ? cz : qz) - (s2 > s01 ? p->s[2][2][l] : pz)) - z;
+        const float dx = ((c < ab ? cx : qx) - (s2 > s01 ? s->corner[2][0][l] : px)) - x;
+        const float dy = ((c < ab ? cy : qy) - (s2 > s01 ? s->corner[2][1][l] : py)) - y;
+        const float dz = ((c < ab ? cz : qz) - (s2 > s01 ? s->corner[2][2][l] : pz)) - z;
         const float along = -(x * dx + y * dy + z * dz);
         const float part = along / (dx * dx + dy * dy + dz * dz + 0x1p-100F);
         const float held = part < 1 ? part : 1;
@@ -131,23 +145,23 @@ MOTE_INLINE void step(const mote_cert_face_pairs *restrict p, float need, const 
 #define STEPS 4
 
 MOTE_CLONES
-uint32_t mote_cert_near_pairs(const mote_cert_face_pairs *restrict p, float need,
+uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *restrict s,
+                              const mote_cert_face_lanes *restrict t, uint32_t open, float need,
                               const float loose[3])
 {
     search g;
     for (size_t r = 0; r < 3; ++r) {
         MOTE_LANE_LOOP
-        for (size_t l = 0; l < 8; ++l)
-            g.w[r][l] = ((p->t[0][r][l] + p->t[1][r][l] + p->t[2][r][l]) -
-                         (p->s[0][r][l] + p->s[1][r][l] + p->s[2][r][l])) *
+        for (size_t l = 0; l < LANES; ++l)
+            g.w[r][l] = ((t->corner[0][r][l] + t->corner[1][r][l] + t->corner[2][r][l]) -
+                         (s->corner[0][r][l] + s->corner[1][r][l] + s->corner[2][r][l])) *
                         (1.0F / 3);
     }
-    uint32_t open = (1u << p->count) - 1;
     for (int i = 0; i < STEPS && open; ++i) {
-        step(p, need, loose, &g);
+        step(s, t, need, loose, &g);
         uint32_t far = 0;
         MOTE_LANE_LOOP
-        for (size_t l = 0; l < 8; ++l)
+        for (size_t l = 0; l < LANES; ++l)
             far |= g.clearance[l] >= 0 ? 1u << l : 0;
         open &= ~far;
     }

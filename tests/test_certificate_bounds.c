@@ -182,8 +182,8 @@ static void hulls_of_leaves_are_where_their_vertices_are(void **state)
 }
 
 /* A triangle in a cube of the given size about a centre. */
-static void random_corners(scene *s, double size, double centre, float corner[3][3][8],
-                           uint32_t lane)
+static void random_corners(scene *s, double size, double centre,
+                           float corner[3][3][MOTE_CERT_FACE_LANES], uint32_t lane)
 {
     for (int k = 0; k < 3; ++k) {
         for (int r = 0; r < 3; ++r)
@@ -191,14 +191,15 @@ static void random_corners(scene *s, double size, double centre, float corner[3]
     }
 }
 
-static double exact_distance(const mote_cert_face_pairs *pairs, uint32_t lane)
+static double exact_distance(const mote_cert_face_lanes *s, const mote_cert_face_lanes *t,
+                             uint32_t lane)
 {
     mote_vec3 a[3], b[3];
     for (int k = 0; k < 3; ++k) {
-        a[k] = mote_vec3_make((double)pairs->s[k][0][lane], (double)pairs->s[k][1][lane],
-                              (double)pairs->s[k][2][lane]);
-        b[k] = mote_vec3_make((double)pairs->t[k][0][lane], (double)pairs->t[k][1][lane],
-                              (double)pairs->t[k][2][lane]);
+        a[k] = mote_vec3_make((double)s->corner[k][0][lane], (double)s->corner[k][1][lane],
+                              (double)s->corner[k][2][lane]);
+        b[k] = mote_vec3_make((double)t->corner[k][0][lane], (double)t->corner[k][1][lane],
+                              (double)t->corner[k][2][lane]);
     }
     return sqrt(mote_triangle_triangle(a, b, NULL, NULL));
 }
@@ -209,19 +210,21 @@ static void near_pairs_has_every_pair_below_the_limit_and_few_others(void **stat
     scene s = {.random = 3};
     int below = 0, far = 0, kept = 0;
     for (int k = 0; k < 1500; ++k) {
-        mote_cert_face_pairs pairs = {.count = 1 + (uint32_t)k % 8};
+        mote_cert_face_lanes first = {{{{0}}}}, second = {{{{0}}}};
+        const uint32_t count = 1 + (uint32_t)k % MOTE_CERT_FACE_LANES;
         const double apart = scene_random(&s, 0, 0.6);
-        for (uint32_t l = 0; l < pairs.count; ++l) {
-            random_corners(&s, 0.2, 0, pairs.s, l);
-            random_corners(&s, 0.2, apart, pairs.t, l);
+        for (uint32_t l = 0; l < count; ++l) {
+            random_corners(&s, 0.2, 0, first.corner, l);
+            random_corners(&s, 0.2, apart, second.corner, l);
         }
         const double need = scene_random(&s, 0.01, 0.3);
         const double slack = k % 2 ? 0.01 : 1e-6;
         const float loose[3] = {(float)slack, (float)slack, (float)slack};
-        const uint32_t near = mote_cert_near_pairs(&pairs, (float)need, loose);
-        assert_int_equal(near >> pairs.count, 0);
-        for (uint32_t l = 0; l < pairs.count; ++l) {
-            const double distance = exact_distance(&pairs, l);
+        const uint32_t near =
+            mote_cert_near_pairs(&first, &second, (1u << count) - 1, (float)need, loose);
+        assert_int_equal(near >> count, 0);
+        for (uint32_t l = 0; l < count; ++l) {
+            const double distance = exact_distance(&first, &second, l);
             /* corners may be off by as much as `loose`, in the worst direction */
             const bool must = distance - slack < need;
             below += must;
@@ -233,8 +236,8 @@ static void near_pairs_has_every_pair_below_the_limit_and_few_others(void **stat
             }
         }
     }
-    assert_in_range(below, 1000, 6500);
-    assert_in_range(far, 400, 6500);
+    assert_in_range(below, 2000, 12000);
+    assert_in_range(far, 800, 12000);
     assert_true(kept < far / 4);
 }
 

@@ -6,7 +6,7 @@ set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     BEGIN {
         loops = "^(mote_potential|project_block|deform_block|mote_cert_row_boxes|move_group|" \
-            "mote_cert_reach_faces|mote_cert_near_pairs|csrbf_estimate)([.]|$)"
+            "project_hull|mote_cert_near_pairs|csrbf_estimate)([.]|$)"
     }
     /^[0-9a-f]+ <.*>:$/ {
         name = substr($2, 2, length($2) - 3)
