@@ -76,10 +76,11 @@ MOTE_INLINE size_t vertex_at(const float most[WIDTH], const uint32_t group[WIDTH
  */
 #define SHORTEST_SQUARED 0x1p-100F
 
-/* Whether a gap along a vector is at least need times its length. */
+/* Whether a gap along a vector is at least need times its length. Where the squares leave the
+   range of floats, from 10^9 L on, none is. */
 MOTE_INLINE bool far_enough(float gap, float need, float length_squared)
 {
-    return gap > 0 && length_squared >= SHORTEST_SQUARED &&
+    return gap > 0 && length_squared >= SHORTEST_SQUARED && gap * gap <= FLT_MAX &&
            gap * gap >= need * need * (1 + 0x1p-18F) * length_squared;
 }
 

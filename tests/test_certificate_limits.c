@@ -37,6 +37,35 @@ static void query_with_slack_returns_a_bracket(void **state)
     scene_free(&s);
 }
 
+/* Squares of squares of the distance leave the range of floats: where they decide nothing, all
+   is found in double precision. The start is the worst: faces in the order of the mesh. */
+static void query_far_beyond_the_range_of_floats_finds_the_nearest(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 18, 9, 1, true);
+    mote_certificate_options options = mote_default_certificate_options(s.length);
+    options.seed = MOTE_CERT_SEED_PAIR;
+    mote_certificate *c = certificate_of(&s, &options);
+    for (int k = 0; k < 12; ++k) {
+        const double far = pow(10, 3 + k % 6 * 1.6) * s.length;
+        scene_next(&s, 1, false);
+        s.frame.body[1].pose.translation =
+            mote_vec3_make(scene_random(&s, -1, 1) * far, far, scene_random(&s, -1, 1) * far);
+        mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
+        const double truth = scene_distance(&s);
+        uint32_t first[2][3];
+        for (int b = 0; b < 2; ++b)
+            memcpy(first[b], s.mesh[b]->triangles[k], sizeof first[b]);
+        mote_certificate_answer a;
+        mote_certificate_query(c, &s.frame, (const uint32_t(*)[3])first, -1, &a);
+        assert_true(fabs(a.distance - truth) <= 1e-13 * truth);
+        assert_true(a.lower <= truth);
+    }
+    mote_certificate_destroy(c);
+    scene_free(&s);
+}
+
 static void query_with_budget_returns_an_honest_bracket(void **state)
 {
     (void)state;
@@ -160,6 +189,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(query_with_slack_returns_a_bracket),
+        cmocka_unit_test(query_far_beyond_the_range_of_floats_finds_the_nearest),
         cmocka_unit_test(query_with_budget_returns_an_honest_bracket),
         cmocka_unit_test(query_after_a_leap_costs_about_as_much_as_a_cold_one),
         cmocka_unit_test(query_when_its_rooms_are_full_gives_the_same),
