@@ -39,10 +39,11 @@ MODULES = {
                                               "test_statistics_ranks", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate*.c",
-        ["answers", "test_certificate_bounds", "test_certificate_limits", "test_certificate",
-         "test_witness", "test_scene"],
+        ["test_certificate_bounds", "answers", "test_certificate_limits", "test_certificate"],
     ),
 }
+# They put their own allocation functions in the place of libc's, and so cannot look for leaks.
+COUNTS_HEAP = {"test_certificate_limits"}
 ARGUMENTS = {"answers": ["--check", "tests/answers.txt"]}
 
 TOKEN = re.compile(
@@ -272,7 +273,7 @@ class Bench:
         at = words.index("-o")
         words[at + 1] = f"{folder}/{test}"
         first = next(k for k, w in enumerate(words) if w.endswith(".o"))
-        words[first:first] = [made, "-fsanitize=leak"]
+        words[first:first] = [made] if test in COUNTS_HEAP else [made, "-fsanitize=leak"]
         result = subprocess.run(words, cwd=directory, capture_output=True, text=True)
         if result.returncode != 0:
             sys.exit(f"mutate: {test} does not link: {result.stderr[-500:]}")
