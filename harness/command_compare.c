@@ -70,7 +70,8 @@ static int print_json(const mote_comparison *c)
                   "floor", c->floor, "other_machine", c->other_machine, "instructions_compared",
                   c->instructions, "only_base", (int)c->only_base, "only_new", (int)c->only_new,
                   "rows", rows);
-    return mote_json_put(object, MOTE_JSON_FLAGS, stdout) == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
+    return mote_json_put(object, MOTE_JSON_FLAGS, stdout) == MOTE_OK ? MOTE_EXIT_DONE
+                                                                     : mote_command_fail();
 }
 
 int mote_command_compare(int argc, char **argv)
