@@ -15,7 +15,7 @@ libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread 
 cache=$(command -v ccache || true)
 
 sources=$(ls core/*.c datasets/*.c harness/scenario*.c harness/mesh_*.c | grep -v core/plain.c)
-for name in approach catalog child command confine curve data file json_line json_read motion number_text probe reach \
+for name in approach catalog child command confine curve data file json_line json_print json_read motion number_text probe reach \
     spread turn; do
     sources="$sources harness/$name.c"
 done

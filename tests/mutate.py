@@ -39,11 +39,12 @@ MODULES = {
                                               "test_statistics_ranks", "test_statistics_intervals"]),
     "certificate": (
         "core/certificate*.c",
-        ["test_certificate_bounds", "answers", "test_certificate_limits", "test_certificate"],
+        ["test_certificate_bounds", "answers", "test_certificate_limits", "test_allocations",
+         "test_certificate", "test_scene"],
     ),
 }
 # They put their own allocation functions in the place of libc's, and so cannot look for leaks.
-COUNTS_HEAP = {"test_certificate_limits"}
+COUNTS_HEAP = {"test_certificate_limits", "test_allocations"}
 ARGUMENTS = {"answers": ["--check", "tests/answers.txt"]}
 
 TOKEN = re.compile(
