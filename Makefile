@@ -209,12 +209,14 @@ check-static: deps
 	    core harness datasets baselines
 
 # Fails below 98 % of core's branches or 90 % of harness's; OUT/coverage.html has them line by line.
+# TESTS='test_mesh|test_lazy' runs these alone; RECORD=1: into README.md.
 .PHONY: coverage
 coverage: deps
 	@cmake --preset coverage > /dev/null
 	@cmake --build build-coverage -j $(JOBS) > /dev/null
 	@tests/coverage.sh build-coverage $(JOBS) \
-	    $(if $(filter file,$(origin OUT)),results/coverage,$(OUT)) $(TESTS)
+	    $(if $(filter file,$(origin OUT)),results/coverage,$(OUT)) '$(TESTS)'
+	@$(if $(RECORD),tests/record.sh --coverage results/coverage/coverage.tsv)
 
 # A seeded sample of each module; FILES='core/triangle*' looks at one file. RECORD=1: into README.md.
 # An hour on two cores; below 85 % it fails.

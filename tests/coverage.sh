@@ -2,7 +2,7 @@
 # make coverage: runs the tests of a build that counts branches (preset coverage), and prints what
 # share of the branches of core and of harness they take. Fails below 98 and 90 %.
 #   coverage.sh BUILD JOBS OUT [TESTS]   TESTS: only these (ctest -R), added to what has been counted
-# OUT gets coverage.html (line by line), coverage.csv (a row a file), tests.log.
+# OUT gets coverage.html (line by line), coverage.csv (a row a file), coverage.tsv, tests.log.
 # Left out are branches of exceptions that nobody throws, and lines marked GCOVR_EXCL_*: each mark
 # stands beside the reason why no test can get there.
 set -u
@@ -14,7 +14,7 @@ mkdir -p "$out"
 gcovr --root . --filter '(core|harness)/' -j "$jobs" \
     --exclude-throw-branches --exclude-unreachable-branches \
     --csv "$out/coverage.csv" --html-details "$out/coverage.html" "$build" || exit 1
-awk -F, '
+awk -F, -v tsv="$out/coverage.tsv" '
     NR > 1 { sub(/\/.*/, "", $1); all[$1] += $5; taken[$1] += $6 }
     END {
         least["core"] = 98; least["harness"] = 90
@@ -23,6 +23,7 @@ awk -F, '
             f = folder[i]
             share = all[f] ? 100 * taken[f] / all[f] : 0
             printf "%-10s %10d %10d %8.2f %8d\n", f, all[f], taken[f], share, least[f]
+            printf "%s\t%d\t%d\n", f, all[f], taken[f] >tsv
             if (share < least[f]) low = 1
         }
         exit low

@@ -6,11 +6,12 @@
 #   record.sh --soak SOAK.csv [COMMIT [DATE]] of make soak, added to results/reference/soak.csv
 #   record.sh --mutation MUTATION.tsv [COMMIT [DATE]] of make mutation: lines of {module, mutants,
 #                                             killed, equivalent}; the last of each module is kept
+#   record.sh --coverage COVERAGE.tsv [COMMIT [DATE]] of make coverage: {folder, branches, taken}
 # results/reference/reliability.csv holds the last line of every check.
 set -eu
 kind=checks
 case $1 in
---fuzz | --soak | --mutation)
+--fuzz | --soak | --mutation | --coverage)
     kind=${1#--}
     shift
     ;;
@@ -22,7 +23,7 @@ fi
 commit=${2:-$here}
 date=${3:-$(date -u +%Y-%m-%d)}
 csv=results/reference/reliability.csv log=tests/corpus/log.csv errors=results/reference/soak.csv
-mutants=results/reference/mutation.csv
+mutants=results/reference/mutation.csv branches=results/reference/coverage.csv
 [ -f $log ] || echo "date,commit,target,cpu_seconds,executions,findings" >$log
 [ -f $csv ] || echo "check,tried,failed,date,commit" >$csv
 soak_header() {
@@ -32,15 +33,22 @@ soak_header() {
 }
 [ -f $errors ] || soak_header >$errors
 [ -f $mutants ] || echo "module,mutants,killed,equivalent,date,commit" >$mutants
+[ -f $branches ] || echo "folder,branches,taken,date,commit" >$branches
+# Adds the lines of a TSV; the last of each name is kept.
+keep_last() { # CSV TSV
+    {
+        sed -n 1p "$1"
+        { sed 1d "$1"; tr '\t' , <"$2" | sed "s/\$/,$date,$commit/"; } |
+            awk -F, '{ last[$1] = $0 } END { for (m in last) print last[m] }' | sort
+    } >"$1.part"
+    mv "$1.part" "$1"
+}
 if [ $kind = soak ]; then
     sed "s/^/$date,$commit,/" "$1" >>$errors
 elif [ $kind = mutation ]; then
-    {
-        sed -n 1p $mutants
-        { sed 1d $mutants; tr '\t' , <"$1" | sed "s/\$/,$date,$commit/"; } |
-            awk -F, '{ last[$1] = $0 } END { for (m in last) print last[m] }' | sort
-    } >$mutants.part
-    mv $mutants.part $mutants
+    keep_last $mutants "$1"
+elif [ $kind = coverage ]; then
+    keep_last $branches "$1"
 elif [ $kind = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
@@ -97,6 +105,14 @@ mutation() {
             100 * $3 / ($2 - $4), $5, $6
     }'
 }
+coverage() {
+    echo
+    echo "| branches of | in all | taken | share | date, commit |"
+    echo "| --- | ---: | ---: | ---: | --- |"
+    sed 1d $branches | awk -F, '{
+        printf "| %s | %d | %d | %.2f %% | %s, %s |\n", $1, $2, $3, 100 * $3 / $2, $4, $5
+    }'
+}
 table() {
     echo "| check | tried | failed | date, commit |"
     echo "| --- | ---: | ---: | --- |"
@@ -113,6 +129,7 @@ table() {
 }
 {
     table
+    [ "$(wc -l <$branches)" -eq 1 ] || coverage
     [ "$(wc -l <$mutants)" -eq 1 ] || mutation
     distribution
 } >README.table
