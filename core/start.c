@@ -33,7 +33,7 @@ static mote_status choose_random(const mote_mesh *mesh, uint32_t count, mote_ran
                                  uint32_t *vertices)
 {
     const uint32_t n = mesh->vertex_count;
-    uint32_t *order = malloc(n * sizeof *order);
+    uint32_t *order = calloc(n, sizeof *order);
     unsigned char *seen = calloc(mesh->component_count, 1);
     if (!order || !seen) {
         free(order);
