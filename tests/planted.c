@@ -215,11 +215,13 @@ PLANT(mote_approaches_simulate, const mote_scenario *scenario, const char *metho
 {
     (void)scenario;
     const mote_status status = due("mote_approaches_simulate");
+    ++planted.simulated;
     if (status == MOTE_OK)
-        *sum = (mote_approaches){.trials = wanted,
-                                 .approaches = wanted,
-                                 .passes_through = strstr(method, "paper") ? planted.passes : 0,
-                                 .steps = 100 * wanted};
+        *sum = (mote_approaches){
+            .trials = wanted,
+            .approaches = wanted,
+            .passes_through = strstr(method, "paper") ? planted.passes : planted.others_pass,
+            .steps = 100 * wanted};
     return status;
 }
 

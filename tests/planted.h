@@ -7,6 +7,7 @@
 
 typedef struct plants {
     long calls, failing; /* calls that may fail, so far; the one that does, or 0 */
+    long simulated;      /* rows of approaches, so far */
     const char *folder;  /* where scenarios are written */
     double error;        /* of particles, in L */
     double exponent;     /* of times, over anything */
@@ -14,6 +15,7 @@ typedef struct plants {
     double ours_ns;      /* of particles; of trees, a thousand times as much */
     size_t rows;         /* that the run against hierarchies has, PLANTED_ROWS at most */
     uint64_t passes;     /* through each other, of bodies by the paper's particles */
+    bool others_pass;    /* exact methods let one pass */
     double ratio;        /* of the first control's time over others', several bodies */
     bool body_missed;    /* an exact method missed a contact of several bodies */
     bool body_failed;    /* a cell of theirs crashed, and one of the run */

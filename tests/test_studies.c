@@ -3,6 +3,7 @@
 #include "harness/claims.h"
 #include "harness/record.h"
 #include "harness/study_bodies.h"
+#include "harness/study_dynamics.h"
 #include "harness/study_extremes.h"
 #include "tests/planted.h"
 
@@ -221,6 +222,34 @@ static void extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number(void **
     assert_true(size_of("extremes.json", "scenes") > 20);
 }
 
+static bool dynamics_met(bool keep)
+{
+    bool met = false;
+    const mote_dynamics_size size = {.quick = true};
+    if (mote_study_dynamics(base, &size, 1, 0x1234, keep, &met) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return met;
+}
+
+static void
+dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_true(dynamics_met(false));
+    const long simulated = planted.simulated;
+    assert_true(simulated > 10);
+    assert_true(dynamics_met(false));
+    assert_int_equal(planted.simulated, simulated); /* not again */
+    planted.others_pass = true;
+    assert_true(dynamics_met(true)); /* the rows that are there */
+    char command[96];
+    (void)snprintf(command, sizeof command, "rm -r %s/rows", base);
+    assert_int_equal(system(command), 0);
+    assert_false(dynamics_met(false));
+    assert_true(size_of("dynamics.json", "failures") > 0);
+}
+
 static bool bodies_met(void)
 {
     bool met = false;
@@ -298,6 +327,8 @@ int main(void)
         cmocka_unit_test(claims_hand_up_what_fails_beneath),
         cmocka_unit_test(claims_measure_writes_all_and_tells_whether_requirements_are_met),
         cmocka_unit_test(extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number),
+        cmocka_unit_test(
+            dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass),
         cmocka_unit_test(bodies_are_met_where_every_requirement_is),
         cmocka_unit_test(studies_hand_up_what_fails_beneath),
     };
