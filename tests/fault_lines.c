@@ -173,12 +173,14 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_mode mo
                  end.function, modes[mode], end.status, files_left, usual_files, said);
 }
 
-/* Every place where branches are counted; else some, for time, and fewer with sanitizers. */
-static size_t stride(void)
+/* Where branches are counted every place, and every third of a line that has many and takes
+   long; else some, for time, and fewer with sanitizers. */
+static size_t stride(size_t places)
 {
 #ifdef MOTE_COVERAGE
-    return 1;
+    return places > 300 ? 3 : 1;
 #else
+    (void)places;
     return mote_heap_read().counted ? 20 : 40;
 #endif
 }
@@ -195,7 +197,8 @@ static void fail_each_call(const fault_line *l)
     if (end.status != l->status || count == 0 || wrong[0])
         fail_msg("%s: exit %d, %zu calls, %s:\n%s", l->text, end.status, count, wrong, said);
     const int usual_files = files_left;
-    for (size_t k = (size_t)lines % stride(); k < count; k += stride()) {
+    const size_t step = stride(count);
+    for (size_t k = (size_t)lines % step; k < count; k += step) {
         for (int mode = FAULT_FAIL; mode <= FAULT_SHORT; ++mode)
             fail_call(l, &work, (fault_mode)mode, k, usual_files);
     }
