@@ -30,6 +30,10 @@ if(MOTE_SANITIZE)
   target_compile_options(mote_flags INTERFACE -fsanitize=address,undefined
                          -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
   target_link_options(mote_flags INTERFACE -fsanitize=address,undefined)
+  # What sanitizers add hides from gcc what it knows of sizes and values: these warn in vain. The
+  # release build has them.
+  target_compile_options(mote_flags INTERFACE
+    $<$<C_COMPILER_ID:GNU>:-Wno-format-truncation;-Wno-maybe-uninitialized>)
 endif()
 if(MOTE_FORCE_ISA)
   target_compile_options(mote_flags INTERFACE -march=${MOTE_FORCE_ISA})

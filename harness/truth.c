@@ -198,7 +198,7 @@ static mote_status choose_frames(const mote_scenario *scenario, const truth_row 
 {
     const uint32_t frames = scenario->frames;
     const uint32_t checks = affordable_checks(scenario);
-    bool *wanted = malloc(frames * sizeof *wanted);
+    bool *wanted = calloc(frames, sizeof *wanted);
     if (!wanted)
         return mote_fail(MOTE_ENOMEM, "no memory to check %u frames", frames);
     for (uint32_t k = 0; k < frames; ++k)

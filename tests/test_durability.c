@@ -93,6 +93,18 @@ static void wait_for_cells(int count)
     }
 }
 
+/* Waits until a file of the directory is there. */
+static void wait_for_file(const char *name)
+{
+    char path[96];
+    struct stat info;
+    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
+    for (int tries = 0; stat(path, &info) != 0; ++tries) {
+        assert_true(tries < 3000);
+        pause_ms(10);
+    }
+}
+
 static void check(run_files *finished)
 {
     const char *wrong = run_files_check(directory, 200, finished);
@@ -185,7 +197,7 @@ static void child_of_a_killed_run_dies_with_it(void **state)
 {
     (void)state;
     pid_t pid = start(SLOW);
-    wait_for_cells(1); /* what the manifest asks git has been answered: children measure now */
+    wait_for_file("manifest.json"); /* git has answered what it asks: children measure now */
     pid_t child = wait_for_child(pid);
     assert_true(child > 0);
     assert_false(is_dead(child));
@@ -199,12 +211,9 @@ static void child_of_a_killed_run_dies_with_it(void **state)
 static void run_beside_another_in_one_directory_is_refused(void **state)
 {
     (void)state;
-    char path[96], other[64];
-    struct stat info;
+    char other[64];
     pid_t pid = start(SLOW);
-    (void)snprintf(path, sizeof path, "%s/manifest.json", directory);
-    for (int tries = 0; tries < 3000 && stat(path, &info) != 0; ++tries)
-        pause_ms(10);
+    wait_for_file("manifest.json");
     (void)snprintf(other, sizeof other, "%s/said-other", base);
     assert_int_equal(program_wait(program_start(line, other)), 4);
     program_read(other, text, sizeof text);
