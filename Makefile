@@ -38,6 +38,8 @@
 
 PROFILE ?= paper
 OUT ?= results/$(PROFILE)
+# Where a study of its own writes: results/STUDY, unless OUT is given.
+out = $(if $(filter file,$(origin OUT)),results/$(1),$(OUT))
 JOBS ?= $(shell nproc)
 BUILD = build
 MOTE = $(BUILD)/mote
@@ -67,7 +69,7 @@ bench: build page
 
 .PHONY: sweep
 sweep: build
-	@harness/bench.sh $(MOTE) sweep $(if $(filter file,$(origin OUT)),results/sweep,$(OUT))
+	@harness/bench.sh $(MOTE) sweep $(call out,sweep)
 
 oracle: build
 	@mkdir -p $(OUT)
@@ -75,13 +77,13 @@ oracle: build
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
 
 tune: build
-	@harness/tune.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/tune,$(OUT))
+	@harness/tune.sh $(MOTE) $(PROFILE) $(call out,tune)
 
 ingredients: build
-	@harness/ingredients.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ingredients,$(OUT))
+	@harness/ingredients.sh $(MOTE) $(PROFILE) $(call out,ingredients)
 
 ablation: build
-	@harness/ablation.sh $(MOTE) $(PROFILE) $(if $(filter file,$(origin OUT)),results/ablation,$(OUT))
+	@harness/ablation.sh $(MOTE) $(PROFILE) $(call out,ablation)
 
 certify: build
 	@mkdir -p $(OUT)
@@ -100,7 +102,7 @@ reliability: build build-fuzz
 	@mkdir -p results
 	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
-	    $(if $(filter file,$(origin OUT)),results/reliability,$(OUT)) \
+	    $(call out,reliability) \
 	    $(if $(PLANT),plant,$(if $(RECORD),record))
 
 RUNS ?= 56
@@ -117,8 +119,8 @@ build-fuzz: deps
 
 fuzz: build-fuzz
 	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
-	    $(if $(filter file,$(origin OUT)),results/fuzz,$(OUT)) $(SEED)
-	@$(if $(RECORD),tests/record.sh --fuzz results/fuzz/fuzz.tsv)
+	    $(call out,fuzz) $(SEED)
+	@$(if $(RECORD),tests/record.sh --fuzz $(call out,fuzz)/fuzz.tsv)
 
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1
@@ -126,19 +128,19 @@ SEED ?= 1
 soak: build
 	@mkdir -p results
 	@$(BUILD)/tests/soak --hours $(HOURS) --seed $(SEED) \
-	    --out $(if $(filter file,$(origin OUT)),results/soak,$(OUT))
+	    --out $(call out,soak)
 
 extremes: build
-	@$(MOTE) extremes --out $(if $(filter file,$(origin OUT)),results/extremes,$(OUT)) \
+	@$(MOTE) extremes --out $(call out,extremes) \
 	    $(if $(filter quick,$(PROFILE)),--quick)
 
 .PHONY: bodies
 bodies: build
-	@$(MOTE) bodies --out $(if $(filter file,$(origin OUT)),results/bodies,$(OUT)) \
+	@$(MOTE) bodies --out $(call out,bodies) \
 	    $(if $(filter quick,$(PROFILE)),--quick)
 
 dynamics: build
-	@$(MOTE) dynamics --out $(if $(filter file,$(origin OUT)),results/dynamics,$(OUT)) \
+	@$(MOTE) dynamics --out $(call out,dynamics) \
 	    --jobs $(JOBS) $(if $(filter quick,$(PROFILE)),--quick)
 
 perf-check: build
@@ -161,9 +163,8 @@ perf-accept: build
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }
 	@harness/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
 
-# Into results/claims unless OUT is given on the command line.
 claims: build
-	@$(MOTE) claims --out $(if $(filter file,$(origin OUT)),results/claims,$(OUT))
+	@$(MOTE) claims --out $(call out,claims)
 
 figures: build
 	@$(MOTE) figures $(OUT)
@@ -190,8 +191,9 @@ format: deps
 	@clang-format --dry-run -Werror $(SOURCES)
 
 # clang-tidy stumbles over flags that only gcc knows; assertions tell its analyzer what holds. The
-# analyzer takes most of the time: by default it looks at core alone.
+# analyzer takes most of the time: by default it looks at core alone, and not at the rest.
 DEEP ?= core
+REST = $(filter-out $(subst |, ,$(DEEP)),core baselines harness datasets)
 TIDY = run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint -extra-arg=-UNDEBUG \
     -extra-arg=-include -extra-arg=$(CURDIR)/cmake/lint.h
 lint: format build
@@ -199,7 +201,7 @@ lint: format build
 	@sed 's/-fno-loop-unroll-and-jam//' $(BUILD)/compile_commands.json \
 	    > $(BUILD)/lint/compile_commands.json
 	@$(TIDY) '$(CURDIR)/($(DEEP))/'
-	@$(TIDY) -checks='-clang-analyzer-*' '$(CURDIR)/(core|baselines|harness|datasets)/'
+	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='$(CURDIR)/%/'))
 
 # Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
 .PHONY: check-static check-threads valgrind
@@ -215,8 +217,8 @@ coverage: deps
 	@cmake --preset coverage > /dev/null
 	@cmake --build build-coverage -j $(JOBS) > /dev/null
 	@tests/coverage.sh build-coverage $(JOBS) \
-	    $(if $(filter file,$(origin OUT)),results/coverage,$(OUT)) '$(TESTS)'
-	@$(if $(RECORD),tests/record.sh --coverage results/coverage/coverage.tsv)
+	    $(call out,coverage) '$(TESTS)'
+	@$(if $(RECORD),tests/record.sh --coverage $(call out,coverage)/coverage.tsv)
 
 # A seeded sample of each module; FILES='core/triangle*' looks at one file. RECORD=1: into README.md.
 # An hour on two cores; below 85 % it fails.
@@ -225,9 +227,9 @@ FILES ?= *
 .PHONY: mutation
 mutation: build
 	@/usr/bin/python3 tests/mutate.py $(BUILD) \
-	    $(if $(filter file,$(origin OUT)),results/mutation,$(OUT)) \
+	    $(call out,mutation) \
 	    --files '$(FILES)' --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
-	@$(if $(RECORD),tests/record.sh --mutation results/mutation/mutation.tsv)
+	@$(if $(RECORD),tests/record.sh --mutation $(call out,mutation)/mutation.tsv)
 
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.
