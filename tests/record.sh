@@ -34,13 +34,14 @@ soak_header() {
 [ -f $errors ] || soak_header >$errors
 [ -f $mutants ] || echo "module,mutants,killed,equivalent,date,commit" >$mutants
 [ -f $branches ] || echo "folder,branches,taken,date,commit" >$branches
-# Adds the lines of a TSV; the last of each name is kept.
+# Adds the lines of a TSV to a CSV; the last of each name, which may be quoted, is kept, in the
+# place of the first.
 keep_last() { # CSV TSV
-    {
-        sed -n 1p "$1"
-        { sed 1d "$1"; tr '\t' , <"$2" | sed "s/\$/,$date,$commit/"; } |
-            awk -F, '{ last[$1] = $0 } END { for (m in last) print last[m] }' | sort
-    } >"$1.part"
+    tr '\t' , <"$2" | sed "s/\$/,$date,$commit/" | cat "$1" - | awk '
+        { match($0, /^("[^"]*"|[^,]*)/); name = substr($0, 1, RLENGTH) }
+        !(name in last) { order[++n] = name }
+        { last[name] = $0 }
+        END { for (i = 1; i <= n; ++i) print last[order[i]] }' >"$1.part"
     mv "$1.part" "$1"
 }
 if [ $kind = soak ]; then
@@ -53,20 +54,10 @@ elif [ $kind = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
 else
-    # Fuzzing adds up in its own log.
-    grep -v '^fuzz: ' "$1" | awk -F'\t' -v d="$date" -v c="$commit" -v csv=$csv '
-        BEGIN { OFS = "," }
-        { new = "\"" $1 "\"," $2 "," $3 "," d "," c; name = "\"" $1 "\""; fresh[name] = new
-          order[++n] = name }
-        END {
-            while ((getline line < csv) > 0) {
-                name = line; sub(/",.*/, "\"", name)
-                if (name in fresh) { print fresh[name]; done[name] = 1 } else print line
-            }
-            for (i = 1; i <= n; ++i)
-                if (!(order[i] in done)) { print fresh[order[i]]; done[order[i]] = 1 }
-        }' >$csv.part
-    mv $csv.part $csv
+    # Fuzzing adds up in its own log; names have commas.
+    sed -E '/^fuzz: /d; s/^([^\t]*)/"\1"/' "$1" >"$csv.new"
+    keep_last $csv "$csv.new"
+    rm "$csv.new"
 fi
 
 # Errors over L, all runs together: the share of queries that is exact or nearly, by method. The
