@@ -23,7 +23,7 @@ typedef struct fault_line {
 /* Makes a new directory the working one, with meshes (a.obj), scenarios (s.json, b.json) and
    programs that stand for gnuplot, valgrind and git. */
 bool fault_lines_open(void);
-void fault_lines_close(void);
+int fault_lines_close(void **state); /* a test group's end */
 
 bool fault_lines_write(const char *name, const char *text);
 

@@ -1,6 +1,8 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, realpath */
 #include "tests/fault_points.h"
 
+#include "harness/hash.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <execinfo.h>
@@ -103,14 +105,14 @@ static uint64_t hash_stack(function f)
 {
     void *frames[DEEPEST];
     const int depth = backtrace(frames, DEEPEST);
-    uint64_t hash = 14695981039346656037u + f;
+    uint64_t hash = mote_hash_word(MOTE_HASH_START, f);
     int ours = -3; /* this one, is_due and the function in libc's place */
     for (int i = 0; i < depth && ours < CALLERS; ++i) {
         const char *at = frames[i];
         if (at < &__executable_start || at >= &etext)
             continue;
         if (ours++ >= 0)
-            hash = (hash ^ (uintptr_t)frames[i]) * 1099511628211u;
+            hash = mote_hash_word(hash, (uintptr_t)frames[i]);
     }
     return hash | 1;
 }

@@ -86,13 +86,6 @@ static int make_files(void **state)
     return fault_lines_open() && fault_lines_run(runs, 2) ? 0 : -1;
 }
 
-static int remove_files(void **state)
-{
-    (void)state;
-    fault_lines_close();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -102,5 +95,5 @@ int main(void)
         cmocka_unit_test(commands_of_a_stored_run_when_a_call_fails_say_so),
         cmocka_unit_test(pages_of_a_stored_run_when_a_call_fails_say_so),
     };
-    return cmocka_run_group_tests(tests, make_files, remove_files);
+    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
 }

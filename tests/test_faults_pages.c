@@ -150,13 +150,6 @@ static int make_files(void **state)
                : -1;
 }
 
-static int remove_files(void **state)
-{
-    (void)state;
-    fault_lines_close();
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -167,5 +160,5 @@ int main(void)
         cmocka_unit_test(figures_of_several_bodies_alone_are_drawn),
         cmocka_unit_test(figures_when_a_call_fails_say_so),
     };
-    return cmocka_run_group_tests(tests, make_files, remove_files);
+    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
 }
