@@ -171,13 +171,13 @@ static void welch_of_too_few_values_says_what_it_can(void **state)
 
 enum { PROCESSES = 12, FRAMES = 9, MANY = 20 };
 
-/* values[r][k] = process[r], or twice that in odd frames. */
-static void fill(const double *process, size_t count, double values[][FRAMES],
+/* values[r][k] = process[r], times odd in odd frames. */
+static void fill(const double *process, size_t count, double odd, double values[][FRAMES],
                  mote_replicate *replicates)
 {
     for (size_t r = 0; r < count; ++r) {
         for (size_t k = 0; k < FRAMES; ++k)
-            values[r][k] = process[r] * (k % 2 ? 2 : 1);
+            values[r][k] = process[r] * (k % 2 ? odd : 1);
         replicates[r] = (mote_replicate){values[r], FRAMES};
     }
 }
@@ -209,7 +209,7 @@ static void median_interval_where_frames_are_missing_is_t_of_medians(void **stat
     mote_replicate replicates[PROCESSES];
     for (size_t r = 0; r < PROCESSES; ++r)
         process[r] = (double)(r * r + 5);
-    fill(process, PROCESSES, values, replicates);
+    fill(process, PROCESSES, 2, values, replicates);
     /* Frames 1, 2, 1, ..., 1 times the process: the median is the process's own value. */
     const mote_confidence expected = mote_statistics_t_interval(process, PROCESSES);
     for (size_t missing = 0; missing < PROCESSES; ++missing) {
@@ -249,11 +249,7 @@ static void median_interval_of_two_sorts_of_processes_spans_both(void **state)
         mote_confidence interval;
         for (size_t r = 0; r < PROCESSES; ++r)
             process[r] = r % 3 ? 100 : 400;
-        fill(process, PROCESSES, values, replicates);
-        for (size_t r = 0; r < PROCESSES; ++r) {
-            for (size_t k = 0; k < FRAMES; ++k)
-                values[r][k] = process[r];
-        }
+        fill(process, PROCESSES, 1, values, replicates);
         assert_int_equal(mote_statistics_median_interval(replicates, PROCESSES,
                                                          logarithmic == 1, 3, &interval),
                          MOTE_OK);
@@ -273,11 +269,7 @@ static void median_interval_of_twenty_processes_cuts_a_fortieth(void **state)
         mote_confidence interval, other;
         for (size_t r = 0; r < MANY; ++r)
             process[r] = (double)r + 1;
-        fill(process, MANY, values, replicates);
-        for (size_t r = 0; r < MANY; ++r) {
-            for (size_t k = 0; k < FRAMES; ++k)
-                values[r][k] = process[r];
-        }
+        fill(process, MANY, 1, values, replicates);
         assert_int_equal(
             mote_statistics_median_interval(replicates, MANY, logarithmic == 1, 5, &interval),
             MOTE_OK);
@@ -301,7 +293,7 @@ static void median_interval_of_processes_alike_is_a_point(void **state)
         mote_confidence interval;
         for (size_t r = 0; r < PROCESSES; ++r)
             process[r] = 3;
-        fill(process, PROCESSES, values, replicates);
+        fill(process, PROCESSES, 2, values, replicates);
         assert_int_equal(mote_statistics_median_interval(replicates, PROCESSES,
                                                          logarithmic == 1, 3, &interval),
                          MOTE_OK);
