@@ -62,7 +62,7 @@ bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
     if (!usable(row, scenario))
         return false;
     json_int_t widest[2] = {0, -1}, range[2];
-    const mote_summary_row *first = row; /* of those that may be shown */
+    const char *machine = NULL;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (!usable(other, scenario))
@@ -70,11 +70,11 @@ bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
         frame_range(other, range);
         if (range[1] - range[0] > widest[1] - widest[0])
             memcpy(widest, range, sizeof widest);
-        first = other < first ? other : first;
+        machine = machine ? machine : other->first->machine;
     }
     frame_range(row, range);
-    return range[0] == widest[0] && range[1] == widest[1] &&
-           strcmp(row->first->machine, first->first->machine) == 0;
+    return machine && range[0] == widest[0] && range[1] == widest[1] &&
+           strcmp(row->first->machine, machine) == 0;
 }
 
 const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,
