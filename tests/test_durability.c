@@ -54,12 +54,11 @@ static int next_directory(void **state)
 
 static int remove_base(void **state)
 {
-    char command[96], disk[64];
+    char disk[64];
     (void)state;
     (void)snprintf(disk, sizeof disk, "%s/disk", base);
     (void)umount(disk); /* if it was mounted */
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static pid_t start(const char *what)

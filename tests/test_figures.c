@@ -59,9 +59,7 @@ static int make_run(void **state)
 static int remove_run(void **state)
 {
     (void)state;
-    char command[256];
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static json_t *read_list(const char *directory, const char *key)

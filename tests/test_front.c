@@ -1,6 +1,7 @@
 /* Fronts of time against error: known answers, and a run that the test writes itself. */
 #include "harness/front.h"
 #include "harness/record.h"
+#include "tests/program.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -133,10 +134,8 @@ static int write_run(void **state)
 
 static int remove_run(void **state)
 {
-    char command[96];
     (void)state;
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static const mote_front *find_front(const mote_fronts *fronts, const char *title)

@@ -45,10 +45,8 @@ static int make_run(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[96];
     mote_report_free(&report);
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static void assert_near(double a, double b, double tolerance)

@@ -93,9 +93,7 @@ static int make_run(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[96];
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static void report_prints_its_paths(void **state)

@@ -6,6 +6,7 @@
 #include "harness/study_dynamics.h"
 #include "harness/study_extremes.h"
 #include "tests/planted.h"
+#include "tests/program.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -243,9 +244,9 @@ dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass(void **s
     assert_int_equal(planted.simulated, simulated); /* not again */
     planted.others_pass = true;
     assert_true(dynamics_met(true)); /* the rows that are there */
-    char command[96];
-    (void)snprintf(command, sizeof command, "rm -r %s/rows", base);
-    assert_int_equal(system(command), 0);
+    char rows[96];
+    (void)snprintf(rows, sizeof rows, "%s/rows", base);
+    assert_int_equal(program_remove(rows), 0);
     assert_false(dynamics_met(false));
     assert_true(size_of("dynamics.json", "failures") > 0);
 }
@@ -311,9 +312,7 @@ static int make_base(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[96];
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 int main(void)
