@@ -9,7 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/mote-fuzz-XXXXXX";
+/* In memory where there is such a place: on a disk most of the time would be waiting. */
+static char folder[] = "/dev/shm/mote-fuzz-XXXXXX";
 
 static void clean_up(void)
 {
@@ -27,6 +28,8 @@ static void clean_up(void)
 static void make_folder(void)
 {
     char path[128];
+    if (access("/dev/shm", W_OK) != 0)
+        strcpy(folder, "/tmp/mote-fuzz-XXXXXX");
     if (!mkdtemp(folder))
         abort();
     (void)snprintf(path, sizeof path, "%s/cells", folder);
