@@ -92,10 +92,8 @@ static mote_status fit_title(const size_series *series, char *title, size_t size
     (void)snprintf(title, size, "%s", series->label);
     const mote_status status =
         mote_statistics_exponent(x, y, series->count, &exponent, &interval);
-    if (status != MOTE_OK && status != MOTE_ENUMERIC)
+    if (status != MOTE_OK || exponent != exponent)
         return status;
-    if (status == MOTE_ENUMERIC || exponent != exponent)
-        return MOTE_OK;
     (void)snprintf(title, size, "%s ~ t^%.2f", series->label, exponent);
     mote_text_add(caption, " %s: %.2f (%.2f to %.2f).", series->label, exponent, interval.low,
                   interval.high);

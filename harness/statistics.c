@@ -495,8 +495,11 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
     (void)gsl_set_error_handler_off();
     double slope = 0, error = 0;
     int status = fit_logarithms(x, y, count, &slope, &error);
+    if (status == GSL_EMAXITER)
+        return MOTE_OK;
     if (status != GSL_SUCCESS)
-        return mote_fail(MOTE_ENUMERIC, "no exponent: %s", gsl_strerror(status));
+        return mote_fail(status == GSL_ENOMEM ? MOTE_ENOMEM : MOTE_ENUMERIC, "no exponent: %s",
+                         gsl_strerror(status));
     double half = gsl_cdf_tdist_Pinv(0.975, (double)(count - 2)) * error;
     *exponent = slope;
     interval->low = slope - half;

@@ -109,8 +109,8 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
                                       size_t b_count);
 
 /* The exponent e of y ~ x^e, by robust (bisquare) regression of the logarithms, with its 95 %
-   interval. x, y > 0; fewer than four points or one x only: MOTE_NONE. MOTE_ENUMERIC when the
-   fit does not converge. */
+   interval. x, y > 0. MOTE_NONE for fewer than four points, one x only, or where the weights do
+   not settle. MOTE_ENOMEM, MOTE_ENUMERIC. */
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 

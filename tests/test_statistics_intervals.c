@@ -459,6 +459,17 @@ static void exponent_interval_without_outliers_is_that_of_least_squares(void **s
     assert_near((interval.high - interval.low) / 2 / half, 1, 0.25);
 }
 
+/* Weights go to and fro between two fits for ever. */
+static void exponent_of_weights_that_do_not_settle_is_none(void **state)
+{
+    (void)state;
+    static const double x[] = {1e3, 1e4, 1e5, 1e6}, y[] = {16, 9, 9, 16};
+    double exponent = 1;
+    mote_confidence interval = {1, 1};
+    assert_int_equal(mote_statistics_exponent(x, y, 4, &exponent, &interval), MOTE_OK);
+    assert_true(isnan(exponent) && isnan(interval.low) && isnan(interval.high));
+}
+
 static mote_verdict verdict(double ratio, double low, double high, double p)
 {
     const mote_confidence interval = {low, high};
@@ -505,6 +516,7 @@ int main(void)
         cmocka_unit_test(process_interval_from_ten_on_is_a_bootstrap),
         cmocka_unit_test(detectable_of_two_and_three_values_is_the_closed_form),
         cmocka_unit_test(exponent_of_exact_powers_is_the_power),
+        cmocka_unit_test(exponent_of_weights_that_do_not_settle_is_none),
         cmocka_unit_test(exponent_interval_without_outliers_is_that_of_least_squares),
         cmocka_unit_test(verdict_on_a_border_is_no_change),
     };
