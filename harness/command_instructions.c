@@ -18,7 +18,7 @@ enum {
 
 typedef struct request {
     const char *scenario, *frames, *particles, *out;
-    bool inside;
+    bool inside, has_method;
     mote_choices choices;
 } request;
 
@@ -43,9 +43,13 @@ static int read_arguments(int argc, char **argv, request *q)
             q->out = value;
         else if (option == OPTION_INSIDE)
             q->inside = true;
+        else
+            q->has_method = true;
     }
-    if (!q->scenario || !q->frames || (!q->out && !q->inside))
-        return mote_command_usage(argv[0], "a scenario, --frames and --out are needed");
+    /* Not every method there is: some have no distance, and one that fails ends the count. */
+    if (!q->scenario || !q->frames || !q->has_method || (!q->out && !q->inside))
+        return mote_command_usage(argv[0],
+                                  "a scenario, --frames, --method and --out are needed");
     return MOTE_EXIT_DONE;
 }
 
@@ -59,8 +63,6 @@ static mote_status read_methods(int argc, char **argv, request *q)
         if (option == OPTION_METHOD)
             status = mote_choices_add(&q->choices, value, q->particles);
     }
-    for (size_t i = 0; status == MOTE_OK && q->choices.count == 0 && mote_methods[i]; ++i)
-        status = mote_choices_add(&q->choices, mote_methods[i]->name, q->particles);
     return status;
 }
 

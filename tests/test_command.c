@@ -16,6 +16,18 @@
 
 #define FOLDER "test_command_files"
 
+#define TEN "0123456789"
+#define SEVENTY TEN TEN TEN TEN TEN TEN TEN
+/* A line of two diamonds that pass each other. */
+#define DIAMOND                                                                                \
+    "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\n"     \
+    "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"
+#define SCENARIO                                                                               \
+    "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\", \"bodies\": [{\"file\": " \
+    "\"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": [2.1, 0.1, "  \
+    "0]}, "                                                                                    \
+    "{\"frame\": 4, \"position\": [1.9, 0.1, 0]}]}]}\n"
+
 /* Runs `mote ARGUMENTS` by the shell; returns the exit status. streams: "2>&1" to get both,
    "2>&1 >/dev/null" to get the errors only. */
 static int run_streams(const char *arguments, const char *streams, char *output, size_t size)
@@ -43,33 +55,41 @@ static bool exists(const char *path)
     return stat(path, &info) == 0;
 }
 
+static const struct {
+    const char *path, *text;
+} files[] = {{FOLDER "/broken.json", "{\"purpose\": \"x\",\n \"frames\": }\n"},
+             {FOLDER "/unknown.json", "{\"purpose\": \"x\",\n \"speed\": 1}\n"},
+             {FOLDER "/d.obj", DIAMOND},
+             {FOLDER "/s.json", SCENARIO}};
+#define FILES (sizeof files / sizeof files[0])
+
 static int set_up(void **state)
 {
     (void)state;
-    static const char broken[] = "{\"purpose\": \"x\",\n \"frames\": }\n";
-    static const char unknown[] = "{\"purpose\": \"x\",\n \"speed\": 1}\n";
-    return mote_directory_make(FOLDER) == MOTE_OK &&
-                   mote_file_write(FOLDER "/broken.json", broken, strlen(broken)) == MOTE_OK &&
-                   mote_file_write(FOLDER "/unknown.json", unknown, strlen(unknown)) == MOTE_OK
-               ? 0
-               : -1;
+    if (mote_directory_make(FOLDER) != MOTE_OK)
+        return -1;
+    for (size_t i = 0; i < FILES; ++i) {
+        if (mote_file_write(files[i].path, files[i].text, strlen(files[i].text)) != MOTE_OK)
+            return -1;
+    }
+    return 0;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
-    (void)unlink(FOLDER "/broken.json");
-    (void)unlink(FOLDER "/unknown.json");
+    for (size_t i = 0; i < FILES; ++i)
+        (void)unlink(files[i].path);
     return rmdir(FOLDER); /* fails if a command left anything behind */
 }
 
-typedef struct bad_line {
+typedef struct told_line {
     const char *arguments;
     int status;
     const char *says;
-} bad_line;
+} told_line;
 
-static const bad_line bad_lines[] = {
+static const told_line bad_lines[] = {
     {"", 2, "no command"},
     {"fly", 2, "unknown command fly; known are"},
     {"list", 2, "methods or scenarios"},
@@ -116,13 +136,81 @@ static const bad_line bad_lines[] = {
     {"distance a.obj", 2, "two files"},
     {"distance a.obj b.obj", 4, "a.obj"},
     {"distance a.obj b.obj --method magic", 4, "magic"},
+    {"check s.json s.json", 2, "one scenario at a time"},
+    {"check s.json --fast", 2, "unknown option --fast; known are: --json, --out DIR"},
+    {"check s.json --json=yes", 2, "--json takes no value"},
+    {"check -", 4, "-: no such scenario"},
+    {"summarize --formats x", 2, "unknown option --formats"},
+    {"summarize --format=yaml x", 2, "--format yaml: choose table"},
+    {"summarize x y", 2, "y: one directory at a time"},
+    {"summarize", 2, "no directory"},
+    {"letter W --triangles 99999999999999999999999 -o W.obj", 2, "whole number"},
+    {"letter W --triangles 400x -o W.obj", 2, "--triangles 400x"},
+    {"approach s.json --gaps 1:0.1 --direction 1,0 -o x.json", 2,
+     "--direction 1,0: give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,nan,0 -o x.json", 2, "give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,,0 -o x.json", 2, "give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,0,0,0 -o x.json", 2, "give x,y,z"},
+    {"run s.json --frames 0-3 --out x", 4, "--frames 0-3: outside 1-"},
+    {"run s.json --frames " SEVENTY " --out x", 4, "not a range"},
+    {"run s.json --frames 1-x --out x", 4, "not a range"},
+    {"run s.json --method " SEVENTY SEVENTY SEVENTY SEVENTY " --out x", 4,
+     "longer than 255 characters"},
+    {"run s.json --particles 1-2 --method " SEVENTY " --out x", 4, "unknown method 01234"},
+    {"run s.json --particles 1-2 --method magic --out x", 4, "unknown method magic"},
+    {"run s.json --particles 1-4000000000 --method particle --out x", 4, "more than 10000"},
+    {"run s.json --particles 1-2 --replicates 1000 --out x", 4, "at most 10000 in one run"},
+    {"run s.json --shard 1", 2, "--shard 1: expected I/N"},
+    {"run s.json --shard " SEVENTY "/2", 2, "expected I/N"},
+    {"run s.json --shard 1/x", 2, "--shard 1/x: expected I/N"},
+    {"run s.json --seed -1", 2, "--seed -1: expected a whole number"},
+    {"run s.json --timeout 0", 2, "--timeout 0: expected seconds"},
+    {"run s.json --budget -1", 2, "--budget -1: expected seconds"},
+    {"run s.json --until-ci %", 2, "expected a percentage"},
+    {"run s.json --until-ci " SEVENTY "%", 2, "expected a percentage"},
+    {"run s.json --until-ci 200%", 2, "expected a percentage"},
+    {"run s.json --out ''", 2, "expected a directory"},
+    {"run --pair d.obj d.obj --pair d.obj d.obj", 2, "two mesh files, once"},
+    {"history --fast", 2, "unknown option --fast"},
+    {"history --add x", 2, "go together"},
+    {"history x --why y", 2, "go together"},
+    {"history --add x --why ''", 4, "no reason"},
+    {"merge --x", 2, "known are: none"},
+    {"merge", 2, "runs are missing"},
+    {"merge x", 2, "runs are missing"},
+    {"tune --x", 2, "unknown option --x; known are: --best-fcl SCENARIO"},
+    {"tune x y", 2, "y: one directory at a time"},
+    {"tune --best-fcl=s x", 4, "x/tune.json: No such file"},
+    {"compare --x", 2, "unknown option --x"},
+    {"compare x", 2, "two runs are needed"},
+    {"compare x y z", 2, "z: two runs at a time"},
+    {"compare x y --floor nine", 2, "--floor nine: expected a share"},
+    {"compare x y --format yaml", 2, "choose table or json"},
+    {"instructions --x", 2, "unknown option --x"},
+    {"instructions s.json s.json", 2, "one scenario at a time"},
+    {"instructions --frames 1-2 --method certified --out x", 2, "a scenario, --frames"},
+    {"instructions s.json --method certified --out x", 2, "a scenario, --frames"},
+    {"instructions s.json --frames 1-2 --method certified", 2, "--out are needed"},
+    {"instructions s.json --frames 1-2 --out x", 2, "--method and --out are needed"},
+    {"instructions s.json --frames 2-1 --inside --method certified", 4, "2-1: an empty range"},
+    {"instructions s.json --frames 1-9 --inside --method certified", 4, "it has frames 1-4"},
+    {"instructions s.json --frames 1-2 --inside --method magic", 4, "unknown method magic"},
+    {"instructions s.json --frames 1-2 --inside --particles 2,x --method particle", 4,
+     "x: not a range"},
+    {"instructions missing.json --frames 1-2 --inside --method certified", 4,
+     "missing.json: No such file"},
+    {"report --fast", 2, "known are: none"},
+    {"report x y", 2, "y: one directory at a time"},
+    {"report", 2, "no directory"},
+    {"claims --quick x", 2, "x: takes no argument"},
+    {"claims --out", 2, "--out needs a value"},
 };
 
 static void main_bad_line_one_line_and_its_exit_status(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof bad_lines / sizeof bad_lines[0]; ++i) {
-        const bad_line *bad = &bad_lines[i];
+        const told_line *bad = &bad_lines[i];
         char output[4096];
         int status = run_streams(bad->arguments, "2>&1 >/dev/null", output, sizeof output);
         /* Before the error there may be lines of progress, after it nothing. */
@@ -134,6 +222,41 @@ static void main_bad_line_one_line_and_its_exit_status(void **state)
                      bad->arguments, status, bad->status, bad->says, output);
         if (exists(FOLDER "/x") || exists(FOLDER "/W.obj") || exists(FOLDER "/x.json"))
             fail_msg("mote %s left something behind", bad->arguments);
+    }
+}
+
+/* Lines that are right, and what they must say. */
+static const told_line good_lines[] = {
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:n=3", 0,
+     "plan: 1 cells, 0 of them done"},
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:law=log,n=3",
+     0, "s particle-paper:law=log,n=3 replicate 1, frames 1-4"},
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper", 0,
+     "plan: 2 cells"},
+    {"run s.json s.json --dry-run --replicates 1 --method 'fcl-aabb|fcl-rss' --method "
+     "fcl-aabb:queue=2",
+     0, "plan: 2 cells"},
+    {"run s.json --dry-run --method fcl-aabb --seed 3 --fixed-seed --cache evict --stride 2 "
+     "--jobs 2 --force --timeout 3 --budget 2",
+     0, "s fcl-aabb replicate 3, frames 1-4, stride 2, evict"},
+    {"run s.json --dry-run --method fcl-aabb --cache hot --stride auto --frames 2-3", 0,
+     "s fcl-aabb replicate 1, frames 2-3, stride 1, hot"},
+    {"instructions s.json --frames 1-2 --inside --method certified", 0, ""},
+    {"instructions s.json --frames 4 --inside --particles 2,3 --method particle-paper", 0, ""},
+};
+
+static void main_good_line_says_what_it_will_do(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
+        const told_line *good = &good_lines[i];
+        char output[4096];
+        const int status = run(good->arguments, output, sizeof output);
+        if (status != 0 || !strstr(output, good->says) || strstr(output, "mote: "))
+            fail_msg("mote %s: exit %d, or not \"%s\":\n%s", good->arguments, status,
+                     good->says, output);
+        if (good->says[0] == '\0')
+            assert_string_equal(output, "");
     }
 }
 
@@ -207,6 +330,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(main_bad_line_one_line_and_its_exit_status),
+        cmocka_unit_test(main_good_line_says_what_it_will_do),
         cmocka_unit_test(command_list_names_what_there_is),
         cmocka_unit_test(command_letter_writes_that_many_triangles),
         cmocka_unit_test(command_export_answers_match_between_exact_methods),
