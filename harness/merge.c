@@ -59,6 +59,9 @@ static mote_status add_sessions(const char *directory, json_t *here, const json_
     json_t *mine = json_object_get(here, "sessions");
     const json_t *sessions = json_object_get(there, "sessions");
     size_t before = json_array_size(mine);
+    if (!json_is_array(mine))
+        return mote_fail(MOTE_EINVAL, "%s/manifest.json: no list of sessions; remove it",
+                         directory);
     for (size_t i = 0; i < json_array_size(sessions); ++i) {
         json_t *session = json_array_get(sessions, i);
         bool known = false;

@@ -226,7 +226,7 @@ static char *group_name(const mote_stored_cell *cell)
 
 static bool read_status(const char *text, mote_cell_status *status)
 {
-    for (int k = 0; text && k < MOTE_CELL_STATUSES; ++k) {
+    for (int k = 0; k < MOTE_CELL_STATUSES; ++k) {
         if (strcmp(text, mote_cell_status_names[k]) == 0) {
             *status = (mote_cell_status)k;
             return true;
@@ -240,11 +240,16 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
 {
     const char *status;
     int replicate, stride, first, last, jobs = 1;
-    if (json_unpack(cell->json, "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i}",
+    json_t *shown[4]; /* that are only there for a summary's row */
+    if (json_unpack(cell->json,
+                    "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i, s:o, s:o, "
+                    "s:o, s:o}",
                     "id", &cell->id, "status", &status, "scenario", &cell->scenario,
                     "fingerprint", &cell->fingerprint, "method", &cell->method, "cache",
                     &cell->cache, "parameters", &cell->parameters, "replicate", &replicate,
-                    "stride", &stride, "active", &first, &last, "jobs", &jobs) != 0 ||
+                    "stride", &stride, "active", &first, &last, "jobs", &jobs, "triangles",
+                    &shown[0], "vertices", &shown[1], "seed", &shown[2], "frames",
+                    &shown[3]) != 0 ||
         !read_status(status, &cell->status) || replicate < 1 || stride < 1 || jobs < 1)
         return mote_fail(MOTE_EINVAL, "%s: a field of a cell is missing or wrong", name);
     cell->replicate = (uint32_t)replicate;
@@ -265,7 +270,7 @@ static mote_status read_csv(const char *directory, mote_stored_cell *cell)
     size_t size = 0;
     mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
                               : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    if (status == MOTE_OK && text)
+    if (status == MOTE_OK)
         status = read_frames(path, text, cell);
     free(text);
     free(path);

@@ -213,10 +213,13 @@ static char *value_text(const mote_method *method, const char *key, const json_t
         double values[MOTE_PARAMETERS_MAX];
         mote_parameters_default(method->parameters, method->parameter_count, values);
         (void)mote_parameter_text(parameter, values[i], fallback, sizeof fallback);
-        if (json_is_number(value))
+        /* Of a choice it is the name that is stored; a number need not be that of one. */
+        if (json_is_number(value) && parameter->kind != MOTE_PARAMETER_CHOICE)
             (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
-        else
+        else if (json_is_string(value))
             (void)snprintf(text, sizeof text, "%s", json_string_value(value));
+        else
+            break;
         *usual = strcmp(text, fallback) == 0;
         return mote_format("%s", text);
     }
