@@ -178,7 +178,7 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_mode mo
 static size_t stride(size_t places)
 {
 #ifdef MOTE_COVERAGE
-    return places > 300 ? 3 : 1;
+    return places > 350 ? 3 : 1;
 #else
     (void)places;
     return mote_heap_read().counted ? 20 : 40;
@@ -241,6 +241,18 @@ bool fault_lines_open(void)
             return false;
     }
     return true;
+}
+
+bool fault_lines_install(void)
+{
+    static char program[sizeof base + 16];
+    (void)snprintf(program, sizeof program, "%s/bin/mote", base);
+    fault_points_be(program);
+    return mkdir("share", 0700) == 0 && mkdir("share/mote", 0700) == 0 &&
+           mkdir("share/mote/page", 0700) == 0 && mkdir("share/mote/datasets", 0700) == 0 &&
+           mkdir("share/mote/datasets/scenarios", 0700) == 0 &&
+           symlink(MOTE_SOURCE_DIR "/plots", "share/mote/plots") == 0 &&
+           fault_lines_write("bin/mote", "a program\n");
 }
 
 int fault_lines_close(void **state)

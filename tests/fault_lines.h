@@ -25,6 +25,10 @@ typedef struct fault_line {
 bool fault_lines_open(void);
 int fault_lines_close(void **state); /* a test group's end */
 
+/* The program is one installed there from now on, bin/mote: share/mote has the plots of the
+   sources, and empty folders for page, datasets and datasets/scenarios. */
+bool fault_lines_install(void);
+
 bool fault_lines_write(const char *name, const char *text);
 
 /* Runs lines without a fault; false when one does not end with 0. */

@@ -96,7 +96,8 @@ static enum { IDLE, NOTING, FAILING } state;
 static fault_mode mode_now;
 static long calls, target; /* of this process and of its parents before the fork */
 static uint64_t seen[SEEN];
-static bool noting; /* what notes must not note itself */
+static const char *program_path; /* what /proc/self/exe leads to, or NULL */
+static bool noting;              /* what notes must not note itself */
 
 extern const char __executable_start, etext;
 
@@ -286,7 +287,13 @@ WRAP(pid_t, waitpid, pid_t pid, int *status, int options)
 
 WRAP(ssize_t, readlink, const char *path, char *text, size_t size)
 {
-    return fails(READLINK) ? -1 : __real_readlink(path, text, size);
+    if (fails(READLINK))
+        return -1;
+    if (!program_path || strcmp(path, "/proc/self/exe") != 0)
+        return __real_readlink(path, text, size);
+    const size_t length = strlen(program_path);
+    memcpy(text, program_path, length < size ? length : size);
+    return (ssize_t)(length < size ? length : size);
 }
 
 WRAP(char *, realpath, const char *path, char *resolved)
@@ -333,6 +340,11 @@ static void run_work(const fault_work *work, fault_end *end)
         continue;
     end->status = pid > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     end->happened = atomic_load(&told->happened);
+}
+
+void fault_points_be(const char *program)
+{
+    program_path = program;
 }
 
 size_t fault_points_find(const fault_work *work, fault_end *end)

@@ -32,6 +32,9 @@ typedef struct fault_end {
     long call;            /* its number */
 } fault_end;
 
+/* From now on the program is this one, for what asks /proc/self/exe. The path lives on. */
+void fault_points_be(const char *program);
+
 /* Runs the work in a child without a fault, and notes its places: their number. *end: how it
    ended. */
 size_t fault_points_find(const fault_work *work, fault_end *end);

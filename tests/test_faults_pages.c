@@ -9,17 +9,23 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A scenario in the folder of the mesh; %s: more keys of body 0 and of the scenario. */
+#define CUBE                                                                                   \
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 3 2\n"        \
+    "f 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"        \
+    "f 4 1 5\nf 4 5 8\n"
+
+/* A scenario in the folder of the mesh, with more keys of it and of body 0. */
 #define SCENE(more, body)                                                                      \
     "{\"purpose\": \"a test\", \"frames\": 12, \"ask\": \"distance\"" more                     \
-    ", \"bodies\": [{\"file\": \"a.obj\"" body "}, {\"file\": \"a.obj\", \"motion\": ["        \
-    "{\"frame\": 1, \"position\": [2.1, 0.1, 0]}, {\"frame\": 12, \"position\": "              \
-    "[1.8, 0.1, 0]}]}]}\n"
+    ", \"bodies\": [{\"file\": \"cube.obj\"" body "}, {\"file\": \"cube.obj\", \"motion\": ["  \
+    "{\"frame\": 1, \"position\": [0.8, 0.1, 0]}, {\"frame\": 12, \"position\": "              \
+    "[0.5, 0.1, 0]}]}]}\n"
 #define FIELD                                                                                  \
     ", \"field\": {\"count\": 3, \"support\": 0.7, \"displacement\": {\"random\": {\"seed\": " \
     "5, \"amplitude\": 0.05, \"periods\": [40, 90]}}}"
@@ -40,18 +46,25 @@
     "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", "              \
     "\"near_pairs_wanted\": 1, \"bodies\": 1000, \"ratio\": 30, \"step_mean_ns\": 5, "         \
     "\"rss_peak_bytes\": 7}]}\n"
-#define RUN                                                                                    \
-    " --method particle-paper:n=3|5 --method certified --method fcl-aabb --replicates 1 "      \
-    "--stride 1 --out run"
+#define LETTERS                                                                                \
+    "{\"purpose\": \"several\", \"frames\": 6, \"ask\": \"distance\", \"bodies\": {"           \
+    "\"count\": 4, \"seed\": 2, \"near_pairs\": 1, \"near\": 0.3, \"speed\": 0.01, "           \
+    "\"spin\": 1, \"shapes\": [{\"file\": \"cube.obj\"}]}}\n"
 
+#define INSTALLED "share/mote/datasets/scenarios/"
 static const struct {
     const char *name, *text;
 } files[] = {
-    {"tt.json", SCENE(", \"active\": [2, 12]", "")},
-    {"mv.json", SCENE("", FIELD)},
-    {"ww.json", SCENE("", FIELD)},
-    {"ww-1k.json", SCENE("", FIELD)},
-    {"ww-2k.json", SCENE("", CENTRES)},
+    {"share/mote/page/replay.js", "play();\n"},
+    {"share/mote/datasets/defects.md",
+     "# Defects\n\n## One\n\nof `two`\nlines\n\n    code\n\n    more\n\n##### Five\n\nend"},
+    {INSTALLED "cube.obj", CUBE},
+    {INSTALLED "tt.json", SCENE(", \"active\": [2, 12]", "")},
+    {INSTALLED "mv.json", SCENE("", FIELD)},
+    {INSTALLED "ww.json", SCENE("", FIELD)},
+    {INSTALLED "ww-1k.json", SCENE("", FIELD)},
+    {INSTALLED "ww-2k.json", SCENE("", CENTRES)},
+    {INSTALLED "letters.json", LETTERS},
     {"like.json", "{\"purpose\": \"like another\", \"like\": \"mv\", \"frames\": 4}\n"},
     {"a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
               "3 1 2 3\n"},
@@ -65,20 +78,32 @@ static bool exists(const char *path)
 }
 
 /* Several bodies: a diagram and a film, whose pictures are gone when it is drawn. */
-static void figures_of_several_bodies_alone_are_drawn(void **state)
+static void figures_of_several_bodies_when_a_call_fails_say_so(void **state)
 {
     (void)state;
-    static const fault_line list[] = {LINE(figures, " bodies", 0)};
+    static const fault_line list[] = {LINE(figures, " several", 0)};
     assert_true(fault_lines_run(list, 1));
-    assert_true(exists("bodies/figures/bodies.svg"));
-    assert_true(exists("bodies/figures/letters.gif"));
-    assert_false(exists("bodies/figures/frames/000.dat"));
+    assert_true(exists("several/figures/bodies.svg"));
+    assert_true(exists("several/figures/letters.gif"));
+    assert_false(exists("several/figures/frames/000.dat"));
+    FAIL_EACH(list);
 }
 
 static void figures_when_a_call_fails_say_so(void **state)
 {
     (void)state;
-    static const fault_line list[] = {LINE(figures, " run", 0)};
+    static const fault_line list[] = {LINE(figures, " run", 0), LINE(figures, " parts", 0)};
+    assert_true(fault_lines_run(list, 2));
+    static const char *const names[] = {"fig1",       "fig2",      "size-time",
+                                        "size-bytes", "shares-ww", "ratios-ww"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        char path[64];
+        (void)snprintf(path, sizeof path, "run/figures/%s.svg", names[i]);
+        if (!exists(path))
+            fail_msg("%s: not there, or empty", path);
+    }
+    assert_true(exists("parts/figures/ingredients.svg"));
+    assert_true(exists("parts/figures/tracked-ww.svg"));
     FAIL_EACH(list);
 }
 
@@ -102,15 +127,14 @@ static void scenarios_of_other_forms_when_a_call_fails_say_so(void **state)
 {
     (void)state;
     static const fault_line list[] = {
-        LINE(check, " ww-2k.json --json", 0),
-        LINE(check, " tt.json --out out", 1),
+        LINE(check, " ww-2k --json", 0),
+        LINE(check, " " INSTALLED "tt.json --out out", 1),
         LINE(list, " fields --json", 0),
         LINE(list, " scenarios --json", 0),
         LINE(mesh, " a.off", 0),
         LINE(mesh, " a.stl", 0),
         LINE(distance, " a.obj a.off --method certified --method fcl-aabb", 0),
-        LINE(approach, " mv.json --gaps 1:0.1,9:0.05 --every 4 --direction 1,0,0 -o out.json",
-             0),
+        LINE(approach, " mv --gaps 1:0.1,9:0.05 --every 4 --direction 1,0,0 -o out.json", 0),
     };
     FAIL_EACH(list);
 }
@@ -119,31 +143,43 @@ static void loops_when_a_call_fails_say_so(void **state)
 {
     (void)state;
     static const fault_line list[] = {
-        LINE(simulate, " mv.json --method certified --steps 4 --film out.gif", 0),
+        LINE(simulate, " mv --method certified --steps 4 --film out.gif", 0),
         LINE(simulate, " b.json --method certified --steps 3", 0),
-        LINE(run,
-             " mv.json --method certified --until-ci 100% --budget 0 --replicates 1 --out out",
+        LINE(run, " mv --method certified --until-ci 100% --budget 0 --replicates 1 --out out",
              0),
         LINE(run, " b.json --dry-run", 0),
     };
     FAIL_EACH(list);
 }
 
+static bool make_runs(void)
+{
+    static const fault_line runs[] = {
+        LINE(run,
+             " tt mv ww ww-1k ww-2k --method particle-paper:n=3|5 --method certified --method "
+             "fcl-aabb --replicates 1 --stride 1 --out run",
+             0),
+        LINE(run,
+             " ww --method particle:n=0|2|8 --method particle:n=8,track=0|4 --method "
+             "particle:n=8,leap=off --method particle:n=8,launch=1|8 --method "
+             "particle:n=8,reseed=off --method fcl-aabb --replicates 2 --stride 1 --out parts",
+             0)};
+    return fault_lines_run(runs, sizeof runs / sizeof runs[0]);
+}
+
 static int make_files(void **state)
 {
     (void)state;
-    static const fault_line runs[] = {
-        LINE(run, " tt.json ww.json ww-1k.json ww-2k.json" RUN, 0)};
-    if (!fault_lines_open())
+    if (!fault_lines_open() || !fault_lines_install())
         return -1;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
         if (!fault_lines_write(files[i].name, files[i].text))
             return -1;
     }
-    return fault_lines_run(runs, 1) && fault_lines_write("run/claims.json", CLAIMS) &&
+    return make_runs() && fault_lines_write("run/claims.json", CLAIMS) &&
                    fault_lines_write("run/requirements.json", CLAIMS) &&
-                   mote_directory_make("bodies") == MOTE_OK &&
-                   fault_lines_write("bodies/bodies.json", BODIES) &&
+                   mote_directory_make("several") == MOTE_OK &&
+                   fault_lines_write("several/bodies.json", BODIES) &&
                    mote_directory_make("claims") == MOTE_OK &&
                    fault_lines_write("claims/claims.json", CLAIMS)
                ? 0
@@ -153,12 +189,12 @@ static int make_files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(report_when_a_call_fails_says_so),
         cmocka_unit_test(comparisons_when_a_call_fails_say_so),
         cmocka_unit_test(scenarios_of_other_forms_when_a_call_fails_say_so),
         cmocka_unit_test(loops_when_a_call_fails_say_so),
-        cmocka_unit_test(figures_of_several_bodies_alone_are_drawn),
+        cmocka_unit_test(figures_of_several_bodies_when_a_call_fails_say_so),
         cmocka_unit_test(figures_when_a_call_fails_say_so),
+        cmocka_unit_test(report_when_a_call_fails_says_so),
     };
     return cmocka_run_group_tests(tests, make_files, fault_lines_close);
 }

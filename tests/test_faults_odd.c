@@ -1,0 +1,278 @@
+/* Tables, figures and pages of runs whose cells are odd: of several machines, caches, seeds
+   and frames, that ended badly, that have no answers, no names, too many of each. What a user
+   sees of them, and the same while each place where memory, files or processes are asked for
+   fails once. */
+#include "tests/fault_lines.h"
+
+#include "harness/file.h"
+#include "harness/record.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define LONG_NAME                                                                              \
+    "A z/Z09-_`{@[: a name that is longer than the file of a figure's data may be, by some"
+
+/* The frames of a cell: the first, how many, every which. error is NAN for a method that tells
+   contact only. */
+typedef struct frames {
+    int first, count, stride;
+    double ns, error;
+} frames;
+
+/* A cell: its name, and what is other than in most. */
+typedef struct odd_cell {
+    const char *id, *other;
+    frames rows;
+} odd_cell;
+
+static const char usual[] =
+    "{\"schema\": 1, \"status\": \"ok\", \"scenario\": \"s\", \"fingerprint\": "
+    "\"0123456789abcdef\", \"method\": \"certified\", \"parameters\": {}, \"replicate\": 1, "
+    "\"frames\": [1, 6], \"stride\": 1, \"seed\": 0, \"cache\": \"hot\", \"triangles\": [10, "
+    "12], \"vertices\": [7, 8], \"active\": [1, 6], \"program\": \"p1\", \"machine\": \"m1, "
+    "two cores\", \"length\": 1, \"clock_mhz\": [2400, 2400]}";
+
+static void write_cell(const char *directory, const odd_cell *odd)
+{
+    char name[96];
+    json_t *cell = json_loads(usual, 0, NULL), *other = json_loads(odd->other, 0, NULL);
+    assert_non_null(cell);
+    if (!other)
+        fail_msg("%s: not JSON", odd->other);
+    assert_int_equal(json_object_update(cell, other), 0);
+    json_decref(other);
+    assert_int_equal(json_object_set_new(cell, "id", json_string(odd->id)), 0);
+    mote_text text = {0};
+    mote_text_add(&text,
+                  "frame,deform_ns,update_ns,query_ns,truth,error,contact,contact_truth\n");
+    for (int k = 0; k < odd->rows.count; ++k) {
+        mote_text_add(&text, "%d,0,0,%.0f,%d,", odd->rows.first + k * odd->rows.stride,
+                      odd->rows.ns, k % 2);
+        if (!isnan(odd->rows.error))
+            mote_text_add(&text, "%.17g", odd->rows.error);
+        mote_text_add(&text, ",%d,%d\n", k % 3 == 0, k % 2 == 0);
+    }
+    (void)snprintf(name, sizeof name, "cells/%s.csv", odd->id);
+    assert_int_equal(mote_record_text(directory, name, &text), MOTE_OK);
+    (void)snprintf(name, sizeof name, "cells/%s.json", odd->id);
+    assert_int_equal(mote_record_json(directory, name, cell), MOTE_OK);
+}
+
+#define SIX                                                                                    \
+    {                                                                                          \
+        1, 6, 1, 1e6, 0                                                                        \
+    }
+#define PAPER(n)                                                                               \
+    "{\"method\": \"particle-paper\", \"parameters\": {\"n\": " #n ", \"refine\": \"no\"}"
+
+static const odd_cell odd[] = {
+    {"a1", "{}", SIX},
+    {"a2", "{\"replicate\": 2, \"status\": \"timeout\"}", SIX},
+    {"evict", "{\"cache\": \"evict\"}", SIX},
+    {"other", "{\"machine\": \"m2, four cores\"}", SIX},
+    {"nowhere", "{\"scenario\": \"nowhere\", \"machine\": \"\", \"seed\": 5}", SIX},
+    {"seed", "{\"seed\": 7}", SIX},
+    {"given", "{\"parameters\": {\"positions\": \"given\"}}", SIX},
+    {"jobs", "{\"method\": \"particle\", \"parameters\": {\"n\": 8}, \"jobs\": 2}", SIX},
+    {"short",
+     "{\"method\": \"particle\", \"parameters\": {\"n\": 8}, \"frames\": [1, 3]}",
+     {1, 3, 1, 1e4, 0}},
+    {"crash", "{\"method\": \"fcl-obb\", \"status\": \"crashed\", \"reason\": \"it | fell\"}",
+     SIX},
+    {"silent", "{\"method\": \"fcl-rss\", \"status\": \"unsupported\"}", SIX},
+    {"empty", "{\"method\": \"aabb-tree\"}", {1, 0, 1, 0, 0}},
+    {"contact", "{\"method\": \"embree-contact\"}", {1, 6, 1, 1e5, (double)NAN}},
+    {"zero", "{\"method\": \"brute-force\"}", {1, 6, 1, 0, 0.5}},
+    {"aabb1", "{\"method\": \"fcl-aabb\"}", {2, 3, 2, 2e6, 0}},
+    {"aabb2", "{\"method\": \"fcl-aabb\", \"replicate\": 2}", {2, 3, 2, 2e6, 0}},
+    {"p3a", PAPER(3) "}", {1, 6, 1, 1e4, 1e-3}},
+    {"p3b", PAPER(3) ", \"replicate\": 2}", {1, 3, 1, 1e4, 1e-3}},
+    {"p3c", PAPER(3) ", \"replicate\": 3}", {1, 8, 1, 1e4, (double)NAN}},
+    {"p5", PAPER(5) "}", {1, 6, 1, 2e4, 1e-4}},
+    {"p9", PAPER(9) "}", {2, 5, 1, 3e4, 0.9}},
+    {"stride", PAPER(30) ", \"stride\": 2}", {1, 3, 2, 3e7, 1e-6}},
+    {"p100", PAPER(100) "}", {1, 6, 1, 0, 1e-6}},
+    {"long", "{\"scenario\": \"" LONG_NAME "\", \"triangles\": null}", SIX},
+    {"large", "{\"scenario\": \"large\", \"vertices\": [70000, 7]}", SIX},
+    {"larger", "{\"scenario\": \"larger\", \"vertices\": [7, 70000]}", SIX},
+    {"tt", "{\"scenario\": \"tt\"}", SIX},
+    {"ttp", PAPER(3) ", \"scenario\": \"tt\"}", SIX},
+    {"build", "{\"program\": \"p2\"}", SIX},
+};
+
+#define TETRAHEDRON "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+#define TWO                                                                                    \
+    "{\"purpose\": \"a test\", \"frames\": 2, \"ask\": \"distance\", \"bodies\": [{\"file\": " \
+    "\"four.obj\"}, {\"file\": \"four.obj\", \"velocity\": [2, 0, 0]}]}\n"
+
+#define MANIFEST                                                                               \
+    "{\"program\": \"p1\", \"build_type\": \"Debug\", \"cores\": null, \"dirty\": true, "      \
+    "\"commit\": \"0123456789\", \"sessions\": [{\"started\": "                                \
+    "\"2026-11-21T10:20:30.123456789012345678901234567890Z\", \"command\": [\"run\", 7, "      \
+    "\"it's\", \"\"]}]}\n"
+
+static char said[1 << 18];
+
+/* What the line says, in said[]. */
+static void hear(const fault_line *line)
+{
+    assert_true(fault_lines_run(line, 1));
+    FILE *in = fopen("said", "r");
+    assert_non_null(in);
+    said[fread(said, 1, sizeof said - 1, in)] = '\0';
+    (void)fclose(in);
+}
+
+static void read_page(const char *name)
+{
+    char *text = NULL;
+    size_t size = 0;
+    assert_int_equal(mote_file_read(name, sizeof said - 1, &text, &size), MOTE_OK);
+    memcpy(said, text, size + 1);
+    free(text);
+}
+
+static void has(const char *const *wanted, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (!strstr(said, wanted[i]))
+            fail_msg("\"%s\" is not in:\n%.2000s", wanted[i], said);
+    }
+}
+#define HAS(list) has(list, sizeof(list) / sizeof(list)[0])
+
+static void tables_of_odd_cells_say_what_is_odd(void **state)
+{
+    (void)state;
+    static const fault_line table = LINE(summarize, " odd", 0);
+    static const char *const wanted[] = {
+        "crashed: it | fell",
+        "unsupported: \n",
+        "1 of 2 replicates ended badly",
+        "times not comparable: 2 cells at once",
+        "every 2th frame",
+        ", on m2, four cores",
+        "1 cells were measured by another build and are left out",
+    };
+    hear(&table);
+    HAS(wanted);
+}
+
+static void formats_of_odd_cells_tell_rows_apart(void **state)
+{
+    (void)state;
+    static const fault_line gbench = LINE(summarize, " odd --format gbench", 0),
+                            gha = LINE(summarize, " odd --format gha", 0),
+                            bencher = LINE(summarize, " odd --format bencher", 0),
+                            csv = LINE(summarize, " odd --format csv", 0);
+    static const char *const bench[] = {
+        "\"library_build_type\": \"debug\"",
+        "\"host_name\": \"m1\"",
+        "s/certified/hot/frames:1-6/stride:1/seed:0/m1, two cores",
+        "s/certified/hot/frames:1-6/stride:1/seed:7/m1, two cores",
+        "s/certified/evict/m1, two cores",
+        "s/certified/hot/m2, four cores",
+    };
+    hear(&gbench);
+    HAS(bench);
+    assert_null(strstr(said, "num_cpus"));
+    assert_null(strstr(said, "particle:n=8/hot/frames:1-6")); /* two at once: no time */
+    hear(&gha);
+    assert_non_null(strstr(said, "s/fcl-aabb/hot/m1, two cores"));
+    assert_null(strstr(said, "fcl-obb"));
+    hear(&bencher);
+    assert_null(strstr(said, "fcl-obb"));
+    assert_non_null(strstr(said, "lower_value"));
+    hear(&csv);
+    assert_non_null(strstr(said, "\"m2, four cores\"\n"));
+    assert_non_null(strstr(said, "crashed"));
+}
+
+/* Each scenario's figures have a file's name that any program takes. */
+static void figures_of_odd_cells_are_those_that_can_be(void **state)
+{
+    (void)state;
+    static const fault_line figures[] = {LINE(figures, " odd", 0)};
+    static const char *const wanted[] = {
+        "\"name\": \"front-A_z_Z09-_______a_name_that_is_longer_than_the_file_of_a_figure_",
+        "\"run\": \"20261121T102030.123456789012345-p1, commit 0123456+\"",
+        "tt: other frames than those measured",
+        "\"scenario\": \"s\"",
+    };
+    assert_true(fault_lines_run(figures, 1));
+    read_page("odd/figures/figures.json");
+    HAS(wanted);
+    read_page("odd/figures/front-s.dat");
+    assert_non_null(strstr(said, "\"particle-paper:refine=no\"\n3 "));
+    assert_null(strstr(said, "brute-force")); /* took no time */
+    read_page("odd/figures/error-time-s.dat");
+    assert_non_null(strstr(said, " 1\n")); /* a contact that was missed */
+    FAIL_EACH(figures);
+}
+
+static void reports_of_odd_cells_say_what_is_odd(void **state)
+{
+    (void)state;
+    static const fault_line report[] = {LINE(report, " odd", 0)};
+    static const char *const html[] = {
+        ", on m2, four cores",
+        ">crashed: it | fell</td>",
+        "<small>every 2th frame</small>",
+        "class=\"wrong\"",
+        "<summary>Scenarios without a replay</summary>",
+        "larger: its meshes have more than 65535 vertices",
+        "s: no scenario with the fingerprint of its cells is found",
+        "mote run &#39;&#39; &#39;it&#39;\\&#39;&#39;s&#39; &#39;&#39;",
+        "0123456789, and changes that are in no commit",
+        "<li>2: <a href=\"cells/a2.json\">json</a> timeout</li>",
+    };
+    static const char *const markdown[] = {
+        ", on m2, four cores: 10 and 12 triangles",
+        " crashed: it \\| fell |",
+        "[c1-1]: cells/long.csv",
+        "cells/crash.json\n",
+    };
+    assert_true(fault_lines_run(report, 1));
+    read_page("odd/report.html");
+    HAS(html);
+    read_page("odd/report.md");
+    HAS(markdown);
+    FAIL_EACH(report);
+}
+
+static int make_files(void **state)
+{
+    (void)state;
+    if (!fault_lines_open() || !fault_lines_install() ||
+        mote_directory_make("odd/cells") != MOTE_OK ||
+        !fault_lines_write("odd/manifest.json", MANIFEST) ||
+        !fault_lines_write("share/mote/datasets/scenarios/four.obj", TETRAHEDRON) ||
+        !fault_lines_write("share/mote/datasets/scenarios/tt.json", TWO) ||
+        !fault_lines_write("share/mote/page/replay.js", "play();\n"))
+        return -1;
+    for (size_t i = 0; i < sizeof odd / sizeof odd[0]; ++i)
+        write_cell("odd", &odd[i]);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_of_odd_cells_say_what_is_odd),
+        cmocka_unit_test(formats_of_odd_cells_tell_rows_apart),
+        cmocka_unit_test(figures_of_odd_cells_are_those_that_can_be),
+        cmocka_unit_test(reports_of_odd_cells_say_what_is_odd),
+    };
+    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
+}
