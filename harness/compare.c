@@ -46,6 +46,7 @@ static mote_status read_summary(const char *path, json_t **summary)
     free(directory);
     if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows"))) {
         json_decref(*summary);
+        *summary = NULL;
         status = mote_fail(MOTE_EINVAL, "%s: no rows; name a run, or its summary.json", path);
     }
     return status;

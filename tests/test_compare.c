@@ -32,6 +32,16 @@ static int remove_base(void **state)
     return program_remove(base);
 }
 
+/* Without the sync of mote_record_json; object is taken over. */
+static void put(const char *directory, const char *name, json_t *object)
+{
+    char path[96];
+    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
+    assert_non_null(object);
+    assert_int_equal(json_dump_file(object, path, 0), 0);
+    json_decref(object);
+}
+
 /* A run of one method, five replicates. */
 typedef struct figures {
     double ratio;     /* of fcl-aabb's time to this one's, about */
@@ -69,7 +79,7 @@ static void write_run(const char *directory, const figures *f, double sign)
     assert_non_null(row);
     json_t *summary =
         json_pack("{s:i, s:f, s:[o]}", "schema", 1, "noise_floor", 0.004, "rows", row);
-    assert_int_equal(mote_record_json(directory, "summary.json", summary), MOTE_OK);
+    put(directory, "summary.json", summary);
 }
 
 static mote_comparison compare_with(const figures *fresh)
@@ -163,13 +173,16 @@ static void write_beside(const char *directory, const char *processor, double in
 {
     json_t *row = json_pack("{s:s, s:s, s:{s:i}, s:f}", "scenario", "ww", "method",
                             "particle-paper", "parameters", "n", 5, "per_frame", instructions);
-    assert_int_equal(mote_record_json(directory, "instructions.json",
-                                      json_pack("{s:i, s:[o]}", "schema", 1, "rows", row)),
-                     MOTE_OK);
-    assert_int_equal(
-        mote_record_json(directory, "manifest.json",
-                         json_pack("{s:s, s:s}", "processor", processor, "compiler", "GNU 12")),
-        MOTE_OK);
+    put(directory, "instructions.json", json_pack("{s:i, s:[o]}", "schema", 1, "rows", row));
+    put(directory, "manifest.json",
+        json_pack("{s:s, s:s}", "processor", processor, "compiler", "GNU 12"));
+}
+
+static void remove_beside(void)
+{
+    char command[256];
+    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
+    assert_int_equal(system(command), 0);
 }
 
 static mote_comparison compare_beside(const figures *fresh, const char *processor,
@@ -181,9 +194,7 @@ static mote_comparison compare_beside(const figures *fresh, const char *processo
     write_beside(old_run, "one", 1000);
     write_beside(new_run, processor, instructions);
     assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
-    char command[256];
-    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
-    assert_int_equal(system(command), 0);
+    remove_beside();
     return c;
 }
 
@@ -252,7 +263,7 @@ static void compare_below_the_smallest_change_is_undecided(void **state)
     assert_int_equal(mote_record_read_json(old_run, "summary.json", &summary), MOTE_OK);
     json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
     assert_int_equal(json_object_set_new(row, "smallest_change", json_real(0.15)), 0);
-    assert_int_equal(mote_record_json(old_run, "summary.json", summary), MOTE_OK);
+    put(old_run, "summary.json", summary);
     mote_comparison c;
     assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
     assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_UNDECIDED);
@@ -272,7 +283,7 @@ static void compare_of_times_measured_with_jobs_is_refused(void **state)
     assert_int_equal(mote_record_read_json(new_run, "summary.json", &summary), MOTE_OK);
     json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
     assert_int_equal(json_object_set_new(row, "times_comparable", json_false()), 0);
-    assert_int_equal(mote_record_json(new_run, "summary.json", summary), MOTE_OK);
+    put(new_run, "summary.json", summary);
     mote_comparison c;
     assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
     assert_false(c.worse);
@@ -315,6 +326,247 @@ static void compare_of_what_is_no_run_is_bad_input(void **state)
     assert_int_equal(program_wait(program_start("compare one", said)), 2);
 }
 
+/* Puts the members of an object, written with ', into the first row of a run's file. */
+static void change_row(const char *directory, const char *name, const char *members)
+{
+    char plain[1024];
+    json_t *summary = NULL;
+    (void)snprintf(plain, sizeof plain, "%s", members);
+    for (char *c = plain; *c; ++c)
+        *c = *c == '\'' ? '"' : *c;
+    json_t *change = json_loads(plain, 0, NULL);
+    assert_non_null(change);
+    assert_int_equal(mote_record_read_json(directory, name, &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_update_recursive(row, change), 0);
+    json_decref(change);
+    put(directory, name, summary);
+}
+
+/* mote compare OLD NEW OPTIONS: its exit status, and what it must say. */
+static void expect(const char *options, int status, const char *says)
+{
+    char line[256], text[8192];
+    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
+    const int ended = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    if (ended != status || !strstr(text, says))
+        fail_msg("exit %d, not %d, or not \"%s\":\n%s", ended, status, says, text);
+}
+
+#define PROCESS(replicate, ratio, ns)                                                          \
+    "{'replicate': " #replicate ", 'ratio': " #ratio ", 'median_ns': " #ns                     \
+    ", 'counters': {'box_tests': 5000}}"
+#define NO_RATIO                                                                               \
+    "{'processes': [" PROCESS(1, null, 100) ", " PROCESS(2, null, 101) ", " PROCESS(           \
+        3, null, 100.5) "]}"
+#define NO_RATIO_SLOWER                                                                        \
+    "{'processes': [" PROCESS(1, null, 150) ", " PROCESS(2, null, 151.5) ", " PROCESS(         \
+        3, null, 150.8) "]}"
+#define TWO_COUNTS(first)                                                                      \
+    "{'processes': [{'replicate': 1, 'counters': {'box_tests': " #first ", 'steps': 3}}]}"
+#define QUIET(a, b, c, d, e)                                                                   \
+    "{'quiet': {'ratio': [" #a ", " #b ", " #c ", " #d ", " #e "], 'total_ns': [9, 9, 9, "     \
+    "9, 9]}}"
+
+static void compare_of_changed_rows_says_what_is_worse_better_or_unknown(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *old_members, *new_members;
+        int status;
+        const char *says;
+    } cases[] = {
+        {"{'status': 'crashed'}", "{}", 0, "better : status crashed to ok"},
+        {"{}", "{'status': 'timeout'}", 1, "WORSE : status ok to timeout"},
+        {"{'status': 'crashed'}", "{'status': 'timeout'}", 0, "status crashed to timeout"},
+        {"{'status': 'crashed'}", "{'status': 'crashed'}", 0, "same or better"},
+        {"{'status': null}", "{}", 0, "better : status  to ok"},
+        {"{'label': 'fcl-aabb'}", "{'label': 'fcl-aabb'}", 0, "what times are compared with"},
+        {"{'label': 'fcl-aabb'}", "{}", 0, " p "},
+        {"{'ratio': null, 'label': null}", "{}", 0, "ww//hot"},
+        {"{'times_comparable': false}", "{}", 0, "times not comparable: measured with --jobs"},
+        {"{'missed': 0}", "{'missed': 1}", 1, "WORSE : missed 0 to 1\n"},
+        {"{'missed': null}", "{'missed': null}", 0, "same or better"},
+        {"{'missed': 1}", "{'missed': null}", 1, "WORSE : missed 1 to nan"},
+        {"{'missed': null}", "{'missed': 1}", 1, "missed nan to 1"},
+        {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-13}}", 0, "same or better"},
+        {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-11}}", 1, "p99 1e-14 to 1e-11"},
+        {"{'processes': []}", "{}", 0, " - "},
+        {NO_RATIO, NO_RATIO, 0, " 1.000 ["},
+        {NO_RATIO, NO_RATIO_SLOWER, 1, " 1.500 ["},
+        {"{}", NO_RATIO, 0, "better : cost per count changed"},
+        {TWO_COUNTS(1), TWO_COUNTS(2), 1, "WORSE : box_tests 1 to 2 (+1e+02 %)\n"},
+        {NO_RATIO_SLOWER, NO_RATIO, 0, "better : cost per count changed"},
+        {"{'processes': [" PROCESS(1, null, 0) "]}", NO_RATIO, 0, " - "},
+        {NO_RATIO, "{'processes': [" PROCESS(1, null, 0) ", " PROCESS(9, 1, 1) "]}", 0, " - "},
+        {QUIET(10, 10.1, 10, 10.1, 10), QUIET(5, 5.05, 5, 5.05, 5), 1, " 2.000 ["},
+        {QUIET(10, 10.1, 10, 10.1, null), QUIET(5, 5.05, 5, 5.05, 5), 1, " p "},
+        {QUIET(10, 10.1, 10, 10.1, 10),
+         "{'heap_live_bytes': 2e6, 'quiet': {'ratio': [5, 5.05, 5, 5.05, 5]}}", 1,
+         "heap 1e+06 to 2e+06 (+1e+02 %); cost per count changed"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        change_row(old_run, "summary.json", cases[i].old_members);
+        change_row(new_run, "summary.json", cases[i].new_members);
+        expect("", cases[i].status, cases[i].says);
+    }
+}
+
+/* Gives a run the rows of another one, too, with other frames; they are put first. */
+static void add_row(const char *directory, const char *members)
+{
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(directory, "summary.json", &summary), MOTE_OK);
+    json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_insert_new(rows, 0, json_deep_copy(json_array_get(rows, 0))),
+                     0);
+    put(directory, "summary.json", summary);
+    change_row(directory, "summary.json", members);
+}
+
+static void compare_of_rows_without_a_partner_is_undecided(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(new_run, "{'frames': 50}");
+    expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\nsame or better");
+    add_row(old_run, "{'seed': 7}");
+    expect("", 3, "without a partner: 1 rows of BASE, 1 of NEW\nundecided");
+    expect("--format json", 3, "\"only_base\": 1");
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    expect("", 1, "WORSE : instructions 1000 to 1100 (+10 %)");
+    /* Rows of instructions that are of nothing that is compared, or know nothing. */
+    static const char *const members[] = {"{'scenario': 'tt'}", "{'method': 'certified'}",
+                                          "{'parameters': {'n': 6}}", "{'per_frame': null}"};
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        change_row(i % 2 ? old_run : new_run, "instructions.json", members[i]);
+        expect("", 3, "undecided");
+    }
+    remove_beside();
+}
+
+/* Of one configuration on three machines, that of the same machine is compared, or else the
+   first. */
+static void compare_prefers_the_row_of_the_same_machine(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(new_run, "summary.json", "{'machine': 'third', 'missed': 4}");
+    add_row(new_run, "{'machine': 'second', 'missed': 5}");
+    add_row(new_run, "{'machine': 'first', 'missed': 6}");
+    change_row(old_run, "summary.json", "{'machine': 'second'}");
+    expect("", 1, "missed 2 to 5");
+    change_row(old_run, "summary.json", "{'machine': 'none of them'}");
+    expect("", 1, "missed 2 to 6");
+}
+
+/* On another machine only ratios are compared; a floor that is wider still stays. */
+static void compare_on_another_machine_without_ratios_knows_no_time(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(old_run, "summary.json", NO_RATIO);
+    change_row(new_run, "summary.json", NO_RATIO_SLOWER);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "two", 1000);
+    expect("", 0, "the processors differ: times only as ratios to fcl-aabb");
+    expect("", 0, "an effect counts from 50.0 % on");
+    expect("--floor 0.75", 0, "an effect counts from 75.0 % on");
+    expect("--format=json", 0, "\"ratio\": null");
+    expect("--format=json", 0, "\"other_machine\": true");
+    remove_beside();
+}
+
+static void
+compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **state)
+{
+    (void)state;
+    char path[96];
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    put(new_run, "manifest.json",
+        json_pack("{s:s, s:s}", "processor", "one", "compiler", "Clang 14"));
+    expect("", 0, "instructions (another processor or compiler) 1000 to 1100");
+    /* What is not known does not differ. */
+    (void)snprintf(path, sizeof path, "%s/manifest.json", new_run);
+    assert_int_equal(unlink(path), 0);
+    expect("", 1, "WORSE : instructions 1000 to 1100");
+    (void)snprintf(path, sizeof path, "%s/instructions.json", new_run);
+    assert_int_equal(unlink(path), 0);
+    expect("--format json", 0, "\"instructions_compared\": false");
+    write_beside(new_run, "one", 1100);
+    remove_beside();
+}
+
+/* One row that is worse is enough. */
+static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(old_run, "{'frames': 50}");
+    add_row(new_run, "{'frames': 50, 'missed': 3}");
+    expect("", 1, "p corrected over 2 rows");
+    expect("--format json", 1, "\"verdict\": \"worse\"");
+}
+
+/* A run may be named by its summary. */
+static void compare_of_summaries_by_name_is_that_of_their_runs(void **state)
+{
+    (void)state;
+    char line[256], text[4096], here[64];
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    (void)snprintf(line, sizeof line, "compare %s/summary.json %s/summary.json", old_run,
+                   new_run);
+    assert_int_equal(program_wait(program_start(line, said)), 1);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "instructions 1000 to 1100"));
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(old_run), 0);
+    (void)snprintf(line, sizeof line, "compare summary.json %s", new_run);
+    assert_int_equal(program_wait(program_start(line, said)), 1);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "instructions 1000 to 1100"));
+    assert_int_equal(chdir(here), 0);
+    remove_beside();
+}
+
+static void compare_of_what_has_no_rows_is_bad_input(void **state)
+{
+    (void)state;
+    static const char *const summaries[] = {"{\"schema\": 1}\n", "{\"rows\": 5}\n", "[]\n"};
+    for (size_t i = 0; i < sizeof summaries / sizeof summaries[0]; ++i) {
+        for (int which = 0; which < 2; ++which) {
+            char path[96];
+            write_run(old_run, &usual, 1);
+            write_run(new_run, &usual, -1);
+            (void)snprintf(path, sizeof path, "%s/summary.json", which ? new_run : old_run);
+            FILE *file = fopen(path, "w");
+            assert_non_null(file);
+            assert_true(fputs(summaries[i], file) >= 0);
+            assert_int_equal(fclose(file), 0);
+            expect("", 4, "no rows; name a run, or its summary.json");
+        }
+    }
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(new_run, "summary.json", "{'seed': 9}");
+    expect("", 4, "the two runs have no configuration in common");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +583,15 @@ int main(void)
         cmocka_unit_test(compare_of_times_measured_with_jobs_is_refused),
         cmocka_unit_test(compare_command_tells_by_its_exit_status),
         cmocka_unit_test(compare_of_what_is_no_run_is_bad_input),
+        cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
+        cmocka_unit_test(
+            compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
+        cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
+        cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
+        cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
+        cmocka_unit_test(compare_prefers_the_row_of_the_same_machine),
+        cmocka_unit_test(compare_of_rows_without_a_partner_is_undecided),
+        cmocka_unit_test(compare_of_changed_rows_says_what_is_worse_better_or_unknown),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
 }
