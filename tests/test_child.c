@@ -5,6 +5,7 @@
 #include "harness/confine.h"
 #include "harness/file.h"
 #include "harness/reach.h"
+#include "harness/spawn.h"
 
 #include <fcntl.h>
 #include <setjmp.h>
@@ -93,6 +94,102 @@ static void run_of_children_that_say_rubbish_is_an_error(void **state)
     assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
                      MOTE_EIO);
     assert_string_equal(mote_error_text(), "it: gave more than fits");
+}
+
+/* The bytes of a good end, as child.c has them: 4 of a status, 1024 of a text. */
+enum { LAST_WORDS = 4 + 1024 };
+
+static mote_status say_endless_text(void *context, int output)
+{
+    (void)context;
+    char last[LAST_WORDS] = {0};
+    memset(last + 4, 'x', sizeof last - 4);
+    (void)mote_child_put(output, last, sizeof last);
+    _exit(0);
+}
+
+static mote_status say_well_and_fail(void *context, int output)
+{
+    (void)context;
+    static const char last[LAST_WORDS];
+    (void)mote_child_put(output, last, sizeof last);
+    _exit(3);
+}
+
+static mote_status say_nothing(void *context, int output)
+{
+    (void)context, (void)output;
+    return MOTE_OK;
+}
+
+static void run_of_children_whose_last_words_make_no_sense_is_an_error(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    static const mote_child_work works[] = {say_endless_text, say_well_and_fail};
+    for (int k = 0; k < 2; ++k) {
+        assert_int_equal(mote_child_run("it", works[k], NULL, limits, &text, &size), MOTE_EIO);
+        assert_string_equal(mote_error_text(), "it: crashed: ended with what is no answer");
+        assert_null(text);
+    }
+    assert_int_equal(mote_child_run("it", say_nothing, NULL, limits, NULL, NULL), MOTE_OK);
+}
+
+/* Asked to stop, a parent ends its child and says how to go on. In a process of its own: the
+   wish is kept. */
+static mote_status wait_and_be_stopped(void *context, int output)
+{
+    (void)context;
+    char *text = NULL;
+    size_t size = 0;
+    mote_child_heed_signals();
+    (void)raise(SIGTERM);
+    const mote_status status = mote_child_run("it", hang, NULL, limits, &text, &size);
+    const char *said = mote_child_stop_asked() && !text ? mote_error_text() : "not asked";
+    (void)mote_child_put(output, said, strlen(said));
+    return status == MOTE_EIO ? MOTE_OK : MOTE_EINVAL;
+}
+
+static void run_of_a_child_when_asked_to_stop_ends_it(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size = 0;
+    assert_int_equal(mote_child_run("it", wait_and_be_stopped, NULL, limits, &text, &size),
+                     MOTE_OK);
+    static const char says[] = "stopped by a signal; run the same command again to go on";
+    assert_int_equal(size, strlen(says));
+    assert_memory_equal(text, says, size);
+    free(text);
+}
+
+static void spawn_of_programs_that_fail_says_how(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *argv[4], *directory, *says;
+    } cases[] = {
+        {{"sh", "-c", "exit 3", NULL}, NULL, "sh: ended with status 3"},
+        {{"sh", "-c", "kill -9 $$", NULL}, NULL, "sh: ended with status 137"},
+        {{"sh", "-c", "true", NULL}, "/no/such/folder", "sh: cannot be run; is it installed?"},
+        {{"no-such-program", NULL}, NULL, "no-such-program: cannot be run; is it installed?"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        char said[16] = "?";
+        assert_int_equal(mote_spawn(cases[k].argv, cases[k].directory, said, sizeof said),
+                         MOTE_EIO);
+        assert_string_equal(mote_error_text(), cases[k].says);
+        assert_string_equal(said, "");
+    }
+    const char *const many[] = {"printf", "a line of more than fits\n\n", NULL};
+    char said[16];
+    assert_int_equal(mote_spawn(many, NULL, said, sizeof said), MOTE_OK);
+    assert_string_equal(said, "a line of more ");
+    assert_int_equal(mote_spawn((const char *const[]){"sh", "-c", "echo; pwd", NULL}, "/", said,
+                                sizeof said),
+                     MOTE_OK);
+    assert_string_equal(said, "\n/");
 }
 
 typedef struct attempts {
@@ -194,6 +291,13 @@ static void reach_check_of_files_outside_is_an_error_until_allowed(void **state)
     assert_int_equal(check("inner/a.json", "inner/../outside.obj"), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_OK);
     assert_int_equal(mote_reach_check(inner, "/etc/passwd"), MOTE_EINVAL);
+    assert_int_equal(mote_reach_check("/nowhere/at/all/a.json", "/etc/passwd"), MOTE_EINVAL);
+    /* Sixteen at most, of which folder was one. */
+    for (int k = 1; k < 16; ++k)
+        assert_int_equal(mote_reach_allow(inner), MOTE_OK);
+    assert_int_equal(mote_reach_allow(inner), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "16 folders are allowed at most"));
+    assert_int_equal(mote_reach_check("/a.json", "/etc/passwd"), MOTE_OK);
 }
 
 static int make_folder(void **state)
@@ -221,6 +325,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_of_children_that_die_says_how),
         cmocka_unit_test(run_of_children_that_say_rubbish_is_an_error),
+        cmocka_unit_test(run_of_children_whose_last_words_make_no_sense_is_an_error),
+        cmocka_unit_test(run_of_a_child_when_asked_to_stop_ends_it),
+        cmocka_unit_test(spawn_of_programs_that_fail_says_how),
         cmocka_unit_test(run_of_a_confined_child_changes_no_file),
         cmocka_unit_test(reach_check_of_files_outside_is_an_error_until_allowed),
     };

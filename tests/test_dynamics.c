@@ -111,7 +111,7 @@ static void approaches_json_comes_back(void **state)
     json_t *object = mote_approaches_json(&sum);
     assert_true(mote_approaches_read(object, &again));
     assert_memory_equal(&sum, &again, sizeof sum);
-    /* None of its keys may be missing. */
+    /* None of its keys may be missing or a text; a figure may be whole. */
     const char *key;
     json_t *value;
     json_object_foreach(object, key, value)
@@ -120,10 +120,35 @@ static void approaches_json_comes_back(void **state)
         assert_non_null(copy);
         assert_int_equal(json_object_del(copy, key), 0);
         assert_false(mote_approaches_read(copy, &again));
+        assert_int_equal(json_object_set_new(copy, key, json_string("many")), 0);
+        assert_false(mote_approaches_read(copy, &again));
+        assert_int_equal(json_object_set_new(copy, key, json_integer(3)), 0);
+        assert_true(mote_approaches_read(copy, &again));
         json_decref(copy);
     }
     json_decref(object);
     mote_scenario_destroy(scenario);
+}
+
+/* Rows without an approach: nothing is a share, and nothing is drawn of them. */
+static void row_without_approaches_has_no_share(void **state)
+{
+    (void)state;
+    char text[4096];
+    const mote_dynamics_row row = {.scene = "tt", .method = "certified", .wanted = 3};
+    json_t *object = mote_dynamics_row_json(&row);
+    assert_true(json_is_null(json_object_get(object, "share")));
+    assert_true(json_is_null(json_object_get(object, "interval")));
+    assert_true(json_is_null(json_object_get(object, "n")));
+    json_decref(object);
+    assert_int_equal(mote_dynamics_csv(&row, 1, OUT), MOTE_OK);
+    program_read(OUT "/dynamics.csv", text, sizeof text);
+    assert_non_null(strstr(text, "\ntt,\"certified\",,,,,,0,0,"));
+    mote_claim claim = {0};
+    mote_dynamics_claim(&claim);
+    assert_int_equal(mote_dynamics_claim_add(&claim, &row), MOTE_OK);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
 }
 
 static void failure_names_what_was_not_met(void **state)
@@ -138,6 +163,10 @@ static void failure_names_what_was_not_met(void **state)
     assert_non_null(strstr(mote_dynamics_failure(&row), "contact"));
     row.sum.missed_steps = 0;
     assert_null(mote_dynamics_failure(&row));
+    row.sum.angular_momentum_drift = 1e-6;
+    assert_string_equal(mote_dynamics_failure(&row), "angular momentum was not kept");
+    row.sum.momentum_drift = (double)NAN;
+    assert_string_equal(mote_dynamics_failure(&row), "momentum was not kept");
     row.sum.energy_drift = 1e-6;
     assert_non_null(strstr(mote_dynamics_failure(&row), "energy"));
     row.sum.approaches = 9;
@@ -271,6 +300,7 @@ int main(void)
         cmocka_unit_test(plan_unknown_scene_refused),
         cmocka_unit_test(approach_draw_starts_apart_and_aims_at_the_other),
         cmocka_unit_test(approaches_json_comes_back),
+        cmocka_unit_test(row_without_approaches_has_no_share),
         cmocka_unit_test(failure_names_what_was_not_met),
         cmocka_unit_test(claim_follows_from_the_rows),
         cmocka_unit_test(command_dynamics_goes_on_where_it_stopped),

@@ -3,6 +3,7 @@
 #include "harness/extreme.h"
 
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -193,6 +194,104 @@ static void mote_extreme_judge_of_bounds_points_and_contacts(void **state)
     mote_extreme_free(&e);
 }
 
+/* Every number of an answer is looked at, each by itself. */
+static void mote_extreme_judge_of_what_is_not_finite_says_so(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    make("plain", 0, true, &e);
+    for (int k = 0; k < 7; ++k) {
+        mote_extreme_said said = {.answer = {.has_distance = true, .distance = e.truth[0]}};
+        double *const numbers[] = {&said.answer.lower,        &said.answer.witness[0].x,
+                                   &said.answer.witness[0].y, &said.answer.witness[0].z,
+                                   &said.answer.witness[1].x, &said.answer.witness[1].y,
+                                   &said.answer.witness[1].z};
+        *numbers[k] = k % 2 ? (double)NAN : -HUGE_VAL;
+        expect(&e, 0, &said, MOTE_EXTREME_RIGHT); /* it is not part of the answer */
+        said.answer.has_lower = k == 0;
+        said.answer.has_witness = k > 0;
+        expect(&e, 0, &said, MOTE_EXTREME_NAN);
+    }
+    mote_extreme_free(&e);
+}
+
+/* What is excused: hulls off the surface, 32 bits their rounding, contacts nearer than that,
+   and no contact where the distance is too large anyway. */
+static void mote_extreme_judge_excuses_what_a_method_declares(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    make("plain", 0, true, &e);
+    mote_extreme_said said = {.answer = {.has_distance = true, .has_witness = true}};
+    said.answer.distance = e.truth[0];
+    said.answer.witness[1] = mote_vec3_make(e.truth[0], 0, 0);
+    expect(&e, 0, &said, MOTE_EXTREME_WRONG);
+    said.hulls = true;
+    expect(&e, 0, &said, MOTE_EXTREME_RIGHT);
+    said.answer.has_contact = said.answer.contact = true;
+    expect(&e, 0, &said, MOTE_EXTREME_INEXACT);
+
+    mote_extreme_said rounded = {.exact = true, .answer = {.has_distance = true}};
+    rounded.answer.distance = e.truth[0] + 1e-7 * e.length;
+    expect(&e, 0, &rounded, MOTE_EXTREME_WRONG);
+    rounded.single = true;
+    expect(&e, 0, &rounded, MOTE_EXTREME_INEXACT);
+
+    mote_extreme_said near = {.contact_only = true,
+                              .answer = {.has_contact = true, .contact = true}};
+    const double truth = e.truth[0];
+    e.truth[0] = 1e-13 * e.length;
+    expect(&e, 0, &near, MOTE_EXTREME_INEXACT);
+    e.truth[0] = truth;
+    /* The distance of who was asked for a contact is not judged. */
+    near.answer.contact = false;
+    near.answer.has_distance = true;
+    near.answer.distance = 7 * truth;
+    expect(&e, 0, &near, MOTE_EXTREME_RIGHT);
+
+    mote_extreme_said far = {.answer = {.has_distance = true, .has_contact = true}};
+    expect(&e, 3, &far, MOTE_EXTREME_WRONG); /* a distance of 0 is a contact */
+    far.answer.distance = 1e-13 * e.length;
+    expect(&e, 3, &far, MOTE_EXTREME_INEXACT);
+    far.exact = true;
+    expect(&e, 3, &far, MOTE_EXTREME_WRONG);
+    mote_extreme_free(&e);
+}
+
+static void mote_extreme_run_of_what_cannot_be_asked_says_why(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    mote_extreme_cell cell;
+    make("plain", 0, false, &e);
+    assert_int_equal(mote_extreme_run(&e, "magic", &cell), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "unknown method magic"));
+    mote_extreme_free(&e);
+    make("duplicate", 0, false, &e);
+    assert_int_equal(mote_extreme_run(&e, "certified", &cell), MOTE_OK);
+    assert_int_equal(cell.verdict, MOTE_EXTREME_REFUSED);
+    assert_string_equal(cell.reason, e.refusal);
+    assert_int_equal(cell.frame, 0);
+    mote_extreme_free(&e);
+}
+
+/* The process of a method dies of weights that are not there; the study goes on. */
+static void mote_extreme_run_of_a_method_that_dies_is_crashed(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    mote_extreme_cell cell;
+    make("plain", 0, false, &e);
+    for (int b = 0; b < 2; ++b)
+        e.frame[1].body[b].weights.x = NULL;
+    void (*const caught)(int) = signal(SIGSEGV, SIG_DFL);
+    assert_int_equal(mote_extreme_run(&e, "brute-force", &cell), MOTE_OK);
+    (void)signal(SIGSEGV, caught);
+    assert_int_equal(cell.verdict, MOTE_EXTREME_CRASHED);
+    assert_non_null(strstr(cell.reason, "ended "));
+    mote_extreme_free(&e);
+}
+
 static void expect_verdict(const mote_extreme *e, const char *method,
                            mote_extreme_verdict verdict)
 {
@@ -233,6 +332,17 @@ static void methods_with_too_many_particles_refuse(void **state)
     mote_extreme_free(&e);
 }
 
+static void methods_in_32_bits_are_inexact_as_they_say(void **state)
+{
+    (void)state;
+    mote_extreme e;
+    make("float method", 0, true, &e);
+    assert_string_equal(e.parameters, "precision=single");
+    expect_verdict(&e, "certified", MOTE_EXTREME_NONE);
+    expect_verdict(&e, "particle-paper", MOTE_EXTREME_INEXACT);
+    mote_extreme_free(&e);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -243,6 +353,11 @@ int main(void)
         cmocka_unit_test(mote_extreme_judge_of_distances_follows_the_promise),
         cmocka_unit_test(mote_extreme_judge_of_bounds_points_and_contacts),
         cmocka_unit_test(methods_of_ours_far_from_the_origin_are_right),
+        cmocka_unit_test(mote_extreme_judge_of_what_is_not_finite_says_so),
+        cmocka_unit_test(mote_extreme_judge_excuses_what_a_method_declares),
+        cmocka_unit_test(mote_extreme_run_of_what_cannot_be_asked_says_why),
+        cmocka_unit_test(mote_extreme_run_of_a_method_that_dies_is_crashed),
+        cmocka_unit_test(methods_in_32_bits_are_inexact_as_they_say),
         cmocka_unit_test(methods_with_too_many_particles_refuse),
     };
     return cmocka_run_group_tests(tests, make_plain, NULL);

@@ -155,6 +155,7 @@ static void field_of_an_unknown_kind_or_key_is_refused_with_its_line(void **stat
         {"\"kind\": 3", "kind"},
         {"\"kind\": null", "kind"},
         {"\"kind\": \"stretch\", \"support\": 1", "support"},
+        {"\"kind\": \"stretch\", \"law\": \"log\", \"power\": 1", "law"},
         {"\"kind\": \"csrbf\", \"power\": 1", "power"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {

@@ -215,7 +215,88 @@ typedef struct bad_case {
     const char *what;      /* part of it */
 } bad_case;
 
+/* A field of body 1, in line 15, whose displacement is so. */
+#define FIELD(displacement)                                                                    \
+    "\"triangles\": 500",                                                                      \
+        "\"triangles\": 500, \"field\": {\"centres\": [[0, 0, 0], [0.2, 0, 0]], \"support\": " \
+        "0.5, \"displacement\": " displacement "}",                                            \
+        ":15: bodies[1].field.displacement"
+#define SINE(keys) FIELD("{\"sines\": [{" keys "}, {}]}")
+#define SINE_GOOD "\"control\": 2, \"amplitude\": [0, 0, 0.1]"
+#define KEYS(first) FIELD("{\"keyframes\": [{" first "}, {\"frame\": 9}]}")
+#define RANDOM(keys) FIELD("{\"random\": {" keys "}}")
+#define TURN(frame, degrees)                                                                   \
+    "{\"frame\": " frame ", \"axis\": [0, 0, 1], \"degrees\": " degrees "}, "
+#define POSE(keys) "{\"frame\": 20, \"position\": [1, 0, 0]}", "{" keys "}"
+
 static const bad_case bad_cases[] = {
+    {FIELD("3"), "not an object"},
+    {FIELD("{}"), "exactly one"},
+    {FIELD("{\"sines\": [], \"random\": {}}"), "exactly one"},
+    {FIELD("{\"sines\": 3}"), "array of 1 to"},
+    {SINE("\"speed\": 1"), "unknown key; known here are control"},
+    {SINE("\"control\": 3"), "1 to 2"},
+    {SINE("\"control\": 0"), "1 to 2"},
+    {SINE("\"control\": 2, \"amplitude\": 1"), "array of 3"},
+    {SINE(SINE_GOOD ", \"period\": 0"), "out of range"},
+    {SINE(SINE_GOOD ", \"period\": 30, \"phase\": \"x\""), "phase: is not a number"},
+    {SINE(SINE_GOOD ", \"period\": 30, \"phase\": 0.5"), "control: is missing"},
+    {RANDOM("\"speed\": 1"), "unknown key; known here are seed"},
+    {RANDOM("\"seed\": 1, \"amplitude\": -1"), "out of range"},
+    {RANDOM("\"seed\": 1, \"amplitude\": 1, \"terms\": 65"), "1 to 64"},
+    {RANDOM("\"seed\": 1, \"amplitude\": 1, \"terms\": 3"), "periods: is missing"},
+    {FIELD("{\"keyframes\": {}}"), "array of 1 to"},
+    {KEYS("\"speed\": 1"), "unknown key; known here are frame"},
+    {KEYS("\"frame\": 0"), "out of range"},
+    {KEYS("\"frame\": 1, \"vectors\": [[0, 0, 0]]"), "array of 2"},
+    {KEYS("\"frame\": 1, \"vectors\": [[0, 0], [0, 0, 0]]"), "array of 3"},
+    {KEYS("\"frame\": 1, \"vectors\": [[0, 0, 0], [0, 0, 1e9]]"), "out of range"},
+    {"\"count\": 14, ", "", ":10: bodies[0].field: ", "neither"},
+    {"\"count\": 14", "\"centres\": [[0, 0, \"x\"], [1, 1, 1]]",
+     ":10: bodies[0].field.centres[0][2]: ", "not a number"},
+    {"\"count\": 14", "\"centres\": []", ":10: bodies[0].field.centres: ", "array of 1 to"},
+    {"\"count\": 14", "\"count\": 14, \"kind\": \"csrbf\", \"mass\": 1",
+     ":10: bodies[0].field.mass: ", "unknown key"},
+    {POSE("\"frame\": 20, \"quaternion\": [1, 0, 0, 0], \"degrees\": 3"),
+     ":17: bodies[1].motion[1]: ", "has two rotations"},
+    {POSE("\"frame\": 20, \"quaternion\": [1, 0, 0, 0], \"axis\": [1, 0, 0]"),
+     ":17: bodies[1].motion[1]: ", "has two rotations"},
+    {POSE("\"frame\": 20, \"quaternion\": [1, 0, 0]"),
+     ":17: bodies[1].motion[1].quaternion: ", "array of 4"},
+    {POSE("\"frame\": 20, \"axis\": [1, 0, 0]"),
+     ":17: bodies[1].motion[1].degrees: ", "is missing"},
+    {POSE("\"frame\": 20, \"speed\": 1"), ":17: bodies[1].motion[1].speed: ", "unknown key"},
+    {"\"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}", "\"motion\": [3",
+     ":16: bodies[1].motion[0]: ", "not an object"},
+    /* Short steps beside a long one: the curve swings through the origin. */
+    {"\"degrees\": 0}",
+     "\"degrees\": 90}, " TURN("2", "0")
+         TURN("12", "180") "{\"frame\": 13, \"axis\": [0, 0, 1], \"degrees\": 90}",
+     ":13: bodies[0].motion: ", "frame 7: rotations too far apart"},
+    {"\"triangles\": 500,", "\"triangles\": 500, \"velocity\": 3, \"spin\": [0, 0, 1],",
+     ":15: bodies[1].velocity: ", "array of 3"},
+    {"\"triangles\": 500,", "\"triangles\": 500, \"velocity\": [0, 0, 1], \"spin\": 3,",
+     ":15: bodies[1].spin: ", "array of 3"},
+    {"\"triangles\": 500,\n     \"motion\": [", "\"triangles\": 500, \"motion\": 3, \"x\": [",
+     ":15: bodies[1].x: ", "unknown key"},
+    {"\"letter\": \"V\", \"triangles\": 500,\n     \"motion\": [",
+     "\"letter\": \"V\", \"triangles\": 500, \"motion\": {}, \"spin\": [",
+     ":15: bodies[1].spin: ", "array of 3"},
+    {"\"letter\": \"V\", ", "", ":15: bodies[1]: ", "neither"},
+    {"\"letter\": \"V\"", "\"letter\": \"V\", \"file\": \"a.obj\"", ":15: bodies[1]: ", "both"},
+    {"\"letter\": \"V\"", "\"letter\": 3", ":15: bodies[1].letter: ", "not a string"},
+    {"\"letter\": \"V\", \"triangles\": 500", "\"file\": 3",
+     ":15: bodies[1].file: ", "not a string"},
+    {"\"letter\": \"V\"", "\"letter\": \"V\", \"scale\": [1, 0, 1]",
+     ":15: bodies[1].scale[1]: ", "out of range"},
+    {"\"letter\": \"V\"", "\"letter\": \"V\", \"scale\": \"big\"",
+     ":15: bodies[1].scale: ", "array of 3"},
+    {"\"active\": [10, 40]", "\"active\": [\"x\", 40]", ":5: active[0]: ", "whole number"},
+    {"\"active\": [10, 40]", "\"active\": [10]", ":5: active: ", "array of 2"},
+    {"\"ask\": \"distance\"", "\"ask\": 3", ":6: ask: ", "not a string"},
+    {"\"frames\": 40", "\"frames\": 40, \"start\": 0.5", ":3: start: ", "out of range"},
+    {"\"frames\": 40", "\"frames\": 40, \"pace\": 0", ":3: pace: ", "out of range"},
+    {"\"purpose\": \"a test\"", "\"purpose\": \"\"", ":2: purpose: ", "give a string"},
     {"\"frames\": 40", "\"frames\": 40,\n \"fps\": 3", ":4: fps: ", "unknown key"},
     {"\"frames\": 40", "\"frames\": 0", ":3: frames: ", "out of range"},
     {"\"frames\": 40", "\"frames\": 1e9", ":3: frames: ", "not a whole number"},
