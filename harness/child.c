@@ -204,6 +204,9 @@ static void reap(mote_child *child, mote_child_end end)
     child->end = end;
     if (end == MOTE_CHILD_DONE)
         conclude(child, ended);
+    else
+        (void)snprintf(child->text, sizeof child->text, "%s",
+                       end == MOTE_CHILD_TIMEOUT ? "took too long" : "gave more than fits");
 }
 
 void mote_child_stop(mote_child *children, size_t count)
@@ -286,10 +289,8 @@ mote_status mote_child_run(const char *what, mote_child_work work, void *context
     }
     if (child.end == MOTE_CHILD_CRASHED)
         status = mote_fail(MOTE_EIO, "%s: crashed: %s", what, child.text);
-    else if (child.end == MOTE_CHILD_TIMEOUT)
-        status = mote_fail(MOTE_EIO, "%s: took too long", what);
-    else if (child.end == MOTE_CHILD_TOO_MUCH)
-        status = mote_fail(MOTE_EIO, "%s: gave more than fits", what);
+    else if (child.end != MOTE_CHILD_DONE)
+        status = mote_fail(MOTE_EIO, "%s: %s", what, child.text);
     else if (child.status != MOTE_OK)
         status = mote_fail(child.status, "%s", child.text);
     if (status == MOTE_OK && output) {

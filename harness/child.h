@@ -36,7 +36,7 @@ typedef struct mote_child {
     size_t limit;    /* of output */
     mote_child_end end;
     mote_status status; /* of its work, when DONE */
-    char text[1024];    /* of an error of its work; how it died when CRASHED */
+    char text[1024];    /* of an error of its work; how it died, or why it was ended */
     char *output;       /* what it put; mote_child_release frees it */
     size_t size, capacity;
 } mote_child;

@@ -94,6 +94,13 @@ static void run_of_children_that_say_rubbish_is_an_error(void **state)
     assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
                      MOTE_EIO);
     assert_string_equal(mote_error_text(), "it: gave more than fits");
+    mote_child child = {0};
+    size_t index;
+    assert_int_equal(mote_child_start(say_rubbish, &wanted, limits, &child), MOTE_OK);
+    assert_int_equal(mote_child_wait(&child, 1, &index), MOTE_OK);
+    assert_int_equal(child.end, MOTE_CHILD_TOO_MUCH);
+    assert_string_equal(child.text, "gave more than fits");
+    mote_child_release(&child);
 }
 
 /* The bytes of a good end, as child.c has them: 4 of a status, 1024 of a text. */
