@@ -52,7 +52,7 @@ mote_status mote_bodies_run_scenario(const mote_bodies *bodies,
     if (!results)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
     mote_status status = MOTE_OK;
-    for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
+    for (size_t k = 0; k < count; ++k) {
         mote_bodies_options own = *options;
         own.replicate = (uint32_t)(k / choice_count) + 1;
         status = mote_bodies_measure(bodies, &choices[k % choice_count], &own, &results[k]);

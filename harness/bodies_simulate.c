@@ -266,7 +266,7 @@ static mote_status starts_apart(const simulation *s, const mote_bodies_pair *tru
 
 static mote_status step(simulation *s, const mote_bodies_choice *choice, uint32_t k)
 {
-    mote_bodies_step cost;
+    mote_bodies_step cost = {0};
     size_t said_count, truth_count;
     set_frame(s, k);
     const uint64_t from = mote_clock_ns();

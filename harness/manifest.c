@@ -138,9 +138,10 @@ static json_t *old_sessions(const char *directory)
         mote_record_read_json(directory, "manifest.json", &old) != MOTE_OK)
         old = NULL;
     free(path);
-    json_t *sessions = json_incref(json_object_get(old, "sessions"));
+    json_t *sessions = json_object_get(old, "sessions");
+    json_t *kept = json_is_array(sessions) ? json_incref(sessions) : json_array();
     json_decref(old);
-    return json_is_array(sessions) ? sessions : json_array();
+    return kept;
 }
 
 mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,

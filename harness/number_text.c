@@ -11,14 +11,12 @@ const char *mote_show_time(double ns, char text[MOTE_NUMBER_TEXT])
     } units[] = {{1e9, "s"}, {1e6, "ms"}, {1e3, "us"}, {0, "ns"}};
     if (ns != ns)
         return "-";
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; ++i) {
-        double scaled = units[i].above > 0 ? ns / units[i].above : ns;
-        if (ns < units[i].above * 0.9995)
-            continue;
-        int digits = scaled < 9.995 && ns > 0 ? 2 : scaled < 99.95 && ns > 0 ? 1 : 0;
-        (void)snprintf(text, MOTE_NUMBER_TEXT, "%.*f %s", digits, scaled, units[i].unit);
-        break;
-    }
+    size_t i = 0;
+    while (units[i].above > 0 && ns < units[i].above * 0.9995)
+        ++i;
+    const double scaled = units[i].above > 0 ? ns / units[i].above : ns;
+    const int digits = scaled < 9.995 && ns > 0 ? 2 : scaled < 99.95 && ns > 0 ? 1 : 0;
+    (void)snprintf(text, MOTE_NUMBER_TEXT, "%.*f %s", digits, scaled, units[i].unit);
     return text;
 }
 

@@ -333,13 +333,14 @@ PLANT(mote_bodies_run_scenario, const mote_bodies *bodies, const mote_bodies_cho
                                  .steps = 4,
                                  .wall_ns = 1e6 / (1 + choices[k].ahead),
                                  .step_ns = 1e6,
-                                 .rss_peak_bytes = 1 << 20,
+                                 .rss_peak_bytes = planted.body_bytes,
                                  .ratio = planted.ratio};
         (void)snprintf(row->scenario, sizeof row->scenario, "planted");
         (void)snprintf(row->method, sizeof row->method, "%s", choices[k].text);
-        (void)snprintf(row->reference, sizeof row->reference, "fcl-aabb:refit=every");
+        (void)snprintf(row->reference, sizeof row->reference, "%s",
+                       planted.body_alone ? "" : "fcl-aabb:refit=every");
         row->missed = planted.body_missed && row->exact ? 1 : 0;
-        if (planted.body_failed && k == 1) {
+        if ((planted.body_failed && k == 1) || planted.bodies_failed) {
             row->ok = false;
             row->status = MOTE_CELL_CRASHED;
         }
@@ -381,6 +382,7 @@ void plant_good(void)
                        .ours_ns = 1e4,
                        .rows = PLANTED_ROWS,
                        .ratio = 25,
+                       .body_bytes = 1 << 20,
                        .ours_verdict = MOTE_EXTREME_RIGHT,
                        .others_verdict = MOTE_EXTREME_RIGHT};
 }

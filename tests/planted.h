@@ -19,6 +19,9 @@ typedef struct plants {
     double ratio;        /* of the first control's time over others', several bodies */
     bool body_missed;    /* an exact method missed a contact of several bodies */
     bool body_failed;    /* a cell of theirs crashed, and one of the run */
+    bool bodies_failed;  /* all of theirs crashed */
+    bool body_alone;     /* nothing exact to compare contacts with */
+    int64_t body_bytes;  /* of each process of theirs */
     mote_extreme_verdict ours_verdict, others_verdict; /* of certified; of other methods */
 } plants;
 

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include <errno.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,6 +69,31 @@ static void heap_after_realloc_holds_the_new_size_only(void **state)
     assert_int_equal(mote_heap_read().live_bytes, before.live_bytes);
 }
 
+/* What could not be had is not counted, and what was there stays counted. */
+static void heap_of_calls_that_fail_is_what_it_was(void **state)
+{
+    (void)state;
+    skip_if_not_counted();
+    const size_t too_much = PTRDIFF_MAX;
+    void *block = malloc(1000), *none = &block;
+    assert_non_null(block);
+    const mote_heap before = mote_heap_read();
+    sink = malloc(too_much);
+    assert_null(sink);
+    sink = realloc(block, too_much);
+    assert_null(sink);
+    assert_int_equal(posix_memalign(&none, 64, too_much), ENOMEM);
+    static const size_t bad[] = {0, 4, 24};
+    for (int k = 0; k < 3; ++k)
+        assert_int_equal(posix_memalign(&none, bad[k], 100), EINVAL);
+    assert_ptr_equal(none, &block); /* untouched */
+    free(NULL);
+    const mote_heap after = mote_heap_read();
+    assert_int_equal(after.live_bytes, before.live_bytes);
+    assert_int_equal(after.allocations, before.allocations);
+    free(block);
+}
+
 static void heap_peak_is_kept_until_reset(void **state)
 {
     (void)state;
@@ -86,6 +113,7 @@ int main(void)
         cmocka_unit_test(heap_after_malloc_and_free_is_what_it_was),
         cmocka_unit_test(heap_counts_every_allocating_function),
         cmocka_unit_test(heap_after_realloc_holds_the_new_size_only),
+        cmocka_unit_test(heap_of_calls_that_fail_is_what_it_was),
         cmocka_unit_test(heap_peak_is_kept_until_reset),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,6 +12,7 @@
 
 #define FOLDER "test_simulate_files"
 #define FILE_NAME FOLDER "/s.json"
+#define ONE FOLDER "/one.json"
 #define TRACE FOLDER "/trace.json"
 #define SAID FOLDER "/said"
 #define FILM FOLDER "/film.gif"
@@ -56,8 +57,10 @@ static mote_method_choice choice_of(const char *text)
     return choice;
 }
 
-/* A method that says what it is told: that the bodies are 1 apart, or in contact. */
+/* A method that says what it is told: that the bodies are in contact or not, how far they are
+   apart, that it failed, or nothing. */
 static bool told;
+static enum { SAY_CONTACT, SAY_DISTANCE, SAY_NOTHING, SAY_ERROR } told_form;
 
 static mote_traits told_traits(const double *values)
 {
@@ -81,8 +84,13 @@ static mote_status told_query(void *state, const mote_frame *frame, mote_answer 
 {
     (void)state;
     (void)frame;
-    answer->has_contact = true;
+    if (told_form == SAY_ERROR)
+        return mote_fail(MOTE_ENUMERIC, "told to fail");
+    answer->has_contact = told_form == SAY_CONTACT;
     answer->contact = told;
+    answer->has_distance = told_form == SAY_DISTANCE;
+    answer->distance = told ? 0 : 1;
+    answer->has_witness = told_form == SAY_DISTANCE; /* both at the origin: no normal */
     return MOTE_OK;
 }
 
@@ -226,10 +234,12 @@ static void simulator_run_refuses_with_reason(void **state)
     assert_non_null(strstr(mote_error_text(), "witness"));
     mote_simulator_destroy(simulator);
     /* Options out of range. */
-    mote_simulation_options bad[9] = {good, good, good, good, good, good, good, good, good};
-    static const char *const says[] = {"density 0",   "density -1",     "tolerance 0",
-                                       "tolerance",   "restitution",    "gravity",
-                                       "time step 0", "time step -0.5", "time step"};
+    mote_simulation_options bad[11] = {good, good, good, good, good, good,
+                                       good, good, good, good, good};
+    static const char *const says[] = {"density 0",        "density -1",      "tolerance 0",
+                                       "tolerance",        "restitution",     "gravity",
+                                       "time step 0",      "time step -0.5",  "time step",
+                                       "restitution -0.1", "time step 1e+300"};
     bad[0].density = 0;
     bad[1].density = -1;
     bad[2].tolerance = 0;
@@ -239,7 +249,9 @@ static void simulator_run_refuses_with_reason(void **state)
     bad[6].time_step = 0;
     bad[7].time_step = -0.5;
     bad[8].time_step = NAN;
-    for (int i = 0; i < 9; ++i) {
+    bad[9].restitution = -0.1;
+    bad[10].time_step = 1e300;
+    for (int i = 0; i < 11; ++i) {
         assert_int_equal(mote_simulator_create(scenario, &method, &bad[i], &simulator),
                          MOTE_EINVAL);
         assert_non_null(strstr(mote_error_text(), says[i]));
@@ -255,6 +267,69 @@ static void simulator_run_refuses_with_reason(void **state)
     assert_int_equal(r.steps, 77);
     mote_simulator_destroy(simulator);
     mote_scenario_destroy(scenario);
+}
+
+/* What a method says instead of an answer ends the simulation; a distance is as good as a
+   contact. */
+static void simulator_run_needs_an_answer(void **state)
+{
+    (void)state;
+    static const struct {
+        int form;
+        bool told;
+        mote_status status;
+        const char *says;
+    } cases[] = {{SAY_NOTHING, false, MOTE_EUNSUPPORTED, "neither distance nor contact"},
+                 {SAY_ERROR, false, MOTE_ENUMERIC, "told to fail"},
+                 {SAY_DISTANCE, false, MOTE_OK, ""},
+                 {SAY_DISTANCE, true, MOTE_EUNSUPPORTED, "has given no witness points"}};
+    const mote_method_choice method = {.method = &told_method, .text = "told"};
+    mote_scenario *scenario = load(", \"tolerance\": 0.01", "1.1, 0, 0", FLYING);
+    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    assert_close(options.tolerance, 0.01, 1e-15);
+    mote_simulator *simulator = simulator_of(scenario, &method, &options);
+    mote_simulation_start start = mote_simulation_start_of(simulator);
+    start.steps = 5;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        mote_simulation_result r = {.steps = 77};
+        told_form = cases[k].form;
+        told = cases[k].told;
+        assert_int_equal(mote_simulator_run(simulator, &start, NULL, &r), cases[k].status);
+        if (cases[k].status != MOTE_OK && !strstr(mote_error_text(), cases[k].says))
+            fail_msg("case %zu: %s", k, mote_error_text());
+        assert_int_equal(r.steps, cases[k].status == MOTE_OK ? 5 : 77);
+    }
+    told_form = SAY_CONTACT;
+    mote_simulator_destroy(simulator);
+    mote_simulator_destroy(NULL);
+    mote_scenario_destroy(scenario);
+}
+
+/* A scenario of one frame has one shape, but its bodies move. */
+static void simulator_run_of_one_frame_moves_on(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"purpose\": \"a test\", \"frames\": 1, \"like\": \"s.json\"}\n";
+    mote_scenario_destroy(load("", "1.1, 0, 0", FLYING));
+    assert_int_equal(mote_file_write(ONE, text, sizeof text - 1), MOTE_OK);
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_scenario_load(ONE, &scenario), MOTE_OK);
+    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_method_choice choice = choice_of("certified");
+    mote_simulator *simulator = simulator_of(scenario, &choice, &options);
+    mote_simulation_start start = mote_simulation_start_of(simulator);
+    start.steps = 30;
+    mote_rigid_state(*trace)[2] = calloc(31, sizeof *trace);
+    mote_simulation_result r;
+    assert_int_equal(mote_simulator_run(simulator, &start, trace, &r), MOTE_OK);
+    assert_int_equal(r.steps, 30);
+    assert_close(trace[30][1].centre.x - trace[0][1].centre.x, 30 * trace[0][1].velocity.x,
+                 1e-12);
+    free(trace);
+    mote_simulator_destroy(simulator);
+    mote_scenario_destroy(scenario);
+    assert_int_equal(unlink(ONE), 0);
 }
 
 /* Steps of a half and of two frames: the same paths until the first contact, the same time. */
@@ -505,6 +580,8 @@ int main(void)
         cmocka_unit_test(simulator_run_at_rest_stays),
         cmocka_unit_test(simulator_run_gravity_and_restitution_are_accounted_for),
         cmocka_unit_test(simulator_run_time_step_keeps_the_pace),
+        cmocka_unit_test(simulator_run_needs_an_answer),
+        cmocka_unit_test(simulator_run_of_one_frame_moves_on),
         cmocka_unit_test(simulator_run_refuses_with_reason),
         cmocka_unit_test(penetration_depth_random_poses_as_by_solid_angles),
         cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),

@@ -1,6 +1,7 @@
 /* The studies with planted measurements: their verdicts, tables and files follow from what was
    measured, and whatever fails beneath them is handed up with its text. */
 #include "harness/claims.h"
+#include "harness/command.h"
 #include "harness/record.h"
 #include "harness/study_bodies.h"
 #include "harness/study_dynamics.h"
@@ -280,6 +281,61 @@ static void bodies_are_met_where_every_requirement_is(void **state)
     assert_true(text_has("bodies.csv", ",crashed\n"));
 }
 
+static const char *profile_of(const char *name)
+{
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json(base, name, &object), MOTE_OK);
+    const char *profile = json_string_value(json_object_get(object, "profile"));
+    const bool full = profile && strcmp(profile, "full") == 0;
+    json_decref(object);
+    return full ? "full" : "quick";
+}
+
+/* Every way of not being met is told apart in what is written. */
+static void bodies_say_which_requirement_is_not_met(void **state)
+{
+    (void)state;
+    plant_good();
+    planted.bodies_failed = true; /* and there is no gain to tell */
+    assert_false(bodies_met());
+    assert_int_equal(size_of("bodies.json", "gains"), 0);
+    assert_true(text_has("bodies.csv", ",,,,,,,,,,,,,,,,,,,crashed\n"));
+    plant_good();
+    planted.body_alone = true;
+    assert_false(bodies_met());
+    static const int64_t bytes[] = {0, (int64_t)1 << 30};
+    for (int k = 0; k < 2; ++k) {
+        plant_good();
+        planted.body_bytes = bytes[k];
+        assert_false(bodies_met());
+    }
+    assert_string_equal(profile_of("bodies.json"), "quick");
+}
+
+/* The exit code says whether the requirements are met, the profile what was measured. */
+static void commands_of_studies_exit_as_the_requirements_are_met(void **state)
+{
+    (void)state;
+    char name[] = "study", out[] = "--out", quick[] = "--quick";
+    char *whole[] = {name, out, base, NULL}, *part[] = {name, quick, out, base, NULL};
+    plant_good();
+    assert_int_equal(mote_command_bodies(3, whole), MOTE_EXIT_DONE);
+    assert_string_equal(profile_of("bodies.json"), "full");
+    assert_int_equal(mote_command_extremes(4, part), MOTE_EXIT_DONE);
+    assert_string_equal(profile_of("extremes.json"), "quick");
+    planted.body_missed = true;
+    planted.ours_verdict = MOTE_EXTREME_WRONG;
+    assert_int_equal(mote_command_bodies(4, part), MOTE_EXIT_CHECK_FAILED);
+    assert_int_equal(mote_command_extremes(4, part), MOTE_EXIT_CHECK_FAILED);
+    plant_good();
+    for (int k = 0; k < 2; ++k) {
+        planted.failing = planted.calls + 1;
+        assert_int_equal(k ? mote_command_bodies(4, part) : mote_command_extremes(4, part),
+                         MOTE_EXIT_BAD_INPUT);
+        assert_non_null(strstr(mote_error_text(), "planted in "));
+    }
+}
+
 static void studies_hand_up_what_fails_beneath(void **state)
 {
     (void)state;
@@ -329,6 +385,8 @@ int main(void)
         cmocka_unit_test(
             dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass),
         cmocka_unit_test(bodies_are_met_where_every_requirement_is),
+        cmocka_unit_test(bodies_say_which_requirement_is_not_met),
+        cmocka_unit_test(commands_of_studies_exit_as_the_requirements_are_met),
         cmocka_unit_test(studies_hand_up_what_fails_beneath),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);

@@ -1,0 +1,76 @@
+/* The manifest of a directory that was there before, whatever its file says. */
+#include "harness/manifest.h"
+
+#include "harness/file.h"
+#include "harness/record.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define FOLDER "test_manifest_files"
+#define FILE_NAME FOLDER "/manifest.json"
+
+static json_t *write_again(const char *before)
+{
+    char first[] = "run", second[] = "ww";
+    char *argv[] = {first, second, NULL};
+    json_t *object = NULL;
+    (void)unlink(FILE_NAME);
+    if (before)
+        assert_int_equal(mote_file_write(FILE_NAME, before, strlen(before)), MOTE_OK);
+    assert_int_equal(mote_manifest_write(FOLDER, 0x1234, 7, 2, argv), MOTE_OK);
+    assert_int_equal(mote_record_read_json(FOLDER, "manifest.json", &object), MOTE_OK);
+    return object;
+}
+
+static void mote_manifest_write_adds_its_session_to_those_before(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *before;
+        size_t sessions;
+    } cases[] = {{NULL, 1},
+                 {"{\"sessions\": [{\"seed\": 3}, {\"seed\": 4}]}\n", 3},
+                 {"{\"sessions\": {\"seed\": 3}}\n", 1}, /* not a list: begun anew */
+                 {"{\"sessions\": \"two\"}\n", 1},
+                 {"[1, 2]\n", 1},
+                 {"{\"sessions\": [", 1}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        json_t *object = write_again(cases[k].before);
+        const json_t *sessions = json_object_get(object, "sessions");
+        const size_t count = json_array_size(sessions);
+        if (count != cases[k].sessions)
+            fail_msg("case %zu: %zu sessions", k, count);
+        const json_t *last = json_array_get(sessions, count - 1);
+        assert_int_equal(json_integer_value(json_object_get(last, "seed")), 7);
+        assert_string_equal(json_string_value(json_object_get(last, "program")),
+                            "0000000000001234");
+        assert_string_equal(
+            json_string_value(json_array_get(json_object_get(last, "command"), 1)), "ww");
+        json_decref(object);
+    }
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return unlink(FILE_NAME) || rmdir(FOLDER);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_manifest_write_adds_its_session_to_those_before),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

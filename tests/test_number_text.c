@@ -1,0 +1,92 @@
+/* Figures as a person reads them, and text from elsewhere that does no harm in a page. */
+#include "harness/number_text.h"
+
+#include "harness/escape.h"
+#include "harness/markdown_html.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+static void shown_numbers_have_their_digits_and_unit(void **state)
+{
+    (void)state;
+    static const struct {
+        mote_number_show show;
+        double value;
+        const char *text;
+    } cases[] = {
+        {mote_show_time, 7420, "7.42 us"},   {mote_show_time, 74200, "74.2 us"},
+        {mote_show_time, 742e6, "742 ms"},   {mote_show_time, 1e9, "1.00 s"},
+        {mote_show_time, 999.6, "1.00 us"},  {mote_show_time, 0, "0 ns"},
+        {mote_show_time, 12, "12.0 ns"},     {mote_show_time, -12, "-12 ns"},
+        {mote_show_time, NAN, "-"},          {mote_show_ratio, 41.33, "41.3"},
+        {mote_show_ratio, 4.133, "4.13"},    {mote_show_ratio, 413.3, "413"},
+        {mote_show_ratio, NAN, "-"},         {mote_show_percent, 0.991, "99.1 %"},
+        {mote_show_percent, NAN, "-"},       {mote_show_error, 0.00123, "1.2e-03"},
+        {mote_show_error, NAN, "-"},         {mote_show_count, 12.5, "12.5"},
+        {mote_show_count, NAN, "-"},         {mote_show_bytes, 9999, "9999 B"},
+        {mote_show_bytes, 61200, "61.2 kB"}, {mote_show_bytes, 61.2e6, "61.2 MB"},
+        {mote_show_bytes, NAN, "-"},         {mote_show_whole, 11920, "11,920"},
+        {mote_show_whole, 920, "920"},       {mote_show_whole, 1234567, "1,234,567"},
+        {mote_show_whole, 1e17, "1e+17"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char text[MOTE_NUMBER_TEXT] = "untouched";
+        assert_string_equal(cases[k].show(cases[k].value, text), cases[k].text);
+    }
+}
+
+typedef void (*writing)(mote_text *text, const char *value);
+
+static void expect(writing write, const char *value, const char *wanted)
+{
+    mote_text text = {0};
+    write(&text, value);
+    assert_false(text.failed);
+    assert_string_equal(text.data ? text.data : "", wanted);
+    free(text.data);
+}
+
+static void escaped_text_ends_nothing_that_it_stands_in(void **state)
+{
+    (void)state;
+    expect(mote_escape_html, NULL, "");
+    expect(mote_escape_html, "a<b> & \"c'\n\t\x01", "a&lt;b&gt; &amp; &quot;c&#39;\n\t ");
+    expect(mote_escape_markdown, NULL, "");
+    expect(mote_escape_markdown, "a|b\n<#1>", "a\\|b &lt;\\#1&gt;");
+    expect(mote_escape_path, "a b/c:d.svg", "a%20b/c%3Ad.svg");
+    expect(mote_escape_script, "[\"</script>\"]", "[\"\\u003c/script>\"]");
+    expect(mote_escape_drawing, "plain", "plain");
+    expect(mote_escape_drawing, "<a b=\"#c\">\n50%", "%3Ca b=%22%23c%22%3E 50%25");
+}
+
+static void markdown_that_is_not_whole_becomes_whole_html(void **state)
+{
+    (void)state;
+    expect(mote_markdown_inline, "a `b` c", "a <code>b</code> c");
+    expect(mote_markdown_inline, "a `b", "a <code>b</code>");
+    expect(mote_markdown_html, "# title\n## one `x`\ntext",
+           "<h3>one <code>x</code></h3>\n"
+           "<p>text</p>\n");
+    expect(mote_markdown_html, "##### five\n###### six", "<h6>five</h6>\n<h6>six</h6>\n");
+    expect(
+        mote_markdown_html, "    a\n\n    b",
+        "<details><summary>Reproduction</summary><pre><code>a\n\nb\n</code></pre></details>\n");
+    expect(mote_markdown_nested, "# title\n\n## one\ntext", "### one\ntext\n");
+    expect(mote_markdown_nested, "", "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shown_numbers_have_their_digits_and_unit),
+        cmocka_unit_test(escaped_text_ends_nothing_that_it_stands_in),
+        cmocka_unit_test(markdown_that_is_not_whole_becomes_whole_html),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
