@@ -1,4 +1,5 @@
 #include "harness/file.h"
+#include "harness/hash.h"
 #include "harness/truth.h"
 
 #include <inttypes.h>
@@ -155,6 +156,79 @@ static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
     free(path);
 }
 
+/* Writes a truth file of the scenario with a hash that is right, of these rows. */
+static void write_rows(const char *path, const char *first, const char *columns,
+                       const char *rows)
+{
+    char text[4096];
+    int size = snprintf(text, sizeof text, "%s%s%s", first, columns, rows);
+    assert_true(size > 0 && (size_t)size < sizeof text);
+    const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text, (size_t)size);
+    size += snprintf(text + size, sizeof text - (size_t)size, "# hash %016" PRIx64 "\n", hash);
+    write_plain(path, text, (size_t)size);
+}
+
+#define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
+#define REST                                                                                   \
+    "3,1,,,,,,,\n4,1,,,,,,,\n5,1,,,,,,,\n6,1,,,,,,,\n7,1,,,,,,,\n8,1,,,,,,,\n9,1,,,,,,,\n10,"  \
+    "1,,"                                                                                      \
+    ",,,,,\n11,1,,,,,,,\n12,1,,,,,,,\n13,1,,,,,,,\n14,1,,,,,,,\n15,1,,,,,,,\n16,1,,,,,,,\n17," \
+    "1,,,,,,,\n18,1,,,,,,,\n19,1,,,,,,,\n20,1,,,,,,,\n21,1,,,,,,,\n22,1,,,,,,,\n23,1,,,,,,,"   \
+    "\n24"                                                                                     \
+    ",1,,,,,,,\n25,1,,,,,,,\n26,1,,,,,,,\n27,1,,,,,,,\n28,1,,,,,,,\n29,1,,,,,,,\n30,1,,,,,,,"  \
+    "\n"
+
+/* The hash withstands no forger: what it covers must be a truth, too. */
+static void mote_truth_read_wrong_rows_with_a_right_hash_are_refused(void **state)
+{
+    const mote_scenario *scenario = *state;
+    static const struct {
+        const char *first, *columns, *rows; /* NULL: as it must be */
+        bool good;
+    } cases[] = {
+        {NULL, NULL, "1,0.5,1,2,3,4,5,6,0.25\n2,0,,,,,,,7\n" REST, true},
+        {NULL, NULL, "1,0.5,1,2,3,4,5,6,\n2,0,,,,,,,\n" REST, true},
+        {"no truth\n", NULL, "", false},
+        {"# truth\n", NULL, "", false},
+        {"# truth of t, fingerprint 1, 30 frames, 3 checked\n", NULL, "", false},
+        {NULL, "frame,distance\n", "1,0.5,1,2,3,4,5,6,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,0.5,1,2,3,4,5,6,\n# 2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1,,,,,,,\n2,0,,,,,,,\n", false},                      /* rows missing */
+        {NULL, NULL, "1,1,,,,,,,\n2,0,,,,,,,\n" REST "31,1,,,,,,,\n", false}, /* one more */
+        {NULL, NULL, "2,1,,,,,,,\n2,0,,,,,,,\n" REST, false}, /* another frame */
+        {NULL, NULL, "1;1,,,,,,,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,one,,,,,,,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1;,,,,,,,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,-1,,,,,,,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,nan,,,,,,,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1,1,2,3,4,5,x,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1,1,2,3,4,5;6,\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1,1,2,3,4,5,6,x\n2,0,,,,,,,\n" REST, false},
+        {NULL, NULL, "1,1,1,2,3,4,5,6,7,8\n2,0,,,,,,,\n" REST, false}};
+    char *path = truth_path(scenario), first[128];
+    uint64_t fingerprint;
+    assert_int_equal(mote_scenario_fingerprint(scenario, &fingerprint), MOTE_OK);
+    (void)snprintf(first, sizeof first,
+                   "# truth of small, fingerprint %016" PRIx64 ", 30 frames, 24 checked\n",
+                   fingerprint);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_truth *read = NULL;
+        write_rows(path, cases[i].first ? cases[i].first : first,
+                   cases[i].columns ? cases[i].columns : COLUMNS, cases[i].rows);
+        const mote_status status = mote_truth_read(scenario, fingerprint, path, &read);
+        if (status != (cases[i].good ? MOTE_OK : MOTE_EINVAL))
+            fail_msg("case %zu: %s", i, mote_status_text(status));
+        if (cases[i].good)
+            assert_true(read->checked == 24 && read->distance[0] == 0.5 &&
+                        read->witness_b[0].z == 6 && read->contact[1]);
+        else
+            assert_non_null(strstr(mote_error_text(), "not the whole truth of small; remove"));
+        mote_truth_destroy(read);
+    }
+    assert_int_equal(unlink(path), 0);
+    free(path);
+}
+
 static void mote_truth_load_or_compute_unwritable_folder_is_an_error(void **state)
 {
     mote_truth *truth = NULL;
@@ -169,6 +243,7 @@ int main(void)
         cmocka_unit_test(mote_truth_load_or_compute_twice_gives_the_same_bits),
         cmocka_unit_test(mote_truth_read_settled_frame_keeps_what_was_overruled),
         cmocka_unit_test(mote_truth_read_changed_or_cut_file_is_refused),
+        cmocka_unit_test(mote_truth_read_wrong_rows_with_a_right_hash_are_refused),
         cmocka_unit_test(mote_truth_load_or_compute_unwritable_folder_is_an_error),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
