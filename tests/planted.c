@@ -118,6 +118,8 @@ PLANT(mote_claim_add, mote_claim *claim, double value, mote_confidence interval,
     (void)vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     const mote_status status = due("mote_claim_add");
+    if (claim->count == 0)
+        planted.first_figure = planted.calls;
     return status == MOTE_OK ? __real_mote_claim_add(claim, value, interval, unit, "%s", name)
                              : status;
 }

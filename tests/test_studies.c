@@ -34,7 +34,7 @@ static mote_status measure(size_t k, mote_claim_verdict *verdict)
     mote_study study;
     mote_claim claim = {0};
     mote_status status = mote_study_open(base, true, &study);
-    planted.calls = 0;
+    planted.calls = planted.first_figure = 0;
     if (status == MOTE_OK)
         status = experiments[k].measure(&study, &claim);
     *verdict = mote_claim_judge(&claim);
@@ -133,8 +133,19 @@ static void claims_of_a_run_that_lacks_a_row_say_which(void **state)
     }
 }
 
-/* The n-th call beneath an experiment fails: for the first ones, the last ones, and some
-   between (there are thousands of the same kind). */
+static void hand_up(size_t k, long n, long all)
+{
+    mote_claim_verdict verdict;
+    planted.failing = n;
+    const mote_status status = measure(k, &verdict);
+    planted.failing = 0;
+    if (status == MOTE_OK || !strstr(mote_error_text(), "planted in "))
+        fail_msg("%s: call %ld of %ld failed: %s: %s", experiments[k].name, n, all,
+                 mote_status_text(status), mote_error_text());
+}
+
+/* The n-th call beneath an experiment fails: for the first ones, the last ones, that which adds
+   its first figure, and some between (there are thousands of the same kind). */
 static void claims_hand_up_what_fails_beneath(void **state)
 {
     (void)state;
@@ -143,17 +154,12 @@ static void claims_hand_up_what_fails_beneath(void **state)
         plant_good();
         if (measure(k, &verdict) != MOTE_OK)
             fail_msg("%s: %s", experiments[k].name, mote_error_text());
-        const long all = planted.calls;
-        assert_true(all > 1);
+        const long all = planted.calls, first_figure = planted.first_figure;
+        assert_true(all > 1 && first_figure > 0);
         const long near = mote_heap_read().counted ? 6 : 1; /* fewer with sanitizers */
-        for (long n = 1; n <= all; n += n <= near || n > all - near ? 1 : (all + 2) / 3) {
-            planted.failing = n;
-            const mote_status status = measure(k, &verdict);
-            planted.failing = 0;
-            if (status == MOTE_OK || !strstr(mote_error_text(), "planted in "))
-                fail_msg("%s: call %ld of %ld failed: %s: %s", experiments[k].name, n, all,
-                         mote_status_text(status), mote_error_text());
-        }
+        for (long n = 1; n <= all; n += n <= near || n > all - near ? 1 : (all + 2) / 3)
+            hand_up(k, n, all);
+        hand_up(k, first_figure, all);
     }
 }
 
