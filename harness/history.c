@@ -59,7 +59,9 @@ static void add_row(mote_text *text, const char *date, const char *commit, const
     add_plain(text, commit);
     mote_text_add(text, ",");
     add_plain(text, why);
-    mote_text_add(text, ",%s/", row->first->scenario);
+    mote_text_add(text, ",");
+    add_plain(text, row->first->scenario);
+    mote_text_add(text, "/");
     add_plain(text, row->label);
     mote_text_add(text, "/%s", row->first->cache);
     add_number(text, row->total.median);
@@ -72,7 +74,14 @@ static void add_row(mote_text *text, const char *date, const char *commit, const
     mote_text_add(text, "\n");
 }
 
-/* What there is so far, or the header. */
+static mote_status check_header(const char *file, const char *text)
+{
+    if (strncmp(text, HEADER, strlen(HEADER)) == 0)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "%s:1: not the header of a history", file);
+}
+
+/* What there is so far, its last line ended, or the header. */
 static mote_status begin_text(const char *file, mote_text *text)
 {
     if (access(file, F_OK) != 0) {
@@ -83,7 +92,9 @@ static mote_status begin_text(const char *file, mote_text *text)
     size_t size = 0;
     mote_status status = mote_file_read(file, FILE_LIMIT, &data, &size);
     if (status == MOTE_OK)
-        mote_text_add(text, "%s", data);
+        status = check_header(file, data);
+    if (status == MOTE_OK)
+        mote_text_add(text, "%s%s", data, data[size - 1] == '\n' ? "" : "\n");
     free(data);
     return status;
 }
@@ -151,11 +162,12 @@ static bool split(char *line, char *fields[FIELDS])
 
 static mote_status read_points(const char *file, char *text, points *p)
 {
-    const char *last_date = "";
+    const char *last_date = NULL;
     size_t number = 1;
     char *line = strchr(text, '\n');
-    if (strncmp(text, HEADER, strlen(HEADER)) != 0)
-        return mote_fail(MOTE_EINVAL, "%s:1: not the header of a history", file);
+    const mote_status status = check_header(file, text);
+    if (status != MOTE_OK)
+        return status;
     size_t lines = 0;
     for (const char *c = text; *c; ++c)
         lines += *c == '\n' ? 1 : 0;
@@ -171,7 +183,7 @@ static mote_status read_points(const char *file, char *text, points *p)
         if (!split(start, fields))
             return mote_fail(MOTE_EINVAL, "%s:%zu: not a line of a history; expected %d fields",
                              file, number, FIELDS);
-        if (strcmp(fields[FIELD_DATE], last_date) != 0)
+        if (!last_date || strcmp(fields[FIELD_DATE], last_date) != 0)
             ++p->references;
         last_date = fields[FIELD_DATE];
         double total, ratio;

@@ -24,6 +24,7 @@ static void commands_of_a_scenario_when_a_call_fails_say_so(void **state)
     (void)state;
     static const fault_line list[] = {
         LINE(check, " s.json --out out", 0),
+        LINE(check, " s.json --out run --json", 0),
         LINE(export, " s.json --frame 2 --out out --method particle:n=2", 0),
         LINE(approach, " s.json --gaps 1:0.1,4:0.05 -o out.json", 0),
         LINE(simulate, " s.json --method certified --json --trace trace.json", 0),
@@ -58,6 +59,7 @@ static void commands_of_a_stored_run_when_a_call_fails_say_so(void **state)
         LINE(tune, " run --best-fcl s", 0),
         LINE(merge, " out run", 0),
         LINE(instructions, " s.json --frames 1-2 --out out --method certified", 0),
+        LINE(instructions, " s.json --frames 1-2 --out run --method certified", 0),
     };
     FAIL_EACH(list);
 }
@@ -82,8 +84,10 @@ static int make_files(void **state)
              " s.json --method fcl-aabb --method particle-paper:n=2 --replicates 2 --stride 1 "
              "--out run",
              0),
-        LINE(history, " history.csv --add run --why first", 0)};
-    return fault_lines_open() && fault_lines_run(runs, 2) ? 0 : -1;
+        LINE(history, " history.csv --add run --why first", 0),
+        LINE(instructions,
+             " s.json --frames 1-2 --out run --method fcl-aabb --method certified", 0)};
+    return fault_lines_open() && fault_lines_run(runs, 3) ? 0 : -1;
 }
 
 int main(void)
