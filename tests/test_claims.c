@@ -1,6 +1,7 @@
 /* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
 #include "harness/claims.h"
 
+#include "harness/figure.h"
 #include "harness/spawn.h"
 
 #include "tests/program.h"
@@ -140,6 +141,100 @@ static void queries_from_frame_50_on_allocate_nothing(void **unused)
     assert_int_equal(mote_spawn(clean, NULL, NULL, 0), MOTE_OK);
 }
 
+/* The claims table of a file that is not quite what mote writes: nothing is made up. */
+static void figure_of_odd_claims_shows_what_is_there(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *claims;
+        const char *shows[2]; /* parts of the data */
+    } cases[] = {
+        {"[{}]", {"0 0 \"\"\n", "2 0 \": not measured\"\n"}},
+        {"[5, {\"id\": \"b\", \"verdict\": \"holds\"}]", {"0 2 \"b\"\n", "2 1 2 \"holds\"\n"}},
+        {"[{\"value\": 2, \"unit\": \"L\"}]", {"\": 2 L\"", "0 1 0 \"\""}},
+        {"[{\"value\": 2.5, \"interval\": [1, 3.5]}]", {"\": 2.5 [1, 3.5] \""}},
+        {"[{\"value\": 2.5, \"interval\": [1.5, 3]}]", {"\": 2.5 [1.5, 3] \""}},
+        {"[{\"value\": 2.5, \"interval\": [1]}]", {"\": 2.5 \""}},
+        {"[{\"value\": 2.5, \"interval\": [null, 3]}]", {"\": 2.5 \""}},
+        {"[{\"value\": 2.5, \"interval\": [1, \"3\"]}]", {"\": 2.5 \""}},
+        {"[{\"value\": \"2.5\"}]", {"\": not measured\""}},
+        {"[{\"verdict\": \"holds within limits\"}]", {"0 1 1 \"within limits\""}},
+        {"[{\"verdict\": \"does not hold\"}]", {"0 1 0 \"does not hold\""}},
+        {"[{\"claim\": "
+         "\"of_one_word_that_is_longer_than_a_line_of_the_table_can_be,_is_cut\"}]",
+         {"1 0 \"of_one_word_that_is_longer_than_a_line_of_the_table_\"\n",
+          "1 1 \"can_be,_is_cut\"\n"}},
+        {"[{\"claim\": \"a b c d e f g h i j k l m n o p q r s t u v w x y z a b c d e f g h i "
+         "j "
+         "k l m n o p q r s t u v w x y z a b c d e f g h i j k l m n o p q r s t u v w x y z "
+         "a "
+         "b c d e f g h i j k l m n o p q r s t u v w x y z a b c d e f g h i j k l m n o p q "
+         "r "
+         "s t u v w x y z a b c d e f g h i j k l m n o p q r s t u v w x y z THE END\"}]",
+         {"1 5 \"", "2 6 \": not measured\""}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        json_t *claims = json_loads(cases[i].claims, 0, NULL);
+        assert_non_null(claims);
+        const mote_figure_run run = {"out", NULL, claims};
+        mote_figure figure = {{0}, {0}, {0}};
+        assert_int_equal(mote_figure_claims(&run, NULL, &figure), MOTE_OK);
+        for (int k = 0; k < 2 && cases[i].shows[k]; ++k) {
+            if (!strstr(figure.data.data, cases[i].shows[k]))
+                fail_msg("%s shows no %s but\n%s", cases[i].claims, cases[i].shows[k],
+                         figure.data.data);
+        }
+        assert_null(strstr(figure.data.data, "THE END")); /* six lines at most */
+        free(figure.data.data);
+        free(figure.caption.data);
+        json_decref(claims);
+    }
+}
+
+/* Figures of studies that were not made say what makes them. */
+static void figures_without_a_study_name_what_measures_it(void **unused)
+{
+    (void)unused;
+    const mote_figure_run run = {"/tmp/no/such/run", NULL, NULL};
+    static const struct {
+        mote_figure_writer *write;
+        const char *missing;
+    } cases[] = {{mote_figure_claims, "claims.json; `make claims OUT=/tmp/no/such/run`"},
+                 {mote_figure_extremes, "figures/extremes.dat; `make extremes OUT=/tmp/no/"}};
+    for (size_t i = 0; i < 2; ++i) {
+        mote_figure figure = {{0}, {0}, {0}};
+        assert_int_equal(cases[i].write(&run, NULL, &figure), MOTE_OK);
+        assert_non_null(strstr(figure.missing.data, cases[i].missing));
+        assert_int_equal(figure.data.size, 0);
+        free(figure.missing.data);
+    }
+}
+
+static void figure_of_extremes_is_their_data(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-claims-XXXXXX", path[64], line[160];
+    assert_non_null(mkdtemp(folder));
+    (void)snprintf(path, sizeof path, "%s/figures", folder);
+    assert_int_equal(mote_directory_make(path), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/figures/extremes.dat", folder);
+    assert_int_equal(mote_file_write(path, "1 2\n", 4), MOTE_OK);
+    const mote_figure_run run = {folder, NULL, NULL};
+    mote_figure figure = {{0}, {0}, {0}};
+    assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_OK);
+    assert_string_equal(figure.data.data, "1 2\n");
+    free(figure.data.data);
+    free(figure.caption.data);
+    /* What is there and cannot be read is an error. */
+    (void)snprintf(line, sizeof line, "rm %s && mkdir %s", path, path);
+    assert_int_equal(system(line), 0);
+    figure = (mote_figure){{0}, {0}, {0}};
+    assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "extremes.dat"));
+    free(figure.caption.data);
+    (void)snprintf(line, sizeof line, "rm -r %s", folder);
+    assert_int_equal(system(line), 0);
+}
+
 static void command_with_an_unknown_word_is_a_usage_error(void **unused)
 {
     (void)unused;
@@ -158,6 +253,9 @@ int main(void)
         cmocka_unit_test(share_interval_matches_tables),
         cmocka_unit_test(estimate_of_ratios_is_their_geometric_mean),
         cmocka_unit_test(queries_from_frame_50_on_allocate_nothing),
+        cmocka_unit_test(figure_of_odd_claims_shows_what_is_there),
+        cmocka_unit_test(figures_without_a_study_name_what_measures_it),
+        cmocka_unit_test(figure_of_extremes_is_their_data),
         cmocka_unit_test(command_with_an_unknown_word_is_a_usage_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -22,11 +22,12 @@
 #define DIAMOND                                                                                \
     "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\n"     \
     "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"
-#define SCENARIO                                                                               \
-    "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\", \"bodies\": [{\"file\": " \
-    "\"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": [2.1, 0.1, "  \
-    "0]}, "                                                                                    \
-    "{\"frame\": 4, \"position\": [1.9, 0.1, 0]}]}]}\n"
+#define SCENARIO SCENE("", "2.1", "1.9")
+/* more: keys; from, until: along x, in L. They touch below 0.48. */
+#define SCENE(more, from, until)                                                               \
+    "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\"" more ", \"bodies\": [{"   \
+    "\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": "   \
+    "[" from ", 0.1, 0]}, {\"frame\": 4, \"position\": [" until ", 0.1, 0]}]}]}\n"
 
 /* Runs `mote ARGUMENTS` by the shell; returns the exit status. streams: "2>&1" to get both,
    "2>&1 >/dev/null" to get the errors only. */
@@ -60,7 +61,10 @@ static const struct {
 } files[] = {{FOLDER "/broken.json", "{\"purpose\": \"x\",\n \"frames\": }\n"},
              {FOLDER "/unknown.json", "{\"purpose\": \"x\",\n \"speed\": 1}\n"},
              {FOLDER "/d.obj", DIAMOND},
-             {FOLDER "/s.json", SCENARIO}};
+             {FOLDER "/s.json", SCENARIO},
+             {FOLDER "/away.json", SCENE("", "0.9", "1.5")},
+             {FOLDER "/near.json", SCENE(", \"active\": [1, 4]", "0.58", "0.6")},
+             {FOLDER "/far.json", SCENE(", \"active\": [2, 4]", "0.6", "3")}};
 #define FILES (sizeof files / sizeof files[0])
 
 static int set_up(void **state)
@@ -137,6 +141,7 @@ static const told_line bad_lines[] = {
     {"distance a.obj b.obj", 4, "a.obj"},
     {"distance a.obj b.obj --method magic", 4, "magic"},
     {"check s.json s.json", 2, "one scenario at a time"},
+    {"check far.json --json", 1, "far.json: active 2-4: only 0 of 3 frames"},
     {"check s.json --fast", 2, "unknown option --fast; known are: --json, --out DIR"},
     {"check s.json --json=yes", 2, "--json takes no value"},
     {"check -", 4, "-: no such scenario"},
@@ -241,6 +246,10 @@ static const told_line good_lines[] = {
      0, "s fcl-aabb replicate 3, frames 1-4, stride 2, evict"},
     {"run s.json --dry-run --method fcl-aabb --cache hot --stride auto --frames 2-3", 0,
      "s fcl-aabb replicate 1, frames 2-3, stride 1, hot"},
+    {"check away.json", 0, "4 frames checked by brute force\n"},
+    {"check away.json --json", 0, "\"longest_active\": [\n    0,\n    0\n"},
+    {"check near.json", 0, "active 1-4: truth <= 0.1 L in 100.0 % of frames"},
+    {"check near.json --json", 0, "\"active_holds\": true"},
     {"instructions s.json --frames 1-2 --inside --method certified", 0, ""},
     {"instructions s.json --frames 4 --inside --particles 2,3 --method particle-paper", 0, ""},
 };

@@ -373,6 +373,102 @@ static void run_killed_at_any_time_goes_on_without_loss(void **state)
     assert_int_equal(count_cells(".part"), 0);
 }
 
+/* Puts the members of an object, written with ', into the only cell of the run. */
+static void change_cell(const char *members)
+{
+    char path[512], plain[256], name[256];
+    find_csv(path, sizeof path);
+    (void)snprintf(name, sizeof name, "cells%s", strrchr(path, '/'));
+    (void)snprintf(name + strlen(name) - 3, 6, "json");
+    (void)snprintf(plain, sizeof plain, "%s", members);
+    for (char *c = plain; *c; ++c)
+        *c = *c == '\'' ? '"' : *c;
+    json_t *cell = read_json(name), *change = json_loads(plain, 0, NULL);
+    assert_non_null(change);
+    assert_int_equal(json_object_update(cell, change), 0);
+    json_decref(change);
+    assert_int_equal(mote_record_json(directory, name, cell), MOTE_OK);
+}
+
+/* What a stored cell says of itself decides whether it is measured again. */
+static void run_of_a_changed_cell_goes_by_its_status_and_stride(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *members;
+        int status;
+        const char *says;
+    } cases[] = {{"{}", 0, "1 of them done"},
+                 {"{'status': null}", 0, "0 of them done"},
+                 {"{'stride': 0}", 0, "0 of them done"},
+                 {"{'stride': 1e9}", 0, "0 of them done"},
+                 {"{'stride': 5000000000}", 0, "0 of them done"},
+                 {"{'status': 'timeout'}", 5, "1 of 1 cells failed"},
+                 {"{'status': 'crashed'}", 5, "1 of them done"}};
+    static const char line[] = "tt --frames 1-2 --replicates 1 --method fcl-aabb";
+    assert_int_equal(run(line), 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        change_cell(cases[i].members);
+        const int status = run(line);
+        if (status != cases[i].status || !strstr(text, cases[i].says))
+            fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", cases[i].members, status,
+                     cases[i].status, cases[i].says, text);
+    }
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb --force"), 0);
+    assert_non_null(strstr(text, "0 of them done"));
+}
+
+static void run_sweeps_what_an_interrupted_write_left(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"summary.json.part", "cells/a.json.part",
+                                        "truth/b.csv.part"};
+    char line[512], path[128];
+    (void)snprintf(line, sizeof line, "mkdir -p %s/cells", directory);
+    assert_int_equal(system(line), 0);
+    for (int i = 0; i < 3; ++i) {
+        (void)snprintf(line, sizeof line, "echo part > %s/%s; echo kept > %s/cells/notes",
+                       directory, names[i], directory);
+        assert_int_equal(system(line), 0);
+    }
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
+    struct stat info;
+    for (int i = 0; i < 3; ++i) {
+        (void)snprintf(path, sizeof path, "%s/%s", directory, names[i]);
+        assert_int_not_equal(stat(path, &info), 0);
+    }
+    (void)snprintf(path, sizeof path, "%s/cells/notes", directory);
+    assert_int_equal(stat(path, &info), 0);
+}
+
+static void run_whose_lock_cannot_be_opened_says_so(void **state)
+{
+    (void)state;
+    char line[128];
+    (void)snprintf(line, sizeof line, "mkdir %s/.lock", directory);
+    assert_int_equal(system(line), 0);
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 5);
+    assert_non_null(strstr(text, ".lock: Is a directory; name a directory that can be writ"));
+}
+
+/* Replicates are added to the reference whatever its interval, and to nothing that failed. */
+static void run_until_an_interval_is_narrow_needs_cells_that_end(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("tt --replicates 1 --timeout 0.001 --method brute-force --until-ci 50%"), 5);
+    assert_non_null(strstr(text, "after 1 replicates the widest interval is +-0 %"));
+    static const char line[] = "tt --frames 1-6 --stride 1 --replicates 2 --method fcl-aabb "
+                               "--method certified --until-ci 0.001% --budget 0";
+    assert_int_equal(run(line), 0);
+    assert_non_null(strstr(text, "after 2 replicates the widest interval is"));
+    assert_non_null(strstr(text, "wider than asked for: the budget ends"));
+    char forced[256];
+    (void)snprintf(forced, sizeof forced, "%s --force", line);
+    assert_int_equal(run(forced), 0);
+    assert_non_null(strstr(text, "plan: 4 cells, 0 of them done"));
+}
+
 static mote_traits no_traits(const double *values)
 {
     (void)values;
@@ -480,6 +576,10 @@ int main(void)
         TEST(run_into_a_locked_directory_is_refused),
         TEST(run_out_of_time_is_a_recorded_row),
         TEST(run_killed_at_any_time_goes_on_without_loss),
+        TEST(run_of_a_changed_cell_goes_by_its_status_and_stride),
+        TEST(run_sweeps_what_an_interrupted_write_left),
+        TEST(run_whose_lock_cannot_be_opened_says_so),
+        TEST(run_until_an_interval_is_narrow_needs_cells_that_end),
         TEST(cell_of_a_crashing_method_is_recorded_as_crashed),
         TEST(cell_of_a_failing_method_keeps_frame_and_reason),
     };
