@@ -276,7 +276,7 @@ static void bodies_are_met_where_every_requirement_is(void **state)
     planted.ratio = 19;
     assert_false(bodies_met());
     plant_good();
-    planted.ratio = NAN;
+    planted.ratio = (double)NAN;
     assert_false(bodies_met());
     plant_good();
     planted.body_missed = true;
