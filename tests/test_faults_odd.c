@@ -4,6 +4,7 @@
    fails once. */
 #include "tests/fault_lines.h"
 
+#include "harness/figures.h"
 #include "harness/file.h"
 #include "harness/record.h"
 
@@ -121,6 +122,24 @@ static const odd_cell odd[] = {
     "\"commit\": \"0123456789\", \"sessions\": [{\"started\": "                                \
     "\"2026-11-21T10:20:30.123456789012345678901234567890Z\", \"command\": [\"run\", 7, "      \
     "\"it's\", \"\"]}]}\n"
+
+/* Claims with every field of a wrong kind or not there. */
+#define ODD_CLAIMS                                                                             \
+    "[{\"id\": \"a\", \"claim\": \"no unit\", \"verdict\": \"holds\", \"value\": 2, "          \
+    "\"interval\": [1], \"values\": [{\"name\": \"both\", \"value\": 7, \"threshold\": "       \
+    "{\"bound\": \"at most\", \"holds\": 8, \"limits\": 9}}, {\"name\": \"one\", \"value\": "  \
+    "7, "                                                                                      \
+    "\"unit\": \"us\", \"threshold\": {\"bound\": \"at least\", \"limits\": 6}}, {\"name\": "  \
+    "\"none\", \"value\": \"x\", \"threshold\": {\"bound\": \"some\", \"holds\": \"x\"}}]}, "  \
+    "{\"id\": 5, \"claim\": \"a unit\", \"value\": 0.5, \"unit\": \"L\"}]\n"
+
+/* A list of figures in which most is wrong. */
+#define ODD_FIGURES                                                                            \
+    "{\"figures\": [{\"number\": 4, \"title\": \"Drawn\", \"scenario\": \"s\", \"files\": "    \
+    "[5, "                                                                                     \
+    "\".svg\", \"../up.svg\", \"gone.svg\", \"a.png\", \"a.svg\"], \"caption\": \"here\"}, "   \
+    "{\"number\": 5, \"title\": \"Whole\", \"files\": [\"b.gif\"]}, {}, 7], \"missing\": [7, " \
+    "\"figure 9 is not drawn\"]}\n"
 
 static char said[1 << 18];
 
@@ -251,6 +270,112 @@ static void reports_of_odd_cells_say_what_is_odd(void **state)
     FAIL_EACH(report);
 }
 
+static void reports_of_odd_claims_show_what_there_is(void **state)
+{
+    (void)state;
+    static const fault_line report[] = {LINE(report, " claims//", 0), LINE(report, " list", 0),
+                                        LINE(report, " broken", 0), LINE(report, " wanted", 0)};
+    static const char *const claims[] = {
+        "<h1>claims</h1>",
+        "<td>at most 8, 9 within limits</td>",
+        "7</a></td>",
+        "7\u202fµs</a></td><td>at least 6 within limits</td>",
+        "–</a></td><td>some</td>",
+        "<span class=\"headline\">0.5\u202fL</span>",
+        "<strong>b.</strong>", /* of the folder: there is no list */
+        "Animation: figures/c.gif",
+    };
+    assert_true(fault_lines_run(report, 4));
+    read_page("claims/report.html");
+    HAS(claims);
+    assert_null(strstr(said, ".hidden"));
+    assert_null(strstr(said, "a.png"));
+    read_page("claims/report.md");
+    static const char *const markdown[] = {": no unit. Measured: [2](claims.json)\n",
+                                           "a unit. Measured: [0.5 L](claims.json)"};
+    HAS(markdown);
+    read_page("list/report.html");
+    static const char *const list[] = {"<strong>Figure 4. Drawn: s.</strong> here",
+                                       "<strong>Figure 5. Whole.</strong>",
+                                       "<li>figure 9 is not drawn</li>"};
+    HAS(list);
+    assert_null(strstr(said, "up.svg"));
+    assert_null(strstr(said, "gone.svg"));
+    read_page("broken/report.html");
+    static const char *const broken[] = {
+        "<li>claims.json: ", "<li>requirements.json: ", "Figure 1. Alone"};
+    HAS(broken);
+    assert_null(strstr(said, "id=\"claims\""));
+    read_page("wanted/report.html");
+    assert_non_null(strstr(said, "<h3>Requirements</h3>"));
+    FAIL_EACH(report);
+}
+
+/* gnuplot that fails: each figure is told, the others are tried. */
+static void figures_that_gnuplot_does_not_draw_are_told(void **state)
+{
+    (void)state;
+    static const fault_line figures[] = {LINE(figures, " odd", 4)};
+    static const char *const wanted[] = {
+        "mote: odd: figure 4 (front) is not drawn; missing: gnuplot: ended with status 3\n",
+        "figures could not be drawn\n"};
+    assert_true(fault_lines_write("bin/gnuplot", "#!/bin/sh\nexit 3\n"));
+    assert_int_equal(chmod("bin/gnuplot", 0755), 0);
+    assert_false(fault_lines_run(figures, 1));
+    read_page("error");
+    HAS(wanted);
+    FAIL_EACH(figures);
+}
+
+/* The curve of a claim or a study, drawn by its own script. */
+static int plot(int argc, char **argv)
+{
+    (void)argc;
+    return mote_figures_plot(argv[1], argv[2], argv[2]) == MOTE_OK ? 0 : mote_command_fail();
+}
+
+static void figures_plot_when_a_call_fails_says_so(void **state)
+{
+    (void)state;
+    static const fault_line curve[] = {{"plot odd front-s", plot, 0}};
+    assert_true(fault_lines_run(curve, 1));
+    FAIL_EACH(curve);
+}
+
+/* A folder in the place of a file cannot be read. */
+static bool write_pages(void)
+{
+    static const struct {
+        const char *name, *text;
+    } files[] = {
+        {"claims/claims.json", ODD_CLAIMS},
+        {"claims/figures/b.svg", "<svg/>"},
+        {"claims/figures/.hidden.svg", "<svg/>"},
+        {"claims/figures/a.png", "png"},
+        {"claims/figures/c.gif", "gif"},
+        {"list/figures/figures.json", ODD_FIGURES},
+        {"list/figures/a.svg", "<svg/>"},
+        {"list/figures/b.gif", "gif"},
+        {"broken/figures/figures.json",
+         "{\"figures\": [{\"number\": 1, \"title\": \"Alone\", \"files\": [\"a.svg\"]}]}\n"},
+        {"broken/figures/a.svg", "<svg/>"},
+        {"wanted/requirements.json", ODD_CLAIMS},
+        {"wanted/manifest.json", "{}\n"},
+    };
+    static const char *const folders[] = {"claims/figures",           "list/figures",
+                                          "broken/figures",           "broken/claims.json",
+                                          "broken/requirements.json", "wanted/claims.json"};
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; ++i) {
+        if (mote_directory_make(folders[i]) != MOTE_OK)
+            return false;
+    }
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
+        if (!fault_lines_write(files[i].name, files[i].text))
+            return false;
+    }
+    return true;
+}
+
 static int make_files(void **state)
 {
     (void)state;
@@ -263,7 +388,7 @@ static int make_files(void **state)
         return -1;
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; ++i)
         write_cell("odd", &odd[i]);
-    return 0;
+    return write_pages() ? 0 : -1;
 }
 
 int main(void)
@@ -273,6 +398,9 @@ int main(void)
         cmocka_unit_test(formats_of_odd_cells_tell_rows_apart),
         cmocka_unit_test(figures_of_odd_cells_are_those_that_can_be),
         cmocka_unit_test(reports_of_odd_cells_say_what_is_odd),
+        cmocka_unit_test(reports_of_odd_claims_show_what_there_is),
+        cmocka_unit_test(figures_plot_when_a_call_fails_says_so),
+        cmocka_unit_test(figures_that_gnuplot_does_not_draw_are_told),
     };
     return cmocka_run_group_tests(tests, make_files, fault_lines_close);
 }
