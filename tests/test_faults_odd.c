@@ -376,6 +376,89 @@ static bool write_pages(void)
     return true;
 }
 
+/* More sizes, methods, families and replicates than a figure takes: the first of them. */
+static bool write_many(void)
+{
+    static const char *const sizes[] = {"ww", "ww-x", "ww-5x", "ww-5kk", "ww-5m", "wwx"};
+    char id[32], other[256];
+    odd_cell cell = {id, other, SIX};
+    if (mote_directory_make("many/cells") != MOTE_OK)
+        return false;
+    for (int k = 0; k < 17; ++k) {
+        (void)snprintf(id, sizeof id, "size%d", k);
+        (void)snprintf(other, sizeof other,
+                       "{\"scenario\": \"ww-%dk\", \"triangles\": [%d, 7], "
+                       "\"heap_live_bytes\": %d}",
+                       k + 1, 1000 * (18 - k), k % 2 * 1000);
+        write_cell("many", &cell);
+        (void)snprintf(id, sizeof id, "family%d", k);
+        (void)snprintf(other, sizeof other,
+                       "{\"scenario\": \"families\", \"method\": \"m%02d\"}", k);
+        write_cell("many", &cell);
+    }
+    for (int k = 0; k < 27; ++k) {
+        (void)snprintf(id, sizeof id, "method%d", k);
+        (void)snprintf(
+            other, sizeof other,
+            "{\"scenario\": \"ww-%dk\", \"method\": \"n%d\", \"triangles\": [%d, 7]}",
+            k % 3 + 1, k / 3, k < 3 ? 5 : 1000 * (k % 3));
+        write_cell("many", &cell);
+    }
+    for (int k = 0; k < 66; ++k) {
+        (void)snprintf(id, sizeof id, "again%d", k);
+        (void)snprintf(other, sizeof other,
+                       "{\"scenario\": \"again\", \"method\": \"%s\", \"replicate\": %d}",
+                       k == 0 ? "fcl-aabb" : "certified", k == 0 ? 1 : k);
+        write_cell("many", &cell);
+        (void)snprintf(id, sizeof id, "other%d", k);
+        (void)snprintf(other, sizeof other,
+                       "{\"scenario\": \"again\", \"method\": \"fcl-aabb\", \"replicate\": %d}",
+                       k + 1);
+        if (k > 0)
+            write_cell("many", &cell);
+    }
+    static const char *const more[] = {
+        "\"frames\": [1, 3]",  "\"cache\": \"evict\"",    "\"jobs\": 3",
+        "\"machine\": \"m2\"", "\"status\": \"crashed\"", "\"seed\": 9",
+    };
+    for (size_t k = 0; k < 6; ++k) {
+        (void)snprintf(id, sizeof id, "name%zu", k);
+        (void)snprintf(other, sizeof other, "{\"scenario\": \"%s\"}", sizes[k]);
+        write_cell("many", &cell);
+        (void)snprintf(id, sizeof id, "more%zu", k);
+        (void)snprintf(other, sizeof other, "{\"scenario\": \"ww-2k\", %s}", more[k]);
+        cell.rows.count = k == 0 ? 3 : 6;
+        write_cell("many", &cell);
+    }
+    return true;
+}
+
+static size_t count_of(const char *wanted)
+{
+    size_t count = 0;
+    for (const char *p = said; (p = strstr(p, wanted)) != NULL; p += strlen(wanted))
+        ++count;
+    return count;
+}
+
+static void figures_of_too_many_cells_take_the_first(void **state)
+{
+    (void)state;
+    static const fault_line figures[] = {LINE(figures, " many", 0)};
+    assert_true(write_many());
+    assert_true(fault_lines_run(figures, 1));
+    read_page("many/figures/size-time.dat");
+    assert_int_equal(count_of(" 1000 1000 1000\n"), 16 + 7 * 3); /* sizes; methods */
+    assert_null(strstr(said, "\"n7\""));
+    assert_non_null(strstr(said, "\"n0\"\n")); /* of one size: no exponent */
+    read_page("many/figures/size-bytes.dat");
+    assert_int_equal(count_of(" 1000 66.66"), 6); /* that told their bytes */
+    read_page("many/figures/shares-families.dat");
+    assert_int_equal(count_of("\n"), 16);
+    read_page("many/figures/ratios-again.dat");
+    assert_int_equal(count_of(" 1 1 1\n"), 6);
+}
+
 static int make_files(void **state)
 {
     (void)state;
@@ -399,6 +482,7 @@ int main(void)
         cmocka_unit_test(figures_of_odd_cells_are_those_that_can_be),
         cmocka_unit_test(reports_of_odd_cells_say_what_is_odd),
         cmocka_unit_test(reports_of_odd_claims_show_what_there_is),
+        cmocka_unit_test(figures_of_too_many_cells_take_the_first),
         cmocka_unit_test(figures_plot_when_a_call_fails_says_so),
         cmocka_unit_test(figures_that_gnuplot_does_not_draw_are_told),
     };
