@@ -22,6 +22,18 @@ static bool may_name(const char *word, const char *name)
     return ends || strncmp(word, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0;
 }
 
+/* The scenario that word k of a command names, as mote_scenario_load takes it, or NULL; the
+   caller frees it. `--pair A B` names one of no file. */
+static char *named_by(const json_t *words, size_t k, const char *name)
+{
+    const char *word = json_string_value(json_array_get(words, k));
+    const char *a = json_string_value(json_array_get(words, k + 1));
+    const char *b = json_string_value(json_array_get(words, k + 2));
+    if (word && a && b && strcmp(word, "--pair") == 0)
+        return mote_format(MOTE_PAIR_PREFIX "%s:%s", a, b);
+    return word && may_name(word, name) ? mote_format("%s", word) : NULL;
+}
+
 /* Whether the file that a word names is the scenario with this fingerprint; keeps it if so. */
 static bool try_word(const char *word, const char *fingerprint, mote_scenario **scenario)
 {
@@ -46,8 +58,7 @@ static bool try_word(const char *word, const char *fingerprint, mote_scenario **
 static mote_status find_scenario(const mote_report *report, const mote_stored_cell *cell,
                                  mote_scenario **scenario)
 {
-    size_t i, k;
-    const json_t *session, *word;
+    const json_t *sessions = json_object_get(report->manifest, "sessions");
     const json_t *vertices = json_object_get(cell->json, "vertices");
     if (json_integer_value(json_array_get(vertices, 0)) > MOTE_REPLAY_VERTICES ||
         json_integer_value(json_array_get(vertices, 1)) > MOTE_REPLAY_VERTICES)
@@ -55,13 +66,13 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
                          cell->scenario, MOTE_REPLAY_VERTICES);
     if (try_word(cell->scenario, cell->fingerprint, scenario))
         return MOTE_OK;
-    json_array_foreach(json_object_get(report->manifest, "sessions"), i, session)
-    {
-        json_array_foreach(json_object_get(session, "command"), k, word)
-        {
-            const char *text = json_string_value(word);
-            if (text && may_name(text, cell->scenario) &&
-                try_word(text, cell->fingerprint, scenario))
+    for (size_t i = 0; i < json_array_size(sessions); ++i) {
+        const json_t *words = json_object_get(json_array_get(sessions, i), "command");
+        for (size_t k = 0; k < json_array_size(words); ++k) {
+            char *named = named_by(words, k, cell->scenario);
+            const bool found = named && try_word(named, cell->fingerprint, scenario);
+            free(named);
+            if (found)
                 return MOTE_OK;
         }
     }

@@ -47,7 +47,7 @@ static void read_rows(const char *text, mote_replay_track *track)
     size_t count = read_header(text, columns);
     const char *line = text + strcspn(text, "\n");
     line += *line ? 1 : 0;
-    for (size_t k = 0; k < track->rows && *line; ++k) {
+    for (size_t k = 0; k < track->rows; ++k) { /* none where the text has ended */
         double f[FIELD_COUNT];
         for (int i = 0; i < FIELD_COUNT; ++i)
             f[i] = MOTE_NONE;

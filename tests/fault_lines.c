@@ -219,6 +219,9 @@ bool fault_lines_run(const fault_line *list, size_t count)
         fault_line copy = list[i];
         const fault_work work = {run_line, &copy, "said", "error"};
         (void)fault_points_find(&work, &end);
+        read_said(work.error);
+        if (end.status != 0)
+            printf("%s: exit %d:\n%s", list[i].text, end.status, said);
     }
     return end.status == 0;
 }

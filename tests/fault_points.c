@@ -45,6 +45,7 @@ typedef enum function {
     WAITPID,
     READLINK,
     REALPATH,
+    GETCWD,
     FUNCTIONS
 } function;
 
@@ -76,6 +77,7 @@ static const struct {
     [WAITPID] = {"waitpid", 0, true, false},
     [READLINK] = {"readlink", EACCES, false, false},
     [REALPATH] = {"realpath", EACCES, false, false},
+    [GETCWD] = {"getcwd", EACCES, false, false},
 };
 
 typedef struct point {
@@ -299,6 +301,11 @@ WRAP(ssize_t, readlink, const char *path, char *text, size_t size)
 WRAP(char *, realpath, const char *path, char *resolved)
 {
     return fails(REALPATH) ? NULL : __real_realpath(path, resolved);
+}
+
+WRAP(char *, getcwd, char *path, size_t size)
+{
+    return fails(GETCWD) ? NULL : __real_getcwd(path, size);
 }
 
 #ifdef MOTE_COVERAGE

@@ -21,8 +21,8 @@
     "f 4 1 5\nf 4 5 8\n"
 
 /* A scenario in the folder of the mesh, with more keys of it and of body 0. */
-#define SCENE(more, body)                                                                      \
-    "{\"purpose\": \"a test\", \"frames\": 12, \"ask\": \"distance\"" more                     \
+#define SCENE(ask, more, body)                                                                 \
+    "{\"purpose\": \"a test\", \"frames\": 12, \"ask\": \"" ask "\"" more                      \
     ", \"bodies\": [{\"file\": \"cube.obj\"" body "}, {\"file\": \"cube.obj\", \"motion\": ["  \
     "{\"frame\": 1, \"position\": [0.8, 0.1, 0]}, {\"frame\": 12, \"position\": "              \
     "[0.5, 0.1, 0]}]}]}\n"
@@ -58,13 +58,18 @@ static const struct {
     {"share/mote/page/replay.js", "play();\n"},
     {"share/mote/datasets/defects.md",
      "# Defects\n\n## One\n\nof `two`\nlines\n\n    code\n\n    more\n\n##### Five\n\nend"},
+    {"cube.obj", CUBE},
     {INSTALLED "cube.obj", CUBE},
-    {INSTALLED "tt.json", SCENE(", \"active\": [2, 12]", "")},
-    {INSTALLED "mv.json", SCENE("", FIELD)},
-    {INSTALLED "ww.json", SCENE("", FIELD)},
-    {INSTALLED "ww-1k.json", SCENE("", FIELD)},
-    {INSTALLED "ww-2k.json", SCENE("", CENTRES)},
+    {INSTALLED "tt.json", SCENE("contact", ", \"active\": [2, 12]", "")},
+    {INSTALLED "mv.json", SCENE("distance", "", FIELD)},
+    {INSTALLED "ww.json", SCENE("distance", "", FIELD)},
+    {INSTALLED "ww-1k.json", SCENE("distance", "", FIELD)},
+    {INSTALLED "ww-2k.json", SCENE("distance", "", CENTRES)},
     {INSTALLED "letters.json", LETTERS},
+    {"other.json", "{\"purpose\": \"like another\", \"like\": \"mv\", \"frames\": 4}\n"},
+    {"another.json", "{\"purpose\": \"like another\", \"like\": \"ww\", \"frames\": 3}\n"},
+    {"paced.json", "{\"purpose\": \"quick\", \"like\": \"mv\", \"frames\": 4, \"pace\": 2}\n"},
+    {"late.json", "{\"purpose\": \"late\", \"like\": \"mv\", \"frames\": 4, \"start\": 3}\n"},
     {"like.json", "{\"purpose\": \"like another\", \"like\": \"mv\", \"frames\": 4}\n"},
     {"a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
               "3 1 2 3\n"},
@@ -114,6 +119,27 @@ static void report_when_a_call_fails_says_so(void **state)
     FAIL_EACH(list);
 }
 
+/* A pair has no file: its meshes are named by the command that measured it. */
+static void report_of_a_pair_replays_it(void **state)
+{
+    (void)state;
+    static const fault_line lines[] = {
+        LINE(letter, " V --triangles 400 -o v.obj", 0),
+        LINE(run,
+             " --pair v.obj v.obj --frames 1-3 --method certified --replicates 1 --stride 1 "
+             "--out pair",
+             0),
+        LINE(report, " pair", 0),
+    };
+    char *text = NULL;
+    size_t size = 0;
+    assert_true(fault_lines_run(lines, sizeof lines / sizeof lines[0]));
+    assert_int_equal(mote_file_read("pair/report.html", 1 << 24, &text, &size), MOTE_OK);
+    assert_non_null(strstr(text, "{\"name\": \"v-v\""));
+    assert_null(strstr(text, "Scenarios without a replay"));
+    free(text);
+}
+
 static void comparisons_when_a_call_fails_say_so(void **state)
 {
     (void)state;
@@ -144,6 +170,12 @@ static void loops_when_a_call_fails_say_so(void **state)
     (void)state;
     static const fault_line list[] = {
         LINE(simulate, " mv --method certified --steps 4 --film out.gif", 0),
+        LINE(simulate, " mv --method certified --steps 4 --trace trace.json", 0),
+        LINE(simulate, " " INSTALLED "mv.json --method certified --steps 3 --trace t.json", 0),
+        LINE(simulate, " tt --method certified --steps 20 --trace trace.json", 0),
+        LINE(simulate, " mv --method certified --steps 20 --trace trace.json", 4),
+        LINE(simulate, " paced.json --method certified --steps 2 --trace trace.json", 4),
+        LINE(simulate, " late.json --method certified --steps 2 --trace trace.json", 4),
         LINE(simulate, " b.json --method certified --steps 3", 0),
         LINE(run, " mv --method certified --until-ci 100% --budget 0 --replicates 1 --out out",
              0),
@@ -158,6 +190,14 @@ static bool make_runs(void)
         LINE(run,
              " tt mv ww ww-1k ww-2k --method particle-paper:n=3|5 --method certified --method "
              "fcl-aabb --replicates 1 --stride 1 --out run",
+             0),
+        LINE(run, " tt --method certified --cache evict --replicates 1 --stride 1 --out run",
+             0),
+        LINE(run,
+             " mv --method particle:n=3,positions=given --replicates 1 --stride 1 --out run",
+             0),
+        LINE(run,
+             " another.json other.json --method certified --replicates 1 --stride 1 --out run",
              0),
         LINE(run,
              " ww --method particle:n=0|2|8 --method particle:n=8,track=0|4 --method "
@@ -194,6 +234,7 @@ int main(void)
         cmocka_unit_test(loops_when_a_call_fails_say_so),
         cmocka_unit_test(figures_of_several_bodies_when_a_call_fails_say_so),
         cmocka_unit_test(figures_when_a_call_fails_say_so),
+        cmocka_unit_test(report_of_a_pair_replays_it),
         cmocka_unit_test(report_when_a_call_fails_says_so),
     };
     return cmocka_run_group_tests(tests, make_files, fault_lines_close);

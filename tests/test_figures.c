@@ -333,6 +333,9 @@ static void numbers_have_commas(void **state)
     assert_string_equal(mote_figure_number(7, number), "7");
     assert_string_equal(mote_figure_number(11920, number), "11,920");
     assert_string_equal(mote_figure_number(1234567, number), "1,234,567");
+    /* Cut where there is no room, never beyond it. */
+    assert_true(strlen(mote_figure_number(1e300, number)) < sizeof number);
+    assert_int_equal(strncmp(number, "1,000,000", 5), 0);
 }
 
 int main(void)

@@ -48,6 +48,33 @@ static void front_time_leaves_out_points_that_are_dominated(void **state)
     near(mote_front_time(times, errors, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
 }
 
+static void front_time_of_points_in_any_order_takes_the_next(void **state)
+{
+    (void)state;
+    /* Worse ones last and slower ones between: from 100 at 1e-4 to 50 at 1e-2. */
+    const double times[] = {100, 10, 50, 500}, errors[] = {1e-4, 1e-1, 1e-2, 1e-2};
+    near(mote_front_time(times, errors, 4, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
+    const double turned[] = {100, 50, 10}, wrong[] = {1e-4, 1e-2, 1e-1};
+    near(mote_front_time(turned, wrong, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
+}
+
+static void front_title_leaves_out_n_wherever_it_stands(void **state)
+{
+    (void)state;
+    static const char *const labels[][2] = {{"p:n=5", "p"},
+                                            {"p:n=5,refine=no", "p:refine=no"},
+                                            {"p:law=log,n=5", "p:law=log"},
+                                            {"p:law=log,n=5,refine=no", "p:law=log,refine=no"},
+                                            {"p:law=log", "p:law=log"}};
+    for (size_t i = 0; i < sizeof labels / sizeof labels[0]; ++i) {
+        char label[64], title[64];
+        (void)snprintf(label, sizeof label, "%s", labels[i][0]);
+        const mote_summary_row row = {.label = label};
+        mote_front_title(&row, title, sizeof title);
+        assert_string_equal(title, labels[i][1]);
+    }
+}
+
 static double first_of(void *context, const size_t *drawn, size_t count)
 {
     const double *values = context;
@@ -97,11 +124,12 @@ static void write_cell(const char *method, const char *label, double n, int repl
     if (n > 0)
         (void)json_object_set_new(parameters, "n", json_integer((json_int_t)n));
     json_t *cell = json_pack(
-        "{s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:[i,i], s:i, s:i, s:s, s:[i,i], s:[i,i]}",
+        "{s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:[i,i], s:i, s:i, s:s, s:[i,i], s:[i,i], "
+        "s:[i,i]}",
         "schema", 1, "id", id, "status", "ok", "scenario", "s", "fingerprint",
         "0123456789abcdef", "method", method, "parameters", parameters, "replicate", replicate,
-        "frames", 1, 20, "stride", 1, "seed", 0, "cache", "hot", "triangles", 10, 10, "active",
-        1, 20);
+        "frames", 1, 20, "stride", 1, "seed", 0, "cache", "hot", "triangles", 10, 10,
+        "vertices", 7, 7, "active", 1, 20);
     mote_text_add(&text,
                   "frame,deform_ns,update_ns,query_ns,truth,error,contact,contact_truth\n");
     for (int k = 1; k <= 20; ++k)
@@ -208,6 +236,8 @@ int main(void)
         cmocka_unit_test(front_time_between_two_points_is_interpolated),
         cmocka_unit_test(front_time_of_an_exact_point_is_not_interpolated),
         cmocka_unit_test(front_time_leaves_out_points_that_are_dominated),
+        cmocka_unit_test(front_time_of_points_in_any_order_takes_the_next),
+        cmocka_unit_test(front_title_leaves_out_n_wherever_it_stands),
         cmocka_unit_test(process_interval_of_few_processes_is_students),
         cmocka_unit_test(process_interval_of_many_processes_is_near_the_normal_one),
         cmocka_unit_test(fronts_of_a_run_say_how_much_faster_at_each_error),

@@ -1,4 +1,5 @@
 /* The data of the page's replay, read back as the page reads it. */
+#include "harness/probe.h"
 #include "harness/replay.h"
 #include "tests/program.h"
 
@@ -251,6 +252,144 @@ static void replay_particles_of_other_answers_are_not_shown(void **state)
     mote_replay_free(&scene);
 }
 
+/* Down from all that there is: first particles, then tracks are left out, each named; what is
+   written is JSON and no larger than what was allowed, but for its notes. */
+static void replay_write_of_any_budget_names_all_that_is_left_out(void **state)
+{
+    (void)state;
+    mote_replay_scene scene;
+    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    mote_text all = {0};
+    assert_int_equal(mote_replay_write(&scene, 1u << 24, &all), MOTE_OK);
+    size_t tracks = TRACKS, least = TRACKS;
+    for (size_t budget = all.size; tracks > 0; budget -= 150) {
+        mote_text text = {0};
+        const mote_status status = mote_replay_write(&scene, budget, &text);
+        if (status == MOTE_EUNSUPPORTED) { /* not even the meshes and the motion */
+            assert_non_null(strstr(mote_error_text(), "too large for the page"));
+            break;
+        }
+        assert_int_equal(status, MOTE_OK);
+        json_t *root = json_loads(text.data, 0, NULL);
+        assert_non_null(root);
+        tracks = json_array_size(json_object_get(root, "tracks"));
+        size_t named = 0;
+        for (const char *p = text.data; (p = strstr(p, ": left out, to keep")) != NULL; ++p)
+            ++named;
+        assert_int_equal(tracks + named, TRACKS);
+        least = tracks < least ? tracks : least;
+        json_decref(root);
+        free(text.data);
+    }
+    assert_true(least < TRACKS);
+    free(all.data);
+    mote_replay_free(&scene);
+}
+
+/* What stands on the page before it leaves less room: first none is lost, then all. */
+static void replay_json_of_a_full_page_shows_no_scene(void **state)
+{
+    (void)state;
+    static const size_t filled[] = {MOTE_REPLAY_PAGE_BYTES - 2000000, MOTE_REPLAY_PAGE_BYTES};
+    for (size_t i = 0; i < 2; ++i) {
+        char *blank = malloc(filled[i] + 1);
+        assert_non_null(blank);
+        memset(blank, ' ', filled[i]);
+        blank[filled[i]] = '\0';
+        mote_text text = {0};
+        size_t shown = 0;
+        mote_text_add(&text, "%s", blank);
+        free(blank);
+        assert_int_equal(mote_replay_json(&report, &text, &shown), MOTE_OK);
+        assert_int_equal(shown, i == 0 ? 1 : 0);
+        assert_true((strstr(text.data + filled[i], "too large for the page") != NULL) ==
+                    (i == 1));
+        free(text.data);
+    }
+}
+
+/* A file that was cut or changed since it was read gives empty places, and no more rows. */
+static void replay_read_cell_of_a_changed_file_gives_none(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"", "frame,distance", "frame,distance\n",
+                                        "distance,frame\n0.5,1\n,2\n",
+                                        "distance,ax,ay,az,bx,by,bz\n0.5,1,2,3,4,5,6\n7"};
+    static const size_t known[] = {0, 0, 0, 1, 2};
+    char path[128], id[] = "changed";
+    (void)snprintf(path, sizeof path, "%s/cells/changed.csv", run_directory);
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
+        const mote_stored_cell cell = {.id = id, .frames = 3};
+        mote_replay_track track = {.cell = &cell};
+        assert_int_equal(mote_file_write(path, texts[i], strlen(texts[i])), MOTE_OK);
+        assert_int_equal(mote_replay_read_cell(run_directory, &track), MOTE_OK);
+        assert_int_equal(track.rows, 3);
+        size_t count = 0;
+        for (size_t k = 0; k < track.rows; ++k)
+            count += track.distance[k] == track.distance[k] ? 1 : 0;
+        assert_int_equal(count, known[i]);
+        free(track.distance);
+        free(track.pair);
+    }
+    assert_int_equal(unlink(path), 0);
+}
+
+/* A method that is not known here, more particles than a picture shows, and no rows. */
+static void replay_particles_of_odd_tracks_are_not_shown(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *label, *note;
+        size_t rows;
+    } odd[] = {{"magic:n=3", NULL, FRAMES},
+               {"certified", NULL, FRAMES},
+               {"particle-paper:n=3", NULL, 0},
+               {"particle-paper:n=65,refine=no", "more than a picture shows", 1},
+               {"particle-paper:n=1000000", "n", FRAMES}};
+    mote_replay_scene scene;
+    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    for (size_t i = 0; i < sizeof odd / sizeof odd[0]; ++i) {
+        char label[64];
+        (void)snprintf(label, sizeof label, "%s", odd[i].label);
+        mote_summary_row row = *scene.tracks[PAPER].row;
+        row.label = label;
+        double distances[FRAMES] = {0};
+        mote_replay_track track = {.row = &row,
+                                   .cell = scene.tracks[PAPER].cell,
+                                   .distance = distances,
+                                   .rows = odd[i].rows};
+        mote_method_choice choice;
+        mote_probe *probe = NULL;
+        mote_frame_buffer *buffer = NULL;
+        if (odd[i].rows == 1) { /* with the answer that it gives */
+            mote_answer answer = {0};
+            const double seed = mote_stored_number(track.cell, "seed");
+            assert_int_equal(mote_method_choice_read(label, &choice), MOTE_OK);
+            assert_int_equal(mote_probe_create(&scene.scenario->body[0],
+                                               &scene.scenario->body[1], &choice,
+                                               scene.scenario->ask, 0, (uint64_t)seed, &probe),
+                             MOTE_OK);
+            assert_int_equal(mote_frame_buffer_create(scene.scenario, &buffer), MOTE_OK);
+            assert_int_equal(
+                mote_probe_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),
+                                  &answer),
+                MOTE_OK);
+            distances[0] = answer.distance;
+            mote_probe_destroy(probe);
+            mote_frame_buffer_destroy(buffer);
+        }
+        const size_t notes = json_array_size(scene.notes);
+        assert_int_equal(mote_replay_particles(&scene, &track), MOTE_OK);
+        assert_int_equal(track.particles, 0);
+        assert_null(track.place);
+        assert_int_equal(json_array_size(scene.notes), notes + (odd[i].note ? 1 : 0));
+        if (odd[i].note)
+            assert_non_null(
+                strstr(json_string_value(json_array_get(scene.notes, notes)), odd[i].note));
+    }
+    mote_replay_free(&scene);
+}
+
 static void replay_load_of_a_changed_scenario_is_refused(void **state)
 {
     (void)state;
@@ -279,6 +418,10 @@ int main(void)
         cmocka_unit_test(replay_write_of_a_small_budget_leaves_out_and_names),
         cmocka_unit_test(replay_particles_of_tracked_begin_with_the_pair),
         cmocka_unit_test(replay_particles_of_other_answers_are_not_shown),
+        cmocka_unit_test(replay_write_of_any_budget_names_all_that_is_left_out),
+        cmocka_unit_test(replay_json_of_a_full_page_shows_no_scene),
+        cmocka_unit_test(replay_read_cell_of_a_changed_file_gives_none),
+        cmocka_unit_test(replay_particles_of_odd_tracks_are_not_shown),
         cmocka_unit_test(replay_load_of_a_changed_scenario_is_refused),
     };
     return cmocka_run_group_tests(tests, make_run, remove_base);

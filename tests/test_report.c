@@ -326,6 +326,27 @@ static void markdown_html_folds_code_and_escapes(void **state)
     free(text.data);
 }
 
+static void markdown_html_of_a_text_without_ends_closes_what_is_open(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"###### deep `code", "<h6>deep <code>code</code></h6>\n"},
+        {"    code", "<details><summary>Reproduction</summary><pre><code>code\n"
+                     "</code></pre></details>\n"},
+        {"a\n\n\nb", "<p>a</p>\n<p>b</p>\n"},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
+        mote_text text = {0};
+        mote_markdown_html(&text, pairs[i][0]);
+        assert_string_equal(text.data, pairs[i][1]);
+        free(text.data);
+    }
+    mote_text text = {0};
+    mote_markdown_nested(&text, "# title\n## one\nlast");
+    assert_string_equal(text.data, "### one\nlast\n");
+    free(text.data);
+}
+
 static void show_whole_separates_thousands(void **state)
 {
     (void)state;
@@ -356,6 +377,7 @@ int main(void)
         cmocka_unit_test(escape_script_cannot_end_the_element),
         cmocka_unit_test(base64_of_the_standards_vectors_is_theirs),
         cmocka_unit_test(markdown_html_folds_code_and_escapes),
+        cmocka_unit_test(markdown_html_of_a_text_without_ends_closes_what_is_open),
         cmocka_unit_test(show_whole_separates_thousands),
     };
     return cmocka_run_group_tests(tests, make_run, remove_base);

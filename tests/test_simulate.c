@@ -5,6 +5,7 @@
 #include "harness/file.h"
 #include "harness/motion.h"
 #include "harness/penetration.h"
+#include "harness/film.h"
 #include "harness/trace.h"
 #include "harness/truth.h"
 #include "tests/program.h"
@@ -520,6 +521,49 @@ static void command_simulate_film_is_a_gif(void **state)
     assert_int_not_equal(access(FILM ".frames", F_OK), 0);
 }
 
+/* More steps with a contact than a film has pictures, bodies one above the other or at one
+   place, and a method without witnesses: pictures that gnuplot can read, twice as many at
+   most. */
+static void film_watch_of_odd_steps_keeps_its_bounds(void **state)
+{
+    (void)state;
+    static const char *const places[] = {"0, 0, 0", "0, 2, 0"};
+    const mote_method_choice choice = choice_of("certified");
+    for (size_t p = 0; p < 2; ++p) {
+        mote_scenario *scenario = load("", places[p], FLYING);
+        mote_film *film = NULL;
+        mote_probe *probe = NULL;
+        mote_frame_buffer *buffer = NULL;
+        mote_answer none = {0};
+        char name[64], *text = NULL;
+        size_t size = 0;
+        assert_int_equal(mote_film_create(scenario, "certified", 1000, FILM, &film), MOTE_OK);
+        assert_int_equal(mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
+                                           scenario->ask, 0, 1, &probe),
+                         MOTE_OK);
+        assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
+        mote_simulation_view view = {.said = &none, .method = probe};
+        view.frame = mote_scenario_frame(scenario, buffer, 1, 0);
+        for (view.step = 0; view.step < (p == 0 ? 500 : 3); ++view.step) {
+            view.contact = view.step % 2 == 1;
+            assert_int_equal(mote_film_watch(film, &view), MOTE_OK);
+        }
+        (void)snprintf(name, sizeof name, FILM ".frames/%03u.dat", p == 0 ? 239 : 1);
+        assert_int_equal(mote_file_read(name, 1 << 24, &text, &size), MOTE_OK);
+        assert_non_null(strstr(text, p == 0 ? "1 0 4" : "1 0 1"));
+        const char *middle = strstr(text, "NaN NaN NaN\n\n\nNaN NaN NaN\n\n\nNaN NaN NaN\n");
+        assert_non_null(middle); /* no particles, no closest points */
+        assert_true(strstr(text, "nan") == NULL && strstr(text, "inf") == NULL);
+        assert_int_not_equal(access(FILM ".frames/240.dat", F_OK), 0);
+        free(text);
+        mote_film_destroy(film);
+        assert_int_not_equal(access(FILM ".frames", F_OK), 0);
+        mote_frame_buffer_destroy(buffer);
+        mote_probe_destroy(probe);
+        mote_scenario_destroy(scenario);
+    }
+}
+
 typedef struct bad_line {
     const char *line;
     int status;
@@ -587,6 +631,7 @@ int main(void)
         cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),
         cmocka_unit_test(command_simulate_json_has_the_keys),
         cmocka_unit_test(command_simulate_film_is_a_gif),
+        cmocka_unit_test(film_watch_of_odd_steps_keeps_its_bounds),
         cmocka_unit_test(command_simulate_bad_line_exit_status_and_reason),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
