@@ -118,17 +118,11 @@ bool mote_figure_first(const mote_summary *summary, const mote_summary_row *row,
 
 static const double *times_of(const mote_stored_cell *cell, mote_figure_part part)
 {
-    switch (part) {
-    case MOTE_FIGURE_DEFORM:
-        return cell->deform_ns;
-    case MOTE_FIGURE_UPDATE:
-        return cell->update_ns;
-    case MOTE_FIGURE_QUERY:
-        return cell->query_ns;
-    case MOTE_FIGURE_TOTAL:
-        break;
-    }
-    return cell->total_ns;
+    const double *const times[] = {[MOTE_FIGURE_DEFORM] = cell->deform_ns,
+                                   [MOTE_FIGURE_UPDATE] = cell->update_ns,
+                                   [MOTE_FIGURE_QUERY] = cell->query_ns,
+                                   [MOTE_FIGURE_TOTAL] = cell->total_ns};
+    return times[part];
 }
 
 mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,

@@ -52,7 +52,7 @@ static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
     size_t i, count = 0;
     const json_t *row;
     mote_figure_block(text, titles[m]);
-    json_array_foreach(rows, i, row)
+    MOTE_EACH(i, row, rows)
     {
         const char *method = json_string_value(json_object_get(row, "method"));
         const bool ok = strcmp(json_string_value(json_object_get(row, "status"))
@@ -77,7 +77,7 @@ static void add_ratios(const json_t *rows, mote_text *caption)
 {
     size_t i;
     const json_t *row;
-    json_array_foreach(rows, i, row)
+    MOTE_EACH(i, row, rows)
     {
         const char *method = json_string_value(json_object_get(row, "method"));
         const double ratio = number_of(row, "ratio");

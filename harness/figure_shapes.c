@@ -207,9 +207,9 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
     mote_status status = mote_figure_scene_open(row, &scene);
     if (status == MOTE_OK) {
         const mote_figure_camera camera = whole_camera(&scene);
-        const uint32_t active = scene.scenario->active.first ? scene.scenario->active.first : 1;
         const uint32_t last = scene.scenario->frames;
-        const uint32_t contact = first_near(row->first, active, 0, last / 2 + 1);
+        const uint32_t contact =
+            first_near(row->first, scene.scenario->active.first, 0, last / 2 + 1);
         const uint32_t frames[4] = {1, (1 + contact) / 2, contact, last};
         const mote_body *const body = scene.scenario->body;
         for (int k = 0; k < 4; ++k)
@@ -248,7 +248,7 @@ static mote_status write_frame(const mote_figure_run *run, mote_figure_scene *sc
     mote_text_add(&text, "\n\n");
     mote_figure_quote(&text, label);
     mote_text_add(&text, "\n");
-    *hash = mote_hash_bytes(MOTE_HASH_START, text.data ? text.data : "", text.size);
+    *hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
     const mote_status status = mote_record_text(run->directory, name, &text);
     free(name);
     return status;

@@ -154,8 +154,7 @@ static mote_status add_index(drawing *d, const figure_kind *kind, const char *sc
     json_t *entry =
         json_pack("{s:i, s:s, s:s?, s:s, s:s, s:s, s:s, s:o}", "number", kind->number, "name",
                   name, "scenario", scenario, "title", kind->title, "caption",
-                  figure->caption.data ? figure->caption.data : "", "run", d->identity, "data",
-                  hash, "files", files);
+                  figure->caption.data, "run", d->identity, "data", hash, "files", files);
     ++d->drawn;
     if (!entry || json_array_append_new(d->index, entry) != 0)
         return mote_fail(MOTE_ENOMEM, "no memory for the list of figures");

@@ -5,6 +5,7 @@
 #include "harness/file.h"
 
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Writes directory/name, text taken over and freed. MOTE_ENOMEM when text failed. */
@@ -24,6 +25,11 @@ json_t *mote_json_number(double value);
 /* Prints object with jansson's flags and a line end; object is taken over
    (decref'd), NULL is MOTE_ENOMEM. Whether out took it is the caller's to check. */
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
+
+/* for each item of a JSON array, of none where it is no array: item is never NULL. */
+#define MOTE_EACH(i, item, array)                                                              \
+    for ((i) = 0; (i) < json_array_size(array) && ((item) = json_array_get(array, i), true);   \
+         ++(i))
 
 /* Indented, numbers with 17 digits. */
 #define MOTE_JSON_FLAGS (JSON_INDENT(1) | JSON_REAL_PRECISION(17))

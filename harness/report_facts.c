@@ -1,6 +1,7 @@
 #include "harness/report_facts.h"
 
 #include "harness/catalog.h"
+#include "harness/record.h"
 #include "harness/report_rows.h"
 
 #include <stdio.h>
@@ -79,7 +80,7 @@ static json_t *command(const json_t *session)
     const json_t *word;
     mote_text text = {0};
     mote_text_add(&text, "mote");
-    json_array_foreach(json_object_get(session, "command"), i, word)
+    MOTE_EACH(i, word, json_object_get(session, "command"))
     {
         add_word(&text, json_is_string(word) ? json_string_value(word) : "");
     }
@@ -95,7 +96,7 @@ json_t *mote_report_commands(const mote_report *report)
     size_t i;
     const json_t *session;
     json_t *list = json_array();
-    json_array_foreach(json_object_get(report->manifest, "sessions"), i, session)
+    MOTE_EACH(i, session, json_object_get(report->manifest, "sessions"))
     {
         if (list && json_array_append_new(list, command(session)) != 0) {
             json_decref(list);

@@ -52,7 +52,7 @@ static mote_status add_entry(mote_report *report, const json_t *entry)
     const json_t *item;
     const char *scenario = mote_report_text(entry, "scenario");
     mote_status status = MOTE_OK;
-    json_array_foreach(json_object_get(entry, "files"), i, item)
+    MOTE_EACH(i, item, json_object_get(entry, "files"))
     {
         const char *file = json_is_string(item) ? json_string_value(item) : "";
         bool shown = ends_in(file, ".svg") || ends_in(file, ".gif");
@@ -71,12 +71,12 @@ static mote_status read_list(mote_report *report, const json_t *list)
     size_t i;
     json_t *item;
     mote_status status = MOTE_OK;
-    json_array_foreach(json_object_get(list, "figures"), i, item)
+    MOTE_EACH(i, item, json_object_get(list, "figures"))
     {
         if (status == MOTE_OK)
             status = add_entry(report, item);
     }
-    json_array_foreach(json_object_get(list, "missing"), i, item)
+    MOTE_EACH(i, item, json_object_get(list, "missing"))
     {
         if (json_is_string(item) && json_array_append(report->missing, item) != 0)
             status = mote_fail(MOTE_ENOMEM, "no memory for a report");

@@ -48,12 +48,12 @@ static mote_status read_json(mote_report *report, const char *name, const char *
 static mote_status add_lines(mote_report *report, const char *text)
 {
     mote_status status = MOTE_OK;
-    while (text && *text && status == MOTE_OK) {
+    while (*text && status == MOTE_OK) {
         text += strncmp(text, "mote: ", 6) == 0 ? 6 : 0;
         size_t length = strcspn(text, "\n");
         if (length > 0)
             status = add_missing(report, mote_format("a cell: %.*s", (int)length, text));
-        text += length + (text[length] ? 1 : 0);
+        text += length + 1; /* each line has an end */
     }
     return status;
 }

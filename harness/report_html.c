@@ -4,6 +4,7 @@
 #include "harness/data.h"
 #include "harness/escape.h"
 #include "harness/markdown_html.h"
+#include "harness/record.h"
 #include "harness/report_facts.h"
 
 #include <stdlib.h>
@@ -71,8 +72,7 @@ static mote_status add_top(const mote_report *report, mote_text *text)
 
 static const char *pair_text(const json_t *pair, size_t index)
 {
-    const char *value = json_string_value(json_array_get(pair, index));
-    return value ? value : "";
+    return json_string_value(json_array_get(pair, index));
 }
 
 static void add_scenarios(const json_t *scenarios, mote_text *text)
@@ -80,7 +80,7 @@ static void add_scenarios(const json_t *scenarios, mote_text *text)
     size_t i;
     const json_t *pair;
     mote_text_add(text, "<dl>\n");
-    json_array_foreach(scenarios, i, pair)
+    MOTE_EACH(i, pair, scenarios)
     {
         mote_text_add(text, "<dt>");
         mote_escape_html(text, pair_text(pair, 0));
@@ -98,7 +98,7 @@ static void add_commands(const json_t *commands, mote_text *text)
     if (json_array_size(commands) == 0)
         return;
     mote_text_add(text, "<details><summary>Commands that measured it</summary>\n<pre><code>");
-    json_array_foreach(commands, i, pair)
+    MOTE_EACH(i, pair, commands)
     {
         mote_text_add(text, "# ");
         mote_escape_html(text, pair_text(pair, 0));
@@ -140,7 +140,7 @@ static void add_missing(const mote_report *report, mote_text *text)
         return;
     mote_report_html_section(text, "missing", "What this run does not have");
     mote_text_add(text, "<ul>\n");
-    json_array_foreach(report->missing, i, what)
+    MOTE_EACH(i, what, report->missing)
     {
         mote_text_add(text, "<li>");
         mote_markdown_inline(text, json_string_value(what));
@@ -160,7 +160,7 @@ static mote_status add_machine(const mote_report *report, mote_text *text)
         return mote_fail(MOTE_ENOMEM, "no memory for a report");
     mote_report_html_section(text, "machine", "The machine and the program");
     mote_text_add(text, "<dl>\n");
-    json_array_foreach(facts, i, pair)
+    MOTE_EACH(i, pair, facts)
     {
         mote_text_add(text, "<dt>");
         mote_escape_html(text, pair_text(pair, 0));

@@ -1,5 +1,6 @@
 /* The page's claims: a line a claim, which opens to its figures. */
 #include "harness/escape.h"
+#include "harness/record.h"
 #include "harness/report_html.h"
 #include "harness/report_rows.h"
 
@@ -46,7 +47,7 @@ static void add_values(const mote_report *report, const json_t *claim, const cha
     mote_text_add(text, "<div class=\"wide\"><table class=\"values\"><thead><tr>"
                         "<th scope=\"col\">figure</th><th scope=\"col\">value</th>"
                         "<th scope=\"col\">threshold</th></tr></thead><tbody>\n");
-    json_array_foreach(json_object_get(claim, "values"), i, value)
+    MOTE_EACH(i, value, json_object_get(claim, "values"))
     {
         mote_text_add(text, "<tr><th scope=\"row\">");
         mote_escape_html(text, mote_report_text(value, "name"));
@@ -110,7 +111,7 @@ static void add_list(const mote_report *report, const json_t *list, const char *
 {
     size_t i;
     const json_t *claim;
-    json_array_foreach(list, i, claim)
+    MOTE_EACH(i, claim, list)
     {
         add_claim(report, claim, file, text);
     }

@@ -1,6 +1,7 @@
 /* The page's replay: its data, and the program that `make page` bundles for it. */
 #include "harness/data.h"
 #include "harness/escape.h"
+#include "harness/record.h"
 #include "harness/replay.h"
 #include "harness/report_html.h"
 
@@ -33,7 +34,7 @@ static void add_notes(const char *json, mote_text *text)
     const json_t *notes = json_object_get(root, "notes");
     if (json_array_size(notes) > 0) {
         mote_text_add(text, "<details><summary>Scenarios without a replay</summary><ul>\n");
-        json_array_foreach(notes, i, note)
+        MOTE_EACH(i, note, notes)
         {
             mote_text_add(text, "<li>");
             mote_escape_html(text, json_string_value(note));

@@ -2,6 +2,7 @@
    in tables, and what they were computed from is linked at the end of each row. */
 #include "harness/escape.h"
 #include "harness/markdown_html.h"
+#include "harness/record.h"
 #include "harness/report_facts.h"
 #include "harness/report_rows.h"
 
@@ -10,8 +11,7 @@
 
 static const char *pair_text(const json_t *pair, size_t index)
 {
-    const char *value = json_string_value(json_array_get(pair, index));
-    return value ? value : "";
+    return json_string_value(json_array_get(pair, index));
 }
 
 /* "- key: value" for each pair. */
@@ -21,7 +21,7 @@ static mote_status add_pairs(json_t *pairs, mote_text *text)
     const json_t *pair;
     if (!pairs)
         return mote_fail(MOTE_ENOMEM, "no memory for a report");
-    json_array_foreach(pairs, i, pair)
+    MOTE_EACH(i, pair, pairs)
     {
         mote_text_add(text, "- ");
         mote_escape_markdown(text, pair_text(pair, 0));
@@ -42,7 +42,7 @@ static mote_status add_commands(const mote_report *report, mote_text *text)
         return mote_fail(MOTE_ENOMEM, "no memory for a report");
     if (json_array_size(commands) > 0)
         mote_text_add(text, "\nMeasured by\n");
-    json_array_foreach(commands, i, pair)
+    MOTE_EACH(i, pair, commands)
     {
         mote_text_add(text, "\n1. ");
         mote_escape_markdown(text, pair_text(pair, 1));
@@ -60,7 +60,7 @@ static void add_missing(const mote_report *report, mote_text *text)
     if (json_array_size(report->missing) == 0)
         return;
     mote_text_add(text, "\n## What this run does not have\n\n");
-    json_array_foreach(report->missing, i, what)
+    MOTE_EACH(i, what, report->missing)
     {
         mote_text_add(text, "- ");
         mote_escape_markdown(text, json_string_value(what));
@@ -251,7 +251,7 @@ static void add_claims(const mote_report *report, const json_t *claims, const ch
     if (json_array_size(claims) == 0)
         return;
     mote_text_add(text, "\n## %s\n\n", title);
-    json_array_foreach(claims, i, claim)
+    MOTE_EACH(i, claim, claims)
     {
         add_claim(report, claim, file, text);
     }

@@ -45,7 +45,11 @@
 #define BODIES                                                                                 \
     "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", "              \
     "\"near_pairs_wanted\": 1, \"bodies\": 1000, \"ratio\": 30, \"step_mean_ns\": 5, "         \
-    "\"rss_peak_bytes\": 7}]}\n"
+    "\"rss_peak_bytes\": 7}, {}, 7, {\"method\": \"certified\", \"status\": 5, \"ratio\": "    \
+    "2}, "                                                                                     \
+    "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 10, \"ratio\": 3, "           \
+    "\"near_pairs_wanted\": \"x\"}, {\"method\": \"aabb-tree\", \"status\": \"ok\"}, "         \
+    "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, \"ratio\": null}]}\n"
 #define LETTERS                                                                                \
     "{\"purpose\": \"several\", \"frames\": 6, \"ask\": \"distance\", \"bodies\": {"           \
     "\"count\": 4, \"seed\": 2, \"near_pairs\": 1, \"near\": 0.3, \"speed\": 0.01, "           \

@@ -218,11 +218,13 @@ static void report_of_a_broken_cell_names_it(void **state)
     assert_int_equal(mkdir(broken, 0777), 0);
     assert_int_equal(mkdir(cells, 0777), 0);
     write_file(cells, "a.json", "{\"id\": \n");
+    write_file(cells, "b\n\nc.json", "{\"id\": \n");
     write_file(broken, "claims.json", "[]\n");
     assert_int_equal(report(broken), 0);
     (void)snprintf(path, sizeof path, "%s/report.md", broken);
     program_read(path, page, sizeof page);
     assert_non_null(strstr(page, "cells/a.json:"));
+    assert_non_null(strstr(page, "broken/cells/b\n- a cell: c.json:"));
 }
 
 static void report_of_a_run_with_a_broken_cell_shows_the_others(void **state)
