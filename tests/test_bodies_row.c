@@ -2,6 +2,7 @@
    against a reference, ends that were not good. */
 #include "harness/bodies_row.h"
 
+#include "harness/bodies_record.h"
 #include "harness/file.h"
 
 #include <setjmp.h>
@@ -185,6 +186,25 @@ static void mote_bodies_measure_over_budget_makes_the_least_steps(void **state)
     mote_bodies_result_free(&result);
 }
 
+/* Names of files: what is not plain becomes a dash, and the hash tells the choices apart. */
+static void mote_bodies_cell_name_is_plain(void **state)
+{
+    (void)state;
+    mote_bodies named = *bodies;
+    char text[] = "AZaz09.@[`{/: ~";
+    named.name = text;
+    const mote_bodies_choice one = choice_of("certified:ahead=2");
+    const mote_bodies_choice other = choice_of("certified:ahead=3");
+    char *a = mote_bodies_cell_name(&named, &one, 7);
+    char *b = mote_bodies_cell_name(&named, &other, 7);
+    static const char first[] = "AZaz09.---------certified-ahead-2-";
+    assert_int_equal(strncmp(a, first, strlen(first)), 0);
+    assert_string_equal(a + strlen(a) - 3, "-r7");
+    assert_string_not_equal(a, b);
+    free(a);
+    free(b);
+}
+
 static int load_bodies(void **state)
 {
     (void)state;
@@ -212,6 +232,7 @@ int main(void)
         cmocka_unit_test(mote_bodies_row_make_without_steps_has_no_times),
         cmocka_unit_test(mote_bodies_measure_ends_that_are_not_good_are_results),
         cmocka_unit_test(mote_bodies_measure_of_frames_beyond_the_last_is_refused),
+        cmocka_unit_test(mote_bodies_cell_name_is_plain),
         cmocka_unit_test(mote_bodies_measure_over_budget_makes_the_least_steps),
     };
     return cmocka_run_group_tests(tests, load_bodies, free_bodies);

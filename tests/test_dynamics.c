@@ -151,6 +151,69 @@ static void row_without_approaches_has_no_share(void **state)
     mote_claim_free(&claim);
 }
 
+/* Drawn are rows of the law as printed that came to a contact; the claim counts those of the
+   paper's scenes. */
+static void figure_and_claim_take_rows_of_the_printed_law(void **state)
+{
+    (void)state;
+    char text[4096];
+    const mote_approaches some = {.trials = 9, .approaches = 8, .passes_through = 2};
+    const mote_dynamics_row rows[] = {
+        {.scene = "ww", .method = "a", .n = 3, .law = "log", .paper = true, .sum = some},
+        {.scene = "ww", .method = "b", .n = 4, .law = "log", .paper = true},
+        {.scene = "ww", .method = "c", .n = 5, .law = "inverse", .paper = true, .sum = some},
+        {.scene = "ww", .method = "d", .paper = true, .sum = some},
+        {.scene = "vv", .method = "e", .n = 6, .law = "log", .sum = some}};
+    assert_int_equal(mote_dynamics_figure(rows, 5, OUT), MOTE_OK);
+    program_read(OUT "/figures/dynamics.dat", text, sizeof text);
+    assert_non_null(strstr(text, "\"ww\"\n3 0.25 "));
+    assert_non_null(strstr(text, "\"vv\"\n6 0.25 "));
+    assert_null(strstr(text, "\n4 "));
+    assert_null(strstr(text, "\n5 "));
+    mote_claim claim = {0};
+    mote_dynamics_claim(&claim);
+    for (int k = 0; k < 5; ++k)
+        assert_int_equal(mote_dynamics_claim_add(&claim, &rows[k]), MOTE_OK);
+    json_t *object = mote_claim_json(&claim);
+    static const char *const names[] = {"ww, n = 3", "ww, n = 4", "ww, c", "ww, d", "vv, e"};
+    for (size_t k = 0; k < 5; ++k) {
+        const json_t *value = json_array_get(json_object_get(object, "values"), k);
+        assert_string_equal(json_string_value(json_object_get(value, "name")), names[k]);
+        assert_true(json_is_object(json_object_get(value, "threshold")) == (k < 2));
+    }
+    json_decref(object);
+    mote_claim_free(&claim);
+}
+
+/* Bodies of two motes each seldom meet: the approaches end, and are said to be too few. */
+static void approaches_that_seldom_come_to_a_contact_end(void **state)
+{
+    (void)state;
+    static const char motes[] =
+        "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nv 0 0 0.01\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        "v 1 0 0\nv 1.01 0 0\nv 1 0.01 0\nv 1 0 0.01\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+    static const char scene[] =
+        "{\"purpose\": \"motes\", \"frames\": 4, \"ask\": \"distance\", "
+        "\"bodies\": [{\"file\": \"n.obj\"}, {\"file\": \"n.obj\"}]}\n";
+    assert_int_equal(mote_file_write(OUT "/n.obj", motes, sizeof motes - 1), MOTE_OK);
+    assert_int_equal(mote_file_write(OUT "/n.json", scene, sizeof scene - 1), MOTE_OK);
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_scenario_load(OUT "/n.json", &scenario), MOTE_OK);
+    mote_dynamics_row row = {.wanted = 3};
+    assert_int_equal(mote_approaches_simulate(scenario, "certified", 3, &row.sum), MOTE_OK);
+    assert_int_equal(row.sum.trials, 12);
+    assert_true(row.sum.approaches < 3 && row.sum.steps > 12);
+    assert_non_null(strstr(mote_dynamics_failure(&row), "too few approaches"));
+    assert_int_equal(mote_approaches_simulate(scenario, "certified", 0, &row.sum), MOTE_OK);
+    assert_int_equal(row.sum.trials, 0);
+    assert_true(row.sum.query_ns == 0);
+    assert_int_equal(mote_approaches_simulate(scenario, "magic", 1, &row.sum), MOTE_EINVAL);
+    assert_int_equal(mote_approaches_simulate(scenario, "particle:n=9", 1, &row.sum),
+                     MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "n, particle:n=9, approach 1: "));
+    mote_scenario_destroy(scenario);
+}
+
 static void failure_names_what_was_not_met(void **state)
 {
     (void)state;
@@ -301,6 +364,8 @@ int main(void)
         cmocka_unit_test(approach_draw_starts_apart_and_aims_at_the_other),
         cmocka_unit_test(approaches_json_comes_back),
         cmocka_unit_test(row_without_approaches_has_no_share),
+        cmocka_unit_test(figure_and_claim_take_rows_of_the_printed_law),
+        cmocka_unit_test(approaches_that_seldom_come_to_a_contact_end),
         cmocka_unit_test(failure_names_what_was_not_met),
         cmocka_unit_test(claim_follows_from_the_rows),
         cmocka_unit_test(command_dynamics_goes_on_where_it_stopped),

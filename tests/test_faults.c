@@ -180,6 +180,37 @@ static bool exists(const char *path)
     return stat(path, &info) == 0;
 }
 
+static void file_read_of_more_than_the_limit_says_both(void **state)
+{
+    (void)state;
+    char path[128], *text = NULL;
+    size_t size = 77;
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    assert_int_equal(mote_file_write(path, "12345", 5), MOTE_OK);
+    assert_int_equal(mote_file_read(path, 4, &text, &size), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), path));
+    assert_non_null(strstr(mote_error_text(), "5"));
+    assert_non_null(strstr(mote_error_text(), "4"));
+    assert_null(text);
+    assert_int_equal(size, 77);
+    assert_int_equal(mote_file_read(path, 5, &text, &size), MOTE_OK);
+    assert_string_equal(text, "12345");
+    free(text);
+    assert_int_equal(remove(path), 0);
+}
+
+static void directory_make_of_what_cannot_be_one_says_so(void **state)
+{
+    (void)state;
+    char path[128];
+    assert_int_equal(mote_directory_make(""), MOTE_EIO);
+    assert_non_null(strstr(mote_error_text(), "name a directory that can be written to"));
+    (void)snprintf(path, sizeof path, "%s/cells/fuzz.csv/a/b/c", folder);
+    assert_int_equal(mote_directory_make(path), MOTE_EIO);
+    assert_non_null(
+        strstr(mote_error_text(), "cells/fuzz.csv: cannot be made: Not a directory"));
+}
+
 static void file_write_when_a_step_fails_leaves_the_file_whole(void **state)
 {
     (void)state;
@@ -248,6 +279,8 @@ int main(void)
         cmocka_unit_test(method_when_an_allocation_fails_says_so),
         cmocka_unit_test(scenario_load_when_an_allocation_fails_says_so),
         cmocka_unit_test(summary_when_an_allocation_fails_says_so),
+        cmocka_unit_test(file_read_of_more_than_the_limit_says_both),
+        cmocka_unit_test(directory_make_of_what_cannot_be_one_says_so),
         cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
     };
     const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -472,6 +472,37 @@ static void mote_scenario_load_like_in_a_circle_or_missing_is_refused(void **sta
     assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
+/* What is named replaces what the other one says, whatever that was. */
+static void mote_scenario_load_like_with_what_does_not_fit_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *more, *says;
+    } cases[] = {{"\"active\": {\"first\": 2}", "active: is not that"},
+                 {"\"bodies\": [{}]", "bodies: is not that; give an array of 2"},
+                 {"\"bodies\": 3", "bodies: is not that"},
+                 {"\"bodies\": [3, {}]", "bodies[0]: is not an object"},
+                 {"\"bodies\": null", "bodies: is missing"}};
+    mote_scenario *scenario = NULL;
+    mote_scenario_destroy(load_good());
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char *text = mote_format("{\"like\": \"s.json\", %s}\n", cases[k].more);
+        write_like(text);
+        free(text);
+        assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+        if (!strstr(mote_error_text(), cases[k].says))
+            fail_msg("%s: %s", cases[k].more, mote_error_text());
+    }
+    write_like("{\"purpose\": \"x\",\n\"like\": \"/proc/self/x.json\"}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "like.json:2: like: /proc/self/x.json"));
+    write_like("{\"purpose\": \"x\",\n\"like\": 3}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "like.json:2: like: is not a string"));
+    assert_null(scenario);
+    assert_int_equal(unlink(FOLDER "/like.json"), 0);
+}
+
 static void mote_scenario_load_missing_mesh_file_is_refused(void **state)
 {
     (void)state;
@@ -529,6 +560,7 @@ int main(void)
         cmocka_unit_test(mote_scenario_load_not_a_file_is_refused),
         cmocka_unit_test(mote_scenario_load_like_takes_what_it_does_not_name),
         cmocka_unit_test(mote_scenario_load_like_in_a_circle_or_missing_is_refused),
+        cmocka_unit_test(mote_scenario_load_like_with_what_does_not_fit_is_refused),
         cmocka_unit_test(mote_scenario_load_missing_mesh_file_is_refused),
         cmocka_unit_test(mote_json_line_nested_path_is_found),
         cmocka_unit_test(mote_spread_points_are_far_apart),
