@@ -26,8 +26,7 @@ static int measure_a_row(int argc, char **argv)
 static void study_of_the_closed_loop_when_a_call_fails_says_so(void **state)
 {
     (void)state;
-    static const fault_line list[] = {{"dynamics" STUDY "rows", measure_a_row, 0},
-                                      LINE(dynamics, STUDY "rows --jobs 2", 0)};
+    static const fault_line list[] = {{"dynamics" STUDY "rows", measure_a_row, 0}};
     FAIL_EACH(list);
 }
 
