@@ -2,10 +2,10 @@
 
 #include "harness/data.h"
 #include "harness/file.h"
+#include "harness/json_read.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,19 +31,15 @@ static mote_status read_entry(const char *file, mote_catalog_entry *entry)
         free(name);
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its name", file);
     }
-    json_error_t error;
-    json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
-    const char *purpose = json_string_value(json_object_get(root, "purpose"));
-    mote_status status = MOTE_OK;
-    if (!root)
-        status =
-            mote_fail(MOTE_EINVAL, "%s:%d:%d: %s", path, error.line, error.column, error.text);
-    else if (!purpose)
+    mote_json_file read = {0};
+    mote_status status = mote_json_open(path, &read);
+    const char *purpose = json_string_value(json_object_get(read.root, "purpose"));
+    if (status == MOTE_OK && !purpose)
         status = mote_fail(MOTE_EINVAL, "%s: no purpose; add a sentence", path);
-    else if (!(entry->purpose = mote_format("%s", purpose)))
+    if (status == MOTE_OK && !(entry->purpose = mote_format("%s", purpose)))
         status = mote_fail(MOTE_ENOMEM, "%s: no memory for its purpose", path);
-    entry->several = json_is_object(json_object_get(root, "bodies"));
-    json_decref(root);
+    entry->several = json_is_object(json_object_get(read.root, "bodies"));
+    mote_json_close(&read);
     free(path);
     if (status == MOTE_OK)
         entry->name = name;

@@ -1,30 +1,11 @@
 #include "harness/json_print.h"
 
+#include "harness/json_memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
 #define WIDTH 96
-
-static bool memory_short;
-
-static void *allocate(size_t size)
-{
-    void *block = malloc(size);
-    memory_short = memory_short || !block;
-    return block;
-}
-
-void mote_json_heed_memory(void)
-{
-    json_set_alloc_funcs(allocate, free);
-}
-
-bool mote_json_memory_short(void)
-{
-    const bool was = memory_short;
-    memory_short = false;
-    return was;
-}
 
 char *mote_json_text(const json_t *value, size_t flags)
 {

@@ -1,7 +1,7 @@
 #include "harness/json_read.h"
 
 #include "harness/file.h"
-#include "harness/json_print.h"
+#include "harness/json_memory.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@ mote_status mote_json_parse(const char *path, const char *text, size_t size, con
 {
     json_error_t error;
     (void)mote_json_memory_short(); /* of what was made before */
-    json_t *parsed = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
+    json_t *parsed = mote_json_load(text, size, JSON_REJECT_DUPLICATES, &error);
     if (mote_json_memory_short()) {
         json_decref(parsed);
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its JSON", path);

@@ -1,6 +1,7 @@
 /* The page's replay: its data, and the program that `make page` bundles for it. */
 #include "harness/data.h"
 #include "harness/escape.h"
+#include "harness/json_memory.h"
 #include "harness/record.h"
 #include "harness/replay.h"
 #include "harness/report_html.h"
@@ -30,7 +31,9 @@ static void add_notes(const char *json, mote_text *text)
 {
     size_t i;
     const json_t *note;
-    json_t *root = json_loads(json, 0, NULL);
+    json_error_t error;
+    json_t *root = mote_json_load(json, strlen(json), 0, &error);
+    text->failed = text->failed || mote_json_memory_short();
     const json_t *notes = json_object_get(root, "notes");
     if (json_array_size(notes) > 0) {
         mote_text_add(text, "<details><summary>Scenarios without a replay</summary><ul>\n");

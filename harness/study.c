@@ -2,6 +2,7 @@
 
 #include "harness/catalog.h"
 #include "harness/figures.h"
+#include "harness/json_read.h"
 #include "harness/measure.h"
 #include "harness/record.h"
 
@@ -84,10 +85,12 @@ mote_status mote_study_scene(mote_study *study, const char *name, const mote_sub
 /* The scenario's file with other letters in it. */
 static mote_status change_letters(const char *path, const mote_variant *variant, json_t **root)
 {
-    json_error_t error;
-    json_t *made = json_load_file(path, 0, &error);
-    if (!made)
-        return mote_fail(MOTE_EINVAL, "%s:%d: %s", path, error.line, error.text);
+    mote_json_file read;
+    const mote_status status = mote_json_open(path, &read);
+    if (status != MOTE_OK)
+        return status;
+    json_t *made = json_incref(read.root);
+    mote_json_close(&read);
     size_t index;
     json_t *body;
     const char letter[2] = {variant->letter, '\0'};

@@ -3,7 +3,7 @@
 
 #include "harness/file.h"
 #include "harness/heap_count.h"
-#include "harness/json_print.h"
+#include "harness/json_memory.h"
 #include "tests/fault_points.h"
 
 #include <setjmp.h>

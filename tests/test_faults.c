@@ -3,6 +3,8 @@
    as in tests/failing.h). */
 #include "core/method.h"
 #include "harness/file.h"
+#include "harness/json_memory.h"
+#include "harness/json_read.h"
 #include "harness/probe.h"
 #include "harness/summary.h"
 #include "tests/failing.h"
@@ -270,6 +272,39 @@ static void plant_leak(void)
         lost[0] = 1;
 }
 
+enum { TEXTS = 40 };
+
+/* Texts of 1, 2, ..., TEXTS letters. */
+static mote_status parse_json(void *context)
+{
+    json_t *root;
+    const char *text = context;
+    const mote_status status = mote_json_parse("a file", text, strlen(text), "mend it", &root);
+    if (status != MOTE_OK)
+        return status;
+    assert_int_equal(json_array_size(root), TEXTS);
+    for (size_t i = 0; i < TEXTS; ++i)
+        assert_int_equal(json_string_length(json_array_get(root, i)), i + 1);
+    json_decref(root);
+    return MOTE_OK;
+}
+
+/* jansson's parser itself runs past a token's end where its text could not grow. Last: from
+   here on its memory fails, too. */
+static void json_parse_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz";
+    char text[TEXTS * (TEXTS + 4)];
+    size_t size = 0;
+    for (int i = 1; i <= TEXTS; ++i)
+        size += (size_t)snprintf(text + size, sizeof text - size, "%c\"%.*s\"",
+                                 i > 1 ? ',' : '[', i, letters);
+    (void)snprintf(text + size, sizeof text - size, "]");
+    mote_json_heed_memory();
+    fail_each_allocation(parse_json, text, "mote_json_parse");
+}
+
 int main(void)
 {
     if (getenv("MOTE_PLANT_LEAK"))
@@ -282,6 +317,7 @@ int main(void)
         cmocka_unit_test(file_read_of_more_than_the_limit_says_both),
         cmocka_unit_test(directory_make_of_what_cannot_be_one_says_so),
         cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
+        cmocka_unit_test(json_parse_when_an_allocation_fails_says_so),
     };
     const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
     printf("%ld calls failed\n", calls_failed);
