@@ -42,13 +42,54 @@ static json_t *merge(const json_t *base, const json_t *over, bool element_wise)
     return result;
 }
 
-static char *base_path(const char *path, const char *name)
+static bool is_file(const char *name)
 {
     const size_t length = strlen(name);
-    if (length <= 5 || strcmp(name + length - 5, ".json") != 0)
+    return length > 5 && strcmp(name + length - 5, ".json") == 0;
+}
+
+static char *base_path(const char *path, const char *name)
+{
+    if (!is_file(name))
         return mote_catalog_path(name);
     const char *slash = name[0] == '/' ? NULL : strrchr(path, '/');
     return mote_format("%.*s%s", slash ? (int)(slash - path) + 1 : 0, path, name);
+}
+
+/* Meshes are named from the folder of the file that names them. path: of the other scenario,
+   absolute or as seen from this one's folder. */
+static bool move_meshes(json_t *root, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const int length = slash ? (int)(slash - path) + 1 : 0;
+    json_t *bodies = json_object_get(root, "bodies");
+    json_t *list = json_is_object(bodies) ? json_object_get(bodies, "shapes") : bodies;
+    bool moved = true;
+    for (size_t i = 0; i < json_array_size(list) && moved; ++i) {
+        json_t *body = json_array_get(list, i);
+        const char *file = json_string_value(json_object_get(body, "file"));
+        if (!file || file[0] == '/')
+            continue;
+        char *moved_file = mote_format("%.*s%s", length, path, file);
+        moved = moved_file && json_object_set_new(body, "file", json_string(moved_file)) == 0;
+        free(moved_file);
+    }
+    return moved;
+}
+
+static mote_status open_base(const mote_json_file *file, const char *name, mote_json_file *base)
+{
+    char *path = base_path(file->path, name);
+    mote_status status = path ? mote_reach_check(file->path, path)
+                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
+    if (status == MOTE_OK)
+        status = mote_json_open(path, base);
+    if (status == MOTE_OK && !move_meshes(base->root, is_file(name) ? name : path)) {
+        mote_json_close(base);
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its meshes' paths", name);
+    }
+    free(path);
+    return status;
 }
 
 mote_status mote_scenario_merge_like(mote_json_file *file)
@@ -61,14 +102,8 @@ mote_status mote_scenario_merge_like(mote_json_file *file)
     mote_status status = mote_json_string(&like, &name);
     if (status != MOTE_OK)
         return status;
-    char *path = base_path(file->path, name);
     mote_json_file base;
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
-    status = mote_reach_check(file->path, path);
-    if (status == MOTE_OK)
-        status = mote_json_open(path, &base);
-    free(path);
+    status = open_base(file, name, &base);
     if (status != MOTE_OK)
         return mote_json_blame(&like, status);
     if (json_object_get(base.root, "like")) {

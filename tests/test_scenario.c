@@ -472,6 +472,30 @@ static void mote_scenario_load_like_in_a_circle_or_missing_is_refused(void **sta
     assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
+/* One of ours, and one in a folder below. */
+static void mote_scenario_load_like_one_elsewhere_finds_its_meshes(void **state)
+{
+    (void)state;
+    mote_scenario *like;
+    write_like("{\"like\": \"flat\", \"frames\": 2, \"purpose\": \"x\"}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_true(like->body[0].mesh->triangle_count > 0);
+    mote_scenario_destroy(like);
+    static const char mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    assert_int_equal(mote_directory_make(FOLDER "/below"), MOTE_OK);
+    assert_int_equal(mote_file_write(FOLDER "/below/a.obj", mesh, sizeof mesh - 1), MOTE_OK);
+    write_like("{\"frames\": 2, \"purpose\": \"x\", \"ask\": \"distance\", \"bodies\": "
+               "[{\"file\": \"a.obj\"}, {\"file\": \"a.obj\", \"motion\": [{\"frame\": 1, "
+               "\"position\": [0, 0, 1]}]}]}");
+    assert_int_equal(rename(FOLDER "/like.json", FOLDER "/below/base.json"), 0);
+    write_like("{\"like\": \"below/base.json\", \"frames\": 3, \"purpose\": \"y\"}");
+    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_int_equal(like->body[1].mesh->triangle_count, 1);
+    mote_scenario_destroy(like);
+    assert_int_equal(unlink(FOLDER "/below/a.obj") + unlink(FOLDER "/below/base.json"), 0);
+    assert_int_equal(rmdir(FOLDER "/below") + unlink(FOLDER "/like.json"), 0);
+}
+
 /* What is named replaces what the other one says, whatever that was. */
 static void mote_scenario_load_like_with_what_does_not_fit_is_refused(void **state)
 {
@@ -559,6 +583,7 @@ int main(void)
         cmocka_unit_test(mote_scenario_load_truncated_anywhere_is_refused),
         cmocka_unit_test(mote_scenario_load_not_a_file_is_refused),
         cmocka_unit_test(mote_scenario_load_like_takes_what_it_does_not_name),
+        cmocka_unit_test(mote_scenario_load_like_one_elsewhere_finds_its_meshes),
         cmocka_unit_test(mote_scenario_load_like_in_a_circle_or_missing_is_refused),
         cmocka_unit_test(mote_scenario_load_like_with_what_does_not_fit_is_refused),
         cmocka_unit_test(mote_scenario_load_missing_mesh_file_is_refused),
