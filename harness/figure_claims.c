@@ -68,14 +68,19 @@ static void add_lines(mote_text *data, int column, size_t top, char lines[LINES_
     }
 }
 
-/* One claim from line top on: "column line text" rows; returns its lines. */
+/* One claim from line top on: "column line text" rows; returns its lines. There is room for a
+   letter before it; another id stands in its text. */
 static size_t add_claim(const json_t *claim, size_t top, mote_text *data)
 {
-    char lines[LINES_MAX][128], value[128], measured[256];
+    char lines[LINES_MAX][128], text[512], value[128], measured[256];
     const json_t *first = json_array_get(json_object_get(claim, "values"), 0);
-    (void)snprintf(lines[0], sizeof lines[0], "%s", text_of(claim, "id"));
-    add_lines(data, 0, top, lines, 1);
-    const size_t claimed = wrap(text_of(claim, "claim"), CLAIM_WIDTH, lines);
+    const char *id = text_of(claim, "id");
+    const bool letter = strlen(id) <= 1;
+    (void)snprintf(lines[0], sizeof lines[0], "%s", id);
+    add_lines(data, 0, top, lines, letter ? 1 : 0);
+    (void)snprintf(text, sizeof text, "%s%s%s", letter ? "" : id, letter ? "" : ": ",
+                   text_of(claim, "claim"));
+    const size_t claimed = wrap(text, CLAIM_WIDTH, lines);
     add_lines(data, 1, top, lines, claimed);
     measured_text(claim, value, sizeof value);
     (void)snprintf(measured, sizeof measured, "%s: %s", text_of(first, "name"), value);

@@ -151,6 +151,8 @@ static void figure_of_odd_claims_shows_what_is_there(void **unused)
     } cases[] = {
         {"[{}]", {"0 0 \"\"\n", "2 0 \": not measured\"\n"}},
         {"[5, {\"id\": \"b\", \"verdict\": \"holds\"}]", {"0 2 \"b\"\n", "2 1 2 \"holds\"\n"}},
+        {"[{\"id\": \"dynamics\", \"claim\": \"x\"}]",
+         {"1 0 \"dynamics: x\"\n", "2 1 \": not measured\"\n"}},
         {"[{\"value\": 2, \"unit\": \"L\"}]", {"\": 2 L\"", "0 1 0 \"\""}},
         {"[{\"value\": 2.5, \"interval\": [1, 3.5]}]", {"\": 2.5 [1, 3.5] \""}},
         {"[{\"value\": 2.5, \"interval\": [1.5, 3]}]", {"\": 2.5 [1.5, 3] \""}},
