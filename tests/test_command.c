@@ -1,18 +1,7 @@
 /* The program itself, run as a user runs it. */
-#include "harness/file.h"
+#include "tests/command_lines.h"
 
-#include <setjmp.h>
-#include <stdbool.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_command_files"
 
@@ -29,31 +18,9 @@
     "\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": "   \
     "[" from ", 0.1, 0]}, {\"frame\": 4, \"position\": [" until ", 0.1, 0]}]}]}\n"
 
-/* Runs `mote ARGUMENTS` by the shell; returns the exit status. streams: "2>&1" to get both,
-   "2>&1 >/dev/null" to get the errors only. */
-static int run_streams(const char *arguments, const char *streams, char *output, size_t size)
-{
-    char *line = mote_format("cd %s && %s %s %s", FOLDER, MOTE_PROGRAM, arguments, streams);
-    assert_non_null(line);
-    FILE *pipe = popen(line, "r");
-    assert_non_null(pipe);
-    size_t got = fread(output, 1, size - 1, pipe);
-    output[got] = '\0';
-    int status = pclose(pipe);
-    free(line);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
-
 static int run(const char *arguments, char *output, size_t size)
 {
-    return run_streams(arguments, "2>&1", output, size);
-}
-
-static bool exists(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0;
+    return command_run(FOLDER, arguments, "2>&1", output, size);
 }
 
 static const struct {
@@ -87,13 +54,7 @@ static int tear_down(void **state)
     return rmdir(FOLDER); /* fails if a command left anything behind */
 }
 
-typedef struct told_line {
-    const char *arguments;
-    int status;
-    const char *says;
-} told_line;
-
-static const told_line bad_lines[] = {
+static const command_line bad_lines[] = {
     {"", 2, "no command"},
     {"fly", 2, "unknown command fly; known are"},
     {"list", 2, "methods or scenarios"},
@@ -214,24 +175,11 @@ static const told_line bad_lines[] = {
 static void main_bad_line_one_line_and_its_exit_status(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < sizeof bad_lines / sizeof bad_lines[0]; ++i) {
-        const told_line *bad = &bad_lines[i];
-        char output[4096];
-        int status = run_streams(bad->arguments, "2>&1 >/dev/null", output, sizeof output);
-        /* Before the error there may be lines of progress, after it nothing. */
-        const char *error = strstr(output, "mote: ");
-        const char *feed = error ? strchr(error, '\n') : NULL;
-        bool one_line = feed && feed[1] == '\0' && (error == output || error[-1] == '\n');
-        if (status != bad->status || !strstr(output, bad->says) || !one_line)
-            fail_msg("mote %s: exit %d, not %d, or not one line with \"%s\":\n%s",
-                     bad->arguments, status, bad->status, bad->says, output);
-        if (exists(FOLDER "/x") || exists(FOLDER "/W.obj") || exists(FOLDER "/x.json"))
-            fail_msg("mote %s left something behind", bad->arguments);
-    }
+    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
 }
 
 /* Lines that are right, and what they must say. */
-static const told_line good_lines[] = {
+static const command_line good_lines[] = {
     {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:n=3", 0,
      "plan: 1 cells, 0 of them done"},
     {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:law=log,n=3",
@@ -258,7 +206,7 @@ static void main_good_line_says_what_it_will_do(void **state)
 {
     (void)state;
     for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
-        const told_line *good = &good_lines[i];
+        const command_line *good = &good_lines[i];
         char output[4096];
         const int status = run(good->arguments, output, sizeof output);
         if (status != 0 || !strstr(output, good->says) || strstr(output, "mote: "))
@@ -330,9 +278,10 @@ static void command_list_full_disk_is_an_error(void **state)
 {
     (void)state;
     char output[1024];
-    if (!exists("/dev/full"))
+    if (access("/dev/full", W_OK) != 0)
         skip();
-    assert_int_equal(run_streams("list methods", "2>&1 >/dev/full", output, sizeof output), 4);
+    assert_int_equal(
+        command_run(FOLDER, "list methods", "2>&1 >/dev/full", output, sizeof output), 4);
 }
 
 int main(void)

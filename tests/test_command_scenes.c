@@ -1,19 +1,8 @@
 /* Commands of meshes and of scenarios, and of studies, run as a user runs them: what each
    refuses and says. The others are in test_command.c. */
-#include "harness/file.h"
+#include "tests/command_lines.h"
 
-#include <setjmp.h>
-#include <stdbool.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_command_scenes_files"
 
@@ -52,31 +41,9 @@ static const struct {
              {"b.json", SEVERAL}};
 enum { FILES = sizeof files / sizeof files[0] };
 
-/* Runs `mote ARGUMENTS` by the shell; returns the exit status. streams: "2>&1" to get both,
-   "2>&1 >/dev/null" to get the errors only. */
-static int run_streams(const char *arguments, const char *streams, char *output, size_t size)
-{
-    char *line = mote_format("cd %s && %s %s %s", FOLDER, MOTE_PROGRAM, arguments, streams);
-    assert_non_null(line);
-    FILE *pipe = popen(line, "r");
-    assert_non_null(pipe);
-    size_t got = fread(output, 1, size - 1, pipe);
-    output[got] = '\0';
-    int status = pclose(pipe);
-    free(line);
-    assert_true(WIFEXITED(status));
-    return WEXITSTATUS(status);
-}
-
 static int run(const char *arguments, char *output, size_t size)
 {
-    return run_streams(arguments, "2>&1", output, size);
-}
-
-static bool exists(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0;
+    return command_run(FOLDER, arguments, "2>&1", output, size);
 }
 
 static int set_up(void **state)
@@ -104,13 +71,7 @@ static int tear_down(void **state)
     return rmdir(FOLDER); /* fails if a command left anything behind */
 }
 
-typedef struct bad_line {
-    const char *arguments;
-    int status;
-    const char *says;
-} bad_line;
-
-static const bad_line bad_lines[] = {
+static const command_line bad_lines[] = {
     {"--allow nowhere check s.json", 4, "nowhere: No such file"},
     {"--allow", 2, "unknown command --allow"},
     {"--allow .", 2, "no command"},
@@ -194,20 +155,7 @@ static const bad_line bad_lines[] = {
 static void commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < sizeof bad_lines / sizeof bad_lines[0]; ++i) {
-        const bad_line *bad = &bad_lines[i];
-        char output[4096];
-        int status = run_streams(bad->arguments, "2>&1 >/dev/null", output, sizeof output);
-        /* Before the error there may be lines of progress, after it nothing. */
-        const char *error = strstr(output, "mote: ");
-        const char *feed = error ? strchr(error, '\n') : NULL;
-        bool one_line = feed && feed[1] == '\0' && (error == output || error[-1] == '\n');
-        if (status != bad->status || !strstr(output, bad->says) || !one_line)
-            fail_msg("mote %s: exit %d, not %d, or not one line with \"%s\":\n%s",
-                     bad->arguments, status, bad->status, bad->says, output);
-        if (exists(FOLDER "/x") || exists(FOLDER "/W.obj") || exists(FOLDER "/x.json"))
-            fail_msg("mote %s left something behind", bad->arguments);
-    }
+    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
 }
 
 typedef struct good_line {
