@@ -1,6 +1,7 @@
 #include "harness/stored.h"
 
 #include "harness/json_print.h"
+#include "harness/plan.h"
 #include "harness/record.h"
 #include "harness/statistics.h"
 
@@ -250,7 +251,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
                     "stride", &stride, "active", &first, &last, "jobs", &jobs, "triangles",
                     &shown[0], "vertices", &shown[1], "seed", &shown[2], "frames",
                     &shown[3]) != 0 ||
-        !read_status(status, &cell->status) || replicate < 1 || stride < 1 || jobs < 1)
+        !read_status(status, &cell->status) || replicate < 1 ||
+        replicate > MOTE_REPLICATES_MAX || stride < 1 || jobs < 1)
         return mote_fail(MOTE_EINVAL, "%s: a field of a cell is missing or wrong", name);
     cell->replicate = (uint32_t)replicate;
     cell->stride = (uint32_t)stride;
