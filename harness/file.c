@@ -168,6 +168,12 @@ char *mote_format(const char *format, ...)
     return text;
 }
 
+char *mote_path_beside(const char *file, const char *name)
+{
+    const char *slash = name[0] == '/' ? NULL : strrchr(file, '/');
+    return mote_format("%.*s%s", slash ? (int)(slash - file) + 1 : 0, file, name);
+}
+
 static bool reserve(mote_text *text, size_t more)
 {
     size_t needed = text->size + more + 1;

@@ -24,6 +24,10 @@ mote_status mote_directory_make(const char *path);
 /* printf into new memory; NULL when memory ran out. The caller frees it. */
 char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
 
+/* The path of what the file at `file` calls `name`: seen from that file's folder, unless it is
+   absolute. NULL when memory ran out. The caller frees it. */
+char *mote_path_beside(const char *file, const char *name);
+
 /* Text that grows. Zero-initialise; after a failure (out of memory) `failed` stays set and
    further additions do nothing. Free data. */
 typedef struct mote_text {

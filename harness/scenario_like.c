@@ -50,27 +50,22 @@ static bool is_file(const char *name)
 
 static char *base_path(const char *path, const char *name)
 {
-    if (!is_file(name))
-        return mote_catalog_path(name);
-    const char *slash = name[0] == '/' ? NULL : strrchr(path, '/');
-    return mote_format("%.*s%s", slash ? (int)(slash - path) + 1 : 0, path, name);
+    return is_file(name) ? mote_path_beside(path, name) : mote_catalog_path(name);
 }
 
 /* Meshes are named from the folder of the file that names them. path: of the other scenario,
    absolute or as seen from this one's folder. */
 static bool move_meshes(json_t *root, const char *path)
 {
-    const char *slash = strrchr(path, '/');
-    const int length = slash ? (int)(slash - path) + 1 : 0;
     json_t *bodies = json_object_get(root, "bodies");
     json_t *list = json_is_object(bodies) ? json_object_get(bodies, "shapes") : bodies;
     bool moved = true;
     for (size_t i = 0; i < json_array_size(list) && moved; ++i) {
         json_t *body = json_array_get(list, i);
         const char *file = json_string_value(json_object_get(body, "file"));
-        if (!file || file[0] == '/')
+        if (!file)
             continue;
-        char *moved_file = mote_format("%.*s%s", length, path, file);
+        char *moved_file = mote_path_beside(path, file);
         moved = moved_file && json_object_set_new(body, "file", json_string(moved_file)) == 0;
         free(moved_file);
     }

@@ -32,9 +32,7 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
     mote_status status = mote_json_string(file, &name);
     if (status != MOTE_OK)
         return status;
-    const char *slash = name[0] == '/' ? NULL : strrchr(file->file->path, '/');
-    const int length = slash ? (int)(slash - file->file->path) + 1 : 0;
-    char *path = mote_format("%.*s%s", length, file->file->path, name);
+    char *path = mote_path_beside(file->file->path, name);
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
     status = mote_reach_check(file->file->path, path);

@@ -37,9 +37,9 @@ static mote_status anchor_mesh(json_t *body, const char *path)
     if (path[0] != '/' && !getcwd(here, sizeof here))
         return mote_fail(MOTE_EIO, "%s: the working directory cannot be told: %s", path,
                          strerror(errno));
-    const char *slash = strrchr(path, '/');
-    char *whole = mote_format("%s%s%.*s%s", here, here[0] ? "/" : "",
-                              slash ? (int)(slash - path) + 1 : 0, path, file);
+    char *beside = mote_path_beside(path, file);
+    char *whole = beside ? mote_format("%s%s%s", here, here[0] ? "/" : "", beside) : NULL;
+    free(beside);
     if (!whole)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", path);
     (void)json_object_set_new(body, "file", json_string(whole));
