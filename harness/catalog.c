@@ -18,9 +18,7 @@ char *mote_catalog_path(const char *name)
 
 static int is_scenario(const struct dirent *entry)
 {
-    size_t length = strlen(entry->d_name);
-    return length > 5 && entry->d_name[0] != '.' &&
-           strcmp(entry->d_name + length - 5, ".json") == 0;
+    return entry->d_name[0] != '.' && mote_name_ends(entry->d_name, ".json");
 }
 
 static mote_status read_entry(const char *file, mote_catalog_entry *entry)

@@ -174,6 +174,12 @@ char *mote_path_beside(const char *file, const char *name)
     return mote_format("%.*s%s", slash ? (int)(slash - file) + 1 : 0, file, name);
 }
 
+bool mote_name_ends(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), size = strlen(ending);
+    return length > size && strcmp(name + length - size, ending) == 0;
+}
+
 static bool reserve(mote_text *text, size_t more)
 {
     size_t needed = text->size + more + 1;

@@ -4,6 +4,7 @@
 
 #include "core/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -27,6 +28,9 @@ char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
 /* The path of what the file at `file` calls `name`: seen from that file's folder, unless it is
    absolute. NULL when memory ran out. The caller frees it. */
 char *mote_path_beside(const char *file, const char *name);
+
+/* Whether a name is longer than this ending and has it: mote_name_ends(name, ".json"). */
+bool mote_name_ends(const char *name, const char *ending);
 
 /* Text that grows. Zero-initialise; after a failure (out of memory) `failed` stays set and
    further additions do nothing. Free data. */

@@ -8,10 +8,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static bool ends_in(const char *name, const char *end)
+static bool is_drawn(const char *name)
 {
-    size_t length = strlen(name), size = strlen(end);
-    return length > size && name[0] != '.' && strcmp(name + length - size, end) == 0;
+    return name[0] != '.' && (mote_name_ends(name, ".svg") || mote_name_ends(name, ".gif"));
 }
 
 static bool exists(const mote_report *report, const char *file)
@@ -36,7 +35,7 @@ static mote_status add_figure(mote_report *report, const char *file, char *title
     }
     report->figures = figures;
     mote_report_figure *figure = &figures[report->figure_count++];
-    figure->animation = ends_in(file, ".gif");
+    figure->animation = mote_name_ends(file, ".gif");
     figure->file = mote_format("figures/%s", file);
     figure->title = title;
     figure->caption = mote_format("%s", caption);
@@ -55,7 +54,7 @@ static mote_status add_entry(mote_report *report, const json_t *entry)
     MOTE_EACH(i, item, json_object_get(entry, "files"))
     {
         const char *file = json_is_string(item) ? json_string_value(item) : "";
-        bool shown = ends_in(file, ".svg") || ends_in(file, ".gif");
+        const bool shown = is_drawn(file);
         if (status != MOTE_OK || !shown || strchr(file, '/') || !exists(report, file))
             continue;
         char *title =
@@ -99,7 +98,7 @@ static mote_status read_folder(mote_report *report)
     for (const struct dirent *entry = folder ? readdir(folder) : NULL;
          entry && status == MOTE_OK; entry = readdir(folder)) {
         const char *file = entry->d_name;
-        if (ends_in(file, ".svg") || ends_in(file, ".gif"))
+        if (is_drawn(file))
             status =
                 add_figure(report, file, mote_format("%.*s", (int)strlen(file) - 4, file), "");
     }

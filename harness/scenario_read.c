@@ -134,10 +134,8 @@ char *mote_scenario_name_of(const char *path)
 {
     const char *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path;
-    size_t length = strlen(base);
-    if (length > 5 && strcmp(base + length - 5, ".json") == 0)
-        length -= 5;
-    return mote_format("%.*s", (int)length, base);
+    const size_t ending = mote_name_ends(base, ".json") ? strlen(".json") : 0;
+    return mote_format("%.*s", (int)(strlen(base) - ending), base);
 }
 
 static mote_status read_scenario(const mote_json_file *file, mote_scenario *scenario)
@@ -160,8 +158,7 @@ static mote_status read_scenario(const mote_json_file *file, mote_scenario *scen
 
 static bool is_path(const char *name)
 {
-    size_t length = strlen(name);
-    return strchr(name, '/') || (length > 5 && strcmp(name + length - 5, ".json") == 0);
+    return strchr(name, '/') || mote_name_ends(name, ".json");
 }
 
 /* A built-in scenario that does not exist: say which do. */

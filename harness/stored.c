@@ -329,8 +329,7 @@ static int by_group(const void *a, const void *b)
 
 static bool is_cell_file(const char *name)
 {
-    size_t length = strlen(name);
-    return length > 5 && name[0] != '.' && strcmp(name + length - 5, ".json") == 0;
+    return name[0] != '.' && mote_name_ends(name, ".json");
 }
 
 /* A file that cannot be read is an error, or, with damaged, a line there. */
