@@ -41,6 +41,14 @@ extern const char *const mote_cell_status_names[]; /* "ok", "crashed", ... */
 
 #define MOTE_CELL_ID_SIZE 96
 
+#define MOTE_SEED_MAX (((uint64_t)1 << 62) - 1)
+
+/* What a replicate (from 1) of a run with this seed draws from. */
+static inline uint64_t mote_replicate_seed(uint64_t seed, bool fixed, uint32_t replicate)
+{
+    return seed + (fixed ? 0 : replicate - 1);
+}
+
 typedef struct mote_cell {
     const mote_subject *subject;      /* borrowed */
     const mote_method_choice *choice; /* borrowed */
@@ -48,8 +56,8 @@ typedef struct mote_cell {
     uint32_t first, last;             /* frames, inclusive */
     uint32_t stride_asked;            /* MOTE_STRIDE_AUTO or the stride */
     uint32_t stride;                  /* the one used, >= 1 */
-    uint64_t seed;                    /* the run's; replicate r draws from seed + r - 1 */
-    bool fixed_seed;                  /* every replicate draws from seed */
+    uint64_t seed;                    /* the run's, at most MOTE_SEED_MAX */
+    bool fixed_seed;                  /* every replicate draws from it */
     mote_cache cache;
     uint32_t
         jobs; /* cells measured at the same time; with 2 or more, times are not comparable */

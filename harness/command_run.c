@@ -148,7 +148,7 @@ static bool take_option(request *q, int option, const char *value, const char **
         return read_shard(value, q);
     case OPTION_SEED:
         *expected = "a whole number below 2^62";
-        return mote_read_unsigned(value, 0, ((uint64_t)1 << 62) - 1, &plan->seed);
+        return mote_read_unsigned(value, 0, MOTE_SEED_MAX, &plan->seed);
     case OPTION_TIMEOUT:
         *expected = "seconds, at least 0.001";
         return mote_read_real(value, 1e-3, 1e9, &q->run.timeout);

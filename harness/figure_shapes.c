@@ -51,14 +51,14 @@ static mote_status find_particles(const mote_summary_row *row, const mote_figure
                                   uint32_t last, mote_vec3 points[2][POINTS_MAX], size_t *count)
 {
     const mote_scenario *scenario = scene->scenario;
-    const double seed = mote_stored_number(row->first, "seed") + row->first->replicate - 1;
     mote_method_choice choice;
     mote_probe *probe = NULL;
     mote_frame_buffer *buffer = NULL;
     mote_status status = mote_method_choice_read(row->label, &choice);
     if (status == MOTE_OK)
-        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
-                                   scenario->ask, scenario->tolerance, (uint64_t)seed, &probe);
+        status =
+            mote_probe_create(&scenario->body[0], &scenario->body[1], &choice, scenario->ask,
+                              scenario->tolerance, row->first->replicate_seed, &probe);
     if (status == MOTE_OK)
         status = mote_frame_buffer_create(scenario, &buffer);
     for (uint32_t k = 1; k <= last && status == MOTE_OK; ++k) {

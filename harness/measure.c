@@ -100,7 +100,8 @@ static mote_status build(session *s, mote_cell_result *result)
                         .length = scenario->length,
                         .ask = scenario->ask,
                         .tolerance = scenario->tolerance,
-                        .seed = cell->seed + (cell->fixed_seed ? 0 : cell->replicate - 1),
+                        .seed =
+                            mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate),
                         .values = cell->choice->values};
     uint64_t start = mote_clock_ns();
     if (s->traits.needs_vertices && !s->traits.given_vertices) {

@@ -84,10 +84,9 @@ mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *t
     if (mote_method_choice_read(label, &choice) != MOTE_OK || !choice.method->particles ||
         track->rows == 0)
         return MOTE_OK;
-    const double seed = mote_stored_number(track->cell, "seed") + track->cell->replicate - 1;
-    mote_status status = mote_probe_create(&scene->scenario->body[0], &scene->scenario->body[1],
-                                           &choice, scene->scenario->ask,
-                                           scene->scenario->tolerance, (uint64_t)seed, &probe);
+    mote_status status = mote_probe_create(
+        &scene->scenario->body[0], &scene->scenario->body[1], &choice, scene->scenario->ask,
+        scene->scenario->tolerance, track->cell->replicate_seed, &probe);
     if (status == MOTE_OK)
         status = answer_again(scene, probe, track, &why);
     mote_probe_destroy(probe);

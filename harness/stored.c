@@ -7,11 +7,13 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)1 << 30)
+#define BYTES_MAX (((json_int_t)1 << 62) - 1)
 #define COLUMNS_MAX 64
 #define FRAME_LAST 4294967295.0
 
@@ -216,9 +218,9 @@ static char *group_name(const mote_stored_cell *cell)
     char *group = NULL;
     if (parameters && frames)
         group = mote_format(
-            "%s %s %s %s %s %s stride %u seed %.0f on %s%s%s", cell->scenario, cell->cache,
-            cell->method, parameters, cell->fingerprint, frames, cell->stride,
-            mote_stored_number(cell, "seed"), cell->machine, cell->jobs > 1 ? " jobs" : "",
+            "%s %s %s %s %s %s stride %u seed %" PRIu64 " on %s%s%s", cell->scenario,
+            cell->cache, cell->method, parameters, cell->fingerprint, frames, cell->stride,
+            cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
             json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
@@ -236,27 +238,46 @@ static bool read_status(const char *text, mote_cell_status *status)
     return false;
 }
 
+/* Bytes are whole numbers, null where they were not counted. */
+static bool has_bytes_right(const json_t *cell)
+{
+    static const char *const keys[] = {"heap_live_bytes", "heap_peak_bytes", "deform_bytes",
+                                       "rss_peak_bytes"};
+    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; ++k) {
+        const json_t *bytes = json_object_get(cell, keys[k]);
+        const json_int_t count = json_integer_value(bytes);
+        if (bytes && !json_is_null(bytes) &&
+            (!json_is_integer(bytes) || count < 0 || count > BYTES_MAX))
+            return false;
+    }
+    return true;
+}
+
 /* Fills the fields that lie in cell->json. */
 static mote_status read_fields(const char *name, mote_stored_cell *cell)
 {
     const char *status;
-    int replicate, stride, first, last, jobs = 1;
-    json_t *shown[4]; /* that are only there for a summary's row */
+    json_int_t seed;
+    int replicate, stride, first, last, jobs = 1, fixed = 0;
+    json_t *shown[3]; /* that are only there for a summary's row */
     if (json_unpack(cell->json,
-                    "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i, s:o, s:o, "
-                    "s:o, s:o}",
+                    "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i, s:I, s?b, "
+                    "s:o, s:o, s:o}",
                     "id", &cell->id, "status", &status, "scenario", &cell->scenario,
                     "fingerprint", &cell->fingerprint, "method", &cell->method, "cache",
                     &cell->cache, "parameters", &cell->parameters, "replicate", &replicate,
-                    "stride", &stride, "active", &first, &last, "jobs", &jobs, "triangles",
-                    &shown[0], "vertices", &shown[1], "seed", &shown[2], "frames",
-                    &shown[3]) != 0 ||
+                    "stride", &stride, "active", &first, &last, "jobs", &jobs, "seed", &seed,
+                    "fixed_seed", &fixed, "triangles", &shown[0], "vertices", &shown[1],
+                    "frames", &shown[2]) != 0 ||
         !read_status(status, &cell->status) || replicate < 1 ||
-        replicate > MOTE_REPLICATES_MAX || stride < 1 || jobs < 1)
+        replicate > MOTE_REPLICATES_MAX || stride < 1 || jobs < 1 || seed < 0 ||
+        (uint64_t)seed > MOTE_SEED_MAX || !has_bytes_right(cell->json))
         return mote_fail(MOTE_EINVAL, "%s: a field of a cell is missing or wrong", name);
     cell->replicate = (uint32_t)replicate;
     cell->stride = (uint32_t)stride;
     cell->jobs = (uint32_t)jobs;
+    cell->seed = (uint64_t)seed;
+    cell->replicate_seed = mote_replicate_seed(cell->seed, fixed != 0, cell->replicate);
     cell->active_first = (uint32_t)first;
     cell->active_last = (uint32_t)last;
     const char *machine = json_string_value(json_object_get(cell->json, "machine"));

@@ -31,7 +31,9 @@ typedef struct mote_stored_cell {
     json_t *parameters;                                       /* likewise */
     mote_cell_status status;
     uint32_t replicate, stride;
-    uint32_t jobs; /* cells that ran at the same time; 1: times are comparable */
+    uint64_t seed;           /* the run's */
+    uint64_t replicate_seed; /* mote_replicate_seed: what this process drew from */
+    uint32_t jobs;           /* cells that ran at the same time; 1: times are comparable */
     uint32_t active_first, active_last; /* 0, 0 when the scenario names none */
     size_t frames;
     uint32_t *frame; /* numbers, rising */
@@ -57,7 +59,8 @@ typedef struct mote_stored {
 mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored);
 void mote_stored_free(mote_stored *stored);
 
-/* A number of a cell's file, or MOTE_NONE where it is null or missing. */
+/* A number of a cell's file, or MOTE_NONE where it is null or missing. Bytes are whole, below
+   2^62. */
 double mote_stored_number(const mote_stored_cell *cell, const char *key);
 
 #endif

@@ -1,9 +1,12 @@
 #include "harness/file.h"
 #include "harness/table.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define MHZ_MAX 1e9 /* no core's clock */
 
 /* Whether another row differs from this one in frames, stride or seed only. */
 static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *row)
@@ -27,10 +30,10 @@ static char *row_name(const mote_summary *summary, const mote_summary_row *row)
     char apart[96] = "";
     if (is_ambiguous(summary, row)) {
         const json_t *frames = json_object_get(row->first->json, "frames");
-        (void)snprintf(apart, sizeof apart, "/frames:%d-%d/stride:%u/seed:%.0f",
+        (void)snprintf(apart, sizeof apart, "/frames:%d-%d/stride:%u/seed:%" PRIu64,
                        (int)json_integer_value(json_array_get(frames, 0)),
                        (int)json_integer_value(json_array_get(frames, 1)), row->first->stride,
-                       mote_stored_number(row->first, "seed"));
+                       row->first->seed);
     }
     return mote_format("%s/%s/%s%s%s%s", row->first->scenario, row->label, row->first->cache,
                        apart, several ? "/" : "", several ? row->first->machine : "");
@@ -64,7 +67,7 @@ static json_t *gbench_context(const json_t *manifest, const mote_summary *summar
         json_decref(host);
         double mhz =
             json_number_value(json_array_get(json_object_get(cell->json, "clock_mhz"), 0));
-        if (mhz > 0)
+        if (mhz > 0 && mhz < MHZ_MAX)
             (void)json_object_set_new(context, "mhz_per_cpu", json_integer((json_int_t)mhz));
     }
     return context;

@@ -4,6 +4,7 @@
 
 #include "harness/file.h"
 
+#include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +20,8 @@ typedef struct stored_cell {
     const char *method;                         /* "fcl-aabb" */
     const char *scenario, *fingerprint, *cache; /* "s", "f", "hot" */
     int replicate;                              /* 0: 1 */
-    const char *status;                         /* "ok" */
+    uint64_t seed;
+    const char *status;            /* "ok" */
     const char *parameters, *more; /* JSON: "{}"; keys after the others, ", \"jobs\": 2" */
     const char *rows;              /* below STORED_COLUMNS; "": none; NULL: no CSV */
 } stored_cell;
@@ -46,11 +48,12 @@ static inline bool stored_cell_write(const char *directory, const stored_cell *c
     char *json = mote_format(
         "{\"id\": \"%s\", \"status\": \"%s\", \"scenario\": \"%s\", \"fingerprint\": \"%s\", "
         "\"method\": \"%s\", \"cache\": \"%s\", \"parameters\": %s, \"replicate\": %d, "
-        "\"stride\": 1, \"active\": [2, 3], \"seed\": 0, \"frames\": [1, 4], \"triangles\": "
-        "[8, 8], \"vertices\": [6, 6]%s}\n",
+        "\"stride\": 1, \"active\": [2, 3], \"seed\": %" PRIu64 ", \"frames\": [1, 4], "
+        "\"triangles\": [8, 8], \"vertices\": [6, 6]%s}\n",
         id, cell->status ? cell->status : "ok", cell->scenario ? cell->scenario : "s",
         cell->fingerprint ? cell->fingerprint : "f", method, cell->cache ? cell->cache : "hot",
-        cell->parameters ? cell->parameters : "{}", replicate, cell->more ? cell->more : "");
+        cell->parameters ? cell->parameters : "{}", replicate, cell->seed,
+        cell->more ? cell->more : "");
     (void)snprintf(path, sizeof path, "%s/cells/%s.json", directory, id);
     done = done && json && stored_file_write(path, json);
     free(json);

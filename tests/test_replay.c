@@ -363,11 +363,11 @@ static void replay_particles_of_odd_tracks_are_not_shown(void **state)
         mote_frame_buffer *buffer = NULL;
         if (odd[i].rows == 1) { /* with the answer that it gives */
             mote_answer answer = {0};
-            const double seed = mote_stored_number(track.cell, "seed");
             assert_int_equal(mote_method_choice_read(label, &choice), MOTE_OK);
             assert_int_equal(mote_probe_create(&scene.scenario->body[0],
                                                &scene.scenario->body[1], &choice,
-                                               scene.scenario->ask, 0, (uint64_t)seed, &probe),
+                                               scene.scenario->ask, 0, track.cell->replicate_seed,
+                                               &probe),
                              MOTE_OK);
             assert_int_equal(mote_frame_buffer_create(scene.scenario, &buffer), MOTE_OK);
             assert_int_equal(

@@ -82,13 +82,37 @@ static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state
     static const char json[] = "cells/fcl-aabb-1.json: a field of a cell is missing or wrong";
     static const struct {
         const char *key, *value; /* NULL: without it */
-    } changes[] = {
-        {"id", NULL},          {"id", "7"},        {"status", NULL},    {"status", "\"great\""},
-        {"status", "3"},       {"replicate", "0"}, {"replicate", NULL}, {"stride", "0"},
-        {"stride", "\"1\""},   {"jobs", "0"},      {"jobs", "\"2\""},   {"active", "[1]"},
-        {"active", "\"1-4\""}, {"method", "[]"},   {"scenario", NULL},  {"parameters", NULL},
-        {"fingerprint", "1"},  {"frames", NULL},   {"seed", NULL},      {"triangles", NULL},
-        {"vertices", NULL},    {"cache", NULL}};
+    } changes[] = {{"id", NULL},
+                   {"id", "7"},
+                   {"status", NULL},
+                   {"status", "\"great\""},
+                   {"status", "3"},
+                   {"replicate", "0"},
+                   {"replicate", NULL},
+                   {"stride", "0"},
+                   {"stride", "\"1\""},
+                   {"jobs", "0"},
+                   {"jobs", "\"2\""},
+                   {"active", "[1]"},
+                   {"active", "\"1-4\""},
+                   {"method", "[]"},
+                   {"scenario", NULL},
+                   {"parameters", NULL},
+                   {"fingerprint", "1"},
+                   {"frames", NULL},
+                   {"seed", NULL},
+                   {"triangles", NULL},
+                   {"vertices", NULL},
+                   {"cache", NULL},
+                   {"replicate", "1001"},
+                   {"seed", "1.5"},
+                   {"seed", "-1"},
+                   {"seed", "4611686018427387904"},
+                   {"fixed_seed", "1"},
+                   {"heap_live_bytes", "1.5"},
+                   {"heap_peak_bytes", "-1"},
+                   {"rss_peak_bytes", "5.4e128"},
+                   {"deform_bytes", "4611686018427387904"}};
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
         json_t *cell = NULL;
         write_cell((stored_cell){.rows = ROWS});
@@ -119,6 +143,41 @@ static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state
                    directory, directory);
     assert_int_equal(system(text), 0);
     refused("name", "cells/fcl-aabb-12.json: its id is fcl-aabb-1; a cell is named by its id");
+}
+
+/* Up to 2^62 - 1, where doubles are 512 apart: neither the draws nor the groups are another
+   run's. */
+static void stored_read_keeps_every_bit_of_a_seed(void **state)
+{
+    (void)state;
+    static const struct {
+        int replicate;
+        uint64_t seed, draws;
+        const char *more;
+    } cells[] = {{1, 0, 0, ""},
+                 {2, 0, 1, ""},
+                 {3, 5, 5, ", \"fixed_seed\": true"},
+                 {4, MOTE_SEED_MAX, MOTE_SEED_MAX + 3, ""},
+                 {5, MOTE_SEED_MAX - 1, MOTE_SEED_MAX + 3, ""}};
+    enum { CELLS = sizeof cells / sizeof cells[0] };
+    for (int i = 0; i < CELLS; ++i)
+        write_cell((stored_cell){.replicate = cells[i].replicate,
+                                 .seed = cells[i].seed,
+                                 .more = cells[i].more,
+                                 .rows = ROWS});
+    mote_stored stored;
+    assert_int_equal(mote_stored_read(directory, NULL, &stored), MOTE_OK);
+    assert_int_equal(stored.count, CELLS);
+    for (int i = 0; i < CELLS; ++i) {
+        const mote_stored_cell *cell = &stored.cells[i];
+        const int k = (int)cell->replicate - 1;
+        assert_true(cell->seed == cells[k].seed);
+        assert_true(cell->replicate_seed == cells[k].draws);
+        for (int j = 0; j < i; ++j)
+            assert_int_equal(strcmp(stored.cells[j].group, cell->group) == 0,
+                             stored.cells[j].seed == cell->seed);
+    }
+    mote_stored_free(&stored);
 }
 
 #define TEN_COLUMNS "a,b,c,d,e,f,g,h,i,j,"
@@ -165,7 +224,7 @@ static void summary_of_empty_fields_has_no_figures_of_them(void **state)
     (void)state;
     write_cell((stored_cell){.rows = "1,,,,,,,,\n2,,,5,0.5,,,0,\n3,,,7,0,,1,1,\n"
                                      "4,,,9,0.5,,,,2\n",
-                             .more = ", \"heap_live_bytes\": \"many\", \"rss_peak_bytes\": 96, "
+                             .more = ", \"heap_live_bytes\": null, \"rss_peak_bytes\": 96, "
                                      "\"fixed_seed\": true, \"reason\": \"none\""});
     assert_int_equal(mote("summarize --format json"), 0);
     json_t *summary = json_loads(text, 0, NULL);
@@ -181,6 +240,24 @@ static void summary_of_empty_fields_has_no_figures_of_them(void **state)
     const json_t *steps = json_object_get(json_object_get(row, "counters"), "steps");
     assert_true(json_number_value(json_object_get(steps, "max")) == 2);
     json_decref(summary);
+}
+
+/* A number that no clock has is not told to other tools. */
+static void summary_clock_of_a_core_is_told_where_it_can_be_one(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *more, *says; /* says: NULL: nothing of it */
+    } cells[] = {{", \"clock_mhz\": [2400.5, 2400.5]", "\"mhz_per_cpu\": 2400"},
+                 {", \"clock_mhz\": [1e300, 1e300]", NULL},
+                 {", \"clock_mhz\": [-1, -1]", NULL},
+                 {", \"clock_mhz\": \"fast\"", NULL}};
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+        write_cell((stored_cell){.rows = ROWS, .more = cells[i].more});
+        assert_int_equal(mote("summarize --format gbench"), 0);
+        assert_non_null(strstr(text, cells[i].says ? cells[i].says : "\"context\""));
+        assert_true(cells[i].says || !strstr(text, "mhz_per_cpu"));
+    }
 }
 
 /* Cells of other programs are left out, where the manifest names one. */
@@ -546,7 +623,9 @@ int main(void)
 #define TEST(name) cmocka_unit_test_setup(name, next_directory)
     const struct CMUnitTest tests[] = {
         TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file),
+        TEST(stored_read_keeps_every_bit_of_a_seed),
         TEST(stored_read_of_a_damaged_csv_names_the_line),
+        TEST(summary_clock_of_a_core_is_told_where_it_can_be_one),
         TEST(stored_read_keeps_the_cells_of_the_manifests_program),
         TEST(summary_of_empty_fields_has_no_figures_of_them),
         TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group),
