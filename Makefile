@@ -115,7 +115,7 @@ SECONDS ?= 60
 .PHONY: fuzz build-fuzz
 build-fuzz: deps
 	@cmake --preset fuzz > /dev/null && cmake --build build-fuzz -j $(JOBS) \
-	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell > /dev/null
+	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell fuzz_summary > /dev/null
 
 fuzz: build-fuzz
 	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \

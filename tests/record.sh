@@ -112,8 +112,8 @@ table() {
     sed 1d $log | awk -F, -v corpus="$(printf '%s ' tests/corpus/fuzz_*/found-*)" '
         { s[$3] += $4; e[$3] += $5; f[$3] += $6; last[$3] = $1 ", " $2 }
         END {
-            split("scenario mesh options cell", t, " ")
-            for (i = 1; i <= 4; ++i) {
+            count = split("scenario mesh options cell summary", t, " ")
+            for (i = 1; i <= count; ++i) {
                 if (!e[t[i]])
                     continue
                 mended = gsub("/fuzz_" t[i] "/found-[^* ]", "&", corpus)
