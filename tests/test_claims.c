@@ -2,8 +2,6 @@
 #include "harness/claims.h"
 
 #include "harness/figure.h"
-#include "harness/spawn.h"
-
 #include "tests/program.h"
 
 #include <setjmp.h>
@@ -137,8 +135,7 @@ static void queries_from_frame_50_on_allocate_nothing(void **unused)
         mote_cell_result_free(&result);
     }
     mote_study_close(&study);
-    const char *const clean[] = {"rm", "-r", folder, NULL};
-    assert_int_equal(mote_spawn(clean, NULL, NULL, 0), MOTE_OK);
+    assert_int_equal(program_remove(folder), 0);
 }
 
 /* The claims table of a file that is not quite what mote writes: nothing is made up. */
@@ -233,8 +230,7 @@ static void figure_of_extremes_is_their_data(void **unused)
     assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "extremes.dat"));
     free(figure.caption.data);
-    (void)snprintf(line, sizeof line, "rm -r %s", folder);
-    assert_int_equal(system(line), 0);
+    assert_int_equal(program_remove(folder), 0);
 }
 
 static void command_with_an_unknown_word_is_a_usage_error(void **unused)

@@ -1,6 +1,7 @@
 /* Commands of meshes and of scenarios, and of studies, run as a user runs them: what each
    refuses and says. The others are in test_command.c. */
 #include "tests/command_lines.h"
+#include "tests/program.h"
 
 #include <unistd.h>
 
@@ -228,7 +229,7 @@ static void command_export_tells_what_a_method_cannot_answer(void **state)
     assert_null(strstr(text, "\"distance\""));
     assert_non_null(strstr(text, "\"unsupported\": \"update=none needs"));
     free(text);
-    assert_int_equal(system("rm -r " FOLDER "/e"), 0);
+    assert_int_equal(program_remove(FOLDER "/e"), 0);
 }
 
 /* Rotations of the keys stay, positions are the ones found. */

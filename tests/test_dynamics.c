@@ -353,7 +353,7 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    return system("rm -r " OUT) == 0 ? 0 : -1;
+    return program_remove(OUT);
 }
 
 int main(void)

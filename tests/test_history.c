@@ -33,9 +33,7 @@ static int make_base(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[96];
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 /* mote history ARGUMENTS: its exit status, and what it must say. */

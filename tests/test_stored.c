@@ -29,9 +29,7 @@ static int make_base(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[96];
-    (void)snprintf(command, sizeof command, "rm -r %s", base);
-    return system(command);
+    return program_remove(base);
 }
 
 static int next_directory(void **state)

@@ -23,9 +23,8 @@ static int make_base(void **state)
 static int remove_base(void **state)
 {
     (void)state;
-    char command[160];
-    (void)snprintf(command, sizeof command, "rm -rf %s %s", base, said);
-    return system(command);
+    (void)remove(said);
+    return program_remove(base);
 }
 
 /* mote ARGUMENTS DIRECTORY MORE, in the test's directory. */
