@@ -4,6 +4,7 @@
 #include "harness/file.h"
 #include "harness/heap_count.h"
 #include "harness/json_memory.h"
+#include "tests/diamond.h"
 #include "tests/fault_points.h"
 
 #include <setjmp.h>
@@ -21,9 +22,6 @@
 
 static char base[] = "/tmp/mote-faults-XXXXXX";
 
-#define DIAMOND                                                                                \
-    "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\n"     \
-    "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"
 #define FIELD                                                                                  \
     "\"field\": {\"count\": 3, \"support\": 0.7, \"displacement\": {\"random\": {\"seed\": "   \
     "5, \"amplitude\": 0.05, \"periods\": [40, 90]}}}"

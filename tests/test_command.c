@@ -1,5 +1,6 @@
 /* The program itself, run as a user runs it. */
 #include "tests/command_lines.h"
+#include "tests/diamond.h"
 
 #include <unistd.h>
 
@@ -7,10 +8,7 @@
 
 #define TEN "0123456789"
 #define SEVENTY TEN TEN TEN TEN TEN TEN TEN
-/* A line of two diamonds that pass each other. */
-#define DIAMOND                                                                                \
-    "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\n"     \
-    "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"
+/* Two diamonds that pass each other. */
 #define SCENARIO SCENE("", "2.1", "1.9")
 /* more: keys; from, until: along x, in L. They touch below 0.48. */
 #define SCENE(more, from, until)                                                               \

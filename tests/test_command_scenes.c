@@ -1,15 +1,13 @@
 /* Commands of meshes and of scenarios, and of studies, run as a user runs them: what each
    refuses and says. The others are in test_command.c. */
 #include "tests/command_lines.h"
+#include "tests/diamond.h"
 #include "tests/program.h"
 
 #include <unistd.h>
 
 #define FOLDER "test_command_scenes_files"
 
-#define DIAMOND                                                                                \
-    "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\n"     \
-    "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n"
 /* Two tetrahedra far apart, and a vertex that no face has. */
 #define TWO                                                                                    \
     "v 0 5 0\nv 1 5 0\nv 0 6 0\nv 0 5 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nv 0 -6 0\n"       \
