@@ -3,9 +3,9 @@
 
 #include "core/triangle.h"
 #include "harness/file.h"
+#include "harness/film.h"
 #include "harness/motion.h"
 #include "harness/penetration.h"
-#include "harness/film.h"
 #include "harness/trace.h"
 #include "harness/truth.h"
 #include "tests/program.h"
@@ -564,44 +564,6 @@ static void film_watch_of_odd_steps_keeps_its_bounds(void **state)
     }
 }
 
-typedef struct bad_line {
-    const char *line;
-    int status;
-    const char *says;
-} bad_line;
-
-static void command_simulate_bad_line_exit_status_and_reason(void **state)
-{
-    (void)state;
-    static const bad_line bad[] = {
-        {"simulate", 2, "missing"},
-        {"simulate tt", 2, "missing"},
-        {"simulate tt --method certified --steps 0", 2, "--steps 0"},
-        {"simulate tt --method certified --gravity 1,2", 2, "--gravity"},
-        {"simulate tt --method certified --density 0", 4, "density 0"},
-        {"simulate tt --method certified --density -3", 4, "density -3"},
-        {"simulate tt --method certified --tolerance 0", 4, "tolerance 0"},
-        {"simulate tt --method magic", 4, "magic"},
-        {"simulate nothing --method certified", 4, "nothing"},
-        {"simulate teapot --method certified", 4, "open"},
-        {"simulate tt --method certified --steps 2 --film /proc/x.gif", 4, "/proc/x.gif"},
-        {"simulate tt --method certified --time-step x", 2, "--time-step x"},
-        {"simulate tt --method certified --time-step nan", 2, "--time-step nan"},
-        {"simulate tt --method certified --time-step 0", 4, "time step 0"},
-        {"simulate tt --method certified --time-step -1", 4, "time step -1"},
-        {"simulate jump --method certified", 4, "start in contact"},
-        {"simulate mv --method certified --time-step 0.5 --steps 2 --trace t.json", 4,
-         "time step of 1"},
-        {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
-    };
-    char said[8192];
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        const int status = run_line(bad[i].line, said, sizeof said);
-        if (status != bad[i].status || !strstr(said, bad[i].says))
-            fail_msg("mote %s: exit %d: %s", bad[i].line, status, said);
-    }
-}
-
 static int make_folder(void **state)
 {
     (void)state;
@@ -632,7 +594,6 @@ int main(void)
         cmocka_unit_test(command_simulate_json_has_the_keys),
         cmocka_unit_test(command_simulate_film_is_a_gif),
         cmocka_unit_test(film_watch_of_odd_steps_keeps_its_bounds),
-        cmocka_unit_test(command_simulate_bad_line_exit_status_and_reason),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
