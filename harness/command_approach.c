@@ -5,6 +5,7 @@
 #include "harness/file.h"
 #include "harness/json_print.h"
 #include "harness/json_read.h"
+#include "harness/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -79,7 +80,7 @@ static mote_status replace_positions(json_t *root, const mote_scenario *scenario
     json_t *keys = json_array();
     size_t index;
     json_t *key;
-    json_array_foreach(json_object_get(body, "motion"), index, key)
+    MOTE_EACH(index, key, json_object_get(body, "motion"))
     {
         (void)json_object_del(key, "position");
         if (json_object_size(key) > 1)

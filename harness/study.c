@@ -94,7 +94,7 @@ static mote_status change_letters(const char *path, const mote_variant *variant,
     size_t index;
     json_t *body;
     const char letter[2] = {variant->letter, '\0'};
-    json_array_foreach(json_object_get(made, "bodies"), index, body)
+    MOTE_EACH(index, body, json_object_get(made, "bodies"))
     {
         if (variant->letter)
             (void)json_object_set_new(body, "letter", json_string(letter));
