@@ -1,12 +1,10 @@
 /* Figures of error: over n (5), over frames (12). */
 #include "harness/figure.h"
 #include "harness/front.h"
+#include "harness/plan.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* At most this many replicates of a row take part in an interval. */
-#define REPLICATES_MAX 64
 
 static int ascending(const void *a, const void *b)
 {
@@ -55,12 +53,12 @@ static mote_confidence interval_of(const double *values, size_t count, double va
 mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
                                  mote_text *text)
 {
-    double values[REPLICATES_MAX];
+    double values[MOTE_REPLICATES_MAX];
     size_t count = 0;
     double *work = malloc((row->first->frames + 1) * sizeof *work);
     if (!work)
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    for (size_t r = 0; r < row->replicates && count < REPLICATES_MAX; ++r) {
+    for (size_t r = 0; r < row->replicates && count < MOTE_REPLICATES_MAX; ++r) {
         if (row->cells[r].frames <= row->first->frames)
             values[count] = cell_quantile(&row->cells[r], fraction, work);
         else
@@ -75,9 +73,9 @@ mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, d
 
 static void add_missed(const mote_summary_row *row, mote_text *text)
 {
-    double values[REPLICATES_MAX];
+    double values[MOTE_REPLICATES_MAX];
     size_t count = 0;
-    for (size_t r = 0; r < row->replicates && count < REPLICATES_MAX; ++r) {
+    for (size_t r = 0; r < row->replicates && count < MOTE_REPLICATES_MAX; ++r) {
         values[count] = cell_missed(&row->cells[r]);
         count += values[count] == values[count] ? 1 : 0;
     }

@@ -1,5 +1,6 @@
 /* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
    summary, a choice of configurations and a merge say of the rest follows from it. */
+#include "harness/figure.h"
 #include "harness/merge.h"
 #include "harness/record.h"
 #include "harness/summary.h"
@@ -465,6 +466,27 @@ static void summary_of_a_cell_without_frames_or_vertices_has_no_figures(void **s
     assert_int_equal(mote("summarize"), 0);
 }
 
+/* 69 that agree and a last one that does not: its error widens the interval. */
+static void figure_quantile_of_many_replicates_takes_them_all(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 70; ++k)
+        write_cell((stored_cell){.replicate = k,
+                                 .rows = k < 70 ? "1,1,2,3,0.5,0.001,0,0,7\n"
+                                                : "1,1,2,3,0.5,0.25,0,0,7\n"});
+    mote_summary summary;
+    mote_text figure = {0};
+    double value, low, high;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(summary.rows[0].replicates, 70);
+    assert_int_equal(mote_figure_quantile(&summary.rows[0], 0.5, 0.001, &figure), MOTE_OK);
+    assert_int_equal(sscanf(figure.data, "%lf %lf %lf", &value, &low, &high), 3);
+    assert_true(value == 0.001 && low <= value);
+    assert_true(high > 0.01); /* a mean of 0.0046, and 2 standard errors of 0.0036 */
+    free(figure.data);
+    mote_summary_free(&summary);
+}
+
 #define RIGHT(ns) "1,0,0," #ns ",0.5,0,0,0,7\n"
 #define MISSED(ns) "1,0,0," #ns ",0,0,0,1,7\n"
 #define FAR(ns) "1,0,0," #ns ",0.5,0.25,0,0,7\n"
@@ -632,6 +654,7 @@ int main(void)
         TEST(summary_label_of_a_parameter_of_another_kind_is_its_json),
         TEST(summary_reference_is_of_the_same_frames_and_caches),
         TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures),
+        TEST(figure_quantile_of_many_replicates_takes_them_all),
         TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one),
         TEST(tune_best_fcl_reads_only_rows_that_mote_wrote),
         TEST(merge_copies_what_is_not_there_and_adds_sessions),
