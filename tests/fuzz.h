@@ -13,9 +13,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 /* The path of an in-memory file that holds the bytes; the file is reused by the next call. */
 const char *fuzz_file(const uint8_t *data, size_t size);
 
-/* Writes what stands before and behind a line of "====" to two files of a folder of its own; the
-   second is empty without such a line. names: in that folder or in one below it, the same at
-   every call. The folder's path; it is removed at the end. */
+/* Writes what stands before and behind a line of "====" to two files of a folder of its own;
+   the second is empty without such a line. names: in that folder or in one below it, the same
+   at every call. The folder's path; it is removed at the end. */
 const char *fuzz_two_files(const uint8_t *data, size_t size, const char *const names[2]);
 
 #endif

@@ -1,5 +1,7 @@
 #include "tests/fuzz.h"
 
+#include "tests/plain_file.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,13 +46,6 @@ static void make_folder(const char *const names[2])
         abort();
 }
 
-static void write_file(const char *path, const uint8_t *data, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    if (!file || fwrite(data, 1, size, file) != size || fclose(file) != 0)
-        abort();
-}
-
 const char *fuzz_two_files(const uint8_t *data, size_t size, const char *const names[2])
 {
     static const char between[] = "\n====\n";
@@ -61,7 +56,9 @@ const char *fuzz_two_files(const uint8_t *data, size_t size, const char *const n
     while (cut + length <= size && memcmp(data + cut, between, length) != 0)
         ++cut;
     const bool both = cut + length <= size;
-    write_file(paths[0], data, both ? cut : size);
-    write_file(paths[1], data + (both ? cut + length : 0), both ? size - cut - length : 0);
+    const size_t behind = both ? cut + length : size;
+    if (!plain_file_write(paths[0], data, both ? cut : size) ||
+        !plain_file_write(paths[1], data + behind, size - behind))
+        abort();
     return folder;
 }

@@ -3,6 +3,7 @@
 #define MOTE_TESTS_STORED_CELLS_H
 
 #include "harness/file.h"
+#include "tests/plain_file.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
@@ -26,14 +27,6 @@ typedef struct stored_cell {
     const char *rows;              /* below STORED_COLUMNS; "": none; NULL: no CSV */
 } stored_cell;
 
-/* Without the sync of mote_file_write, which takes longer than a test may. */
-static inline bool stored_file_write(const char *path, const char *text)
-{
-    FILE *file = fopen(path, "wb");
-    const bool put = file && fwrite(text, 1, strlen(text), file) == strlen(text);
-    return file && fclose(file) == 0 && put;
-}
-
 static inline bool stored_cell_write(const char *directory, const stored_cell *cell)
 {
     char path[256], id[64];
@@ -55,13 +48,13 @@ static inline bool stored_cell_write(const char *directory, const stored_cell *c
         cell->parameters ? cell->parameters : "{}", replicate, cell->seed,
         cell->more ? cell->more : "");
     (void)snprintf(path, sizeof path, "%s/cells/%s.json", directory, id);
-    done = done && json && stored_file_write(path, json);
+    done = done && json && plain_file_put(path, json);
     free(json);
     if (!cell->rows)
         return done;
     char *csv = mote_format("%s%s", STORED_COLUMNS, cell->rows);
     (void)snprintf(path, sizeof path, "%s/cells/%s.csv", directory, id);
-    done = done && csv && stored_file_write(path, csv);
+    done = done && csv && plain_file_put(path, csv);
     free(csv);
     return done;
 }

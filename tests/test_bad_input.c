@@ -2,6 +2,7 @@
    names the file; and what is only unusual is read. */
 #include "harness/file.h"
 #include "harness/mesh_import.h"
+#include "tests/plain_file.h"
 #include "tests/program.h"
 
 #include <errno.h>
@@ -144,10 +145,7 @@ static void write_plain(const char *name, const void *data, size_t size)
 {
     char path[256];
     (void)snprintf(path, sizeof path, FOLDER "/%s", name);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(data, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    assert_true(plain_file_write(path, data, size));
 }
 
 static double seconds_now(void)

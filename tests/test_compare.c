@@ -1,6 +1,7 @@
 /* Comparisons of summaries that the test writes itself. */
 #include "harness/compare.h"
 #include "harness/record.h"
+#include "tests/plain_file.h"
 #include "tests/program.h"
 
 #include <setjmp.h>
@@ -554,10 +555,7 @@ static void compare_of_what_has_no_rows_is_bad_input(void **state)
             write_run(old_run, &usual, 1);
             write_run(new_run, &usual, -1);
             (void)snprintf(path, sizeof path, "%s/summary.json", which ? new_run : old_run);
-            FILE *file = fopen(path, "w");
-            assert_non_null(file);
-            assert_true(fputs(summaries[i], file) >= 0);
-            assert_int_equal(fclose(file), 0);
+            assert_true(plain_file_put(path, summaries[i]));
             expect("", 4, "no rows; name a run, or its summary.json");
         }
     }

@@ -1,6 +1,7 @@
 /* What a run leaves behind when it is stopped, its parent killed, or the disk taken away. */
 #define _GNU_SOURCE /* unshare */
 #include "harness/record.h"
+#include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/run_files.h"
 
@@ -257,12 +258,6 @@ static void run_beyond_the_largest_file_allowed_fails_with_a_message(void **stat
     assert_int_equal(run_files_count(directory, ".part"), 0);
 }
 
-static bool put(const char *path, const char *words)
-{
-    FILE *file = fopen(path, "w");
-    return file && fputs(words, file) >= 0 && fclose(file) == 0;
-}
-
 /* Whether this process may mount: as root, or as root of a user namespace of its own. */
 static bool may_mount(void)
 {
@@ -273,11 +268,11 @@ static bool may_mount(void)
         if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0)
             return false;
         (void)snprintf(map, sizeof map, "0 %u 1\n", (unsigned)uid);
-        (void)put("/proc/self/setgroups", "deny\n");
-        if (!put("/proc/self/uid_map", map))
+        (void)plain_file_put("/proc/self/setgroups", "deny\n");
+        if (!plain_file_put("/proc/self/uid_map", map))
             return false;
         (void)snprintf(map, sizeof map, "0 %u 1\n", (unsigned)gid);
-        (void)put("/proc/self/gid_map", map);
+        (void)plain_file_put("/proc/self/gid_map", map);
     }
     return mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) == 0;
 }

@@ -1,4 +1,5 @@
 /* What mote summarize writes for other tools; more of it in tests/exports.py. */
+#include "tests/plain_file.h"
 #include "tests/program.h"
 
 #include <setjmp.h>
@@ -31,12 +32,9 @@ static int make_base(void **state)
         return -1;
     (void)snprintf(said, sizeof said, "%s/said", base);
     (void)snprintf(name, sizeof name, "%s/few.json", base);
-    FILE *out = fopen(name, "w");
-    if (!out)
+    if (!plain_file_put(name, "{\"purpose\": \"a test\", \"like\": \"mv\", \"frames\": 5,"
+                              " \"warmup\": null, \"active\": null}\n"))
         return -1;
-    (void)fprintf(out, "{\"purpose\": \"a test\", \"like\": \"mv\", \"frames\": 5,"
-                       " \"warmup\": null, \"active\": null}\n");
-    (void)fclose(out);
     (void)snprintf(line, sizeof line,
                    "run %s --replicates 3 --stride 1 --method fcl-aabb --method certified"
                    " --method fcl-kdop18 --out %s/run",

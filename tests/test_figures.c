@@ -3,6 +3,7 @@
 #include "harness/figure.h"
 #include "harness/hash.h"
 #include "harness/record.h"
+#include "tests/plain_file.h"
 #include "tests/program.h"
 
 #include <setjmp.h>
@@ -301,13 +302,10 @@ static void claims_alone_are_drawn(void **state)
     path_of("claims", path);
     assert_int_equal(mkdir(path, 0777), 0);
     path_of("claims/claims.json", path);
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    (void)fputs("[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
-                "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
-                "\"values\": [{\"name\": \"n = 3\"}]}]",
-                out);
-    (void)fclose(out);
+    assert_true(plain_file_put(
+        path, "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
+              "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
+              "\"values\": [{\"name\": \"n = 3\"}]}]"));
     assert_int_equal(run("figures", "claims"), 0);
     path_of("claims/figures/claims.svg", path);
     program_read(path, text, sizeof text);

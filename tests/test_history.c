@@ -1,4 +1,5 @@
 /* The history of accepted references: what is added to it, drawn of it, and refused. */
+#include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"
 
@@ -24,7 +25,7 @@ static int make_base(void **state)
     (void)snprintf(file, sizeof file, "%s/h.csv", base);
     (void)snprintf(said, sizeof said, "%s/said", base);
     (void)snprintf(path, sizeof path, "%s/gnuplot", base);
-    if (!stored_file_write(path, GNUPLOT) || chmod(path, 0755) != 0)
+    if (!plain_file_put(path, GNUPLOT) || chmod(path, 0755) != 0)
         return -1;
     (void)snprintf(path, sizeof path, "%s:/usr/bin:/bin", base);
     return setenv("PATH", path, 1);
@@ -68,7 +69,7 @@ static void history_of_what_is_none_is_refused_by_line(void **state)
         {HEADER "d,c,w,r,100,2,,,,,,\n", "h.csv:2: not a line of a history"},
         {HEADER "\n", "h.csv:2: not a line of a history"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        assert_true(stored_file_write(file, cases[i].text));
+        assert_true(plain_file_put(file, cases[i].text));
         expect(file, 4, cases[i].says);
     }
     expect("/no/such/history.csv", 4, "/no/such/history.csv: No such file");
@@ -94,7 +95,7 @@ static void history_marks_what_moves_more_than_usual(void **state)
                                        "5,e,w,r,202,,,,,,"; /* a last line without its end */
     static const char data[] = "\"r\"\n1 1 0 0123456789\n2 1.01 0 -\n3 1 0 c\n4 1.01 0 d\n"
                                "5 2.02 1 e\n\n\n\"s\"\n1 1 0 0123456789\n2 2 1 -\n";
-    assert_true(stored_file_write(file, lines));
+    assert_true(plain_file_put(file, lines));
     expect(file, 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, data);
@@ -102,7 +103,7 @@ static void history_marks_what_moves_more_than_usual(void **state)
     static const char undated[] = HEADER ",c,w,r,100,,,,,,\n";
     char path[96];
     (void)snprintf(path, sizeof path, "%s/h", base);
-    assert_true(stored_file_write(path, undated));
+    assert_true(plain_file_put(path, undated));
     expect(path, 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, "\"r\"\n1 1 0 c\n");
@@ -129,9 +130,9 @@ static void history_add_of_odd_names_can_be_drawn(void **state)
                    base);
     expect(arguments, 4, "run/manifest.json: No such file");
     (void)snprintf(path, sizeof path, "%s/run/manifest.json", base);
-    assert_true(stored_file_write(path, "{}\n"));
+    assert_true(plain_file_put(path, "{}\n"));
     expect(arguments, 0, "");
-    assert_true(stored_file_write(
+    assert_true(plain_file_put(
         path, "{\"commit\": \"9,9\", \"sessions\": [{\"started\": \"today\"}]}\n"));
     expect(arguments, 0, "");
     read_data("n.csv");
@@ -141,7 +142,7 @@ static void history_add_of_odd_names_can_be_drawn(void **state)
     /* Added to behind a last line that was not ended. */
     (void)snprintf(path, sizeof path, "%s/n.csv", base);
     text[strlen(text) - 1] = '\0';
-    assert_true(stored_file_write(path, text));
+    assert_true(plain_file_put(path, text));
     expect(arguments, 0, "");
     expect(path, 0, "n.svg");
     read_data("n.dat");
@@ -153,7 +154,7 @@ static void history_add_to_another_file_leaves_it_alone(void **state)
 {
     (void)state;
     char arguments[256];
-    assert_true(stored_file_write(file, "my thesis\n"));
+    assert_true(plain_file_put(file, "my thesis\n"));
     (void)snprintf(arguments, sizeof arguments, "%s --add %s/run --why w", file, base);
     expect(arguments, 4, "h.csv:1: not the header of a history");
     read_data("h.csv");

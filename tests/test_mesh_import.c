@@ -1,6 +1,7 @@
 #include "harness/file.h"
 #include "harness/mesh_import.h"
 #include "harness/mesh_soup.h"
+#include "tests/plain_file.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -38,15 +39,6 @@ static const char stl_text[] =
     "vertex 0 1 0\nendloop\nendfacet\nfacet normal 1 1 1\nouter loop\nvertex 1 0 0\n"
     "vertex 0 1 0\nvertex 0 0 0.1\nendloop\nendfacet\nendsolid t\n";
 
-/* Without the sync of mote_file_write, of which a thousand take minutes. */
-static void write_plain(const char *path, const void *data, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(data, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
 static const char gltf_text[] =
     "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}]"
     ", \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\""
@@ -64,7 +56,7 @@ static mote_status import_text(const char *name, const void *text, size_t size,
 {
     char *path = mote_format("%s/%s", FOLDER, name);
     assert_non_null(path);
-    write_plain(path, text, size);
+    assert_true(plain_file_write(path, text, size));
     mote_status status = mote_mesh_import(path, mesh, import);
     assert_int_equal(unlink(path), 0);
     free(path);

@@ -364,11 +364,10 @@ static void replay_particles_of_odd_tracks_are_not_shown(void **state)
         if (odd[i].rows == 1) { /* with the answer that it gives */
             mote_answer answer = {0};
             assert_int_equal(mote_method_choice_read(label, &choice), MOTE_OK);
-            assert_int_equal(mote_probe_create(&scene.scenario->body[0],
-                                               &scene.scenario->body[1], &choice,
-                                               scene.scenario->ask, 0, track.cell->replicate_seed,
-                                               &probe),
-                             MOTE_OK);
+            assert_int_equal(
+                mote_probe_create(&scene.scenario->body[0], &scene.scenario->body[1], &choice,
+                                  scene.scenario->ask, 0, track.cell->replicate_seed, &probe),
+                MOTE_OK);
             assert_int_equal(mote_frame_buffer_create(scene.scenario, &buffer), MOTE_OK);
             assert_int_equal(
                 mote_probe_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),

@@ -4,6 +4,7 @@
 #include "harness/motion.h"
 #include "harness/scenario.h"
 #include "harness/spread.h"
+#include "tests/plain_file.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -41,13 +42,9 @@ static const char good_text[] =
     "  ]\n"
     "}\n";
 
-/* Without the sync of mote_file_write, of which a thousand take minutes. */
 static void write_plain(const char *text, size_t size)
 {
-    FILE *file = fopen(FILE_NAME, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    assert_true(plain_file_write(FILE_NAME, text, size));
 }
 
 /* good_text with the first `from` replaced. */
@@ -415,10 +412,7 @@ static void mote_spread_points_are_far_apart(void **state)
 
 static void write_like(const char *text)
 {
-    FILE *file = fopen(FOLDER "/like.json", "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    assert_true(plain_file_put(FOLDER "/like.json", text));
 }
 
 /* Frame k of the one is frame 1 + 3 (k - 1) + 4 of the other; the second body's path is its

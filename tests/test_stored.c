@@ -5,6 +5,7 @@
 #include "harness/record.h"
 #include "harness/summary.h"
 #include "harness/tune.h"
+#include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"
 
@@ -46,7 +47,7 @@ static void write_plain(const char *name, const char *content)
 {
     char path[256];
     (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    assert_true(stored_file_write(path, content));
+    assert_true(plain_file_put(path, content));
 }
 
 static void write_cell(stored_cell cell)

@@ -1,6 +1,7 @@
 #include "harness/file.h"
 #include "harness/hash.h"
 #include "harness/truth.h"
+#include "tests/plain_file.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -24,15 +25,6 @@ static const char small_text[] =
     "20]}}},\n"
     "\"motion\": [{\"frame\": 1, \"position\": [1.5, 0, 0]},\n"
     "{\"frame\": 30, \"position\": [0, 0, 0]}]}]}\n";
-
-/* Without the sync of mote_file_write, of which a thousand take minutes. */
-static void write_plain(const char *path, const char *text, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
 
 static char *truth_path(const mote_scenario *scenario)
 {
@@ -138,11 +130,11 @@ static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
     for (size_t i = 0; i < size; i += 7) {
         char kept = text[i];
         text[i] = kept == '1' ? '2' : '1';
-        write_plain(path, text, size);
+        assert_true(plain_file_write(path, text, size));
         text[i] = kept;
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
-        write_plain(path, text, i);
+        assert_true(plain_file_write(path, text, i));
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
     }
@@ -165,7 +157,7 @@ static void write_rows(const char *path, const char *first, const char *columns,
     assert_true(size > 0 && (size_t)size < sizeof text);
     const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text, (size_t)size);
     size += snprintf(text + size, sizeof text - (size_t)size, "# hash %016" PRIx64 "\n", hash);
-    write_plain(path, text, (size_t)size);
+    assert_true(plain_file_write(path, text, (size_t)size));
 }
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
