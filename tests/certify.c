@@ -151,26 +151,15 @@ static int report(const variant v[VARIANTS], const char *out, const char *checks
 
 int main(int argc, char **argv)
 {
-    unsigned long long wanted = 25000;
-    const char *out = NULL, *checks = NULL;
-    for (int i = 1; i < argc; ++i) {
-        if (strcmp(argv[i], "--queries") == 0 && i + 1 < argc) {
-            wanted = strtoull(argv[++i], NULL, 10);
-        } else if (strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
-            out = argv[++i];
-        } else if (strcmp(argv[i], "--checks") == 0 && i + 1 < argc) {
-            checks = argv[++i];
-        } else {
-            fprintf(stderr, "usage: certify [--queries N] [--out FILE] [--checks FILE]\n");
-            return 2;
-        }
-    }
+    checks_options options = {.queries = 25000};
+    if (!checks_read(argc, argv, "certify", &options))
+        return 2;
     variant v[VARIANTS] = {{.name = NULL}};
     for (int i = 0; i < VARIANTS; ++i)
         v[i].least_margin = HUGE_VAL;
-    for (uint32_t index = 0; all_queries(v) < wanted; ++index) {
+    for (uint32_t index = 0; all_queries(v) < options.queries; ++index) {
         if (!run_scene(v, index))
             return 1;
     }
-    return report(v, out, checks);
+    return report(v, options.out, options.checks);
 }

@@ -1,12 +1,46 @@
-/* The lines that studies add to a file of checks: what was tried, how often, what failed. make
-   reliability makes its table of them. */
+/* What the studies of make reliability have in common: their options, and the lines that they
+   add to a file of checks, {what was tried, how often, what failed}, of which it makes its
+   table. */
 #ifndef MOTE_TESTS_CHECKS_H
 #define MOTE_TESTS_CHECKS_H
+
+#include "harness/command.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
+
+typedef struct checks_options {
+    uint64_t queries;   /* to try; from 1 */
+    const char *out;    /* a JSON file of all figures; NULL: none */
+    const char *checks; /* the file of checks; NULL: none */
+} checks_options;
+
+/* False, told on stderr, where something else than [--queries N] [--out FILE] [--checks FILE]
+   is given; options hold what is usual, and borrow from argv. */
+static inline bool checks_read(int argc, char **argv, const char *program,
+                               checks_options *options)
+{
+    for (int i = 1; i < argc; i += 2) {
+        char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        bool known = value != NULL;
+        if (known && strcmp(argv[i], "--queries") == 0)
+            known = mote_read_unsigned(value, 1, UINT64_MAX, &options->queries);
+        else if (known && strcmp(argv[i], "--out") == 0)
+            options->out = value;
+        else if (known && strcmp(argv[i], "--checks") == 0)
+            options->checks = value;
+        else
+            known = false;
+        if (!known) {
+            fprintf(stderr, "usage: %s [--queries N] [--out FILE] [--checks FILE]\n", program);
+            return false;
+        }
+    }
+    return true;
+}
 
 /* Appends "CHECK<tab>TRIED<tab>FAILED"; NULL path: nothing to do. False, told on stderr, when
    the file cannot be written. */

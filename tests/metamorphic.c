@@ -202,7 +202,7 @@ static bool write_json(const char *path, const relation *relations, size_t count
     return fclose(file) == 0;
 }
 
-static bool run_relation(relation *r, unsigned long long wanted)
+static bool run_relation(relation *r, uint64_t wanted)
 {
     for (uint32_t index = 0; r->tried < wanted; ++index) {
         if (!run_pair(r, index))
@@ -220,20 +220,9 @@ static bool run_relation(relation *r, unsigned long long wanted)
 
 int main(int argc, char **argv)
 {
-    unsigned long long wanted = 20000;
-    const char *out = NULL, *checks = NULL;
-    for (int i = 1; i < argc; ++i) {
-        if (strcmp(argv[i], "--queries") == 0 && i + 1 < argc) {
-            wanted = strtoull(argv[++i], NULL, 10);
-        } else if (strcmp(argv[i], "--out") == 0 && i + 1 < argc) {
-            out = argv[++i];
-        } else if (strcmp(argv[i], "--checks") == 0 && i + 1 < argc) {
-            checks = argv[++i];
-        } else {
-            fprintf(stderr, "usage: metamorphic [--queries N] [--out FILE] [--checks FILE]\n");
-            return 2;
-        }
-    }
+    checks_options options = {.queries = 20000};
+    if (!checks_read(argc, argv, "metamorphic", &options))
+        return 2;
     relation relations[] = {
         {.name = "scaled by a power of two", .same_bits = true},
         {.name = "bodies swapped", .change = {.swap = true}, .keeps_vertices = true},
@@ -247,15 +236,15 @@ int main(int argc, char **argv)
     const size_t count = sizeof relations / sizeof *relations;
     uint64_t failed = 0;
     for (size_t i = 0; i < count; ++i) {
-        if (!run_relation(&relations[i], wanted))
+        if (!run_relation(&relations[i], options.queries))
             return 1;
         failed += relations[i].failed;
         char name[64];
         (void)snprintf(name, sizeof name, "metamorphic: %s", relations[i].name);
-        if (!checks_add(checks, name, relations[i].tried, relations[i].failed))
+        if (!checks_add(options.checks, name, relations[i].tried, relations[i].failed))
             return 1;
     }
-    if (out && !write_json(out, relations, count))
+    if (options.out && !write_json(options.out, relations, count))
         return 1;
     return failed == 0 ? 0 : 1;
 }
