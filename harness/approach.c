@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #define ORACLE "fcl-aabb"
-#define STEPS_MAX 200
+#define STEPS_MAX 2000
 #define PRECISION 1e-4 /* of L */
 
 typedef struct approach {
@@ -60,8 +60,10 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
             return status;
         const double left = distance - wished;
         /* A touch of zero is met only in the limit: stop just short of it. */
-        if (left <= PRECISION * length)
-            break;
+        if (left <= PRECISION * length) {
+            *offset = at + fmin(gap, 0) * length;
+            return MOTE_OK;
+        }
         at -= left;
         if (at < -4 * length)
             return mote_fail(MOTE_EINVAL,
@@ -69,8 +71,10 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
                              "%g L; aim body 1 at body 0",
                              gap);
     }
-    *offset = at + fmin(gap, 0) * length;
-    return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "the bodies slide along each other at hardly more than %g L; wish another "
+                     "gap there, or aim body 1 at body 0",
+                     gap);
 }
 
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
@@ -91,8 +95,7 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
     for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k) {
         a.frame = *mote_scenario_frame(scenario, buffer, plan->frames[k], 0);
         a.frame.number = k + 1;
-        const mote_vec3 first = mote_pose_apply(&a.frame.body[0].pose, motion[0].centre);
-        a.base = mote_add(first, plan->aside);
+        a.base = mote_pose_apply(&a.frame.body[0].pose, motion[0].centre);
         a.still = mote_scale(mote_rotate(&a.frame.body[1].pose.rotation, motion[1].centre), -1);
         double offset = 0;
         status = solve_frame(&a, plan->gaps[k], &offset);

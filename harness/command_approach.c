@@ -133,8 +133,7 @@ static mote_status approach(const request *wish, const mote_scenario *scenario)
         for (uint32_t k = 0; k < count; ++k)
             mote_curve_evaluate(curve, frames[k], &gaps[k]);
         const double *u = wish->direction;
-        mote_approach_plan plan = {
-            mote_vec3_make(u[0], u[1], u[2]), {0, 0, 0}, frames, gaps, count};
+        mote_approach_plan plan = {mote_vec3_make(u[0], u[1], u[2]), frames, gaps, count};
         status = mote_approach_solve(scenario, &plan, positions);
         if (status == MOTE_OK)
             status = write_result(wish, scenario, frames, positions, count);

@@ -94,7 +94,7 @@ static mote_status find_motion(mote_scenario *scenario)
         mote_curve_evaluate(curve, frames[k], &gaps[k]);
     }
     mote_curve_destroy(curve);
-    const mote_approach_plan plan = {{1, 0, 0}, {0, 0, 0}, frames, gaps, KEYS};
+    const mote_approach_plan plan = {{1, 0, 0}, frames, gaps, KEYS};
     status = mote_approach_solve(scenario, &plan, positions);
     if (status == MOTE_OK)
         status = mote_curve_create(frames, &positions->x, KEYS, 3,
