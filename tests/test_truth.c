@@ -2,6 +2,7 @@
 #include "harness/hash.h"
 #include "harness/truth.h"
 #include "tests/plain_file.h"
+#include "tests/program.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -49,13 +50,8 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    char *path = truth_path(*state);
-    (void)unlink(path);
-    free(path);
     mote_scenario_destroy(*state);
-    (void)rmdir(FOLDER "/truth");
-    (void)unlink(FOLDER "/small.json");
-    return rmdir(FOLDER);
+    return program_remove(FOLDER);
 }
 
 static void mote_truth_compute_small_scenario_is_exact_where_known(void **state)
@@ -94,6 +90,52 @@ static void mote_truth_load_or_compute_twice_gives_the_same_bits(void **state)
     free(path);
     mote_truth_destroy(first);
     mote_truth_destroy(second);
+}
+
+/* Triangles around the middle, and far from it two that make it the middle. */
+#define FACES "f 1 2 3\nf 4 5 6\nf 7 8 9\n"
+#define CORNERS(out, in)                                                                       \
+    "v " out " " out " " out "\nv " in " " out " " out "\nv " out " " in " " out "\n"          \
+    "v -" out " -" out " -" out "\nv -" in " -" out " -" out "\nv -" out " -" in " -" out "\n"
+
+/* datasets/defects.md 11: corners that lie in a triangle of the other body, which FCL tells
+   apart. */
+static void mote_truth_compute_frame_that_fcl_gets_wrong_is_settled(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *a, *b;
+        mote_vec3 touch;
+        double overruled;
+    } cases[] = {{"v 3 3 1\nv 0 1 2\nv 3 2 0\n" CORNERS("10", "9") FACES,
+                  "v 1 2 3\nv 1 1 2\nv 2 2 1\n" CORNERS("20", "19") FACES,
+                  {2, 2, 1},
+                  0.149},
+                 {"v 1 1 2\nv 2 0 0\nv 2 2 2\n" CORNERS("10", "9") FACES,
+                  "v 1 3 3\nv 2 2 1\nv 3 1 2\n" CORNERS("20", "19") FACES,
+                  {2, 2, 2},
+                  0.408}};
+    static const char scene[] =
+        "{\"purpose\": \"a test\", \"frames\": 2, \"ask\": \"distance\", "
+        "\"bodies\": [{\"file\": \"a.obj\"}, {\"file\": \"b.obj\"}]}\n";
+    assert_true(plain_file_put(FOLDER "/touch.json", scene));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_scenario *scenario;
+        mote_truth *truth;
+        assert_true(plain_file_put(FOLDER "/a.obj", cases[i].a));
+        assert_true(plain_file_put(FOLDER "/b.obj", cases[i].b));
+        assert_int_equal(mote_scenario_load(FOLDER "/touch.json", &scenario), MOTE_OK);
+        assert_int_equal(mote_truth_compute(scenario, &truth), MOTE_OK);
+        for (int k = 0; k < 2; ++k) {
+            assert_true(truth->distance[k] == 0 && truth->contact[k]);
+            assert_true(fabs(truth->overruled[k] - cases[i].overruled) < 5e-4);
+            assert_memory_equal(&truth->witness_a[k], &cases[i].touch, sizeof(mote_vec3));
+            assert_memory_equal(&truth->witness_b[k], &cases[i].touch, sizeof(mote_vec3));
+        }
+        assert_int_equal(truth->checked, 2);
+        mote_truth_destroy(truth);
+        mote_scenario_destroy(scenario);
+    }
 }
 
 static void mote_truth_read_settled_frame_keeps_what_was_overruled(void **state)
@@ -233,6 +275,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mote_truth_compute_small_scenario_is_exact_where_known),
         cmocka_unit_test(mote_truth_load_or_compute_twice_gives_the_same_bits),
+        cmocka_unit_test(mote_truth_compute_frame_that_fcl_gets_wrong_is_settled),
         cmocka_unit_test(mote_truth_read_settled_frame_keeps_what_was_overruled),
         cmocka_unit_test(mote_truth_read_changed_or_cut_file_is_refused),
         cmocka_unit_test(mote_truth_read_wrong_rows_with_a_right_hash_are_refused),
