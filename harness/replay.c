@@ -82,6 +82,15 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
                      cell->scenario);
 }
 
+/* Frames are stored in files that may be damaged: none may lie outside the scenario. */
+static mote_status check_frames(const mote_replay_scene *scene)
+{
+    if (scene->last <= scene->scenario->frames)
+        return MOTE_OK;
+    return mote_fail(MOTE_EUNSUPPORTED, "%s: a cell has frame %u; the scenario has frames 1-%u",
+                     scene->tracks[0].cell->scenario, scene->last, scene->scenario->frames);
+}
+
 /* Whether a row is replayed: answers of its own, hot caches. */
 static bool is_shown(const mote_summary_row *row)
 {
@@ -176,6 +185,8 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
                            report->cells.rows[first].first->scenario);
     if (status == MOTE_OK)
         status = find_scenario(report, made.tracks[0].cell, &made.scenario);
+    if (status == MOTE_OK)
+        status = check_frames(&made);
     if (status == MOTE_OK)
         status = read_truth(report, &made);
     if (status == MOTE_OK)

@@ -40,7 +40,8 @@ typedef struct mote_replay_scene {
 
 /* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot caches,
    and reads the answers of each. MOTE_EUNSUPPORTED, the text saying why, where it cannot be
-   shown: the scenario's file is not to be found or is another one now, or a mesh is too large.
+   shown: the scenario's file is not to be found or is another one now, a mesh is too large, or
+   a cell has a frame that the scenario has not.
    The caller frees *scene. */
 mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
                              mote_replay_scene *scene);

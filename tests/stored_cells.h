@@ -29,7 +29,7 @@ typedef struct stored_cell {
 
 static inline bool stored_cell_write(const char *directory, const stored_cell *cell)
 {
-    char path[256], id[64];
+    char path[512], id[64];
     (void)snprintf(path, sizeof path, "%s/cells", directory);
     bool done = mote_directory_make(path) == MOTE_OK;
     const char *method = cell->method ? cell->method : "fcl-aabb";

@@ -389,6 +389,22 @@ static void replay_particles_of_odd_tracks_are_not_shown(void **state)
     mote_replay_free(&scene);
 }
 
+/* Numbers of frames are read from a file: one after the scenario's end is of nothing there. */
+static void replay_load_of_a_frame_that_the_scenario_has_not_is_refused(void **state)
+{
+    (void)state;
+    static const uint32_t numbers[] = {FRAMES + 1, 100000, UINT32_MAX};
+    uint32_t *last = &report.cells.rows[CERTIFIED].first->frame[FRAMES - 1];
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+        mote_replay_scene scene;
+        *last = numbers[i];
+        assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene),
+                         MOTE_EUNSUPPORTED);
+        assert_non_null(strstr(mote_error_text(), "the scenario has frames 1-5"));
+    }
+    *last = FRAMES;
+}
+
 static void replay_load_of_a_changed_scenario_is_refused(void **state)
 {
     (void)state;
@@ -421,6 +437,7 @@ int main(void)
         cmocka_unit_test(replay_json_of_a_full_page_shows_no_scene),
         cmocka_unit_test(replay_read_cell_of_a_changed_file_gives_none),
         cmocka_unit_test(replay_particles_of_odd_tracks_are_not_shown),
+        cmocka_unit_test(replay_load_of_a_frame_that_the_scenario_has_not_is_refused),
         cmocka_unit_test(replay_load_of_a_changed_scenario_is_refused),
     };
     return cmocka_run_group_tests(tests, make_run, remove_base);
