@@ -49,11 +49,14 @@ static bool usable(const mote_summary_row *row, const char *scenario)
            strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
 }
 
+/* The first and last frame, 0 for what is no frame's number. */
 static void frame_range(const mote_summary_row *row, json_int_t range[2])
 {
     const json_t *frames = json_object_get(row->first->json, "frames");
-    for (size_t i = 0; i < 2; ++i)
-        range[i] = json_integer_value(json_array_get(frames, i));
+    for (size_t i = 0; i < 2; ++i) {
+        const json_int_t number = json_integer_value(json_array_get(frames, i));
+        range[i] = number >= 1 && number <= UINT32_MAX ? number : 0;
+    }
 }
 
 bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,

@@ -272,6 +272,21 @@ static void damaged_cells_are_named_and_the_rest_is_drawn(void **state)
     assert_true(exists("damaged/figures/shares-tt.svg"));
 }
 
+static void take_frames_away(const char *path)
+{
+    rewrite(path, "\"frames\": [\n  1,\n  60\n",
+            "\"frames\": [\n  -9223372036854775807,\n  9223372036854775807\n");
+}
+
+/* The frames that a cell names choose the rows that a figure shows: of the most of them. */
+static void cells_that_name_no_frames_are_drawn(void **state)
+{
+    (void)state;
+    copy_run("frames", take_frames_away);
+    assert_int_equal(run("figures", "frames"), 0);
+    assert_true(exists("frames/figures/shares-tt.svg"));
+}
+
 static void remove_csv(const char *path)
 {
     char csv[600];
@@ -346,6 +361,7 @@ int main(void)
         cmocka_unit_test(hash_is_fnv_1a),
         cmocka_unit_test(drawing_again_gives_the_same_bytes),
         cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
+        cmocka_unit_test(cells_that_name_no_frames_are_drawn),
         cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
         cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
         cmocka_unit_test(claims_alone_are_drawn),
