@@ -356,7 +356,9 @@ static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
         else
             ++c->only_base;
     }
-    c->only_new = json_array_size(new_rows) - c->count;
+    /* Several rows of the base, of different machines, may have one partner. */
+    for (size_t i = 0; i < json_array_size(new_rows); ++i)
+        c->only_new += find_partner(base_rows, json_array_get(new_rows, i)) ? 0 : 1;
     c->undecided = c->only_base > 0; /* nothing says how they fare now */
     if (c->count == 0)
         return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "

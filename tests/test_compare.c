@@ -468,6 +468,19 @@ static void compare_prefers_the_row_of_the_same_machine(void **state)
     expect("", 1, "missed 2 to 6");
 }
 
+/* Two rows of the base with one partner: no row of the new run is without one. */
+static void compare_of_several_machines_with_one_counts_rows_without_a_partner(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(old_run, "{'machine': 'second'}");
+    add_row(old_run, "{'machine': 'third'}");
+    expect("--format json", 0, "\"only_new\": 0");
+    add_row(new_run, "{'frames': 50}");
+    expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\n");
+}
+
 /* On another machine only ratios are compared; a floor that is wider still stays. */
 static void compare_on_another_machine_without_ratios_knows_no_time(void **state)
 {
@@ -588,6 +601,7 @@ int main(void)
         cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
         cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
         cmocka_unit_test(compare_prefers_the_row_of_the_same_machine),
+        cmocka_unit_test(compare_of_several_machines_with_one_counts_rows_without_a_partner),
         cmocka_unit_test(compare_of_rows_without_a_partner_is_undecided),
         cmocka_unit_test(compare_of_changed_rows_says_what_is_worse_better_or_unknown),
     };
