@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* Counts, errors and rates are equal when they differ by less than this share. */
 #define EXACT_SHARE 1e-9
@@ -366,8 +367,8 @@ static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
     return MOTE_OK;
 }
 
-/* Reads a file beside a run's summary; NULL when there is none. */
-static json_t *read_beside(const char *run, const char *name)
+/* Reads a file beside a run's summary; *object stays NULL when there is none. */
+static mote_status read_beside(const char *run, const char *name, json_t **object)
 {
     struct stat info;
     bool is_file = stat(run, &info) == 0 && S_ISREG(info.st_mode);
@@ -375,23 +376,35 @@ static json_t *read_beside(const char *run, const char *name)
     char *directory =
         is_file ? mote_format("%.*s", slash ? (int)(slash - run) : 1, slash ? run : ".")
                 : mote_format("%s", run);
-    json_t *object = NULL;
-    if (directory && mote_record_read_json(directory, name, &object) != MOTE_OK)
-        object = NULL;
+    char *path = directory ? mote_format("%s/%s", directory, name) : NULL;
+    mote_status status =
+        path ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+    if (status == MOTE_OK && access(path, F_OK) == 0)
+        status = mote_record_read_json(directory, name, object);
+    free(path);
     free(directory);
-    return object;
+    return status;
+}
+
+/* Reads that file of both runs; the caller decrefs both, whatever is returned. */
+static mote_status read_both(const char *const runs[2], const char *name, json_t *both[2])
+{
+    both[0] = both[1] = NULL;
+    const mote_status status = read_beside(runs[0], name, &both[0]);
+    return status == MOTE_OK ? read_beside(runs[1], name, &both[1]) : status;
+}
+
+static void release(json_t *both[2])
+{
+    json_decref(both[0]);
+    json_decref(both[1]);
 }
 
 /* Whether both manifests are there and differ in something. */
-static bool manifests_differ(const char *base, const char *fresh, const char *key)
+static bool manifests_differ(json_t *const manifests[2], const char *key)
 {
-    json_t *first = read_beside(base, "manifest.json"),
-           *second = read_beside(fresh, "manifest.json");
-    bool differ = first && second &&
-                  !json_equal(json_object_get(first, key), json_object_get(second, key));
-    json_decref(first);
-    json_decref(second);
-    return differ;
+    return manifests[0] && manifests[1] &&
+           !json_equal(json_object_get(manifests[0], key), json_object_get(manifests[1], key));
 }
 
 /* Looks up the instructions of a row of the summary; MOTE_NONE when they were not counted. */
@@ -430,44 +443,45 @@ static void compare_instructions(const json_t *base_rows, const json_t *const co
 }
 
 static mote_status compare_all(const char *const runs[2], json_t *const summaries[2],
-                               mote_comparison *c)
+                               json_t *const manifests[2], mote_comparison *c)
 {
     const json_t *base_rows = json_object_get(summaries[0], "rows");
     const json_t *new_rows = json_object_get(summaries[1], "rows");
+    json_t *counted[2];
     mote_status status = compare_rows(base_rows, new_rows, c);
     if (status != MOTE_OK)
         return status;
-    json_t *const counted[2] = {read_beside(runs[0], "instructions.json"),
-                                read_beside(runs[1], "instructions.json")};
-    const json_t *const both[2] = {counted[0], counted[1]};
-    c->instructions = counted[0] && counted[1];
-    if (c->instructions)
-        compare_instructions(
-            base_rows, both, new_rows,
-            !c->other_machine && !manifests_differ(runs[0], runs[1], "compiler"), c);
-    json_decref(counted[0]);
-    json_decref(counted[1]);
-    return judge(c);
+    status = read_both(runs, "instructions.json", counted);
+    c->instructions = status == MOTE_OK && counted[0] && counted[1];
+    if (c->instructions) {
+        const json_t *const both[2] = {counted[0], counted[1]};
+        const bool judged = !c->other_machine && !manifests_differ(manifests, "compiler");
+        compare_instructions(base_rows, both, new_rows, judged, c);
+    }
+    release(counted);
+    return status == MOTE_OK ? judge(c) : status;
 }
 
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison)
 {
     const char *const runs[2] = {base, new_run};
-    json_t *summaries[2] = {NULL, NULL};
+    json_t *summaries[2] = {NULL, NULL}, *manifests[2] = {NULL, NULL};
     mote_comparison c = {0};
     mote_status status = read_summary(base, &summaries[0]);
     if (status == MOTE_OK)
         status = read_summary(new_run, &summaries[1]);
+    if (status == MOTE_OK)
+        status = read_both(runs, "manifest.json", manifests);
     if (status == MOTE_OK) {
-        c.other_machine = manifests_differ(base, new_run, "processor");
+        c.other_machine = manifests_differ(manifests, "processor");
         c.floor = raised_floor(floor, summaries[0], summaries[1]);
         if (c.other_machine && c.floor < MOTE_OTHER_MACHINE_FLOOR)
             c.floor = MOTE_OTHER_MACHINE_FLOOR;
-        status = compare_all(runs, summaries, &c);
+        status = compare_all(runs, summaries, manifests, &c);
     }
-    json_decref(summaries[0]);
-    json_decref(summaries[1]);
+    release(summaries);
+    release(manifests);
     if (status == MOTE_OK)
         *comparison = c;
     else

@@ -522,6 +522,24 @@ compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **
     remove_beside();
 }
 
+/* What is there and damaged is not taken for what is not there: nothing would be compared. */
+static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"instructions.json", "manifest.json"};
+    for (size_t i = 0; i < 4; ++i) {
+        char path[96];
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        (void)snprintf(path, sizeof path, "%s/%s", i % 2 ? new_run : old_run, names[i / 2]);
+        assert_int_equal(truncate(path, 20), 0);
+        expect("", 4, names[i / 2]);
+    }
+    remove_beside();
+}
+
 /* One row that is worse is enough. */
 static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
 {
@@ -597,6 +615,7 @@ int main(void)
         cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
         cmocka_unit_test(
             compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
+        cmocka_unit_test(compare_of_damaged_files_beside_the_summary_is_bad_input),
         cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
         cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
         cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
