@@ -166,6 +166,24 @@ static size_t process_changes(const json_t *base, const json_t *fresh, bool othe
     return count;
 }
 
+/* Says that something the base knows cannot be compared: nothing follows from what is left. */
+static void say_unknown(mote_change *change, const char *what)
+{
+    change->unknown = true;
+    mote_text_add(&change->what, "%s%s", change->what.size ? "; " : "", what);
+}
+
+static bool has_time(const json_t *row)
+{
+    const json_t *processes = json_object_get(row, "processes");
+    for (size_t i = 0; i < json_array_size(processes); ++i) {
+        const json_t *process = json_array_get(processes, i);
+        if (number_at(process, NULL, "median_ns") > 0 || number_at(process, NULL, "ratio") > 0)
+            return true;
+    }
+    return element(row, "total_ns", 0) > 0 || element(row, "ratio", 0) > 0;
+}
+
 static void compare_times(const json_t *base, const json_t *fresh, bool other_machine,
                           mote_change *change)
 {
@@ -173,6 +191,9 @@ static void compare_times(const json_t *base, const json_t *fresh, bool other_ma
     size_t count = quiet_changes(base, fresh, other_machine, logs);
     if (count < MOTE_QUIET_GROUPS)
         count = process_changes(base, fresh, other_machine, logs);
+    /* Between machines a row without a ratio to fcl-aabb has no time that compares. */
+    if (count == 0 && !other_machine && has_time(base))
+        say_unknown(change, "no time to compare");
     change->smallest_change = fmax(number_at(base, NULL, "smallest_change"),
                                    number_at(fresh, NULL, "smallest_change"));
     change->ratio = exp(mote_statistics_mean(logs, count));
@@ -209,10 +230,26 @@ static void compare_figure(mote_change *change, const char *name, double base, d
         change->better = true;
 }
 
+/* Whether the two rows have a replicate in common. */
+static bool has_pair(const json_t *base, const json_t *fresh)
+{
+    const json_t *processes = json_object_get(base, "processes");
+    for (size_t i = 0; i < json_array_size(processes); ++i) {
+        const json_t *process = json_array_get(processes, i);
+        if (find_process(fresh, json_object_get(process, "replicate")))
+            return true;
+    }
+    return false;
+}
+
 /* The sums of a count over the replicates that both have. */
 static void compare_counts(const json_t *base, const json_t *fresh, mote_change *change)
 {
     const json_t *processes = json_object_get(base, "processes");
+    if (json_array_size(processes) > 0 && !has_pair(base, fresh)) {
+        say_unknown(change, "no replicate in common: counts are not compared");
+        return;
+    }
     json_t *counters = json_object_get(json_array_get(processes, 0), "counters");
     const char *name;
     json_t *first;
@@ -269,10 +306,14 @@ static void compare_row(const json_t *base, const json_t *fresh, bool other_mach
         mote_text_add(&change->what, "status %s to %s", was, is);
         change->worse = strcmp(was, "ok") == 0;
         change->better = strcmp(is, "ok") == 0;
+        change->unknown = was[0] == '\0' && !change->better;
         return;
     }
-    if (strcmp(is, "ok") != 0)
+    if (strcmp(is, "ok") != 0) {
+        if (is[0] == '\0')
+            say_unknown(change, "no status");
         return;
+    }
     if (!times_comparable(base) || !times_comparable(fresh))
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
@@ -324,11 +365,12 @@ static mote_status judge(mote_comparison *c)
         if (changed)
             explain(change, c->instructions);
         change->worse = change->worse || change->verdict == MOTE_VERDICT_SLOWER;
-        change->better =
-            !change->worse && (change->better || change->verdict == MOTE_VERDICT_FASTER);
+        change->better = !change->worse && !change->unknown &&
+                         (change->better || change->verdict == MOTE_VERDICT_FASTER);
         bool timed = change->ratio == change->ratio;
         c->worse = c->worse || change->worse;
-        c->undecided = c->undecided || (timed && change->verdict == MOTE_VERDICT_UNDECIDED);
+        c->undecided = c->undecided || change->unknown ||
+                       (timed && change->verdict == MOTE_VERDICT_UNDECIDED);
     }
     free(p);
     return MOTE_OK;
@@ -407,8 +449,15 @@ static bool manifests_differ(json_t *const manifests[2], const char *key)
            !json_equal(json_object_get(manifests[0], key), json_object_get(manifests[1], key));
 }
 
-/* Looks up the instructions of a row of the summary; MOTE_NONE when they were not counted. */
-static double find_instructions(const json_t *counted, const json_t *row)
+static bool same_frames(const json_t *a, const json_t *b)
+{
+    const json_t *first = json_object_get(a, "frames"), *second = json_object_get(b, "frames");
+    return first == second || json_equal(first, second); /* or neither has any */
+}
+
+/* The counted row of a row of the summary, over the frames of `like` where it is given; NULL
+   when there is none. */
+static const json_t *find_counted(const json_t *counted, const json_t *row, const json_t *like)
 {
     const json_t *rows = json_object_get(counted, "rows");
     for (size_t i = 0; i < json_array_size(rows); ++i) {
@@ -416,10 +465,11 @@ static double find_instructions(const json_t *counted, const json_t *row)
         if (json_equal(json_object_get(other, "scenario"), json_object_get(row, "scenario")) &&
             json_equal(json_object_get(other, "method"), json_object_get(row, "method")) &&
             json_equal(json_object_get(other, "parameters"),
-                       json_object_get(row, "parameters")))
-            return number_at(other, NULL, "per_frame");
+                       json_object_get(row, "parameters")) &&
+            (!like || same_frames(other, like)))
+            return other;
     }
-    return MOTE_NONE;
+    return NULL;
 }
 
 /* Adds what instructions say to the rows of both runs. judged: more of them are worse. */
@@ -432,13 +482,17 @@ static void compare_instructions(const json_t *base_rows, const json_t *const co
         if (!find_partner(new_rows, row))
             continue;
         mote_change *change = &c->changes[index++];
-        double a = find_instructions(counted[0], row), b = find_instructions(counted[1], row);
+        const json_t *was = find_counted(counted[0], row, NULL);
+        const double a = number_at(was, NULL, "per_frame");
+        const double b = number_at(find_counted(counted[1], row, was), NULL, "per_frame");
         bool known = a == a && b == b;
         change->executed = known && fabs(b - a) > INSTRUCTIONS_SHARE * fmax(a, b);
         if (judged && known)
             compare_figure(change, "instructions", a, b, INSTRUCTIONS_SHARE);
         else if (change->executed)
             say(change, "instructions (another processor or compiler)", a, b);
+        else if (judged && a == a)
+            say_unknown(change, "instructions are not counted over the same frames");
     }
 }
 

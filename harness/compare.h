@@ -25,6 +25,7 @@ typedef struct mote_change {
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
     bool counted;   /* a count changed */
     bool executed;  /* instructions changed */
+    bool unknown;   /* the base knows something that the new run does not: undecided */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
 } mote_change;
 
@@ -35,7 +36,7 @@ typedef struct mote_comparison {
     bool other_machine;         /* the processors differ: the floor is wide */
     bool instructions;          /* both runs counted them */
     size_t only_base, only_new; /* rows without a partner */
-    bool worse, undecided;      /* any row */
+    bool worse, undecided;      /* any row; undecided also when the base has more rows */
 } mote_comparison;
 
 /* Compares directories (or summary.json files). floor: a share, at least; the noise floors of

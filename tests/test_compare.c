@@ -400,7 +400,15 @@ static void compare_of_changed_rows_says_what_is_worse_better_or_unknown(void **
         {TWO_COUNTS(1), TWO_COUNTS(2), 1, "WORSE : box_tests 1 to 2 (+1e+02 %)\n"},
         {NO_RATIO_SLOWER, NO_RATIO, 0, "better : cost per count changed"},
         {"{'processes': [" PROCESS(1, null, 0) "]}", NO_RATIO, 0, " - "},
-        {NO_RATIO, "{'processes': [" PROCESS(1, null, 0) ", " PROCESS(9, 1, 1) "]}", 0, " - "},
+        {NO_RATIO, "{'processes': [" PROCESS(1, null, 0) ", " PROCESS(9, 1, 1) "]}", 3,
+         " : no time to compare"},
+        {"{}", "{'processes': []}", 3,
+         "no time to compare; no replicate in common: counts are not compared"},
+        {"{}", "{'processes': [], 'heap_live_bytes': 1e5}", 3, " : no time to compare"},
+        {"{}", "{'processes': [], 'missed': 9}", 1, "WORSE : no time to compare"},
+        {QUIET(10, 10.1, 10, 10.1, 10), "{'processes': []}", 3, "no time to compare"},
+        {"{'status': null}", "{'status': null}", 3, "no status"},
+        {"{'status': null}", "{'status': 'crashed'}", 3, "status  to crashed"},
         {QUIET(10, 10.1, 10, 10.1, 10), QUIET(5, 5.05, 5, 5.05, 5), 1, " 2.000 ["},
         {QUIET(10, 10.1, 10, 10.1, null), QUIET(5, 5.05, 5, 5.05, 5), 1, " p "},
         {QUIET(10, 10.1, 10, 10.1, 10),
@@ -522,6 +530,32 @@ compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **
     remove_beside();
 }
 
+/* What only one run has counted, or over other frames, is not compared, and not passed over. */
+static void compare_of_instructions_of_other_frames_is_undecided(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *old_members, *new_members;
+        int status;
+        const char *says;
+    } cases[] = {{"{'frames': [1, 9]}", "{'frames': [1, 9]}", 1, "instructions 1000 to 1100"},
+                 {"{'frames': [1, 9]}", "{'frames': [2, 9]}", 3, "not counted over the same"},
+                 {"{'frames': [1, 9]}", "{}", 3, "not counted over the same"},
+                 {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
+                 {"{}", "{'per_frame': null}", 3, "not counted over the same"},
+                 {"{'per_frame': null}", "{}", 0, "same or better"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        change_row(old_run, "instructions.json", cases[i].old_members);
+        change_row(new_run, "instructions.json", cases[i].new_members);
+        expect("", cases[i].status, cases[i].says);
+    }
+    remove_beside();
+}
+
 /* What is there and damaged is not taken for what is not there: nothing would be compared. */
 static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **state)
 {
@@ -615,6 +649,7 @@ int main(void)
         cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
         cmocka_unit_test(
             compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
+        cmocka_unit_test(compare_of_instructions_of_other_frames_is_undecided),
         cmocka_unit_test(compare_of_damaged_files_beside_the_summary_is_bad_input),
         cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
         cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
