@@ -140,12 +140,20 @@ json_t *mote_approaches_json(const mote_approaches *sum)
     return object;
 }
 
+/* Counts are sums of at most this. */
+#define COUNT_MAX ((json_int_t)1 << 53)
+
+static bool read_count(const json_t *value, uint64_t *count)
+{
+    const json_int_t number = json_integer_value(value);
+    *count = (uint64_t)number;
+    return json_is_integer(value) && number >= 0 && number <= COUNT_MAX;
+}
+
 bool mote_approaches_read(const json_t *object, mote_approaches *sum)
 {
     bool whole = true;
-#define GET_COUNT(name)                                                                        \
-    whole = whole && json_is_integer(json_object_get(object, #name));                          \
-    sum->name = (uint64_t)json_integer_value(json_object_get(object, #name));
+#define GET_COUNT(name) whole = read_count(json_object_get(object, #name), &sum->name) && whole;
 #define GET_FIGURE(name)                                                                       \
     whole = whole && json_is_number(json_object_get(object, #name));                           \
     sum->name = json_number_value(json_object_get(object, #name));
@@ -153,5 +161,7 @@ bool mote_approaches_read(const json_t *object, mote_approaches *sum)
     MOTE_APPROACHES_FIGURES(GET_FIGURE)
 #undef GET_COUNT
 #undef GET_FIGURE
-    return whole;
+    /* Shares and means are made of these. */
+    return whole && sum->passes_through <= sum->approaches &&
+           sum->contact_runs_passed <= sum->contact_runs;
 }

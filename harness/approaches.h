@@ -72,7 +72,8 @@ mote_confidence mote_approaches_interval(const mote_approaches *sum);
 /* Steps from the begin of a contact to its first report, mean over the reported ones. */
 double mote_approaches_delay(const mote_approaches *sum);
 
-/* An object with every count and figure, and back; false when one is missing. */
+/* An object with every count and figure, and back; false when one is missing or cannot be: a
+   count is negative, or what passed more than there was. */
 json_t *mote_approaches_json(const mote_approaches *sum);
 bool mote_approaches_read(const json_t *object, mote_approaches *sum);
 

@@ -130,6 +130,35 @@ static void approaches_json_comes_back(void **state)
     mote_scenario_destroy(scenario);
 }
 
+/* A row that is stored and was damaged: no share may be more than all, no count negative. */
+static void approaches_read_of_impossible_counts_is_false(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *key;
+        json_int_t value;
+        bool read;
+    } cases[] = {{"passes_through", 4, true}, {"passes_through", 5, false},
+                 {"approaches", 0, false},    {"contact_runs_passed", 7, false},
+                 {"contact_runs", 5, false},  {"missed_steps", INT64_MIN, false},
+                 {"false_steps", -1, false},  {"delay_sum", INT64_MAX, false}};
+    const mote_approaches sum = {.trials = 4,
+                                 .approaches = 4,
+                                 .passes_through = 3,
+                                 .contact_runs = 6,
+                                 .contact_runs_passed = 6};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_approaches again;
+        json_t *object = mote_approaches_json(&sum);
+        assert_int_equal(
+            json_object_set_new(object, cases[i].key, json_integer(cases[i].value)), 0);
+        assert_int_equal(mote_approaches_read(object, &again), cases[i].read);
+        json_decref(object);
+        if (cases[i].read)
+            assert_true(mote_approaches_interval(&again).high <= 1);
+    }
+}
+
 /* Rows without an approach: nothing is a share, and nothing is drawn of them. */
 static void row_without_approaches_has_no_share(void **state)
 {
@@ -363,6 +392,7 @@ int main(void)
         cmocka_unit_test(plan_unknown_scene_refused),
         cmocka_unit_test(approach_draw_starts_apart_and_aims_at_the_other),
         cmocka_unit_test(approaches_json_comes_back),
+        cmocka_unit_test(approaches_read_of_impossible_counts_is_false),
         cmocka_unit_test(row_without_approaches_has_no_share),
         cmocka_unit_test(figure_and_claim_take_rows_of_the_printed_law),
         cmocka_unit_test(approaches_that_seldom_come_to_a_contact_end),
