@@ -134,6 +134,24 @@ static void add_number(mote_text *text, double value)
         mote_text_add(text, ",");
 }
 
+/* A quoted field; quotes inside are doubled. */
+static void add_quoted(mote_text *text, const char *value)
+{
+    mote_text_add(text, "\"");
+    for (; *value; ++value)
+        mote_text_add(text, "%s%c", *value == '"' ? "\"" : "", *value);
+    mote_text_add(text, "\"");
+}
+
+/* A field, quoted where it has to be. */
+static void add_plain(mote_text *text, const char *value)
+{
+    if (value[strcspn(value, ",\"\n\r")])
+        add_quoted(text, value);
+    else
+        mote_text_add(text, "%s", value);
+}
+
 static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
 {
     const mote_summary_row *rows = fronts->summary->rows, *row = &rows[index];
@@ -141,14 +159,38 @@ static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
     if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->error.p99 != row->error.p99)
         return;
     mote_front_title(row, title, sizeof title);
-    mote_text_add(text, "%s,%s,\"%s\",\"%s\"", row->first->scenario, row->first->cache, title,
-                  row->label);
+    add_plain(text, row->first->scenario);
+    mote_text_add(text, ",");
+    add_plain(text, row->first->cache);
+    mote_text_add(text, ",");
+    add_quoted(text, title);
+    mote_text_add(text, ",");
+    add_quoted(text, row->label);
     const double numbers[] = {row->n, row->error.p99, row->total.median, row->total.low,
                               row->total.high};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
         add_number(text, numbers[i]);
     size_t by = fronts->dominator[index];
-    mote_text_add(text, ",\"%s\"\n", by == SIZE_MAX ? "" : rows[by].label);
+    mote_text_add(text, ",");
+    add_quoted(text, by == SIZE_MAX ? "" : rows[by].label);
+    mote_text_add(text, "\n");
+}
+
+static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mote_text *text)
+{
+    const mote_summary_row *row = row_of(fronts, index);
+    const mote_front_speed *speed = &fronts->items[index].speed[level];
+    add_plain(text, row->first->scenario);
+    mote_text_add(text, ",");
+    add_plain(text, row->first->cache);
+    mote_text_add(text, ",");
+    add_quoted(text, fronts->items[index].title);
+    mote_text_add(text, ",%g", mote_front_levels[level]);
+    add_number(text, speed->time_ns);
+    add_number(text, speed->faster);
+    add_number(text, speed->interval.low);
+    add_number(text, speed->interval.high);
+    mote_text_add(text, "\n");
 }
 
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
@@ -160,17 +202,8 @@ mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
         add_row(fronts, i, &rows);
     mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high\n");
     for (size_t i = 0; i < fronts->count; ++i) {
-        const mote_summary_row *row = row_of(fronts, i);
-        for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
-            const mote_front_speed *speed = &fronts->items[i].speed[k];
-            mote_text_add(&speeds, "%s,%s,\"%s\",%g", row->first->scenario, row->first->cache,
-                          fronts->items[i].title, mote_front_levels[k]);
-            add_number(&speeds, speed->time_ns);
-            add_number(&speeds, speed->faster);
-            add_number(&speeds, speed->interval.low);
-            add_number(&speeds, speed->interval.high);
-            mote_text_add(&speeds, "\n");
-        }
+        for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
+            add_speed(fronts, i, k, &speeds);
     }
     mote_status status = mote_record_text(directory, "fronts.csv", &rows);
     mote_status second = mote_record_text(directory, "speed.csv", &speeds);

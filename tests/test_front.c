@@ -112,6 +112,7 @@ static void process_interval_of_many_processes_is_near_the_normal_one(void **sta
 }
 
 static char base[] = "/tmp/mote-test-front-XXXXXX";
+static const char *scenario = "s";
 
 /* A cell of 20 frames that all take `ns` and are wrong by `error`. */
 static void write_cell(const char *method, const char *label, double n, int replicate,
@@ -126,7 +127,7 @@ static void write_cell(const char *method, const char *label, double n, int repl
     json_t *cell = json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:[i,i], s:i, s:i, s:s, s:[i,i], s:[i,i], "
         "s:[i,i]}",
-        "schema", 1, "id", id, "status", "ok", "scenario", "s", "fingerprint",
+        "schema", 1, "id", id, "status", "ok", "scenario", scenario, "fingerprint",
         "0123456789abcdef", "method", method, "parameters", parameters, "replicate", replicate,
         "frames", 1, 20, "stride", 1, "seed", 0, "cache", "hot", "triangles", 10, 10,
         "vertices", 7, 7, "active", 1, 20);
@@ -230,6 +231,32 @@ static void fronts_of_a_run_say_who_dominates_whom(void **state)
     assert_int_equal(lines, 1 + 4 * MOTE_FRONT_LEVELS);
 }
 
+/* The parameters of a method that this build does not have stand in its label as JSON. */
+static void fronts_of_odd_names_are_fields_of_their_csv(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"fronts.csv", "speed.csv"};
+    static const char *const lines[] = {
+        "\n\"s \"\"1\"\", 2\",hot,\"gone:law=\"\"log\"\"\",\"gone:law=\"\"log\"\"\",,0.125,10",
+        "\n\"s \"\"1\"\", 2\",hot,\"gone:law=\"\"log\"\"\",1e-09,,,,\n"};
+    scenario = "s \"1\", 2";
+    write_cell("gone:law=\"log\"", "f", 0, 1, 1e3, 0.125);
+    scenario = "s";
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_write(&summary, base), MOTE_OK);
+    mote_summary_free(&summary);
+    for (size_t i = 0; i < 2; ++i) {
+        char path[96], *text = NULL;
+        size_t size = 0;
+        (void)snprintf(path, sizeof path, "%s/%s", base, names[i]);
+        assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+        if (!strstr(text, lines[i]))
+            fail_msg("no line %s in\n%s", lines[i], text);
+        free(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -242,6 +269,7 @@ int main(void)
         cmocka_unit_test(process_interval_of_many_processes_is_near_the_normal_one),
         cmocka_unit_test(fronts_of_a_run_say_how_much_faster_at_each_error),
         cmocka_unit_test(fronts_of_a_run_say_who_dominates_whom),
+        cmocka_unit_test(fronts_of_odd_names_are_fields_of_their_csv),
     };
     return cmocka_run_group_tests(tests, write_run, remove_run);
 }
