@@ -136,6 +136,7 @@ mote_status mote_history_add(const char *file, const char *directory, const char
 typedef struct point {
     const char *row, *commit;
     double time;
+    bool relative;      /* else in ns: another series, since the two have no scale in common */
     unsigned reference; /* counted from 0 by dates */
 } point;
 
@@ -158,6 +159,13 @@ static bool split(char *line, char *fields[FIELDS])
         field = comma ? comma + 1 : NULL;
     }
     return count == FIELDS;
+}
+
+/* Whether a field is empty or a number. */
+static bool is_number(const char *field)
+{
+    double number;
+    return field[0] == '\0' || mote_read_real(field, -HUGE_VAL, HUGE_VAL, &number);
 }
 
 static mote_status read_points(const char *file, char *text, points *p)
@@ -183,6 +191,11 @@ static mote_status read_points(const char *file, char *text, points *p)
         if (!split(start, fields))
             return mote_fail(MOTE_EINVAL, "%s:%zu: not a line of a history; expected %d fields",
                              file, number, FIELDS);
+        for (int k = FIELD_TOTAL; k < FIELDS; ++k) {
+            if (!is_number(fields[k]))
+                return mote_fail(MOTE_EINVAL, "%s:%zu: %s: not a number; correct the line",
+                                 file, number, fields[k]);
+        }
         if (!last_date || strcmp(fields[FIELD_DATE], last_date) != 0)
             ++p->references;
         last_date = fields[FIELD_DATE];
@@ -192,23 +205,28 @@ static mote_status read_points(const char *file, char *text, points *p)
         if (!has_total && !has_ratio)
             continue;
         point here = {fields[FIELD_ROW], fields[FIELD_COMMIT], has_ratio ? 1 / ratio : total,
-                      p->references - 1};
+                      has_ratio, p->references - 1};
         p->items[p->count++] = here;
     }
     return MOTE_OK;
 }
 
-static bool first_of_row(const points *p, size_t index)
+static bool same_series(const point *a, const point *b)
+{
+    return a->relative == b->relative && strcmp(a->row, b->row) == 0;
+}
+
+static bool first_of_series(const points *p, size_t index)
 {
     for (size_t i = 0; i < index; ++i) {
-        if (strcmp(p->items[i].row, p->items[index].row) == 0)
+        if (same_series(&p->items[i], &p->items[index]))
             return false;
     }
     return true;
 }
 
-/* The series of one row as a block "reference relative-time changed commit". */
-static mote_status add_series(const points *p, const char *row, mote_text *text)
+/* The series that begins with a point, as a block "reference relative-time changed commit". */
+static mote_status add_series(const points *p, const point *start, mote_text *text)
 {
     double *moves = malloc((p->count + 1) * sizeof *moves);
     if (!moves)
@@ -216,7 +234,7 @@ static mote_status add_series(const points *p, const char *row, mote_text *text)
     double first = MOTE_NONE, before = MOTE_NONE;
     size_t count = 0;
     for (size_t i = 0; i < p->count; ++i) {
-        if (strcmp(p->items[i].row, row) != 0)
+        if (!same_series(&p->items[i], start))
             continue;
         if (before == before)
             moves[count++] = fabs(log(p->items[i].time / before));
@@ -224,11 +242,11 @@ static mote_status add_series(const points *p, const char *row, mote_text *text)
     }
     double usual = count > 0 ? mote_statistics_median(moves, count) : 0;
     free(moves);
-    mote_text_add(text, "%s\"%s\"\n", text->size ? "\n\n" : "", row);
+    mote_figure_block(text, start->row);
     before = MOTE_NONE;
     for (size_t i = 0; i < p->count; ++i) {
         const point *here = &p->items[i];
-        if (strcmp(here->row, row) != 0)
+        if (!same_series(here, start))
             continue;
         first = first == first ? first : here->time;
         double move = before == before ? fabs(log(here->time / before)) : 0;
@@ -264,8 +282,8 @@ mote_status mote_history_draw(const char *file)
     if (status == MOTE_OK)
         status = read_points(file, text, &p);
     for (size_t i = 0; status == MOTE_OK && i < p.count; ++i) {
-        if (first_of_row(&p, i))
-            status = add_series(&p, p.items[i].row, &series);
+        if (first_of_series(&p, i))
+            status = add_series(&p, &p.items[i], &series);
     }
     size_t length = strlen(file) > 4 && strcmp(file + strlen(file) - 4, ".csv") == 0
                         ? strlen(file) - 4

@@ -67,7 +67,12 @@ static void history_of_what_is_none_is_refused_by_line(void **state)
         {HEADER "d,c,w,r,100,2,,,,\n", "h.csv:2: not a line of a history; expected 11"},
         {HEADER "d,c,w,r,100,2,,,,,\nd,c\n", "h.csv:3: not a line of a history"},
         {HEADER "d,c,w,r,100,2,,,,,,\n", "h.csv:2: not a line of a history"},
-        {HEADER "\n", "h.csv:2: not a line of a history"}};
+        {HEADER "\n", "h.csv:2: not a line of a history"},
+        {HEADER "d,c,w,r,100,2x,,,,,\n", "h.csv:2: 2x: not a number"},
+        {HEADER "d,c,w,r,1,2,,,,,\nd,c,w,r,e,2,,,,,\n", "h.csv:3: e: not a number"},
+        {HEADER "d,c,w,r,100,nan,,,,,\n", "h.csv:2: nan: not a number"},
+        {HEADER "d,c,w,r,100,2,,,,,1,\n", "h.csv:2: not a line of a history"},
+        {HEADER "d,c,w,r,100,2,,,,,?\n", "h.csv:2: ?: not a number"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         assert_true(plain_file_put(file, cases[i].text));
         expect(file, 4, cases[i].says);
@@ -111,6 +116,22 @@ static void history_marks_what_moves_more_than_usual(void **state)
     expect("h", 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, "\"r\"\n1 1 0 c\n");
+}
+
+/* Times against fcl-aabb and times in ns have no scale in common: neither is a change of the
+   other. */
+static void history_of_a_row_with_and_without_ratios_is_two_series(void **state)
+{
+    (void)state;
+    static const char lines[] = HEADER "1,a,w,a \"b\",100,0.5,,,,,\n"
+                                       "2,b,w,a \"b\",100,,,,,,\n"
+                                       "3,c,w,a \"b\",101,0.25,,,,,\n"
+                                       "4,d,w,a \"b\",101,,,,,,\n";
+    assert_true(plain_file_put(file, lines));
+    expect(file, 0, "h.svg");
+    read_data("h.dat");
+    assert_string_equal(text, "\"a \u201db\u201d\"\n1 1 0 a\n3 2 1 c\n\n\n"
+                              "\"a \u201db\u201d\"\n2 1 0 b\n4 1.01 0 d\n");
 }
 
 /* What would end a field is none, whatever was accepted; a row that did not end well is left
@@ -166,6 +187,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(history_of_what_is_none_is_refused_by_line),
         cmocka_unit_test(history_marks_what_moves_more_than_usual),
+        cmocka_unit_test(history_of_a_row_with_and_without_ratios_is_two_series),
         cmocka_unit_test(history_add_of_odd_names_can_be_drawn),
         cmocka_unit_test(history_add_to_another_file_leaves_it_alone),
     };
