@@ -10,7 +10,7 @@
 static void add_value(const json_t *value, mote_text *text)
 {
     const double number = mote_report_number(value, NULL, "value");
-    const json_t *interval = json_object_get(value, "interval");
+    double interval[2];
     const char *unit = mote_report_text(value, "unit");
     if (number != number) {
         mote_text_add(text, "–");
@@ -20,10 +20,8 @@ static void add_value(const json_t *value, mote_text *text)
     if (unit[0])
         mote_text_add(text, "\u202f");
     mote_escape_html(text, strcmp(unit, "us") == 0 ? "µs" : unit);
-    if (json_array_size(interval) == 2)
-        mote_text_add(text, " <small>%.4g – %.4g</small>",
-                      json_number_value(json_array_get(interval, 0)),
-                      json_number_value(json_array_get(interval, 1)));
+    if (mote_report_interval(value, interval))
+        mote_text_add(text, " <small>%.4g – %.4g</small>", interval[0], interval[1]);
 }
 
 static void add_threshold(const json_t *threshold, mote_text *text)

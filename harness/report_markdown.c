@@ -224,7 +224,7 @@ static void add_claim(const mote_report *report, const json_t *claim, const char
                       mote_text *text)
 {
     const double value = mote_report_number(claim, NULL, "value");
-    const json_t *interval = json_object_get(claim, "interval");
+    double interval[2];
     mote_text_add(text, "- **");
     mote_escape_markdown(text, mote_report_text(claim, "id"));
     mote_text_add(text, "**, ");
@@ -237,9 +237,8 @@ static void add_claim(const mote_report *report, const json_t *claim, const char
         mote_escape_markdown(text, mote_report_text(claim, "unit"));
         mote_text_add(text, "](%s%s)", report->claims_folder, file);
     }
-    if (json_array_size(interval) == 2)
-        mote_text_add(text, " (%.4g to %.4g)", json_number_value(json_array_get(interval, 0)),
-                      json_number_value(json_array_get(interval, 1)));
+    if (mote_report_interval(claim, interval))
+        mote_text_add(text, " (%.4g to %.4g)", interval[0], interval[1]);
     mote_text_add(text, "\n");
 }
 

@@ -53,6 +53,19 @@ double mote_report_number(const json_t *row, const char *object, const char *key
     return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
 }
 
+bool mote_report_interval(const json_t *value, double interval[2])
+{
+    const json_t *ends = json_object_get(value, "interval");
+    if (json_array_size(ends) != 2)
+        return false;
+    for (size_t i = 0; i < 2; ++i) {
+        if (!json_is_number(json_array_get(ends, i)))
+            return false;
+        interval[i] = json_number_value(json_array_get(ends, i));
+    }
+    return true;
+}
+
 const char *mote_report_text(const json_t *row, const char *key)
 {
     const char *text = json_string_value(json_object_get(row, key));

@@ -26,6 +26,10 @@ const json_t *mote_report_row(const mote_report *report, size_t i);
 /* row[object][key], or row[key] with object NULL; MOTE_NONE where it is no number. */
 double mote_report_number(const json_t *row, const char *object, const char *key);
 
+/* Takes the two ends of value[interval]; false where they are no two numbers: an end that is
+   not finite is stored as null. */
+bool mote_report_interval(const json_t *value, double interval[2]);
+
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 

@@ -54,7 +54,7 @@ static void read_page(const char *name)
 
 static void write_file(const char *directory, const char *name, const char *content)
 {
-    char path[256];
+    char path[512];
     (void)snprintf(path, sizeof path, "%s/%s", directory, name);
     assert_int_equal(mote_file_write(path, content, strlen(content)), MOTE_OK);
 }
@@ -207,6 +207,39 @@ static void report_of_what_is_missing_names_it(void **state)
         "requirements.json: not there", "figures: no list of them"};
     for (size_t i = 0; i < sizeof missing / sizeof missing[0]; ++i)
         assert_non_null(strstr(page, missing[i]));
+}
+
+/* Reports a folder of base with one file more, and reads the page of that name. */
+static void report_with(const char *folder, const char *name, const char *content,
+                        const char *page_name)
+{
+    char path[256];
+    (void)snprintf(path, sizeof path, "%s/%s", base, folder);
+    (void)mkdir(path, 0777);
+    write_file(path, "claims.json", "[]\n");
+    write_file(path, name, content);
+    assert_int_equal(report(path), 0);
+    (void)snprintf(path, sizeof path, "%s/%s/%s", base, folder, page_name);
+    program_read(path, page, sizeof page);
+}
+
+/* An end that was not finite is null in the file, and not 0 on the page. */
+static void report_of_an_interval_without_its_ends_shows_none(void **state)
+{
+    (void)state;
+    static const char *const intervals[] = {"[null, null]", "[1, null]", "[\"1\", 2]", "[1]"};
+    for (size_t i = 0; i < 5; ++i) {
+        char claims[256];
+        (void)snprintf(claims, sizeof claims,
+                       "[{\"id\": \"a\", \"value\": 7, \"interval\": %s, \"values\": []}]\n",
+                       i < 4 ? intervals[i] : "[1, 9]");
+        report_with("interval", "claims.json", claims, "report.md");
+        assert_non_null(strstr(page, "Measured: [7]"));
+        assert_true((strstr(page, "(1 to 9)") != NULL) == (i == 4));
+        assert_true((strstr(page, "claims.json) (") != NULL) == (i == 4));
+        report_with("interval", "claims.json", claims, "report.html");
+        assert_true((strstr(page, "7 <small>") != NULL) == (i == 4));
+    }
 }
 
 static void report_of_a_broken_cell_names_it(void **state)
@@ -370,6 +403,7 @@ int main(void)
         cmocka_unit_test(report_html_shows_the_numbers_of_the_summary),
         cmocka_unit_test(report_html_loads_nothing),
         cmocka_unit_test(report_of_what_is_missing_names_it),
+        cmocka_unit_test(report_of_an_interval_without_its_ends_shows_none),
         cmocka_unit_test(report_of_a_broken_cell_names_it),
         cmocka_unit_test(report_of_a_run_with_a_broken_cell_shows_the_others),
         cmocka_unit_test(report_of_nothing_fails_with_4),
