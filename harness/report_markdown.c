@@ -46,7 +46,9 @@ static mote_status add_commands(const mote_report *report, mote_text *text)
     {
         mote_text_add(text, "\n1. ");
         mote_escape_markdown(text, pair_text(pair, 1));
-        mote_text_add(text, " (%s)", pair_text(pair, 0));
+        mote_text_add(text, " (");
+        mote_escape_markdown(text, pair_text(pair, 0));
+        mote_text_add(text, ")");
     }
     mote_text_add(text, "%s", json_array_size(commands) > 0 ? "\n" : "");
     json_decref(commands);

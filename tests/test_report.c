@@ -223,6 +223,17 @@ static void report_with(const char *folder, const char *name, const char *conten
     program_read(path, page, sizeof page);
 }
 
+static void report_markdown_of_a_hostile_manifest_is_escaped(void **state)
+{
+    (void)state;
+    report_with(
+        "manifest", "manifest.json",
+        "{\"sessions\": [{\"started\": \"<script>\\n# x](y)\", \"command\": [\"<b>\"]}],"
+        " \"processor\": \"<i>\", \"commit\": \"<u>\"}\n",
+        "report.md");
+    assert_non_null(strstr(page, "1. mote '&lt;b&gt;' (&lt;script&gt; \\# x\\](y))\n"));
+}
+
 /* An end that was not finite is null in the file, and not 0 on the page. */
 static void report_of_an_interval_without_its_ends_shows_none(void **state)
 {
@@ -403,6 +414,7 @@ int main(void)
         cmocka_unit_test(report_html_shows_the_numbers_of_the_summary),
         cmocka_unit_test(report_html_loads_nothing),
         cmocka_unit_test(report_of_what_is_missing_names_it),
+        cmocka_unit_test(report_markdown_of_a_hostile_manifest_is_escaped),
         cmocka_unit_test(report_of_an_interval_without_its_ends_shows_none),
         cmocka_unit_test(report_of_a_broken_cell_names_it),
         cmocka_unit_test(report_of_a_run_with_a_broken_cell_shows_the_others),
