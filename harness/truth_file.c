@@ -13,12 +13,14 @@
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
 
-static char *first_line(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames,
-                        uint32_t checked)
+/* The first line up to the number that only the file knows. A scenario may have any name. */
+static char *first_part(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames)
 {
-    return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, %u checked\n",
-                       scenario->name, fingerprint, frames, checked);
+    return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, ", scenario->name,
+                       fingerprint, frames);
 }
+
+#define FIRST_END " checked\n"
 
 static void add_row(mote_text *text, const mote_truth *truth, uint32_t k)
 {
@@ -40,9 +42,9 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
                              const char *path)
 {
     mote_text text = {0};
-    char *first = first_line(scenario, truth->fingerprint, truth->frames, truth->checked);
+    char *first = first_part(scenario, truth->fingerprint, truth->frames);
     if (first)
-        mote_text_add(&text, "%s%s", first, COLUMNS);
+        mote_text_add(&text, "%s%u" FIRST_END COLUMNS, first, truth->checked);
     for (uint32_t k = 0; first && k < truth->frames; ++k)
         add_row(&text, truth, k);
     mote_status status = first && !text.failed
@@ -109,21 +111,28 @@ static bool check_hash(char *text, size_t size)
     return same;
 }
 
+/* Reads the first line and the names of the columns; NULL when they are not of this truth. */
+static const char *read_head(const mote_scenario *scenario, uint64_t fingerprint,
+                             const char *text, mote_truth *truth)
+{
+    static const char rest[] = FIRST_END COLUMNS;
+    char *first = first_part(scenario, fingerprint, scenario->frames), *end = NULL;
+    const size_t length = first ? strlen(first) : 0;
+    const bool good = first && strncmp(text, first, length) == 0;
+    free(first);
+    const unsigned long checked = good ? strtoul(text + length, &end, 10) : 0;
+    if (!good || checked > UINT32_MAX || strncmp(end, rest, strlen(rest)) != 0)
+        return NULL;
+    truth->checked = (uint32_t)checked;
+    return end + strlen(rest);
+}
+
 static bool read_text(const mote_scenario *scenario, uint64_t fingerprint, char *text,
                       size_t size, mote_truth *truth)
 {
     if (!check_hash(text, size))
         return false;
-    const char *comma = strrchr(text, '#') == text ? strstr(text, " frames, ") : NULL;
-    if (!comma)
-        return false;
-    truth->checked = (uint32_t)strtoul(comma + strlen(" frames, "), NULL, 10);
-    char *first = first_line(scenario, fingerprint, scenario->frames, truth->checked);
-    const size_t length = first ? strlen(first) : 0;
-    bool good = first && strncmp(text, first, length) == 0 &&
-                strncmp(text + length, COLUMNS, strlen(COLUMNS)) == 0;
-    free(first);
-    const char *at = good ? text + length + strlen(COLUMNS) : NULL;
+    const char *at = read_head(scenario, fingerprint, text, truth);
     for (uint32_t k = 0; at && k < truth->frames; ++k)
         at = read_row(at, truth, k);
     truth->fingerprint = fingerprint;
