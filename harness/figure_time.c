@@ -219,14 +219,25 @@ static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *ot
     return count ? mote_statistics_median(work, count) : MOTE_NONE;
 }
 
-/* One part's line: middle frame, ratio, its interval over replicates (or the ratio twice). */
-static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
-                      double last, double *work, mote_text *text)
+static const mote_stored_cell *find_replicate(const mote_summary_row *row, uint32_t replicate)
 {
-    double values[64];
+    for (size_t r = 0; r < row->replicates; ++r) {
+        if (row->cells[r].replicate == replicate)
+            return &row->cells[r];
+    }
+    return NULL;
+}
+
+/* One part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
+   values holds a number a replicate. */
+static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
+                      double last, double *values, double *work, mote_text *text)
+{
     size_t count = 0;
-    for (size_t r = 0; r < row->replicates && r < other->replicates && count < 64; ++r) {
-        const double value = log_ratio(&row->cells[r], &other->cells[r], first, last, work);
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *ours = &row->cells[r];
+        const mote_stored_cell *theirs = find_replicate(other, ours->replicate);
+        const double value = theirs ? log_ratio(ours, theirs, first, last, work) : MOTE_NONE;
         if (value == value)
             values[count++] = value;
     }
@@ -244,15 +255,19 @@ static mote_status add_ratios(const mote_summary_row *row, const mote_summary_ro
                               const char *title, mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
-    double *work = malloc((cell->frames + 1) * sizeof *work);
-    if (!work)
+    size_t longest = 0;
+    for (size_t r = 0; r < row->replicates; ++r)
+        longest = row->cells[r].frames > longest ? row->cells[r].frames : longest;
+    double *values = malloc((row->replicates + longest + 1) * sizeof *values);
+    if (!values)
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    double *work = values + row->replicates;
     mote_figure_block(text, title);
     const double from = cell->frame[0];
     const double width = (cell->frame[cell->frames - 1] + 1 - from) / PARTS;
     for (int p = 0; p < PARTS; ++p)
-        add_ratio(row, other, from + p * width, from + (p + 1) * width, work, text);
-    free(work);
+        add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, text);
+    free(values);
     return MOTE_OK;
 }
 

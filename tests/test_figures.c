@@ -5,6 +5,7 @@
 #include "harness/record.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"
+#include "tests/stored_cells.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,6 +13,7 @@
 #include <cmocka.h>
 
 #include <dirent.h>
+#include <math.h>
 #include <sys/stat.h>
 
 static char base[] = "/tmp/mote-test-figures-XXXXXX";
@@ -287,6 +289,53 @@ static void cells_that_name_no_frames_are_drawn(void **state)
     assert_true(exists("frames/figures/shares-tt.svg"));
 }
 
+#define FRAMES 400
+
+/* Replicate r of a method in base/pairs: a row for every step-th frame, of ns each. */
+static void write_replicate(const char *method, int r, int step, int ns)
+{
+    char folder[256];
+    mote_text rows = {0};
+    path_of("pairs", folder);
+    for (int k = 1; k <= FRAMES; k += step)
+        mote_text_add(&rows, "%d,0,0,%d,0.5,0,0,0,7\n", k, ns);
+    const stored_cell cell = {.method = method, .replicate = r, .rows = rows.data};
+    assert_true(stored_cell_write(folder, &cell));
+    free(rows.data);
+}
+
+/* Processes are paired by their numbers, and one may have more frames than the first. */
+static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **state)
+{
+    (void)state;
+    char folder[256];
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("certified", 1, FRAMES - 1, 1000);
+    write_replicate("certified", 2, 1, 1000);
+    write_replicate("certified", 80, 1, 1000);
+    write_replicate("fcl-aabb", 2, 1, 4000);
+    write_replicate("fcl-aabb", 80, 1, 4000);
+    write_replicate("fcl-aabb", 81, 1, 9000);
+    path_of("pairs", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    size_t lines = 0;
+    for (const char *at = figure.data.data; (at = strchr(at, '\n')) && at[1]; ++lines) {
+        double middle, ratio[3];
+        assert_int_equal(
+            sscanf(++at, "%lf %lf %lf %lf", &middle, &ratio[0], &ratio[1], &ratio[2]), 4);
+        for (int i = 0; i < 3; ++i)
+            assert_true(fabs(ratio[i] - 4) < 1e-9);
+    }
+    assert_int_equal(lines, 48);
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
 static void remove_csv(const char *path)
 {
     char csv[600];
@@ -362,6 +411,7 @@ int main(void)
         cmocka_unit_test(drawing_again_gives_the_same_bytes),
         cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
         cmocka_unit_test(cells_that_name_no_frames_are_drawn),
+        cmocka_unit_test(ratios_of_processes_that_are_missing_or_cut_are_of_pairs),
         cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
         cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
         cmocka_unit_test(claims_alone_are_drawn),
