@@ -182,10 +182,10 @@ static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_r
 
 /* The slowest frame of the active interval: the largest over frames of the median over
    replicates, which no other program's turn on the processor enters; its replicates' interval.
- */
+   MOTE_NONE without a frame there. */
 static mote_estimate slowest_frame(const mote_summary_row *row)
 {
-    mote_estimate slowest = {0, {MOTE_NONE, MOTE_NONE}};
+    mote_estimate slowest = {MOTE_NONE, {MOTE_NONE, MOTE_NONE}};
     for (size_t k = 0; k < row->first->frames; ++k) {
         double times[MOTE_STUDY_SEEDS] = {0};
         size_t count = 0;
@@ -193,12 +193,13 @@ static mote_estimate slowest_frame(const mote_summary_row *row)
         if (frame < row->first->active_first || frame > row->first->active_last)
             continue;
         for (size_t r = 0; r < row->replicates && count < MOTE_STUDY_SEEDS; ++r) {
-            if (row->cells[r].status == MOTE_CELL_OK)
-                times[count++] = row->cells[r].total_ns[k] * 1e-6;
+            const mote_stored_cell *cell = &row->cells[r];
+            if (k < cell->frames && cell->frame[k] == frame)
+                times[count++] = cell->total_ns[k] * 1e-6;
         }
         mote_statistics_sort(times, count);
         const double median = mote_statistics_quantile(times, count, 0.5);
-        if (median > slowest.value) {
+        if (count > 0 && !(median <= slowest.value)) {
             slowest.value = median;
             slowest.interval = mote_statistics_sign_interval(times, count);
         }

@@ -3,12 +3,15 @@
 
 #include "harness/figure.h"
 #include "tests/program.h"
+#include "tests/stored_cells.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
+
+#include <math.h>
 
 static mote_confidence interval(double low, double high)
 {
@@ -233,6 +236,39 @@ static void figure_of_extremes_is_their_data(void **unused)
     assert_int_equal(program_remove(folder), 0);
 }
 
+/* Cells are files: one may have fewer frames than the others, or none that count. */
+static void slowest_frame_of_cut_cells_is_of_what_is_there(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-test-claims-XXXXXX";
+    const stored_cell cells[] = {
+        {.scenario = "ww",
+         .rows = "1,0,0,9e6,1,0,0,0,7\n2,0,0,3e6,1,0,0,0,7\n"
+                 "3,0,0,4e6,1,0,0,0,7\n4,0,0,9e6,1,0,0,0,7\n"},
+        {.scenario = "ww",
+         .replicate = 2,
+         .rows = "1,0,0,9e6,1,0,0,0,7\n2,0,0,7e6,1,0,0,0,7\n"},
+        {.scenario = "tt", .id = "tt", .rows = "1,0,0,1,1,0,0,0,7\n4,0,0,1,1,0,0,0,7\n"}};
+    mote_study study = {.summarised = true};
+    mote_claim claim = {0};
+    assert_non_null(mkdtemp(folder));
+    for (size_t i = 0; i < 3; ++i) {
+        stored_cell cell = cells[i];
+        cell.method = "particle-paper";
+        cell.parameters = i < 2 ? "{\"n\": 5}" : "{\"n\": 3}";
+        assert_true(stored_cell_write(folder, &cell));
+    }
+    assert_int_equal(mote_summary_make(folder, &study.summary), MOTE_OK);
+    assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);
+    assert_int_equal(claim.count, 4);
+    assert_true(claim.values[1].value == 5); /* of 3 and 7; then 4 alone */
+    assert_true(isnan(claim.values[3].value));
+    assert_false(mote_claim_met(&claim.values[3], claim.values[3].limits));
+    mote_claim_free(&claim);
+    mote_summary_free(&study.summary);
+    assert_int_equal(program_remove(folder), 0);
+}
+
 static void command_with_an_unknown_word_is_a_usage_error(void **unused)
 {
     (void)unused;
@@ -254,6 +290,7 @@ int main(void)
         cmocka_unit_test(figure_of_odd_claims_shows_what_is_there),
         cmocka_unit_test(figures_without_a_study_name_what_measures_it),
         cmocka_unit_test(figure_of_extremes_is_their_data),
+        cmocka_unit_test(slowest_frame_of_cut_cells_is_of_what_is_there),
         cmocka_unit_test(command_with_an_unknown_word_is_a_usage_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
