@@ -251,6 +251,7 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
                   exp(interval.low), exp(interval.high));
 }
 
+/* A block of parts; none where no process has a frame in common with its partner. */
 static mote_status add_ratios(const mote_summary_row *row, const mote_summary_row *other,
                               const char *title, mote_text *text)
 {
@@ -262,11 +263,17 @@ static mote_status add_ratios(const mote_summary_row *row, const mote_summary_ro
     if (!values)
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     double *work = values + row->replicates;
-    mote_figure_block(text, title);
+    mote_text lines = {0};
     const double from = cell->frame[0];
     const double width = (cell->frame[cell->frames - 1] + 1 - from) / PARTS;
     for (int p = 0; p < PARTS; ++p)
-        add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, text);
+        add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, &lines);
+    if (lines.size > 0) {
+        mote_figure_block(text, title);
+        mote_text_add(text, "%s", lines.data);
+    }
+    text->failed |= lines.failed;
+    free(lines.data);
     free(values);
     return MOTE_OK;
 }

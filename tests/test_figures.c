@@ -291,12 +291,12 @@ static void cells_that_name_no_frames_are_drawn(void **state)
 
 #define FRAMES 400
 
-/* Replicate r of a method in base/pairs: a row for every step-th frame, of ns each. */
-static void write_replicate(const char *method, int r, int step, int ns)
+/* Replicate r of a method in a folder of base: a row for every step-th frame, of ns each. */
+static void write_replicate(const char *name, const char *method, int r, int step, int ns)
 {
     char folder[256];
     mote_text rows = {0};
-    path_of("pairs", folder);
+    path_of(name, folder);
     for (int k = 1; k <= FRAMES; k += step)
         mote_text_add(&rows, "%d,0,0,%d,0.5,0,0,0,7\n", k, ns);
     const stored_cell cell = {.method = method, .replicate = r, .rows = rows.data};
@@ -311,12 +311,12 @@ static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **stat
     char folder[256];
     mote_summary summary;
     mote_figure figure = {0};
-    write_replicate("certified", 1, FRAMES - 1, 1000);
-    write_replicate("certified", 2, 1, 1000);
-    write_replicate("certified", 80, 1, 1000);
-    write_replicate("fcl-aabb", 2, 1, 4000);
-    write_replicate("fcl-aabb", 80, 1, 4000);
-    write_replicate("fcl-aabb", 81, 1, 9000);
+    write_replicate("pairs", "certified", 1, FRAMES - 1, 1000);
+    write_replicate("pairs", "certified", 2, 1, 1000);
+    write_replicate("pairs", "certified", 80, 1, 1000);
+    write_replicate("pairs", "fcl-aabb", 2, 1, 4000);
+    write_replicate("pairs", "fcl-aabb", 80, 1, 4000);
+    write_replicate("pairs", "fcl-aabb", 81, 1, 9000);
     path_of("pairs", folder);
     assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
     const mote_figure_run run = {folder, &summary, NULL};
@@ -331,6 +331,25 @@ static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **stat
     }
     assert_int_equal(lines, 48);
     free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
+static void ratios_of_processes_without_a_pair_are_missing(void **state)
+{
+    (void)state;
+    char folder[256];
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("lone", "certified", 1, 1, 1000);
+    write_replicate("lone", "fcl-aabb", 2, 1, 4000);
+    path_of("lone", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_non_null(strstr(figure.missing.data, "a method of ours and one of FCL's"));
     free(figure.caption.data);
     free(figure.missing.data);
     mote_summary_free(&summary);
@@ -411,6 +430,7 @@ int main(void)
         cmocka_unit_test(drawing_again_gives_the_same_bytes),
         cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
         cmocka_unit_test(cells_that_name_no_frames_are_drawn),
+        cmocka_unit_test(ratios_of_processes_without_a_pair_are_missing),
         cmocka_unit_test(ratios_of_processes_that_are_missing_or_cut_are_of_pairs),
         cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
         cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
