@@ -29,8 +29,10 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
     if (status == MOTE_OK)
         status = mote_scenario_fingerprint(scene->scenario, &fingerprint);
     if (status == MOTE_OK) {
+        const mote_stored_cell *cell = row->first;
+        const uint32_t last = cell->frames > 0 ? cell->frame[cell->frames - 1] : 0;
         (void)snprintf(text, sizeof text, "%016" PRIx64, fingerprint);
-        if (strcmp(text, row->first->fingerprint) != 0)
+        if (strcmp(text, cell->fingerprint) != 0 || last > scene->scenario->frames)
             status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", name);
     }
     if (status == MOTE_OK)

@@ -1,6 +1,7 @@
 /* mote figures: what a small stored run gives, what is missing, names that would be commands.
  */
 #include "harness/figure.h"
+#include "harness/figure_scene.h"
 #include "harness/hash.h"
 #include "harness/record.h"
 #include "tests/plain_file.h"
@@ -355,6 +356,26 @@ static void ratios_of_processes_without_a_pair_are_missing(void **state)
     mote_summary_free(&summary);
 }
 
+/* All frames up to the one that is shown are asked again: none may be beyond the scenario. */
+static void scene_of_a_cell_with_a_frame_that_is_not_there_is_refused(void **state)
+{
+    (void)state;
+    static const uint32_t frames[] = {60, 2001, UINT32_MAX};
+    char folder[256];
+    mote_summary summary;
+    path_of("run", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
+        mote_figure_scene scene;
+        summary.rows[0].first->frame[59] = frames[i];
+        const mote_status status = mote_figure_scene_open(&summary.rows[0], &scene);
+        mote_figure_scene_close(&scene);
+        assert_int_equal(status, i == 0 ? MOTE_OK : MOTE_EINVAL);
+    }
+    assert_non_null(strstr(mote_error_text(), "tt: other frames than those measured"));
+    mote_summary_free(&summary);
+}
+
 static void remove_csv(const char *path)
 {
     char csv[600];
@@ -430,6 +451,7 @@ int main(void)
         cmocka_unit_test(drawing_again_gives_the_same_bytes),
         cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
         cmocka_unit_test(cells_that_name_no_frames_are_drawn),
+        cmocka_unit_test(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused),
         cmocka_unit_test(ratios_of_processes_without_a_pair_are_missing),
         cmocka_unit_test(ratios_of_processes_that_are_missing_or_cut_are_of_pairs),
         cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
