@@ -19,7 +19,8 @@ static bool is_right(const mote_summary_row *row)
 
 static void compare(const mote_summary_row *row, mote_tuned *group)
 {
-    if (row->status != MOTE_CELL_OK || row->jobs > 1)
+    /* A time that is not known is the least and the most of nothing. */
+    if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->total.median != row->total.median)
         return;
     group->configurations++;
     bool right = is_right(row);
@@ -87,6 +88,11 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
     if (status != MOTE_OK)
         return status;
     const json_t *rows = json_object_get(object, "rows");
+    if (!json_is_array(rows)) {
+        json_decref(object);
+        return mote_fail(MOTE_EINVAL, "%s/tune.json: no rows; `make tune` writes it",
+                         directory);
+    }
     const char *best = "";
     double least = HUGE_VAL;
     for (size_t i = 0; i < json_array_size(rows); ++i) {
@@ -97,7 +103,7 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
                         &place, "cache", &cache, "method", &method, "configuration", &text,
                         "right", &right, "total_ns", &total) == 0 &&
             strcmp(place, scenario) == 0 && strcmp(cache, "hot") == 0 &&
-            strncmp(method, "fcl-", 4) == 0 && right && total < least) {
+            strncmp(method, "fcl-", 4) == 0 && right && total > 0 && total < least) {
             least = total;
             best = text;
         }

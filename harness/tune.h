@@ -26,7 +26,7 @@ json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
 /* The configuration of FCL that directory/tune.json calls the fastest right one on a scenario
    with hot caches, as it is written behind --method; "" when it names none. MOTE_EIO or
-   MOTE_EINVAL when the file cannot be read. The caller frees *configuration. */
+   MOTE_EINVAL when the file cannot be read or has no rows. The caller frees *configuration. */
 mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
                                char **configuration);
 

@@ -1,5 +1,6 @@
 /* mote tune, against the medians of the summary that it reads. */
 #include "tests/program.h"
+#include "tests/stored_cells.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -126,6 +127,64 @@ static void tune_names_the_fastest_right_configuration(void **unused)
     json_decref(summary);
 }
 
+/* tune.json may be edited: a time below 0 is not the least of them. */
+static void tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *text, *says;
+        int status;
+    } cases[] = {
+        {"{\"rows\": [%s, \"neg\", \"total_ns\": -5}, %s, \"good\", \"total_ns\": 5}]}\n",
+         "good\n", 0},
+        {"{\"rows\": [%s, \"none\", \"total_ns\": null}, %s, \"nil\", \"total_ns\": 0}]}\n", "",
+         0},
+        {"{\"rows\": 5}\n", "no rows", 4},
+        {"{}\n", "no rows", 4},
+        {"[]\n", "no rows", 4}};
+    static const char row[] =
+        "{\"scenario\": \"ww\", \"cache\": \"hot\", \"method\": \"fcl-aabb\","
+        " \"right\": true, \"configuration\":";
+    char path[128], folder[96];
+    (void)snprintf(folder, sizeof folder, "%s/edited", base);
+    assert_int_equal(mote_directory_make(folder), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/tune.json", folder);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_text file = {0};
+        const char *rest = cases[i].text;
+        for (const char *hole; (hole = strstr(rest, "%s,")) != NULL; rest = hole + 3)
+            mote_text_add(&file, "%.*s%s", (int)(hole - rest), rest, row);
+        mote_text_add(&file, "%s", rest);
+        assert_true(plain_file_put(path, file.data));
+        free(file.data);
+        assert_int_equal(mote("tune --best-fcl ww ", "/edited"), cases[i].status);
+        if (cases[i].status == 0)
+            assert_string_equal(text, cases[i].says);
+        else
+            assert_non_null(strstr(text, cases[i].says));
+    }
+}
+
+/* A cell without frames has no time: it is neither the best nor the worst. */
+static void tune_of_a_cell_without_frames_leaves_it_out(void **unused)
+{
+    (void)unused;
+    char folder[96];
+    const stored_cell cells[] = {
+        {.rows = "", .parameters = "{\"queue\": 2}"},
+        {.id = "b", .rows = "1,0,0,5,1,0,0,0,7\n", .parameters = "{\"queue\": 64}"}};
+    (void)snprintf(folder, sizeof folder, "%s/bare", base);
+    for (size_t i = 0; i < 2; ++i)
+        assert_true(stored_cell_write(folder, &cells[i]));
+    assert_int_equal(mote("tune ", "/bare"), 0);
+    json_t *rows = load_rows("bare/tune.json");
+    assert_int_equal(json_array_size(rows), 1);
+    const json_t *row = json_array_get(rows, 0);
+    assert_true(json_number_value(json_object_get(row, "total_ns")) == 5);
+    assert_int_equal(json_integer_value(json_object_get(row, "configurations")), 1);
+    json_decref(rows);
+}
+
 static void tune_without_a_run_is_bad_input(void **unused)
 {
     (void)unused;
@@ -139,6 +198,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tune_names_the_fastest_right_configuration),
+        cmocka_unit_test(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time),
+        cmocka_unit_test(tune_of_a_cell_without_frames_leaves_it_out),
         cmocka_unit_test(tune_without_a_run_is_bad_input),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
