@@ -1,97 +1,9 @@
-/* Comparisons of summaries that the test writes itself. */
-#include "harness/compare.h"
-#include "harness/record.h"
+/* Comparisons of summaries that the test writes itself; what lies beside them is in
+   test_compare_beside.c. */
 #include "tests/plain_file.h"
-#include "tests/program.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "tests/two_runs.h"
 
 #include <math.h>
-#include <sys/stat.h>
-
-static char base[] = "/tmp/mote-test-compare-XXXXXX";
-static char old_run[64], new_run[64], said[64];
-
-static int make_base(void **state)
-{
-    (void)state;
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(old_run, sizeof old_run, "%s/old", base);
-    (void)snprintf(new_run, sizeof new_run, "%s/new", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    return mkdir(old_run, 0777) || mkdir(new_run, 0777);
-}
-
-static int remove_base(void **state)
-{
-    (void)state;
-    return program_remove(base);
-}
-
-/* Without the sync of mote_record_json; object is taken over. */
-static void put(const char *directory, const char *name, json_t *object)
-{
-    char path[96];
-    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    assert_non_null(object);
-    assert_int_equal(json_dump_file(object, path, 0), 0);
-    json_decref(object);
-}
-
-/* A run of one method, five replicates. */
-typedef struct figures {
-    double ratio;     /* of fcl-aabb's time to this one's, about */
-    double jitter;    /* how much replicates differ, a share */
-    double box_tests; /* a replicate */
-    double heap, missed, p99;
-} figures;
-
-static const figures usual = {100, 0.002, 5000, 1e6, 2, 1e-3};
-
-static json_t *one_process(const figures *f, int replicate, double sign)
-{
-    double wobble = 1 + sign * f->jitter * ((replicate * 7) % 5 - 2);
-    return json_pack("{s:i, s:f, s:f, s:{s:f}}", "replicate", replicate, "median_ns",
-                     1e6 / f->ratio * wobble, "ratio", f->ratio / wobble, "counters",
-                     "box_tests", f->box_tests);
-}
-
-/* sign: the two runs of a pair wobble differently. */
-static void write_run(const char *directory, const figures *f, double sign)
-{
-    json_t *processes = json_array();
-    for (int r = 1; r <= 5; ++r)
-        assert_int_equal(json_array_append_new(processes, one_process(f, r, sign)), 0);
-    json_t *row =
-        json_pack("{s:s, s:s, s:s, s:{s:i}, s:s, s:s, s:i, s:i, s:i, s:s, s:{s:s}, s:f, s:f, "
-                  "s:f, s:f, s:o,"
-                  " s:{s:f, s:f, s:f, s:f}}",
-                  "scenario", "ww", "fingerprint", "0123456789abcdef", "method",
-                  "particle-paper", "parameters", "n", 5, "cache", "hot", "label",
-                  "particle-paper:n=5", "stride", 1, "seed", 0, "frames", 100, "status", "ok",
-                  "ratio", "to", "fcl-aabb", "heap_live_bytes", f->heap, "heap_peak_bytes",
-                  f->heap, "missed", f->missed, "false_contacts", 0.0, "processes", processes,
-                  "error", "median", 1e-4, "p99", f->p99, "max", 1e-2, "exact_rate", 0.5);
-    assert_non_null(row);
-    json_t *summary =
-        json_pack("{s:i, s:f, s:[o]}", "schema", 1, "noise_floor", 0.004, "rows", row);
-    put(directory, "summary.json", summary);
-}
-
-static mote_comparison compare_with(const figures *fresh)
-{
-    mote_comparison c;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, fresh, -1);
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
-    assert_int_equal(c.count, 1);
-    return c;
-}
 
 static void compare_of_unchanged_runs_is_same(void **state)
 {
@@ -169,89 +81,6 @@ static void compare_with_more_bytes_errors_or_misses_is_worse(void **state)
     mote_comparison_free(&c);
 }
 
-/* What a run on a processor leaves beside its summary. */
-static void write_beside(const char *directory, const char *processor, double instructions)
-{
-    json_t *row = json_pack("{s:s, s:s, s:{s:i}, s:f}", "scenario", "ww", "method",
-                            "particle-paper", "parameters", "n", 5, "per_frame", instructions);
-    put(directory, "instructions.json", json_pack("{s:i, s:[o]}", "schema", 1, "rows", row));
-    put(directory, "manifest.json",
-        json_pack("{s:s, s:s}", "processor", processor, "compiler", "GNU 12"));
-}
-
-static void remove_beside(void)
-{
-    char command[256];
-    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
-    assert_int_equal(system(command), 0);
-}
-
-static mote_comparison compare_beside(const figures *fresh, const char *processor,
-                                      double instructions)
-{
-    mote_comparison c;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, fresh, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, processor, instructions);
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
-    remove_beside();
-    return c;
-}
-
-static void compare_with_more_instructions_is_worse(void **state)
-{
-    (void)state;
-    mote_comparison c = compare_beside(&usual, "one", 1005);
-    assert_false(c.worse); /* within 1 % */
-    mote_comparison_free(&c);
-    c = compare_beside(&usual, "one", 1020);
-    assert_true(c.worse && c.instructions);
-    assert_non_null(strstr(c.changes[0].what.data, "instructions 1000 to 1020 (+2 %)"));
-    mote_comparison_free(&c);
-    c = compare_beside(&usual, "one", 900);
-    assert_true(!c.worse && c.changes[0].better);
-    mote_comparison_free(&c);
-}
-
-static void compare_explains_a_slower_time(void **state)
-{
-    (void)state;
-    figures slow = usual, counted = usual;
-    slow.ratio /= 1.2;
-    counted.ratio /= 1.2;
-    counted.box_tests *= 1.2;
-    mote_comparison c = compare_beside(&slow, "one", 1000);
-    assert_non_null(strstr(c.changes[0].what.data, "at the same instructions"));
-    mote_comparison_free(&c);
-    c = compare_beside(&slow, "one", 1200);
-    assert_non_null(strstr(c.changes[0].what.data, "counts are the same: more or fewer"));
-    mote_comparison_free(&c);
-    c = compare_beside(&counted, "one", 1200);
-    assert_non_null(strstr(c.changes[0].what.data, "the time changed with the counts"));
-    mote_comparison_free(&c);
-}
-
-static void compare_on_another_processor_is_wide_for_times_and_exact_for_counts(void **state)
-{
-    (void)state;
-    figures slow = usual, very_slow = usual, more = usual;
-    slow.ratio /= 1.3;
-    very_slow.ratio /= 1.8;
-    more.box_tests += 1;
-    mote_comparison c = compare_beside(&slow, "two", 1300);
-    assert_true(c.other_machine && !c.worse);
-    assert_non_null(strstr(c.changes[0].what.data, "another processor"));
-    mote_comparison_free(&c);
-    c = compare_beside(&very_slow, "two", 1000);
-    assert_true(c.worse);
-    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SLOWER);
-    mote_comparison_free(&c);
-    c = compare_beside(&more, "two", 1000);
-    assert_true(c.worse);
-    mote_comparison_free(&c);
-}
-
 /* A significant change that such runs cannot tell from noise four times in five is none. */
 static void compare_below_the_smallest_change_is_undecided(void **state)
 {
@@ -325,34 +154,6 @@ static void compare_of_what_is_no_run_is_bad_input(void **state)
     (void)state;
     assert_int_equal(program_wait(program_start("compare /no/such/run /no/such/run", said)), 4);
     assert_int_equal(program_wait(program_start("compare one", said)), 2);
-}
-
-/* Puts the members of an object, written with ', into the first row of a run's file. */
-static void change_row(const char *directory, const char *name, const char *members)
-{
-    char plain[1024];
-    json_t *summary = NULL;
-    (void)snprintf(plain, sizeof plain, "%s", members);
-    for (char *c = plain; *c; ++c)
-        *c = *c == '\'' ? '"' : *c;
-    json_t *change = json_loads(plain, 0, NULL);
-    assert_non_null(change);
-    assert_int_equal(mote_record_read_json(directory, name, &summary), MOTE_OK);
-    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
-    assert_int_equal(json_object_update_recursive(row, change), 0);
-    json_decref(change);
-    put(directory, name, summary);
-}
-
-/* mote compare OLD NEW OPTIONS: its exit status, and what it must say. */
-static void expect(const char *options, int status, const char *says)
-{
-    char line[256], text[8192];
-    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
-    const int ended = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    if (ended != status || !strstr(text, says))
-        fail_msg("exit %d, not %d, or not \"%s\":\n%s", ended, status, says, text);
 }
 
 #define PROCESS(replicate, ratio, ns)                                                          \
@@ -507,73 +308,6 @@ static void compare_on_another_machine_without_ratios_knows_no_time(void **state
     remove_beside();
 }
 
-static void
-compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **state)
-{
-    (void)state;
-    char path[96];
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "one", 1100);
-    put(new_run, "manifest.json",
-        json_pack("{s:s, s:s}", "processor", "one", "compiler", "Clang 14"));
-    expect("", 0, "instructions (another processor or compiler) 1000 to 1100");
-    /* What is not known does not differ. */
-    (void)snprintf(path, sizeof path, "%s/manifest.json", new_run);
-    assert_int_equal(unlink(path), 0);
-    expect("", 1, "WORSE : instructions 1000 to 1100");
-    (void)snprintf(path, sizeof path, "%s/instructions.json", new_run);
-    assert_int_equal(unlink(path), 0);
-    expect("--format json", 0, "\"instructions_compared\": false");
-    write_beside(new_run, "one", 1100);
-    remove_beside();
-}
-
-/* What only one run has counted, or over other frames, is not compared, and not passed over. */
-static void compare_of_instructions_of_other_frames_is_undecided(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *old_members, *new_members;
-        int status;
-        const char *says;
-    } cases[] = {{"{'frames': [1, 9]}", "{'frames': [1, 9]}", 1, "instructions 1000 to 1100"},
-                 {"{'frames': [1, 9]}", "{'frames': [2, 9]}", 3, "not counted over the same"},
-                 {"{'frames': [1, 9]}", "{}", 3, "not counted over the same"},
-                 {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
-                 {"{}", "{'per_frame': null}", 3, "not counted over the same"},
-                 {"{'per_frame': null}", "{}", 0, "same or better"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        write_run(old_run, &usual, 1);
-        write_run(new_run, &usual, -1);
-        write_beside(old_run, "one", 1000);
-        write_beside(new_run, "one", 1100);
-        change_row(old_run, "instructions.json", cases[i].old_members);
-        change_row(new_run, "instructions.json", cases[i].new_members);
-        expect("", cases[i].status, cases[i].says);
-    }
-    remove_beside();
-}
-
-/* What is there and damaged is not taken for what is not there: nothing would be compared. */
-static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"instructions.json", "manifest.json"};
-    for (size_t i = 0; i < 4; ++i) {
-        char path[96];
-        write_run(old_run, &usual, 1);
-        write_run(new_run, &usual, -1);
-        write_beside(old_run, "one", 1000);
-        write_beside(new_run, "one", 1100);
-        (void)snprintf(path, sizeof path, "%s/%s", i % 2 ? new_run : old_run, names[i / 2]);
-        assert_int_equal(truncate(path, 20), 0);
-        expect("", 4, names[i / 2]);
-    }
-    remove_beside();
-}
-
 /* One row that is worse is enough. */
 static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
 {
@@ -584,30 +318,6 @@ static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
     add_row(new_run, "{'frames': 50, 'missed': 3}");
     expect("", 1, "p corrected over 2 rows");
     expect("--format json", 1, "\"verdict\": \"worse\"");
-}
-
-/* A run may be named by its summary. */
-static void compare_of_summaries_by_name_is_that_of_their_runs(void **state)
-{
-    (void)state;
-    char line[256], text[4096], here[64];
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "one", 1100);
-    (void)snprintf(line, sizeof line, "compare %s/summary.json %s/summary.json", old_run,
-                   new_run);
-    assert_int_equal(program_wait(program_start(line, said)), 1);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "instructions 1000 to 1100"));
-    assert_non_null(getcwd(here, sizeof here));
-    assert_int_equal(chdir(old_run), 0);
-    (void)snprintf(line, sizeof line, "compare summary.json %s", new_run);
-    assert_int_equal(program_wait(program_start(line, said)), 1);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "instructions 1000 to 1100"));
-    assert_int_equal(chdir(here), 0);
-    remove_beside();
 }
 
 static void compare_of_what_has_no_rows_is_bad_input(void **state)
@@ -639,20 +349,12 @@ int main(void)
         cmocka_unit_test(compare_with_one_more_count_is_worse),
         cmocka_unit_test(compare_with_fewer_counts_is_better),
         cmocka_unit_test(compare_with_more_bytes_errors_or_misses_is_worse),
-        cmocka_unit_test(compare_with_more_instructions_is_worse),
-        cmocka_unit_test(compare_explains_a_slower_time),
-        cmocka_unit_test(compare_on_another_processor_is_wide_for_times_and_exact_for_counts),
         cmocka_unit_test(compare_below_the_smallest_change_is_undecided),
         cmocka_unit_test(compare_of_times_measured_with_jobs_is_refused),
         cmocka_unit_test(compare_command_tells_by_its_exit_status),
         cmocka_unit_test(compare_of_what_is_no_run_is_bad_input),
         cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
-        cmocka_unit_test(
-            compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
-        cmocka_unit_test(compare_of_instructions_of_other_frames_is_undecided),
-        cmocka_unit_test(compare_of_damaged_files_beside_the_summary_is_bad_input),
         cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
-        cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
         cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
         cmocka_unit_test(compare_prefers_the_row_of_the_same_machine),
         cmocka_unit_test(compare_of_several_machines_with_one_counts_rows_without_a_partner),
