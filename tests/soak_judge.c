@@ -93,10 +93,12 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
                   double length)
 {
     const double error = fabs(answer->distance - truth) / length;
-    const bool violated = answer->has_lower && answer->lower > truth + 1e-15 * length;
+    const bool violated = answer->has_lower && !(answer->lower <= truth + 1e-15 * length);
     bool wrong = !(answer->distance >= 0) || !(error < HUGE_VAL);
     if (m < SOAK_EXACT && m != BOUNDED)
         wrong = wrong || !(error <= RIGHT);
+    if (m < BOUNDED)
+        wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, length);
     /* Answers are located on the surfaces, so that no method may be below the truth. */
     wrong = wrong || answer->distance < truth - RIGHT * length;
     if (answer->has_witness && answer->distance > 0)
