@@ -127,6 +127,8 @@ static bool compare_frame(relation *r, pair *p, bool sampled)
             ++r->tried;
             r->failed +=
                 r->same_bits ? !scaled(&base, &twin, scale) : !(difference <= ROUNDING);
+        } else if (!(difference < HUGE_VAL)) {
+            ++r->failed; /* no number is no error */
         }
         if (m < EXACT && !(difference <= r->difference))
             r->difference = difference;
