@@ -199,21 +199,21 @@ static bool read_options(int argc, char **argv, soak *s)
         }
         if (i + 1 == argc)
             return false;
-        const char *value = argv[i + 1];
-        char *end = NULL;
+        char *value = argv[i + 1];
+        bool known = true;
         if (strcmp(argv[i], "--hours") == 0)
-            s->hours = strtod(value, &end);
+            known = mote_read_real(value, 0, 1e6, &s->hours);
         else if (strcmp(argv[i], "--cases") == 0)
-            s->cases = strtoull(value, &end, 10);
+            known = mote_read_unsigned(value, 1, UINT64_MAX, &s->cases);
         else if (strcmp(argv[i], "--seed") == 0)
-            s->seed = strtoull(value, &end, 10);
+            known = mote_read_unsigned(value, 0, UINT64_MAX, &s->seed);
         else if (strcmp(argv[i], "--out") == 0)
             s->out = value;
         else if (strcmp(argv[i], "--checks") == 0)
             s->checks = value;
         else
-            return false;
-        if (end && (end == value || *end != '\0'))
+            known = false;
+        if (!known)
             return false;
         ++i;
     }
@@ -275,5 +275,7 @@ int main(int argc, char **argv)
     print(&s);
     if (!add_checks(&s))
         return 4;
-    return s.failed == 0 ? 0 : 1;
+    if (s.sum[0].queries == 0)
+        fprintf(stderr, "soak: every case was refused: nothing was tried\n");
+    return s.failed == 0 && s.sum[0].queries > 0 ? 0 : 1;
 }
