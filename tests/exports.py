@@ -152,7 +152,9 @@ def ours(samples):
     text = "".join(" ".join(map(repr, a)) + " | " + " ".join(map(repr, b)) + "\n"
                    for a, b in samples)
     done = subprocess.run([MANN_WHITNEY], input=text, capture_output=True, text=True, check=True)
-    return [float(line) for line in done.stdout.split()]
+    values = [float(line) for line in done.stdout.split()]
+    assert len(values) == len(samples), f"{len(values)} values of p for {len(samples)} pairs"
+    return values
 
 
 def theirs(a, b):
