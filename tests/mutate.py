@@ -403,6 +403,8 @@ def main():
             result = study(module, arguments)
             if result:
                 results.append(result)
+    if not any(r["mutants"] for r in results):
+        sys.exit(f"mutate: nothing to change in {arguments.files}")
     with open(f"{arguments.out}/mutation.json", "w") as file:
         json.dump(results, file, indent=2)
         file.write("\n")
