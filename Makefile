@@ -185,7 +185,8 @@ test-page: build page-deps
 	@plots/page/build.sh $(BUILD)/page
 	@node tests/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
 
-SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp')
+SOURCES = $(wildcard $(foreach folder,core baselines datasets harness tests cmake,\
+    $(foreach kind,c h cpp,$(folder)/*.$(kind))))
 
 format: deps
 	@clang-format --dry-run -Werror $(SOURCES)
