@@ -201,8 +201,10 @@ lint: format build
 	@mkdir -p $(BUILD)/lint
 	@sed 's/-fno-loop-unroll-and-jam//' $(BUILD)/compile_commands.json \
 	    > $(BUILD)/lint/compile_commands.json
-	@$(TIDY) '$(CURDIR)/($(DEEP))/'
-	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='$(CURDIR)/%/'))
+	@grep -qE '"file": ".*/($(DEEP))/[^/]+"' $(BUILD)/lint/compile_commands.json || \
+	    { echo 'lint: there is no file in $(DEEP)' >&2; exit 1; }
+	@$(TIDY) '/($(DEEP))/[^/]+$$'
+	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='/%/[^/]+$$'))
 
 # Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
 .PHONY: check-static check-threads valgrind
