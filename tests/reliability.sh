@@ -42,9 +42,12 @@ program() { # CHECK NAME PATTERN COMMAND...
 }
 
 fuzz() {
-    log fuzz tests/fuzz.sh "$fuzz" $seconds "${JOBS:-1}" "$out/fuzz" || tail -30 "$out/fuzz.log" >&2
+    local failed=0
+    log fuzz tests/fuzz.sh "$fuzz" $seconds "${JOBS:-1}" "$out/fuzz" || failed=1
     awk -F'\t' '{ printf "fuzz: %s\t%d\t%d\n", $1, $3, $4 }' "$out/fuzz/fuzz.tsv" >>"$checks"
     [ -z "$record" ] || tests/record.sh --fuzz "$out/fuzz/fuzz.tsv"
+    [ $failed -eq 0 ] || tail -30 "$out/fuzz.log" >&2
+    return $failed
 }
 # Programs one after another, and how much each tried: a number found in what it wrote, or one
 # where there is no pattern; into OUT/NAME.log.
