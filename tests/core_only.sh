@@ -20,7 +20,8 @@ check()
     cmake --install "$build" --prefix "$root" > log
     local library
     library=$(dirname "$(find "$root" -name libmote.a)")
-    if objdump -p "$library"/libmote.so | grep NEEDED | grep -vE 'lib(m|c)\.|ld-linux|libc\.musl'; then
+    objdump -p "$library/libmote.so" > needed || fail "$compiler: no shared library"
+    if grep NEEDED needed | grep -vE 'lib(m|c)\.|ld-linux|libc\.musl'; then
         fail "$compiler: the library needs more than the C library"
     fi
     local program way
@@ -31,6 +32,7 @@ check()
             "$library/libmote.a" -lm -o static
         "$compiler" -std=c17 -Wall -Wextra -Werror -I"$root/include" "$source" \
             -L"$library" -lmote -lm -Wl,-rpath,"$library" -o shared
+        grep -q 'NEEDED *libmote' <<< "$(objdump -p shared)" || fail "$compiler: not shared"
         for way in static shared; do
             ./$way > "$program-$compiler-$way" || { cat "$program-$compiler-$way"; fail "$compiler $way"; }
             [ -e "$program-first" ] || cp "$program-$compiler-$way" "$program-first"
