@@ -131,6 +131,8 @@ static bool kill_once(study *s, bool *done)
     const struct timespec pause = {(time_t)(us / 1000000), (long)(us % 1000000) * 1000};
     pid_t pid = program_start(s->line, s->said);
     int status = 0;
+    if (pid < 0) /* which kill would take for every process */
+        return fail(s, "no process");
     (void)nanosleep(&pause, NULL);
     (void)kill(pid, SIGKILL);
     if (waitpid(pid, &status, 0) != pid)
@@ -194,6 +196,8 @@ static bool run_whole(study *s)
     struct timespec from, to;
     const struct timespec pause = {0, 1000000};
     name_directory(s, "whole");
+    if (run_files_count(s->directory, ".json") != 0)
+        return fail(s, "an older run is there");
     (void)clock_gettime(CLOCK_MONOTONIC, &from);
     pid_t pid = program_start(s->line, s->said);
     while (run_files_count(s->directory, ".json") == 0 && waitpid(pid, NULL, WNOHANG) == 0)
@@ -224,6 +228,8 @@ int main(int argc, char **argv)
     memcpy(whole, s.directory, sizeof whole);
     while (good && s.kills < kills)
         good = one_sweep(&s, (unsigned)kills, whole);
+    if (good && s.survived == 0)
+        good = fail(&s, "no cell was finished between kills: nothing was tried");
     (void)printf(
         "%s: %u kills within %.2f s of the start, %u sweeps, %zu cells finished between "
         "kills\n",
