@@ -4,7 +4,7 @@
 # PACKAGE, or PACKAGE PROGRAM: then the package is not needed where the program is found.
 set -eu
 missing=
-while read -r package program; do
+while read -r package program || [ -n "$package" ]; do
     [ -n "$package" ] || continue
     if [ -n "$program" ] && command -v "$program" >/dev/null; then
         continue
