@@ -359,6 +359,7 @@ static void run_killed_at_any_time_goes_on_without_loss(void **state)
     (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
     for (long k = 1; k <= 8; ++k) {
         pid_t pid = program_start(line, said);
+        assert_true(pid > 0); /* kill would take -1 for every process */
         struct timespec pause = {0, k * 61000000};
         (void)nanosleep(&pause, NULL);
         (void)kill(pid, SIGKILL);
