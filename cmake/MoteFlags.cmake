@@ -24,7 +24,7 @@ target_compile_options(mote_flags INTERFACE
   $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-loop-unroll-and-jam>)
 target_compile_definitions(mote_flags INTERFACE _POSIX_C_SOURCE=200809L)
 if(MOTE_WERROR)
-  target_compile_options(mote_flags INTERFACE $<$<COMPILE_LANGUAGE:C>:-Werror>)
+  target_compile_options(mote_flags INTERFACE -Werror)
 endif()
 if(MOTE_SANITIZE)
   target_compile_options(mote_flags INTERFACE -fsanitize=address,undefined
