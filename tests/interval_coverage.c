@@ -1,7 +1,9 @@
 /* make test-statistics: how often intervals of the median cover it, and how often a comparison
-   of a method with itself says faster or slower, on simulated processes whose frames depend on
-   each other as real ones do: every process has a level of its own, all run the same frames,
-   and neighbouring frames share their disturbance. */
+   of a method with itself, and with one that takes 10 % longer, says faster or slower, on
+   simulated processes whose frames depend on each other as real ones do: every process has a
+   level of its own, all run the same frames, and neighbouring frames share their disturbance.
+   Usage: interval_coverage [SETS]. */
+#include "harness/command.h"
 #include "harness/statistics.h"
 
 #include <gsl/gsl_randist.h>
@@ -62,15 +64,15 @@ static double log_median(gsl_rng *random)
     return log(mote_statistics_median(values, FRAMES));
 }
 
-/* The share of comparisons of a method with itself, of 10 replicates each, that say faster or
-   slower at a floor of 2 %. */
-static double false_alarms(gsl_rng *random, int comparisons)
+/* The share of comparisons of a method with one that takes by this factor longer, of 10
+   replicates each, that say faster or slower at a floor of 2 %. */
+static double alarms_of(gsl_rng *random, double factor, int comparisons)
 {
     int alarms = 0;
     for (int c = 0; c < comparisons; ++c) {
         double logs[10];
         for (int r = 0; r < 10; ++r)
-            logs[r] = log_median(random) - log_median(random);
+            logs[r] = log(factor) + log_median(random) - log_median(random);
         mote_confidence interval = mote_statistics_t_interval(logs, 10);
         interval.low = exp(interval.low);
         interval.high = exp(interval.high);
@@ -92,11 +94,16 @@ static int judge(const char *what, double share, double least, double most)
 
 int main(int argc, char **argv)
 {
-    int sets = argc > 1 ? atoi(argv[1]) : 1000;
+    uint64_t given = 1000;
+    if (argc > 2 || (argc == 2 && !mote_read_unsigned(argv[1], 1, 1000000, &given))) {
+        (void)fprintf(stderr, "usage: interval_coverage [SETS]\n");
+        return MOTE_EXIT_USAGE;
+    }
+    const int sets = (int)given;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     double five, twenty;
-    if (!random || sets < 1)
-        return 2;
+    if (!random)
+        return 1;
     gsl_rng_set(random, 20030901);
     if (cover(random, 5, sets, &five) != MOTE_OK ||
         cover(random, 20, sets, &twenty) != MOTE_OK) {
@@ -105,8 +112,10 @@ int main(int argc, char **argv)
     }
     int failed = judge("t intervals of 5 processes cover the median", five, 0.93, 0.97);
     failed += judge("bootstrap intervals of 20 processes cover it", twenty, 0.93, 0.97);
-    failed += judge("comparisons of a method with itself that alarm", false_alarms(random, 200),
+    failed += judge("comparisons of a method with itself that alarm", alarms_of(random, 1, 200),
                     0, 0.05);
+    failed += judge("comparisons with one that takes 10 % longer that do",
+                    alarms_of(random, 1.1, 200), 0.9, 1);
     gsl_rng_free(random);
     return failed ? 1 : 0;
 }
