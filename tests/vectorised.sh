@@ -5,14 +5,20 @@
 set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     BEGIN {
-        loops = "^(mote_potential|project_block|deform_block|mote_cert_row_boxes|move_group|" \
-            "project_hull|mote_cert_near_pairs|csrbf_estimate)([.]|$)"
+        wanted = split("mote_potential project_block deform_block mote_cert_row_boxes move_group " \
+            "project_hull mote_cert_near_pairs csrbf_estimate", loops, " ")
+        for (k in loops)
+            missing[loops[k]] = 1
     }
     /^[0-9a-f]+ <.*>:$/ {
         name = substr($2, 2, length($2) - 3)
-        inside = name !~ /resolver/ && name ~ loops
-        if (inside)
+        loop = name
+        sub(/[.].*/, "", loop)
+        inside = name !~ /resolver/ && loop in missing
+        if (inside) {
             versions[name] = 1
+            missing[loop] = 0
+        }
     }
     inside && /[ \t]v?mulp[sd][ \t]/ {
         ++lanes[name]
@@ -21,11 +27,16 @@ objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     inside && /[ \t]v?muls[sd][ \t]/ { ++single[name] }
     END {
         for (name in versions) {
-            ++count
             printf "%-40s %d multiplications of %d lanes, %d of one\n", name, lanes[name],
                 width[name], single[name]
             if (lanes[name] <= single[name])
                 bad = 1
         }
-        exit bad || count < 8
+        for (k = 1; k <= wanted; ++k) {
+            if (missing[loops[k]]) {
+                printf "%-40s is not there\n", loops[k]
+                bad = 1
+            }
+        }
+        exit bad
     }'
