@@ -52,8 +52,7 @@ static bool has_point(const mote_summary_row *row)
 
 static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0;
+    return mote_stored_by_scene(a->first, b->first) == 0;
 }
 
 static bool is_fcl(const mote_summary_row *row)

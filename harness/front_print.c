@@ -11,8 +11,7 @@ static const mote_summary_row *row_of(const mote_fronts *fronts, size_t family)
 
 static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0;
+    return mote_stored_by_scene(a->first, b->first) == 0;
 }
 
 static void print_speed(const mote_front_speed *speed, FILE *out)

@@ -218,9 +218,10 @@ static char *group_name(const mote_stored_cell *cell)
     char *group = NULL;
     if (parameters && frames)
         group = mote_format(
-            "%s %s %s %s %s %s stride %u seed %" PRIu64 " on %s%s%s", cell->scenario,
-            cell->cache, cell->method, parameters, cell->fingerprint, frames, cell->stride,
-            cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
+            "%s %s %s %s %s %s %s %.17g stride %u seed %" PRIu64 " on %s%s%s", cell->scenario,
+            cell->cache, cell->method, parameters, cell->fingerprint, frames, cell->ask,
+            mote_stored_number(cell, "tolerance"), cell->stride, cell->seed, cell->machine,
+            cell->jobs > 1 ? " jobs" : "",
             json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
@@ -282,6 +283,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->active_last = (uint32_t)last;
     const char *machine = json_string_value(json_object_get(cell->json, "machine"));
     cell->machine = machine ? machine : "";
+    const char *ask = json_string_value(json_object_get(cell->json, "ask"));
+    cell->ask = ask ? ask : "";
     cell->group = group_name(cell);
     return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
 }
@@ -337,6 +340,29 @@ static mote_status manifest_program(const char *directory, char *program, size_t
         memcpy(program, text, strlen(text) + 1);
     json_decref(manifest);
     return MOTE_OK;
+}
+
+static int by_number(double a, double b)
+{
+    if (a < b || a > b)
+        return a < b ? -1 : 1;
+    return (a == a) - (b == b);
+}
+
+int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b)
+{
+    int order = strcmp(a->scenario, b->scenario);
+    if (order == 0)
+        order = strcmp(b->cache, a->cache); /* hot, then evict */
+    if (order == 0)
+        order = strcmp(a->machine, b->machine);
+    if (order == 0)
+        order = strcmp(a->fingerprint, b->fingerprint);
+    if (order == 0)
+        order = strcmp(a->ask, b->ask);
+    return order ? order
+                 : by_number(mote_stored_number(a, "tolerance"),
+                             mote_stored_number(b, "tolerance"));
 }
 
 static int by_group(const void *a, const void *b)

@@ -25,9 +25,9 @@ extern const char *const mote_stored_count_names[MOTE_STORED_COUNTS];
 /* One cell. Frame arrays are [frames]; NULL and 0 where status is not "ok". */
 typedef struct mote_stored_cell {
     json_t *json; /* the whole cell file */
-    char *group;  /* equal for the replicates of one configuration on one machine */
+    char *group;  /* equal for the replicates of one configuration on one scene */
     const char *id, *scenario, *fingerprint, *method, *cache; /* inside json */
-    const char *machine;                                      /* likewise; "" if not stored */
+    const char *machine, *ask;                                /* likewise; "" if not stored */
     json_t *parameters;                                       /* likewise */
     mote_cell_status status;
     uint32_t replicate, stride;
@@ -58,6 +58,10 @@ typedef struct mote_stored {
    others are read. The caller frees *stored. */
 mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored);
 void mote_stored_free(mote_stored *stored);
+
+/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question. 0:
+   the same frames, asked the same on one machine. What is of two scenes is never compared. */
+int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b);
 
 /* A number of a cell's file, or MOTE_NONE where it is null or missing. Bytes are whole, below
    2^62. */

@@ -21,11 +21,7 @@ void mote_summary_free(mote_summary *summary)
 static int by_place(const void *a, const void *b)
 {
     const mote_summary_row *first = a, *second = b;
-    int order = strcmp(first->first->scenario, second->first->scenario);
-    if (order == 0)
-        order = strcmp(second->first->cache, first->first->cache); /* hot, then evict */
-    if (order == 0)
-        order = strcmp(first->first->machine, second->first->machine);
+    int order = mote_stored_by_scene(first->first, second->first);
     if (order == 0)
         order = strcmp(first->first->method, second->first->method);
     if (order == 0 && (first->n < second->n || first->n > second->n))
@@ -36,10 +32,7 @@ static int by_place(const void *a, const void *b)
 static bool comparable(const mote_summary_row *a, const mote_summary_row *b)
 {
     return a->status == MOTE_CELL_OK && b->status == MOTE_CELL_OK && a->jobs == 1 &&
-           b->jobs == 1 && strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->fingerprint, b->first->fingerprint) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0 &&
-           strcmp(a->first->machine, b->first->machine) == 0;
+           b->jobs == 1 && mote_stored_by_scene(a->first, b->first) == 0;
 }
 
 bool mote_summary_machines_differ(const mote_summary *summary)

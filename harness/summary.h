@@ -92,7 +92,7 @@ typedef struct mote_overhead {
 
 typedef struct mote_summary {
     mote_stored stored;
-    mote_summary_row *rows; /* by scenario, caches, machine, method, n */
+    mote_summary_row *rows; /* by scene (mote_stored_by_scene), method, n */
     size_t count;
     double noise_floor; /* see mote_summary_noise_floor */
     mote_overhead overhead;
