@@ -52,7 +52,8 @@ static bool has_point(const mote_summary_row *row)
 
 static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return mote_stored_by_scene(a->first, b->first) == 0;
+    return mote_stored_by_scene(a->first, b->first) == 0 &&
+           mote_stored_by_frames(a->first, b->first) == 0;
 }
 
 static bool is_fcl(const mote_summary_row *row)

@@ -1,9 +1,9 @@
 /* Speed at equal error: the fronts of time against error of a run's scenarios. A family is the
-   configurations of one method that differ in n only. Its front at an error e is the time that
-   it needs to be at most so wrong: of its fastest configuration that is, or, towards the next
-   faster one that is not, interpolated between the two on logarithmic scales. Nothing is
-   interpolated from an exact configuration: none lies between. Error is the 99th percentile, in
-   L; time the median total. */
+   configurations of one method that differ in n only, on the same frames of one machine. Its
+   front at an error e is the time that it needs to be at most so wrong: of its fastest
+   configuration that is, or, towards the next faster one that is not, interpolated between the
+   two on logarithmic scales. Nothing is interpolated from an exact configuration: none lies
+   between. Error is the 99th percentile, in L; time the median total. */
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 

@@ -11,7 +11,8 @@ static const mote_summary_row *row_of(const mote_fronts *fronts, size_t family)
 
 static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return mote_stored_by_scene(a->first, b->first) == 0;
+    return mote_stored_by_scene(a->first, b->first) == 0 &&
+           mote_stored_by_frames(a->first, b->first) == 0;
 }
 
 static void print_speed(const mote_front_speed *speed, FILE *out)
@@ -25,13 +26,29 @@ static void print_speed(const mote_front_speed *speed, FILE *out)
     (void)fprintf(out, " %22s", text);
 }
 
+/* What tells this place from another one of its scenario and caches. */
+static void print_apart(const mote_summary *summary, const mote_stored_cell *cell, FILE *out)
+{
+    bool frames = false;
+    for (size_t i = 0; i < summary->count; ++i)
+        frames = frames || (mote_stored_by_scene(summary->rows[i].first, cell) == 0 &&
+                            mote_stored_by_frames(summary->rows[i].first, cell) != 0);
+    if (frames)
+        (void)fprintf(out, ", frames %u-%u", cell->first, cell->last);
+    if (mote_summary_machines_differ(summary))
+        (void)fprintf(out, ", on %s", cell->machine);
+}
+
 static void print_place(const mote_fronts *fronts, size_t first, int width, FILE *out)
 {
     const mote_summary_row *place = row_of(fronts, first);
-    (void)fprintf(out,
-                  "\n%s, caches %s: how many times faster than the best FCL at an error (99th "
-                  "percentile) of at most\n%-*s %22s",
-                  place->first->scenario, place->first->cache, width, "", "exact");
+    (void)fprintf(out, "\n%s, caches %s", place->first->scenario, place->first->cache);
+    print_apart(fronts->summary, place->first, out);
+    (void)fprintf(
+        out,
+        ": how many times faster than the best FCL at an error (99th percentile) of at "
+        "most\n%-*s %22s",
+        width, "", "exact");
     for (size_t k = 1; k < MOTE_FRONT_LEVELS; ++k)
         (void)fprintf(out, " %20g L", mote_front_levels[k]);
     (void)fprintf(out, "\n");

@@ -74,9 +74,14 @@ const char *mote_report_text(const json_t *row, const char *key)
 
 bool mote_report_same_block(const json_t *a, const json_t *b)
 {
-    return strcmp(mote_report_text(a, "scenario"), mote_report_text(b, "scenario")) == 0 &&
-           strcmp(mote_report_text(a, "cache"), mote_report_text(b, "cache")) == 0 &&
-           strcmp(mote_report_text(a, "machine"), mote_report_text(b, "machine")) == 0;
+    static const char *const keys[] = {"scenario", "cache",     "machine",    "fingerprint",
+                                       "ask",      "tolerance", "frame_range"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        const json_t *here = json_object_get(a, keys[i]), *there = json_object_get(b, keys[i]);
+        if (here != there && !json_equal(here, there))
+            return false;
+    }
+    return true;
 }
 
 size_t mote_report_block_end(const mote_report *report, size_t first)

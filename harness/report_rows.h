@@ -33,7 +33,8 @@ bool mote_report_interval(const json_t *value, double interval[2]);
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 
-/* Whether two rows stand in one table: one scenario, state of caches and machine. */
+/* Whether two rows stand in one table: one scenario, state of caches, machine,
+   question and range of frames. */
 bool mote_report_same_block(const json_t *a, const json_t *b);
 
 /* One after the last row of the block that starts at row first. */

@@ -254,6 +254,12 @@ static bool has_bytes_right(const json_t *cell)
     return true;
 }
 
+static uint32_t frame_number(const json_t *value)
+{
+    const json_int_t number = json_integer_value(value);
+    return number >= 1 && number <= UINT32_MAX ? (uint32_t)number : 0;
+}
+
 /* Fills the fields that lie in cell->json. */
 static mote_status read_fields(const char *name, mote_stored_cell *cell)
 {
@@ -281,6 +287,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->replicate_seed = mote_replicate_seed(cell->seed, fixed != 0, cell->replicate);
     cell->active_first = (uint32_t)first;
     cell->active_last = (uint32_t)last;
+    cell->first = frame_number(json_array_get(shown[2], 0));
+    cell->last = frame_number(json_array_get(shown[2], 1));
     const char *machine = json_string_value(json_object_get(cell->json, "machine"));
     cell->machine = machine ? machine : "";
     const char *ask = json_string_value(json_object_get(cell->json, "ask"));
@@ -363,6 +371,12 @@ int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b)
     return order ? order
                  : by_number(mote_stored_number(a, "tolerance"),
                              mote_stored_number(b, "tolerance"));
+}
+
+int mote_stored_by_frames(const mote_stored_cell *a, const mote_stored_cell *b)
+{
+    const int order = (a->first > b->first) - (a->first < b->first);
+    return order ? order : (a->last < b->last) - (a->last > b->last);
 }
 
 static int by_group(const void *a, const void *b)

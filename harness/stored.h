@@ -34,6 +34,7 @@ typedef struct mote_stored_cell {
     uint64_t seed;           /* the run's */
     uint64_t replicate_seed; /* mote_replicate_seed: what this process drew from */
     uint32_t jobs;           /* cells that ran at the same time; 1: times are comparable */
+    uint32_t first, last;    /* of the frames asked for; 0 for what is no frame's number */
     uint32_t active_first, active_last; /* 0, 0 when the scenario names none */
     size_t frames;
     uint32_t *frame; /* numbers, rising */
@@ -62,6 +63,9 @@ void mote_stored_free(mote_stored *stored);
 /* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question. 0:
    the same frames, asked the same on one machine. What is of two scenes is never compared. */
 int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b);
+
+/* Likewise by the frames asked for: what begins earlier first, of these the longer. */
+int mote_stored_by_frames(const mote_stored_cell *a, const mote_stored_cell *b);
 
 /* A number of a cell's file, or MOTE_NONE where it is null or missing. Bytes are whole, below
    2^62. */

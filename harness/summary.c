@@ -23,6 +23,8 @@ static int by_place(const void *a, const void *b)
     const mote_summary_row *first = a, *second = b;
     int order = mote_stored_by_scene(first->first, second->first);
     if (order == 0)
+        order = mote_stored_by_frames(first->first, second->first);
+    if (order == 0)
         order = strcmp(first->first->method, second->first->method);
     if (order == 0 && (first->n < second->n || first->n > second->n))
         order = first->n < second->n ? -1 : 1;
@@ -44,32 +46,60 @@ bool mote_summary_machines_differ(const mote_summary *summary)
     return false;
 }
 
+/* Whether another row was asked for all frames that this one was. */
+static bool covers(const mote_summary_row *other, const mote_summary_row *row)
+{
+    return other->first->first <= row->first->first && other->first->last >= row->first->last;
+}
+
 /* The row that this one's ratio is taken to: fcl-aabb as its users call it, which is its
-   default (seed=none, queue=2), or any fcl-aabb. */
+   default (seed=none, queue=2), or any fcl-aabb; on all of this row's frames, best on these
+   alone, measured in turn with it. */
 static size_t find_reference(const mote_summary *summary, const mote_summary_row *row)
 {
     size_t found = SIZE_MAX;
+    int most = -1;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (!comparable(row, other) || strcmp(other->first->method, "fcl-aabb") != 0)
             continue;
-        if (strcmp(other->label, "fcl-aabb") == 0)
-            return i;
-        found = found == SIZE_MAX ? i : found;
+        const int rank = (covers(other, row) ? 4 : 0) +
+                         (strcmp(other->label, "fcl-aabb") == 0 ? 2 : 0) +
+                         (mote_stored_by_frames(other->first, row->first) == 0 ? 1 : 0);
+        found = rank > most ? i : found;
+        most = rank > most ? rank : most;
     }
     return found;
 }
 
-static size_t find_best_fcl(const mote_summary *summary, const mote_summary_row *row)
+/* Of rows on all of this row's frames, or else of any, the fastest over these frames. */
+static mote_status find_best_fcl(const mote_summary *summary, const mote_summary_row *row,
+                                 size_t *best)
 {
-    size_t best = SIZE_MAX;
+    double least = MOTE_NONE;
+    bool covered = false;
+    *best = SIZE_MAX;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        if (comparable(row, other) && strncmp(other->first->method, "fcl-", 4) == 0 &&
-            (best == SIZE_MAX || other->total.median < summary->rows[best].total.median))
-            best = i;
+        if (!comparable(row, other) || strncmp(other->first->method, "fcl-", 4) != 0)
+            continue;
+        double median = other->total.median;
+        mote_status status = MOTE_OK;
+        if (mote_stored_by_frames(other->first, row->first) != 0)
+            status =
+                mote_summary_median_within(other, row->first->first, row->first->last, &median);
+        if (status != MOTE_OK)
+            return status;
+        const bool all = covers(other, row);
+        if (median != median || (covered && !all))
+            continue;
+        if (all != covered || !(median >= least)) {
+            least = median;
+            *best = i;
+        }
+        covered = all;
     }
-    return best;
+    return MOTE_OK;
 }
 
 static mote_status take_ratio(const mote_summary *summary, const mote_summary_row *row,
@@ -95,9 +125,11 @@ static mote_status take_ratios(mote_summary *summary)
         if (status == MOTE_OK)
             status = mote_summary_quiet(row, reference == SIZE_MAX ? NULL
                                                                    : &summary->rows[reference]);
+        size_t best = SIZE_MAX;
         if (status == MOTE_OK)
-            status = take_ratio(summary, row, find_best_fcl(summary, row), MOTE_PART_TOTAL,
-                                &row->ratio_best);
+            status = find_best_fcl(summary, row, &best);
+        if (status == MOTE_OK)
+            status = take_ratio(summary, row, best, MOTE_PART_TOTAL, &row->ratio_best);
     }
     return status;
 }
@@ -279,6 +311,7 @@ static json_t *integer_or_null(double value)
 
 static json_t *row_json(const mote_summary *summary, const mote_summary_row *row)
 {
+    static const char *const scene[] = {"ask", "tolerance"};
     const json_t *cell = row->first->json;
     json_t *object =
         json_pack("{s:s, s:s, s:s, s:s, s:O, s:O, s:O, s:s, s:i, s:O, s:i, s:i, s:s}",
@@ -293,6 +326,14 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
         return NULL;
     if (row->first->machine[0])
         (void)json_object_set_new(object, "machine", json_string(row->first->machine));
+    for (size_t i = 0; i < sizeof scene / sizeof scene[0]; ++i) {
+        json_t *value = json_object_get(cell, scene[i]);
+        if (value)
+            (void)json_object_set(object, scene[i], value);
+    }
+    (void)json_object_set_new(
+        object, "frame_range",
+        json_pack("[I,I]", (json_int_t)row->first->first, (json_int_t)row->first->last));
     json_t *reason = json_object_get(cell, "reason");
     if (reason)
         (void)json_object_set(object, "reason", reason);

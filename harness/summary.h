@@ -74,9 +74,10 @@ typedef struct mote_summary_row {
 #define MOTE_TIME_FIELD(name, key) mote_time name;
     MOTE_TIMES(MOTE_TIME_FIELD)
 #undef MOTE_TIME_FIELD
-    mote_ratio ratio;       /* to fcl-aabb:seed=none,queue=2, or the first fcl-aabb there is */
+    mote_ratio ratio;       /* to fcl-aabb:seed=none,queue=2, or the first fcl-aabb there is, of
+                               those that were measured on all of this row's frames */
     mote_ratio ratio_given; /* the same where nobody is charged for deformation */
-    mote_ratio ratio_best;  /* to the fastest row of FCL */
+    mote_ratio ratio_best;  /* to the row of FCL that is the fastest over this row's frames */
     mote_error_summary error;
     double contacts, missed, false_contacts;                 /* frames, mean over replicates */
     double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
@@ -92,7 +93,7 @@ typedef struct mote_overhead {
 
 typedef struct mote_summary {
     mote_stored stored;
-    mote_summary_row *rows; /* by scene (mote_stored_by_scene), method, n */
+    mote_summary_row *rows; /* by scene (mote_stored_by_scene), frames, method, n */
     size_t count;
     double noise_floor; /* see mote_summary_noise_floor */
     mote_overhead overhead;

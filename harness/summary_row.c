@@ -123,6 +123,17 @@ static mote_status make_times(mote_summary_row *row)
     return status;
 }
 
+mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
+                                       uint32_t last, double *median)
+{
+    slice s = {0};
+    const mote_status status = gather(row, total_of, first, last, &s);
+    if (status == MOTE_OK)
+        *median = mote_statistics_median(s.all, s.total);
+    free_slice(&s);
+    return status;
+}
+
 static void count_exact(const mote_summary_row *row, mote_error_summary *error)
 {
     double answers = 0, exact = 0, separated = 0, exact_separated = 0;

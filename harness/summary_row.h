@@ -8,6 +8,10 @@
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
                                   mote_summary_row *row);
 
+/* Median total over the frames first .. last of all replicates; MOTE_NONE without any. */
+mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
+                                       uint32_t last, double *median);
+
 /* Which part of a frame's time is compared. */
 typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
 

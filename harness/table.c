@@ -11,9 +11,8 @@ typedef char field[MOTE_NUMBER_TEXT];
 
 static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0 &&
-           strcmp(a->first->machine, b->first->machine) == 0;
+    return mote_stored_by_scene(a->first, b->first) == 0 &&
+           mote_stored_by_frames(a->first, b->first) == 0;
 }
 
 static size_t label_width(const mote_summary *summary)
@@ -86,7 +85,7 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
 /* What the two columns of ratios are taken to, below a block. */
 static void print_foot(const mote_summary *summary, const mote_summary_row *row, FILE *out)
 {
-    if (row->ratio.to != SIZE_MAX)
+    if (row->ratio.to != SIZE_MAX && row->ratio_best.to != SIZE_MAX)
         (void)fprintf(
             out,
             "fcl-aabb: %s; given: the same where nobody pays for deforming all vertices; "

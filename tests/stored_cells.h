@@ -23,6 +23,7 @@ typedef struct stored_cell {
     int replicate;                              /* 0: 1 */
     uint64_t seed;
     const char *status;            /* "ok" */
+    const char *frames;            /* JSON: "[1, 4]" */
     const char *parameters, *more; /* JSON: "{}"; keys after the others, ", \"jobs\": 2" */
     const char *rows;              /* below STORED_COLUMNS; "": none; NULL: no CSV */
 } stored_cell;
@@ -41,12 +42,12 @@ static inline bool stored_cell_write(const char *directory, const stored_cell *c
     char *json = mote_format(
         "{\"id\": \"%s\", \"status\": \"%s\", \"scenario\": \"%s\", \"fingerprint\": \"%s\", "
         "\"method\": \"%s\", \"cache\": \"%s\", \"parameters\": %s, \"replicate\": %d, "
-        "\"stride\": 1, \"active\": [2, 3], \"seed\": %" PRIu64 ", \"frames\": [1, 4], "
+        "\"stride\": 1, \"active\": [2, 3], \"seed\": %" PRIu64 ", \"frames\": %s, "
         "\"triangles\": [8, 8], \"vertices\": [6, 6]%s}\n",
         id, cell->status ? cell->status : "ok", cell->scenario ? cell->scenario : "s",
         cell->fingerprint ? cell->fingerprint : "f", method, cell->cache ? cell->cache : "hot",
         cell->parameters ? cell->parameters : "{}", replicate, cell->seed,
-        cell->more ? cell->more : "");
+        cell->frames ? cell->frames : "[1, 4]", cell->more ? cell->more : "");
     (void)snprintf(path, sizeof path, "%s/cells/%s.json", directory, id);
     done = done && json && plain_file_put(path, json);
     free(json);

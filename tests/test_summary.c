@@ -1,6 +1,7 @@
 /* Which cells are put into one row, and which rows are compared with each other. */
 #include "harness/front.h"
 #include "harness/summary.h"
+#include "harness/table.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"
 
@@ -9,6 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <cmocka.h>
+
+#include <math.h>
 
 static char base[] = "/tmp/mote-test-summary-XXXXXX";
 static char directory[64];
@@ -41,16 +44,21 @@ static int free_summary(void **state)
     return 0;
 }
 
-/* Of four frames that all take `ns`, and are wrong by `error` L. */
-static void write_cell(stored_cell cell, double ns, double error)
+/* Of some frames that all take `ns`, and are wrong by `error` L. */
+static void write_frames(stored_cell cell, int first, int last, double ns, double error)
 {
     char rows[512];
     size_t used = 0;
-    for (int k = 1; k <= 4; ++k)
+    for (int k = first; k <= last; ++k)
         used += (size_t)snprintf(rows + used, sizeof rows - used, "%d,0,0,%g,0.5,%g,0,0,7\n", k,
                                  ns, error);
     cell.rows = rows;
     assert_true(stored_cell_write(directory, &cell));
+}
+
+static void write_cell(stored_cell cell, double ns, double error)
+{
+    write_frames(cell, 1, 4, ns, error);
 }
 
 static void make_summary(void)
@@ -120,11 +128,68 @@ static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
     mote_fronts_free(&fronts);
 }
 
+static const mote_summary_row *row_of(const char *id)
+{
+    for (size_t i = 0; i < summary.count; ++i) {
+        if (strcmp(summary.rows[i].first->id, id) == 0)
+            return &summary.rows[i];
+    }
+    fail_msg("no row of %s", id);
+    return NULL;
+}
+
+static void refers_to(const char *id, const mote_ratio *ratio, const char *to, double value)
+{
+    const char *is = ratio->to == SIZE_MAX ? "" : summary.rows[ratio->to].first->id;
+    if (strcmp(is, to) != 0 || !(fabs(ratio->value - value) <= 1e-9 * value))
+        fail_msg("%s: %g times to %s, not %g to %s", id, ratio->value, is, value, to);
+}
+
+/* FCL is fast around a touch (frames 3-4), where a second leg of the run measured all again. */
+static void summary_ratios_are_of_rows_on_the_same_frames(void **state)
+{
+    (void)state;
+    static const char touch[] = "[3, 4]", obb[] = "fcl-obb";
+    write_frames((stored_cell){.id = "a", .method = "certified", .frames = touch}, 3, 4, 10, 0);
+    write_frames((stored_cell){.id = "b", .frames = touch}, 3, 4, 200, 0);
+    write_frames((stored_cell){.id = "c", .frames = touch, .method = obb}, 3, 4, 20, 0);
+    write_frames((stored_cell){.id = "d", .method = "certified"}, 1, 4, 10, 0);
+    write_frames((stored_cell){.id = "e"}, 1, 4, 100, 0);
+    write_frames((stored_cell){.id = "f", .frames = "[1, 2]"}, 1, 2, 1, 0);
+    write_frames((stored_cell){.id = "g", .frames = "[1, 1]", .method = obb}, 1, 1, 500, 0);
+    write_frames((stored_cell){.id = "h", .frames = "[9, 9]", .method = "certified"}, 9, 9, 5,
+                 0);
+    make_summary();
+    refers_to("a", &row_of("a")->ratio, "b", 20);
+    refers_to("a", &row_of("a")->ratio_best, "c", 2);
+    refers_to("d", &row_of("d")->ratio, "e", 10);
+    refers_to("d", &row_of("d")->ratio_best, "e", 10);
+    refers_to("f", &row_of("f")->ratio_best, "f", 1);
+    refers_to("g", &row_of("g")->ratio, "e", 0.2);
+    refers_to("g", &row_of("g")->ratio_best, "f", 1.0 / 500);
+    assert_true(isnan(row_of("h")->ratio.value)); /* nobody has its frame */
+    assert_true(row_of("h")->ratio_best.to == SIZE_MAX);
+    FILE *out = fopen("/dev/null", "w");
+    assert_non_null(out);
+    mote_table_print(&summary, out);
+    (void)fclose(out);
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 8);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        const char *id = summary.rows[fronts.items[i].first].first->id;
+        if (id[0] == 'd')
+            assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
+    }
+    mote_fronts_free(&fronts);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, next_directory, free_summary)
     const struct CMUnitTest tests[] = {
         TEST(summary_of_other_questions_keeps_their_cells_apart),
+        TEST(summary_ratios_are_of_rows_on_the_same_frames),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
