@@ -72,9 +72,11 @@ static void add_value(const mote_report *report, size_t i, const mote_report_col
 
 static void add_notes(const json_t *row, mote_text *text)
 {
-    const double stride = mote_report_number(row, NULL, "stride");
-    if (stride > 1)
-        mote_text_add(text, "<small>every %.0fth frame</small>", stride);
+    char note[MOTE_REPORT_NOTE];
+    for (size_t i = 0; i < MOTE_REPORT_NOTES; ++i) {
+        if (mote_report_note(row, i, note))
+            mote_text_add(text, "<small>%s</small>", note);
+    }
 }
 
 static void add_row(const mote_report *report, size_t i, mote_text *text)

@@ -119,13 +119,23 @@ static void add_head(int width, mote_text *text)
 static void add_cell_links(const mote_report *report, size_t i, mote_text *text)
 {
     if (!report->has_cells) {
-        mote_text_add(text, " [summary](summary.json) |");
+        mote_text_add(text, " [summary](summary.json)");
         return;
     }
     const mote_summary_row *row = &report->cells.rows[i];
     for (size_t r = 0; r < row->replicates; ++r)
         mote_text_add(text, " [%u][c%zu-%u]", row->cells[r].replicate, i + 1,
                       row->cells[r].replicate);
+}
+
+/* What else is to be known of a row, after its cells. */
+static void add_notes(const json_t *row, mote_text *text)
+{
+    char note[MOTE_REPORT_NOTE];
+    for (size_t i = 0; i < MOTE_REPORT_NOTES; ++i) {
+        if (mote_report_note(row, i, note))
+            mote_text_add(text, "; %s", note);
+    }
     mote_text_add(text, " |");
 }
 
@@ -158,6 +168,7 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
         ++shown;
     }
     add_cell_links(report, i, text);
+    add_notes(row, text);
     mote_text_add(text, "\n");
 }
 

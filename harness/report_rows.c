@@ -1,5 +1,6 @@
 #include "harness/report_rows.h"
 
+#include <stdio.h>
 #include <string.h>
 
 const mote_report_column mote_report_columns[] = {
@@ -72,6 +73,24 @@ const char *mote_report_text(const json_t *row, const char *key)
     return text ? text : "";
 }
 
+bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE])
+{
+    const double stride = mote_report_number(row, NULL, "stride");
+    const double jobs = mote_report_number(row, NULL, "jobs");
+    const double failed = mote_report_number(row, NULL, "replicates_failed");
+    const double ended = mote_report_number(row, NULL, "replicates");
+    const bool some[MOTE_REPORT_NOTES] = {stride > 1, jobs > 1, failed > 0 && ended > 0};
+    if (some[i] && i == 0)
+        (void)snprintf(text, MOTE_REPORT_NOTE, "every %.0fth frame", stride);
+    else if (some[i] && i == 1)
+        (void)snprintf(text, MOTE_REPORT_NOTE, "times not comparable: %.0f cells at once",
+                       jobs);
+    else if (some[i])
+        (void)snprintf(text, MOTE_REPORT_NOTE, "%.0f of %.0f replicates ended badly", failed,
+                       failed + ended);
+    return some[i];
+}
+
 bool mote_report_same_block(const json_t *a, const json_t *b)
 {
     static const char *const keys[] = {"scenario", "cache",     "machine",    "fingerprint",
@@ -109,7 +128,8 @@ mote_report_glance mote_report_block_glance(const mote_report *report, size_t fi
     for (size_t i = first; i < end; ++i) {
         const json_t *row = mote_report_row(report, i);
         const double time = mote_report_number(row, "total_ns", "median");
-        if (strcmp(mote_report_text(row, "status"), "ok") != 0 || time != time)
+        if (strcmp(mote_report_text(row, "status"), "ok") != 0 || time != time ||
+            json_is_false(json_object_get(row, "times_comparable")))
             continue;
         if (glance.fastest == SIZE_MAX || time < least) {
             glance.fastest = i;

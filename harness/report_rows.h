@@ -33,6 +33,12 @@ bool mote_report_interval(const json_t *value, double interval[2]);
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 
+/* What a reader of a row's figures must know: the stride, that others ran beside it, replicates
+   that failed. i from 0, below MOTE_REPORT_NOTES; false: nothing. */
+#define MOTE_REPORT_NOTES 3
+#define MOTE_REPORT_NOTE 80
+bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE]);
+
 /* Whether two rows stand in one table: one scenario, state of caches, machine,
    question and range of frames. */
 bool mote_report_same_block(const json_t *a, const json_t *b);

@@ -340,6 +340,8 @@ static json_t *row_json(const mote_summary *summary, const mote_summary_row *row
 #define SET_TIME(name, key) (void)json_object_set_new(object, key, time_json(&row->name));
     MOTE_TIMES(SET_TIME)
 #undef SET_TIME
+    (void)json_object_set_new(object, "replicates_failed",
+                              json_integer((json_int_t)(row->replicates - row->finished)));
     (void)json_object_set_new(object, "jobs", json_integer(row->jobs));
     (void)json_object_set_new(object, "times_comparable", json_boolean(row->jobs == 1));
     (void)json_object_set_new(object, "smallest_change",

@@ -175,7 +175,8 @@ void mote_table_print_csv(const mote_summary *summary, FILE *out)
 #undef PRINT_NAMES
     (void)fprintf(out, ",ratio,ratio_ci_low,ratio_ci_high,ratio_best,error_median,error_p95,"
                        "error_p99,error_max,exact_rate,contacts,missed,false_contacts,"
-                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,machine\n");
+                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,machine,"
+                       "replicates_failed,jobs\n");
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         csv_text(row->first->scenario, out);
@@ -198,6 +199,6 @@ void mote_table_print_csv(const mote_summary *summary, FILE *out)
         (void)fputc(',', out);
         if (row->first->machine[0])
             csv_text(row->first->machine, out);
-        (void)fputc('\n', out);
+        (void)fprintf(out, ",%zu,%u\n", row->replicates - row->finished, row->jobs);
     }
 }

@@ -184,12 +184,55 @@ static void summary_ratios_are_of_rows_on_the_same_frames(void **state)
     mote_fronts_free(&fronts);
 }
 
+/* mote COMMAND DIRECTORY MORE, and what is then in a file of the directory, or what it said. */
+static const char *after(const char *command, const char *more, const char *file)
+{
+    static char text[1 << 20];
+    char line[160], said[96];
+    (void)snprintf(line, sizeof line, "%s %s %s", command, directory, more);
+    (void)snprintf(said, sizeof said, "%s/said", directory);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    (void)snprintf(line, sizeof line, "%s/%s", directory, file);
+    program_read(line, text, sizeof text);
+    return text;
+}
+
+/* Times of cells that ran at once, and rows that lack replicates, must not look like others. */
+static void pages_and_tables_tell_which_times_and_rows_are_not_whole(void **state)
+{
+    (void)state;
+    static const char beside[] = "times not comparable: 2 cells at once",
+                      badly[] = "1 of 3 replicates ended badly";
+    write_cell((stored_cell){.method = "certified", .more = ", \"jobs\": 2"}, 10, 0);
+    write_cell((stored_cell){.replicate = 1}, 100, 0);
+    write_cell((stored_cell){.replicate = 3}, 100, 0);
+    const stored_cell crash = {.replicate = 2, .status = "crashed"};
+    assert_true(stored_cell_write(directory, &crash));
+    make_summary();
+    static const struct {
+        const char *command, *more, *file;
+    } outputs[] = {
+        {"summarize", "", "said"}, {"report", "", "report.html"}, {"report", "", "report.md"}};
+    for (size_t i = 0; i < 3; ++i) {
+        const char *text = after(outputs[i].command, outputs[i].more, outputs[i].file);
+        if (!strstr(text, beside) || !strstr(text, badly))
+            fail_msg("%s does not say both", outputs[i].file);
+    }
+    assert_non_null(strstr(after("report", "", "report.html"),
+                           "Fastest without a wrong answer in any frame: <code>fcl-aabb<"));
+    const char *csv = after("summarize", "--format csv", "said");
+    assert_non_null(strstr(csv, ",replicates_failed,jobs\n"));
+    assert_non_null(strstr(csv, ",0,2\n"));
+    assert_non_null(strstr(csv, ",1,1\n"));
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, next_directory, free_summary)
     const struct CMUnitTest tests[] = {
         TEST(summary_of_other_questions_keeps_their_cells_apart),
         TEST(summary_ratios_are_of_rows_on_the_same_frames),
+        TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
