@@ -116,9 +116,19 @@ typedef struct workshop {
     size_t processes;
     track *tracks;
     double *values; /* what tracks point into */
-    size_t *rows, *others, *all;
+    size_t *rows, *others;
     double *times, *errors, *work;
 } workshop;
+
+/* The time at which rows reach an error, from their own figures: those over all processes. */
+static double whole_time(const workshop *w, const size_t *rows, size_t row_count, double level)
+{
+    for (size_t i = 0; i < row_count; ++i) {
+        w->times[i] = w->summary->rows[rows[i]].total.median;
+        w->errors[i] = w->summary->rows[rows[i]].error.p99;
+    }
+    return mote_front_time(w->times, w->errors, row_count, level);
+}
 
 static void close_workshop(workshop *w)
 {
@@ -178,16 +188,13 @@ static mote_status open_workshop(const mote_summary *summary, workshop *w)
     const size_t rows = summary->count + 1;
     w->tracks = calloc(rows, sizeof *w->tracks);
     w->values = malloc(2 * rows * (w->processes + 1) * sizeof *w->values);
-    w->rows = malloc((2 * rows + w->processes) * sizeof *w->rows);
+    w->rows = malloc(2 * rows * sizeof *w->rows);
     w->times = malloc((2 * rows + w->processes) * sizeof *w->times);
     if (!w->tracks || !w->values || !w->rows || !w->times)
         return mote_fail(MOTE_ENOMEM, "no memory for the fronts of %zu rows", rows);
     w->others = w->rows + rows;
-    w->all = w->others + rows;
     w->errors = w->times + rows;
     w->work = w->errors + rows;
-    for (size_t k = 0; k < w->processes; ++k)
-        w->all[k] = k;
     return fill_tracks(w);
 }
 
@@ -201,13 +208,18 @@ static mote_status make_front(const workshop *w, size_t row_count, size_t other_
         comparison c = {w->tracks, w->rows,     w->others,
                         row_count, other_count, mote_front_levels[k],
                         w->times,  w->errors,   w->work};
-        speed->time_ns = time_of(&c, c.rows, row_count, w->all, w->processes);
-        speed->faster = faster(&c, w->all, w->processes);
+        speed->time_ns = whole_time(w, w->rows, row_count, c.level);
+        speed->faster = whole_time(w, w->others, other_count, c.level) / speed->time_ns;
         const mote_confidence none = {MOTE_NONE, MOTE_NONE};
         speed->interval = none;
         if (speed->faster == speed->faster)
             status = mote_statistics_process_interval(faster, &c, w->processes, BOOTSTRAP_SEED,
                                                       &speed->interval);
+        /* What single processes reach need not be what all of them together do. */
+        if (speed->interval.low == speed->interval.low) {
+            speed->interval.low = fmin(speed->interval.low, speed->faster);
+            speed->interval.high = fmax(speed->interval.high, speed->faster);
+        }
     }
     return status;
 }

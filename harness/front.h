@@ -3,7 +3,9 @@
    front at an error e is the time that it needs to be at most so wrong: of its fastest
    configuration that is, or, towards the next faster one that is not, interpolated between the
    two on logarithmic scales. Nothing is interpolated from an exact configuration: none lies
-   between. Error is the 99th percentile, in L; time the median total. */
+   between. Error is the 99th percentile, in
+   L, time the median total, both over all frames of all replicates, as in the summary's rows.
+ */
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 
@@ -19,7 +21,8 @@ extern const double mote_front_levels[MOTE_FRONT_LEVELS]; /* rising; the first: 
 typedef struct mote_front_speed {
     double time_ns;           /* MOTE_NONE: no configuration is so exact */
     double faster;            /* FCL's time / this; MOTE_NONE without FCL in the run */
-    mote_confidence interval; /* of faster: processes drawn again from ten on, else t */
+    mote_confidence interval; /* of faster in processes: drawn again from ten on, else t; wide
+                                 enough to hold it */
 } mote_front_speed;
 
 typedef struct mote_front {
