@@ -356,8 +356,8 @@ static mote_status measure(run *r, size_t first)
     return status;
 }
 
-/* The half width of the interval of a row's median, as a share of it; endless when there is
-   none yet, 0 when more replicates would not help. */
+/* How far the interval of a row's median reaches on its wider side, as a share of it; endless
+   when there is none yet, 0 when more replicates would not help. */
 static double interval_width(const mote_summary *summary, const mote_cell *cell)
 {
     for (size_t i = 0; i < summary->count; ++i) {
@@ -367,8 +367,10 @@ static double interval_width(const mote_summary *summary, const mote_cell *cell)
                 continue;
             if (row->status != MOTE_CELL_OK)
                 return 0;
-            double half = (row->total.high - row->total.low) / 2 / row->total.median;
-            return half == half ? half : HUGE_VAL;
+            const mote_time *time = &row->total;
+            double width =
+                fmax(time->high - time->median, time->median - time->low) / time->median;
+            return width == width ? width : HUGE_VAL;
         }
     }
     return 0;

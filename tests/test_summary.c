@@ -217,6 +217,28 @@ static void fronts_are_of_the_figures_of_the_rows(void **state)
     mote_fronts_free(&fronts);
 }
 
+/* The interval of two processes is wider above than below. */
+static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
+{
+    (void)state;
+    char line[256], said[96], text[4096], expected[64];
+    (void)snprintf(said, sizeof said, "%s-said", directory);
+    (void)snprintf(line, sizeof line,
+                   "run tt --frames 200-205 --replicates 2 --method certified "
+                   "--until-ci 0.001%% --budget 0 --out %s",
+                   directory);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    program_read(said, text, sizeof text);
+    make_summary();
+    const mote_time *time = &summary.rows[0].total;
+    const double width = fmax(time->high - time->median, time->median - time->low);
+    (void)snprintf(expected, sizeof expected,
+                   "after 2 replicates the widest interval is +-%.2g %%",
+                   100 * width / time->median);
+    if (!strstr(text, expected))
+        fail_msg("no \"%s\" in\n%s", expected, text);
+}
+
 /* mote COMMAND DIRECTORY MORE, and what is then in a file of the directory, or what it said. */
 static const char *after(const char *command, const char *more, const char *file)
 {
@@ -267,6 +289,7 @@ int main(void)
         TEST(summary_ratios_are_of_rows_on_the_same_frames),
         TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole),
         TEST(fronts_are_of_the_figures_of_the_rows),
+        TEST(run_until_ci_tells_the_wider_side_of_the_interval),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
