@@ -79,17 +79,24 @@ mote_status mote_summary_quiet(mote_summary_row *row, const mote_summary_row *re
     return status;
 }
 
-static double better_of(double ratio, double total)
+/* Whether a row's times are taken relative to the reference. All of them are, or none: a time
+   in nanoseconds among ratios would be a change by a thousand. */
+static bool is_relative(const mote_summary_row *row)
 {
-    return ratio == ratio ? ratio : total;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        if (row->processes[r].ratio == row->processes[r].ratio)
+            return true;
+    }
+    return false;
 }
 
 /* The medians of a row's early or late processes, their logarithms averaged. */
 static double half_of_processes(const mote_summary_row *row, uint32_t half)
 {
     double sum = 0, count = 0;
+    const bool relative = is_relative(row);
     for (size_t r = 0; r < row->replicates; ++r) {
-        double value = better_of(row->processes[r].ratio, row->processes[r].median);
+        double value = relative ? row->processes[r].ratio : row->processes[r].median;
         if (group_of(row, &row->cells[r], 2) != half || !(value > 0))
             continue;
         sum += log(value);
@@ -110,7 +117,7 @@ static mote_status halves_differ(const mote_summary_row *row, const mote_summary
         mote_status status = quiet_group(row, reference, 2, half, &total, &ratio);
         if (status != MOTE_OK)
             return status;
-        halves[half] = better_of(ratio, total);
+        halves[half] = is_relative(row) ? ratio : total;
     }
     *share = exp(fabs(log(halves[0] / halves[1]))) - 1;
     return MOTE_OK;
@@ -148,11 +155,12 @@ mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count,
 static size_t take_logs(const mote_summary_row *row, double *logs)
 {
     size_t count = 0;
-    bool quiet = row->finished >= MOTE_QUIET_REPLICATES;
+    bool quiet = row->finished >= MOTE_QUIET_REPLICATES, relative = is_relative(row);
     size_t some = quiet ? MOTE_QUIET_GROUPS : row->replicates;
     for (size_t i = 0; i < some; ++i) {
-        double value = quiet ? better_of(row->quiet.ratio[i], row->quiet.total[i])
-                             : better_of(row->processes[i].ratio, row->processes[i].median);
+        const double ratio = quiet ? row->quiet.ratio[i] : row->processes[i].ratio;
+        const double total = quiet ? row->quiet.total[i] : row->processes[i].median;
+        const double value = relative ? ratio : total;
         if (value > 0)
             logs[count++] = log(value);
     }

@@ -217,6 +217,23 @@ static void fronts_are_of_the_figures_of_the_rows(void **state)
     mote_fronts_free(&fronts);
 }
 
+/* Where the reference has crashed there is no ratio; the time must not stand for it. */
+static void summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 4; ++r) {
+        write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 + r % 2, 0);
+        if (r != 2)
+            write_cell((stored_cell){.replicate = r}, 10000, 0);
+    }
+    const stored_cell crash = {.replicate = 2, .status = "crashed"};
+    assert_true(stored_cell_write(directory, &crash));
+    make_summary();
+    assert_int_equal(summary.count, 2);
+    assert_true(summary.rows[0].smallest_change < 0.01);
+    assert_true(summary.noise_floor < 0.01);
+}
+
 /* The interval of two processes is wider above than below. */
 static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
 {
@@ -290,6 +307,7 @@ int main(void)
         TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole),
         TEST(fronts_are_of_the_figures_of_the_rows),
         TEST(run_until_ci_tells_the_wider_side_of_the_interval),
+        TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
