@@ -7,26 +7,31 @@ static bool ran(const mote_stored_cell *cell)
     return cell->status == MOTE_CELL_OK && cell->frames > 0;
 }
 
-/* Which of the groups a replicate belongs to: blocks of consecutive numbers, so that groups
-   differ as much as the machine does from one minute to the next. */
-static uint32_t group_of(const mote_summary_row *row, const mote_stored_cell *cell,
-                         uint32_t groups)
+static uint32_t last_replicate(const mote_summary_row *row)
 {
     uint32_t last = 1;
     for (size_t r = 0; r < row->replicates; ++r)
         last = row->cells[r].replicate > last ? row->cells[r].replicate : last;
-    return (uint32_t)((uint64_t)(cell->replicate - 1) * groups / last);
+    return last;
 }
 
-/* Of each frame the fastest of the replicates of a group; returns how many replicates there
-   were. times holds row->frames. */
-static size_t fastest(const mote_summary_row *row, uint32_t groups, uint32_t group,
-                      double *times)
+/* Which of the groups of replicates 1 .. last one belongs to: blocks of consecutive numbers, so
+   that groups differ as much as the machine does from one minute to the next. */
+static uint32_t group_of(uint32_t replicate, uint32_t last, uint32_t groups)
+{
+    return (uint32_t)((uint64_t)(replicate - 1) * groups / last);
+}
+
+/* Of each frame the fastest of the replicates of a group of 1 .. last; returns how many
+   replicates there were. times holds row->frames. */
+static size_t fastest(const mote_summary_row *row, uint32_t last, uint32_t groups,
+                      uint32_t group, double *times)
 {
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (!ran(cell) || group_of(row, cell, groups) != group || cell->frames != row->frames)
+        if (!ran(cell) || group_of(cell->replicate, last, groups) != group ||
+            cell->frames != row->frames)
             continue;
         for (size_t k = 0; k < row->frames; ++k) {
             if (count == 0 || cell->total_ns[k] < times[k])
@@ -37,19 +42,20 @@ static size_t fastest(const mote_summary_row *row, uint32_t groups, uint32_t gro
     return count;
 }
 
-/* The quiet total of a group, and its ratio to the reference's; MOTE_NONE without replicates.
- */
+/* The quiet total of a group, and its ratio to that of the reference's replicates of these
+   numbers; MOTE_NONE without replicates. */
 static mote_status quiet_group(const mote_summary_row *row, const mote_summary_row *reference,
                                uint32_t groups, uint32_t group, double *total, double *ratio)
 {
     size_t frames = row->frames, others = reference ? reference->frames : 0;
+    const uint32_t last = last_replicate(row);
     double *mine = malloc((2 * frames + others + 1) * sizeof *mine);
     *total = *ratio = MOTE_NONE;
     if (!mine)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
     double *ratios = mine + frames, *theirs = ratios + frames;
-    bool measured = fastest(row, groups, group, mine) > 0;
-    if (measured && reference && fastest(reference, groups, group, theirs) > 0) {
+    bool measured = fastest(row, last, groups, group, mine) > 0;
+    if (measured && reference && fastest(reference, last, groups, group, theirs) > 0) {
         const uint32_t *a = row->first->frame, *b = reference->first->frame;
         size_t count = 0;
         for (size_t i = 0, k = 0; i < frames && k < others;) {
@@ -95,9 +101,10 @@ static double half_of_processes(const mote_summary_row *row, uint32_t half)
 {
     double sum = 0, count = 0;
     const bool relative = is_relative(row);
+    const uint32_t last = last_replicate(row);
     for (size_t r = 0; r < row->replicates; ++r) {
         double value = relative ? row->processes[r].ratio : row->processes[r].median;
-        if (group_of(row, &row->cells[r], 2) != half || !(value > 0))
+        if (group_of(row->cells[r].replicate, last, 2) != half || !(value > 0))
             continue;
         sum += log(value);
         count += 1;

@@ -234,6 +234,20 @@ static void summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others(void **
     assert_true(summary.noise_floor < 0.01);
 }
 
+/* --until-ci gives the reference more replicates than others: these must not make it faster. */
+static void summary_quiet_ratio_is_of_replicates_of_one_number(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 40; ++r) {
+        if (r <= 10)
+            write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 - r, 0);
+        write_cell((stored_cell){.replicate = r}, 10000 - 10 * r, 0);
+    }
+    make_summary();
+    for (int k = 0; k < MOTE_QUIET_GROUPS; ++k)
+        assert_true(fabs(summary.rows[0].quiet.ratio[k] - 10) < 1e-9);
+}
+
 /* The interval of two processes is wider above than below. */
 static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
 {
@@ -308,6 +322,7 @@ int main(void)
         TEST(fronts_are_of_the_figures_of_the_rows),
         TEST(run_until_ci_tells_the_wider_side_of_the_interval),
         TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
+        TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
