@@ -60,11 +60,11 @@ typedef struct mote_summary_row {
     const mote_stored_cell *cells; /* [replicates], in the summary's stored */
     size_t replicates;             /* that ran, whatever their end */
     size_t finished;               /* of these, with status ok; they come first in no order */
-    const mote_stored_cell *first; /* one with status ok, or else any */
-    mote_cell_status status;       /* ok when any replicate is, else the worst */
-    char *label;                   /* "particle-paper:n=5": parameters that are not default */
-    double n;                      /* the parameter n, or MOTE_NONE */
-    size_t frames;                 /* of one replicate */
+    const mote_stored_cell *first; /* one with status ok, or else one of the row's status */
+    mote_cell_status status; /* ok when any replicate is, else the worst: crashed, timeout */
+    char *label;             /* "particle-paper:n=5": parameters that are not default */
+    double n;                /* the parameter n, or MOTE_NONE */
+    size_t frames;           /* of one replicate */
     uint32_t
         jobs; /* cells that ran at the same time; with 2 or more no ratio is made of its times
                */

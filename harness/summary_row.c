@@ -294,18 +294,24 @@ void mote_summary_row_free(mote_summary_row *row)
 
 static const mote_ratio no_ratio = {SIZE_MAX, MOTE_NONE, MOTE_NONE, MOTE_NONE};
 
+/* How bad an end is; 0: none. */
+static int badness(mote_cell_status status)
+{
+    return status == MOTE_CELL_OK ? 0 : MOTE_CELL_STATUSES - (int)status;
+}
+
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
                                   mote_summary_row *row)
 {
     mote_summary_row made = {.cells = cells, .replicates = replicates, .first = &cells[0]};
-    made.status = cells[0].status;
     for (size_t r = 0; r < replicates; ++r) {
-        if (ran(&cells[r])) {
-            made.first = made.finished ? made.first : &cells[r];
-            made.status = MOTE_CELL_OK;
-            ++made.finished;
-        }
+        const bool worse = badness(cells[r].status) > badness(made.first->status);
+        if (ran(&cells[r]))
+            made.first = made.finished++ > 0 ? made.first : &cells[r];
+        else if (made.finished == 0 && worse)
+            made.first = &cells[r];
     }
+    made.status = made.first->status;
     made.frames = made.first->frames;
     made.jobs = made.first->jobs;
     made.smallest_change = MOTE_NONE;

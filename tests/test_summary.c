@@ -248,6 +248,19 @@ static void summary_quiet_ratio_is_of_replicates_of_one_number(void **state)
         assert_true(fabs(summary.rows[0].quiet.ratio[k] - 10) < 1e-9);
 }
 
+static void summary_status_is_the_worst_where_no_replicate_ended_well(void **state)
+{
+    (void)state;
+    static const char *const ends[] = {"unsupported", "crashed", "timeout"};
+    for (int r = 1; r <= 3; ++r) {
+        const stored_cell cell = {.replicate = r, .status = ends[r - 1]};
+        assert_true(stored_cell_write(directory, &cell));
+    }
+    make_summary();
+    assert_int_equal(summary.rows[0].status, MOTE_CELL_CRASHED);
+    assert_int_equal(summary.rows[0].first->replicate, 2); /* whose reason is told */
+}
+
 /* The interval of two processes is wider above than below. */
 static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
 {
@@ -323,6 +336,7 @@ int main(void)
         TEST(run_until_ci_tells_the_wider_side_of_the_interval),
         TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
         TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
+        TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
