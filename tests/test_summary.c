@@ -1,4 +1,5 @@
 /* Which cells are put into one row, and which rows are compared with each other. */
+#include "harness/figure.h"
 #include "harness/front.h"
 #include "harness/summary.h"
 #include "harness/table.h"
@@ -261,6 +262,29 @@ static void summary_status_is_the_worst_where_no_replicate_ended_well(void **sta
     assert_int_equal(summary.rows[0].first->replicate, 2); /* whose reason is told */
 }
 
+/* Process by process, though the reference lacks the first, and the first was cut short. */
+static void figure_ratios_are_of_replicates_of_one_number(void **state)
+{
+    (void)state;
+    write_frames((stored_cell){.method = "certified", .replicate = 1}, 1, 1, 10, 0);
+    for (int r = 2; r <= 4; ++r) {
+        write_cell((stored_cell){.method = "certified", .replicate = r}, 10 * r, 0);
+        write_cell((stored_cell){.replicate = r}, 100 * r, 0);
+    }
+    make_summary();
+    const mote_figure_run run = {.summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    assert_int_equal(figure.missing.size, 0);
+    const char *line = strchr(figure.data.data, '\n');
+    assert_non_null(line);
+    double frame, ratio, low, high;
+    assert_int_equal(sscanf(line, "%lf %lf %lf %lf", &frame, &ratio, &low, &high), 4);
+    assert_true(fabs(ratio - 10) < 1e-9 && fabs(low - 10) < 1e-9 && fabs(high - 10) < 1e-9);
+    free(figure.data.data);
+    free(figure.caption.data);
+}
+
 /* The interval of two processes is wider above than below. */
 static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
 {
@@ -337,6 +361,7 @@ int main(void)
         TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
         TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
         TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
+        TEST(figure_ratios_are_of_replicates_of_one_number),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
