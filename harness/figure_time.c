@@ -5,25 +5,43 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Mean and largest of the frames from first to last. */
+/* Mean and largest of the frames from first to last, or of those that were measured of them. */
 typedef struct span {
     double mean, max;
+    uint32_t first, last; /* measured; 0, 0: none */
 } span;
 
 static span over_frames(const mote_summary_row *row, const double *values, uint32_t first,
                         uint32_t last)
 {
-    span found = {0, 0};
+    span found = {.mean = 0};
     double count = 0;
     for (size_t k = 0; k < row->first->frames; ++k) {
-        if (row->first->frame[k] < first || row->first->frame[k] > last)
+        const uint32_t frame = row->first->frame[k];
+        if (frame < first || frame > last)
             continue;
         found.mean += values[k];
         found.max = values[k] > found.max ? values[k] : found.max;
+        found.first = found.first ? found.first : frame;
+        found.last = frame;
         ++count;
     }
     found.mean = count > 0 ? found.mean / count : MOTE_NONE;
     return found;
+}
+
+/* "active interval 1.2 ms on average, 3 ms at most", and of which queries where it is not of
+   all from first to last; nothing where none was measured. */
+static void add_span(const span *s, const char *name, uint32_t first, uint32_t last,
+                     const char *separator, mote_text *caption)
+{
+    if (s->last == 0)
+        return;
+    mote_text_add(caption, "%s %s", separator, name);
+    if (s->first > first || s->last < last)
+        mote_text_add(caption, " (%u-%u only)", s->first, s->last);
+    mote_text_add(caption, " %.3g ms on average, %.3g ms at most", s->mean * 1e-6,
+                  s->max * 1e-6);
 }
 
 /* The frames that the paper's Figure 3 averages over. */
@@ -45,11 +63,14 @@ static mote_status add_queries(const mote_summary_row *row, const char *title,
             mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
         const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
         const span warm = over_frames(row, values, 1, WARM_LAST);
-        mote_text_add(&figure->caption,
-                      " %s: active interval %.3g ms on average, %.3g ms at most; warming "
-                      "queries %.3g ms, %.3g ms.",
-                      title, active.mean * 1e-6, active.max * 1e-6, warm.mean * 1e-6,
-                      warm.max * 1e-6);
+        if (active.last > 0 || warm.last > 0) {
+            mote_text_add(&figure->caption, " %s:", title);
+            add_span(&active, "active interval", ACTIVE_FIRST, ACTIVE_LAST, "",
+                     &figure->caption);
+            add_span(&warm, "warming queries", 1, WARM_LAST, active.last > 0 ? ";" : "",
+                     &figure->caption);
+            mote_text_add(&figure->caption, ".");
+        }
     }
     free(values);
     return status;

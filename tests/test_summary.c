@@ -285,6 +285,28 @@ static void figure_ratios_are_of_replicates_of_one_number(void **state)
     free(figure.caption.data);
 }
 
+/* A run of some of the frames has no figure of the others. */
+static void figure_queries_tells_of_which_frames_it_is(void **state)
+{
+    (void)state;
+    static const char paper[] = "particle-paper", five[] = "{\"n\": 5}";
+    write_frames(
+        (stored_cell){
+            .scenario = "ww", .method = paper, .parameters = five, .frames = "[950, 953]"},
+        950, 953, 2e6, 0);
+    make_summary();
+    const mote_figure_run run = {.summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_queries(&run, "ww", &figure), MOTE_OK);
+    assert_non_null(strstr(figure.caption.data,
+                           " particles, n = 5: active interval (950-953 only) "
+                           "2 ms on average, 2 ms at most."));
+    assert_null(strstr(figure.caption.data, "nan"));
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+}
+
 /* The interval of two processes is wider above than below. */
 static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
 {
@@ -362,6 +384,7 @@ int main(void)
         TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
         TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
         TEST(figure_ratios_are_of_replicates_of_one_number),
+        TEST(figure_queries_tells_of_which_frames_it_is),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
