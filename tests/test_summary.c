@@ -281,6 +281,30 @@ static void figure_ratios_are_of_replicates_of_one_number(void **state)
     double frame, ratio, low, high;
     assert_int_equal(sscanf(line, "%lf %lf %lf %lf", &frame, &ratio, &low, &high), 4);
     assert_true(fabs(ratio - 10) < 1e-9 && fabs(low - 10) < 1e-9 && fabs(high - 10) < 1e-9);
+}
+
+/* Of two runs of 1,000 bodies the ratio of one is to another method than the caption names. */
+static void figure_bodies_caption_is_of_what_is_drawn(void **state)
+{
+    (void)state;
+    static const char row[] =
+        "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, "
+        "\"near_pairs_wanted\": %d, \"step_mean_ns\": 5000, \"step_ns\": "
+        "4000, \"rss_peak_bytes\": 1, \"ratio\": %d, \"reference\": \"%s\"}";
+    char rows[2][256], text[640], path[96];
+    (void)snprintf(rows[0], sizeof rows[0], row, 1, 40, "fcl-aabb:refit=every");
+    (void)snprintf(rows[1], sizeof rows[1], row, 4, 30, "aabb-tree");
+    (void)snprintf(text, sizeof text, "{\"rows\": [%s, %s]}\n", rows[0], rows[1]);
+    assert_int_equal(mote_directory_make(directory), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/bodies.json", directory);
+    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+    const mote_figure_run run = {.directory = directory, .summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_bodies(&run, "", &figure), MOTE_OK);
+    assert_non_null(strstr(figure.data.data, "1000 5 "));
+    assert_non_null(strstr(figure.caption.data, "Points: means"));
+    assert_non_null(strstr(figure.caption.data, "one 40th"));
+    assert_null(strstr(figure.caption.data, "one 30th"));
     free(figure.data.data);
     free(figure.caption.data);
 }
@@ -385,6 +409,7 @@ int main(void)
         TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
         TEST(figure_ratios_are_of_replicates_of_one_number),
         TEST(figure_queries_tells_of_which_frames_it_is),
+        TEST(figure_bodies_caption_is_of_what_is_drawn),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
