@@ -271,11 +271,10 @@ static double shown_error(const mote_summary_row *row)
     return fmax(row->error.p99, MOTE_EXACT_ERROR);
 }
 
+/* Never without intervals: one replicate says nothing sure. */
 static bool dominates(const mote_summary_row *a, const mote_summary_row *b)
 {
-    double high = a->total.high == a->total.high ? a->total.high : a->total.median;
-    double low = b->total.low == b->total.low ? b->total.low : b->total.median;
-    return same_place(a, b) && high < low && shown_error(a) <= shown_error(b);
+    return same_place(a, b) && a->total.high < b->total.low && shown_error(a) <= shown_error(b);
 }
 
 static void find_dominators(mote_fronts *fronts)

@@ -35,8 +35,9 @@ typedef struct mote_fronts {
     const mote_summary *summary; /* borrowed */
     mote_front *items;           /* in the order of the summary's rows */
     size_t count;
-    size_t *dominator; /* [summary->count]: the fastest row that is surely faster and no less
-                          exact than this one; SIZE_MAX: none */
+    size_t *dominator; /* [summary->count]: the fastest row that is surely faster (by intervals,
+                          so with two replicates or more) and no less exact than this one;
+                          SIZE_MAX: none */
 } mote_fronts;
 
 /* Of rows with a distance and comparable times; others are in no family. The caller frees

@@ -101,16 +101,17 @@ static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
                                          {.fingerprint = "g"}};
     static const double scale[] = {100, 1, 1e4};
     for (int i = 0; i < 3; ++i) {
-        char ours[16], fcl[16];
-        (void)snprintf(ours, sizeof ours, "a%d", i);
-        (void)snprintf(fcl, sizeof fcl, "b%d", i);
+        char id[16];
         stored_cell cell = scenes[i];
-        cell.id = ours;
-        cell.method = "certified";
-        write_cell(cell, 10 * scale[i], 0);
-        cell.id = fcl;
-        cell.method = "fcl-aabb";
-        write_cell(cell, 20 * scale[i], 0);
+        for (cell.replicate = 1; cell.replicate <= 2; ++cell.replicate) {
+            cell.id = id;
+            (void)snprintf(id, sizeof id, "a%d-%d", i, cell.replicate);
+            cell.method = "certified";
+            write_cell(cell, 10 * scale[i], 0);
+            (void)snprintf(id, sizeof id, "b%d-%d", i, cell.replicate);
+            cell.method = "fcl-aabb";
+            write_cell(cell, 20 * scale[i], 0);
+        }
     }
     make_summary();
     mote_fronts fronts;
@@ -126,6 +127,19 @@ static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
         assert_true((by == SIZE_MAX) == (id[0] == 'a'));
         assert_true(by == SIZE_MAX || summary.rows[by].first->id[1] == id[1]);
     }
+    mote_fronts_free(&fronts);
+}
+
+/* Without an interval nothing is sure. */
+static void fronts_of_one_replicate_have_no_dominator(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.method = "certified"}, 10, 0);
+    write_cell((stored_cell){.replicate = 1}, 11, 0);
+    make_summary();
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_true(fronts.dominator[0] == SIZE_MAX && fronts.dominator[1] == SIZE_MAX);
     mote_fronts_free(&fronts);
 }
 
@@ -410,6 +424,7 @@ int main(void)
         TEST(figure_ratios_are_of_replicates_of_one_number),
         TEST(figure_queries_tells_of_which_frames_it_is),
         TEST(figure_bodies_caption_is_of_what_is_drawn),
+        TEST(fronts_of_one_replicate_have_no_dominator),
         TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
