@@ -44,7 +44,8 @@ static json_t *merge(const json_t *base, const json_t *over, bool element_wise)
 
 static char *base_path(const char *path, const char *name)
 {
-    return mote_name_ends(name, ".json") ? mote_path_beside(path, name) : mote_catalog_path(name);
+    return mote_name_ends(name, ".json") ? mote_path_beside(path, name)
+                                         : mote_catalog_path(name);
 }
 
 /* Meshes are named from the folder of the file that names them. path: of the other scenario,
@@ -73,7 +74,8 @@ static mote_status open_base(const mote_json_file *file, const char *name, mote_
                               : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
     if (status == MOTE_OK)
         status = mote_json_open(path, base);
-    if (status == MOTE_OK && !move_meshes(base->root, mote_name_ends(name, ".json") ? name : path)) {
+    if (status == MOTE_OK &&
+        !move_meshes(base->root, mote_name_ends(name, ".json") ? name : path)) {
         mote_json_close(base);
         status = mote_fail(MOTE_ENOMEM, "%s: no memory for its meshes' paths", name);
     }

@@ -464,7 +464,8 @@ static const char stored[] =
     "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": "
     "1000,"
     "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": 2500000, \"rss_peak_bytes\": 9000000,"
-    "\"ratio\": 260.4}, {\"method\": \"aabb-tree\", \"status\": \"timeout\", \"bodies\": 1000,"
+    "\"ratio\": 260.4, \"reference\": \"fcl-aabb:refit=every\"}, {\"method\": \"aabb-tree\", "
+    "\"status\": \"timeout\", \"bodies\": 1000,"
     "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": null, \"rss_peak_bytes\": 1, \"ratio\": "
     "null}]}\n";
 

@@ -214,7 +214,7 @@ static void formats_of_odd_cells_tell_rows_apart(void **state)
     assert_null(strstr(said, "fcl-obb"));
     assert_non_null(strstr(said, "lower_value"));
     hear(&csv);
-    assert_non_null(strstr(said, "\"m2, four cores\"\n"));
+    assert_non_null(strstr(said, "\"m2, four cores\",0,1\n"));
     assert_non_null(strstr(said, "crashed"));
 }
 
