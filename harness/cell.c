@@ -191,16 +191,16 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
     if (status != MOTE_OK)
         return status;
     json_t *object = cell_json(cell, MOTE_CELL_OK, program);
-    json_t *more =
-        json_pack("{s:I, s:I, s:f, s:o*, s:o*, s:o*, s:I, s:i, s:[f,f], s:[f,f], s:f}",
-                  "build_ns", (json_int_t)result->build_ns, "clock_ns",
-                  (json_int_t)result->clock_ns, "overhead_ns", result->overhead_ns,
-                  "heap_live_bytes", bytes_json(result->heap_counted, result->heap_live_bytes),
-                  "heap_peak_bytes", bytes_json(result->heap_counted, result->heap_peak_bytes),
-                  "deform_bytes", json_integer(result->deform_bytes), "rss_peak_bytes",
-                  (json_int_t)result->rss_peak_bytes, "core", result->core, "load",
-                  result->load[0], result->load[1], "clock_mhz", result->clock_mhz[0],
-                  result->clock_mhz[1], "wall_seconds", result->wall_seconds);
+    json_t *more = json_pack(
+        "{s:I, s:I, s:I, s:f, s:o*, s:o*, s:o*, s:I, s:i, s:[f,f], s:[f,f], s:f}", "rows",
+        (json_int_t)result->row_count, "build_ns", (json_int_t)result->build_ns, "clock_ns",
+        (json_int_t)result->clock_ns, "overhead_ns", result->overhead_ns, "heap_live_bytes",
+        bytes_json(result->heap_counted, result->heap_live_bytes), "heap_peak_bytes",
+        bytes_json(result->heap_counted, result->heap_peak_bytes), "deform_bytes",
+        json_integer(result->deform_bytes), "rss_peak_bytes",
+        (json_int_t)result->rss_peak_bytes, "core", result->core, "load", result->load[0],
+        result->load[1], "clock_mhz", result->clock_mhz[0], result->clock_mhz[1],
+        "wall_seconds", result->wall_seconds);
     if (!object || !more || json_object_update(object, more) != 0) {
         json_decref(object);
         object = NULL;

@@ -297,6 +297,19 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
 }
 
+/* A file that was cut at the end of a line looks whole; cells of older builds do not tell. */
+static mote_status check_rows(const char *path, const mote_stored_cell *cell)
+{
+    const json_t *rows = json_object_get(cell->json, "rows");
+    if (!rows ||
+        (json_is_integer(rows) && json_integer_value(rows) == (json_int_t)cell->frames))
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL,
+                     "%s: %zu whole rows, not the %lld that were measured; remove the cell and "
+                     "run again",
+                     path, cell->frames, (long long)json_integer_value(rows));
+}
+
 static mote_status read_csv(const char *directory, mote_stored_cell *cell)
 {
     char *path = mote_format("%s/cells/%s.csv", directory, cell->id);
@@ -306,6 +319,8 @@ static mote_status read_csv(const char *directory, mote_stored_cell *cell)
                               : mote_fail(MOTE_ENOMEM, "no memory for a name");
     if (status == MOTE_OK)
         status = read_frames(path, text, cell);
+    if (status == MOTE_OK)
+        status = check_rows(path, cell);
     free(text);
     free(path);
     return status;

@@ -213,6 +213,25 @@ static void stored_read_of_a_damaged_csv_names_the_line(void **state)
         write_plain("cells/fcl-aabb-1.csv", changes[i].csv);
         refused(changes[i].csv, changes[i].says);
     }
+    static const char rows[] = ROWS;
+    static const struct {
+        const char *more;
+        int bytes;                                       /* of the rows that are left */
+    } cuts[] = {{", \"rows\": 4", (int)sizeof rows - 2}, /* without its last line feed */
+                {", \"rows\": 4", 0},
+                {", \"rows\": 5", (int)sizeof rows - 1},
+                {", \"rows\": \"4\"", (int)sizeof rows - 1}};
+    for (size_t i = 0; i < sizeof cuts / sizeof cuts[0]; ++i) {
+        char left[sizeof rows];
+        (void)snprintf(left, sizeof left, "%.*s", cuts[i].bytes, rows);
+        write_cell((stored_cell){.rows = left, .more = cuts[i].more});
+        refused(left, "cells/fcl-aabb-1.csv: ");
+        assert_non_null(strstr(mote_error_text(), " whole rows, not the "));
+    }
+    write_cell((stored_cell){.rows = rows, .more = ", \"rows\": 4"});
+    assert_int_equal(mote("summarize"), 0);
+    write_cell((stored_cell){.rows = ROWS});
+    write_plain("cells/fcl-aabb-1.csv", changes[sizeof changes / sizeof changes[0] - 1].csv);
     assert_int_equal(mote("summarize"), 4);
     assert_memory_equal(text, "mote: ", 6);
     assert_non_null(strstr(text, "fcl-aabb-1.csv:3: not a frame's row"));
