@@ -293,6 +293,13 @@ static bool times_comparable(const json_t *row)
     return !json_is_false(json_object_get(row, "times_comparable"));
 }
 
+/* Replicates that did not end well; older runs do not tell them. */
+static double failed_replicates(const json_t *row)
+{
+    const double failed = number_at(row, NULL, "replicates_failed");
+    return failed == failed ? failed : 0;
+}
+
 static void compare_row(const json_t *base, const json_t *fresh, bool other_machine,
                         mote_change *change)
 {
@@ -318,6 +325,8 @@ static void compare_row(const json_t *base, const json_t *fresh, bool other_mach
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
         compare_times(base, fresh, other_machine, change);
+    compare_figure(change, "failed replicates", failed_replicates(base),
+                   failed_replicates(fresh), 0);
     compare_counts(base, fresh, change);
     compare_figure(change, "heap", number_at(base, NULL, "heap_live_bytes"),
                    number_at(fresh, NULL, "heap_live_bytes"), BYTES_SHARE);

@@ -43,10 +43,11 @@ typedef struct mote_comparison {
    both runs raise it. A time is slower only when its ratio is beyond the floor and beyond the
    smallest change that the rows can detect. Where manifest.json names another processor, times
    are compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes and
-   accuracy are compared as they are. Instructions (instructions.json of both) may grow by 1 %;
-   with another processor or compiler they are told and not judged. MOTE_EIO or MOTE_EINVAL when
-   a summary cannot be read, or a manifest.json or instructions.json that is there; MOTE_EINVAL
-   when they have no row in common. The caller frees *comparison. */
+   accuracy are compared as they are, and so is how many replicates failed. Instructions
+   (instructions.json of both) may grow by 1 %; with another processor or compiler they are told
+   and not judged. MOTE_EIO or MOTE_EINVAL when a summary cannot be read, or a manifest.json or
+   instructions.json that is there; MOTE_EINVAL when they have no row in common. The caller
+   frees *comparison. */
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison);
 void mote_comparison_free(mote_comparison *comparison);
