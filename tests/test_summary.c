@@ -67,6 +67,13 @@ static void make_summary(void)
     assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
 }
 
+static void free_figure(mote_figure *figure)
+{
+    free(figure->data.data);
+    free(figure->caption.data);
+    free(figure->missing.data);
+}
+
 /* A scenario's file may change between two runs into one directory. */
 static void summary_of_other_questions_keeps_their_cells_apart(void **state)
 {
@@ -295,6 +302,7 @@ static void figure_ratios_are_of_replicates_of_one_number(void **state)
     double frame, ratio, low, high;
     assert_int_equal(sscanf(line, "%lf %lf %lf %lf", &frame, &ratio, &low, &high), 4);
     assert_true(fabs(ratio - 10) < 1e-9 && fabs(low - 10) < 1e-9 && fabs(high - 10) < 1e-9);
+    free_figure(&figure);
 }
 
 /* Of two runs of 1,000 bodies the ratio of one is to another method than the caption names. */
@@ -319,8 +327,7 @@ static void figure_bodies_caption_is_of_what_is_drawn(void **state)
     assert_non_null(strstr(figure.caption.data, "Points: means"));
     assert_non_null(strstr(figure.caption.data, "one 40th"));
     assert_null(strstr(figure.caption.data, "one 30th"));
-    free(figure.data.data);
-    free(figure.caption.data);
+    free_figure(&figure);
 }
 
 /* A run of some of the frames has no figure of the others. */
@@ -340,9 +347,7 @@ static void figure_queries_tells_of_which_frames_it_is(void **state)
                            " particles, n = 5: active interval (950-953 only) "
                            "2 ms on average, 2 ms at most."));
     assert_null(strstr(figure.caption.data, "nan"));
-    free(figure.data.data);
-    free(figure.caption.data);
-    free(figure.missing.data);
+    free_figure(&figure);
 }
 
 /* The interval of two processes is wider above than below. */
