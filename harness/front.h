@@ -3,9 +3,8 @@
    front at an error e is the time that it needs to be at most so wrong: of its fastest
    configuration that is, or, towards the next faster one that is not, interpolated between the
    two on logarithmic scales. Nothing is interpolated from an exact configuration: none lies
-   between. Error is the 99th percentile, in
-   L, time the median total, both over all frames of all replicates, as in the summary's rows.
- */
+   between. Error is the 99th percentile, in L, time the median total, both over all frames of
+   all replicates, as in the summary's rows. */
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 
