@@ -3,7 +3,8 @@
 # sanitizers, and runs each build with 1 to 8 threads: every run must give the answers of
 # tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the root; BUILD holds
 # the table of methods. RUNS in all: those beyond eight of each build (56) are shared by the
-# optimised ones. CHECKS: a file that make reliability makes its table of.
+# optimised ones; 1: one run of one build, to see that it can be built. CHECKS: a file that make
+# reliability makes its table of.
 set -eu
 build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)
@@ -15,8 +16,8 @@ libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread 
 cache=$(command -v ccache || true)
 
 sources=$(ls core/*.c datasets/*.c harness/scenario*.c harness/mesh_*.c | grep -v core/plain.c)
-for name in approach catalog child command confine curve data file json_line json_print json_read motion number_text probe reach \
-    spread turn; do
+for name in approach catalog child command confine curve data file json_line json_memory json_print \
+    json_read motion number_text probe reach spread turn; do
     sources="$sources harness/$name.c"
 done
 sources="$sources tests/answers.c $build/core_registry.c"
@@ -50,8 +51,8 @@ try_build() { # NAME COMPILER FLAGS MORE_RUNS
         failed=$((failed + 1))
         return
     fi
-    for threads in 1 2 3 4 5 6 7 8; do
-        check "$work/$1/answers" --check tests/answers.txt --threads $threads
+    for threads in $all_threads; do
+        check "$work/$1/answers" --check tests/answers.txt --threads "$threads"
     done
     for ((run = 0; run < $4; ++run)); do
         check "$work/$1/answers" --check tests/answers.txt
@@ -60,6 +61,13 @@ try_build() { # NAME COMPILER FLAGS MORE_RUNS
     echo "answered: $2 $3"
 }
 
+if [ "$runs" -eq 1 ]; then
+    all_threads=2
+    try_build gcc-O0 gcc -O0 0
+    [ $tried -gt 0 ] && [ $failed -eq 0 ]
+    exit
+fi
+all_threads="1 2 3 4 5 6 7 8"
 more=$((runs > 56 ? (runs - 56 + 3) / 4 : 0))
 for compiler in gcc clang; do
     try_build $compiler-O0 $compiler -O0 0
