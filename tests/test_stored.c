@@ -1,80 +1,12 @@
 /* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
-   summary, a choice of configurations and a merge say of the rest follows from it. */
+   summary and a merge say of the rest follows from it. */
 #include "harness/figure.h"
 #include "harness/merge.h"
 #include "harness/record.h"
 #include "harness/summary.h"
-#include "harness/tune.h"
-#include "tests/plain_file.h"
-#include "tests/program.h"
-#include "tests/stored_cells.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "tests/stored_run.h"
 
 #include <math.h>
-#include <unistd.h>
-
-static char base[] = "/tmp/mote-test-stored-XXXXXX";
-static char directory[64], said[64], text[1 << 16];
-static int directories;
-
-static int make_base(void **state)
-{
-    (void)state;
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void **state)
-{
-    (void)state;
-    return program_remove(base);
-}
-
-static int next_directory(void **state)
-{
-    (void)state;
-    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories);
-    (void)snprintf(said, sizeof said, "%s/said-%d", base, directories);
-    ++directories;
-    return 0;
-}
-
-static void write_plain(const char *name, const char *content)
-{
-    char path[256];
-    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    assert_true(plain_file_put(path, content));
-}
-
-static void write_cell(stored_cell cell)
-{
-    assert_true(stored_cell_write(directory, &cell));
-}
-
-#define ROWS                                                                                   \
-    "1,1,2,3,0.5,0,0,0,7\n2,1,2,3,0.25,1e-3,0,0,7\n3,1,2,3,0,0,1,1,7\n4,1,2,3,0,0,1,1,7\n"
-
-/* mote COMMAND DIRECTORY */
-static int mote(const char *command)
-{
-    char line[256];
-    (void)snprintf(line, sizeof line, "%s %s", command, directory);
-    const int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
-}
-
-static void refused(const char *change, const char *says)
-{
-    mote_stored stored;
-    if (mote_stored_read(directory, NULL, &stored) != MOTE_EINVAL ||
-        !strstr(mote_error_text(), says))
-        fail_msg("%s: not \"%s\" but \"%s\"", change, says, mote_error_text());
-}
 
 static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state)
 {
@@ -314,12 +246,6 @@ static const mote_summary_row *find_row(const mote_summary *summary, const char 
     return NULL;
 }
 
-static void about(double value, double expected)
-{
-    if (!(fabs(value - expected) <= 1e-9 * fabs(expected)))
-        fail_msg("%.17g, not %.17g", value, expected);
-}
-
 /* Replicate r of a method: frame k takes scale * k + r ns; frames as digits, 'x' after one for
    no time at all. */
 static void write_times(const char *method, int replicate, const char *frames, double scale)
@@ -507,103 +433,6 @@ static void figure_quantile_of_many_replicates_takes_them_all(void **state)
     mote_summary_free(&summary);
 }
 
-#define RIGHT(ns) "1,0,0," #ns ",0.5,0,0,0,7\n"
-#define MISSED(ns) "1,0,0," #ns ",0,0,0,1,7\n"
-#define FAR(ns) "1,0,0," #ns ",0.5,0.25,0,0,7\n"
-#define WRONG(ns) "1,0,0," #ns ",0.5,0.25,1,0,7\n"
-
-static void tune_of_right_and_wrong_configurations_names_the_fastest_right_one(void **state)
-{
-    (void)state;
-    static const stored_cell cells[] = {
-        {.method = "fcl-aabb", .id = "a", .status = "crashed"},
-        {.method = "fcl-obb", .id = "b", .rows = WRONG(10), .parameters = "{\"n\": 1}"},
-        {.method = "fcl-obb", .id = "b2", .rows = MISSED(9), .parameters = "{\"n\": 1.25}"},
-        {.method = "fcl-obb", .id = "b3", .rows = FAR(12), .parameters = "{\"n\": 1.5}"},
-        {.method = "fcl-obb", .id = "c", .rows = RIGHT(50), .parameters = "{\"n\": 2}"},
-        {.method = "fcl-obb", .id = "d", .rows = RIGHT(40), .parameters = "{\"n\": 3}"},
-        {.method = "fcl-obb", .id = "e", .rows = WRONG(5), .parameters = "{\"n\": 4}"},
-        {.method = "fcl-obb", .id = "f", .rows = RIGHT(90), .parameters = "{\"n\": 5}"},
-        {.method = "fcl-obb", .id = "g", .rows = RIGHT(1), .more = ", \"jobs\": 2"},
-        {.method = "fcl-rss", .id = "h", .rows = WRONG(7)},
-        {.method = "fcl-rss", .id = "i", .rows = RIGHT(8), .cache = "evict"},
-        {.method = "fcl-rss", .id = "j", .rows = RIGHT(9), .scenario = "t"},
-        {.method = "fcl-rss", .id = "k", .status = "timeout", .scenario = "u"}};
-    assert_int_equal(mote("tune"), 4);
-    assert_non_null(strstr(text, "/cells: No such file or directory; name the directory"));
-    write_cell(cells[0]);
-    assert_int_equal(mote("tune"), 0); /* nothing ended well: no row */
-    assert_string_equal(text, "");
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i)
-        write_cell(cells[i]);
-    assert_int_equal(mote("tune"), 0);
-    static const struct {
-        const char *scenario, *cache, *method;
-        double best, worst;
-        int configurations;
-        bool right;
-    } expected[] = {{"s", "hot", "fcl-obb", 40, 90, 7, true},
-                    {"s", "hot", "fcl-rss", 7, 7, 1, false},
-                    {"s", "evict", "fcl-rss", 8, 8, 1, true},
-                    {"t", "hot", "fcl-rss", 9, 9, 1, true}};
-    json_t *object = NULL;
-    assert_int_equal(mote_record_read_json(directory, "tune.json", &object), MOTE_OK);
-    const json_t *rows = json_object_get(object, "rows");
-    assert_int_equal(json_array_size(rows), 4);
-    for (size_t i = 0; i < 4; ++i) {
-        const json_t *row = json_array_get(rows, i);
-        const char *scenario, *cache, *method;
-        double best, worst;
-        int configurations, right;
-        assert_int_equal(json_unpack((json_t *)(uintptr_t)row,
-                                     "{s:s, s:s, s:s, s:F, s:{s:F}, s:i, s:b}", "scenario",
-                                     &scenario, "cache", &cache, "method", &method, "total_ns",
-                                     &best, "worst", "total_ns", &worst, "configurations",
-                                     &configurations, "right", &right),
-                         0);
-        assert_string_equal(scenario, expected[i].scenario);
-        assert_string_equal(cache, expected[i].cache);
-        assert_string_equal(method, expected[i].method);
-        about(best, expected[i].best);
-        about(worst, expected[i].worst);
-        assert_int_equal(configurations, expected[i].configurations);
-        assert_true((right != 0) == expected[i].right);
-    }
-    json_decref(object);
-    assert_non_null(strstr(text, "none of them right"));
-}
-
-static void tune_best_fcl_reads_only_rows_that_mote_wrote(void **state)
-{
-    (void)state;
-#define TUNED(scenario, cache, method, name, right, total)                                     \
-    "{\"scenario\": \"" scenario "\", \"cache\": \"" cache "\", \"method\": \"" method         \
-    "\", \"configuration\": \"" name "\", \"right\": " right ", \"total_ns\": " total "}"
-    static const char rows[] =
-        "{\"rows\": [5, {\"scenario\": \"s\"}," TUNED("s", "hot", "fcl-a", "a", "true", "9") "," TUNED(
-            "t", "hot", "fcl-b", "b", "true",
-            "1") "," TUNED("s", "evict", "fcl-c", "c", "true",
-                           "1") "," TUNED("s", "hot", "certified", "d", "true",
-                                          "1") "," TUNED("s", "hot", "fcl-e", "e", "false",
-                                                         "1") "," TUNED("s", "hot", "fcl-f",
-                                                                        "f", "true",
-                                                                        "8") "," TUNED("s",
-                                                                                       "hot",
-                                                                                       "fcl-g",
-                                                                                       "g",
-                                                                                       "true",
-                                                                                       "8.5") "]}";
-    assert_int_equal(mote_directory_make(directory), MOTE_OK);
-    write_plain("tune.json", rows);
-    assert_int_equal(mote("tune --best-fcl s"), 0);
-    assert_string_equal(text, "f\n");
-    assert_int_equal(mote("tune --best-fcl u"), 0);
-    assert_string_equal(text, "");
-    write_plain("tune.json", "{\"rows\": [");
-    assert_int_equal(mote("tune --best-fcl s"), 4);
-    assert_non_null(strstr(text, "tune.json:1:"));
-}
-
 /* mote merge DIRECTORY/out DIRECTORY/in: its exit status, and what it must say. */
 static void merge(int status, const char *says)
 {
@@ -660,7 +489,6 @@ static void merge_copies_what_is_not_there_and_adds_sessions(void **state)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup(name, next_directory)
     const struct CMUnitTest tests[] = {
         TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file),
         TEST(stored_read_keeps_every_bit_of_a_seed),
@@ -675,8 +503,6 @@ int main(void)
         TEST(summary_reference_is_of_the_same_frames_and_caches),
         TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures),
         TEST(figure_quantile_of_many_replicates_takes_them_all),
-        TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one),
-        TEST(tune_best_fcl_reads_only_rows_that_mote_wrote),
         TEST(merge_copies_what_is_not_there_and_adds_sessions),
     };
     return cmocka_run_group_tests(tests, make_base, remove_base);
