@@ -267,6 +267,8 @@ mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t 
         mote_escape_script(text, list);
         mote_text_add(text, "}\n");
     }
+    if (status == MOTE_OK && text->failed)
+        status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
     free(list);
     json_decref(notes);
     return status;

@@ -60,7 +60,7 @@ mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *t
 mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, mote_text *text);
 
 /* Appends every scenario of the report that can be shown, {"scenes": [...], "notes": [...]}.
- *shown: how many. */
+ *shown: how many. MOTE_ENOMEM when text cannot grow. */
 mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t *shown);
 
 #endif
