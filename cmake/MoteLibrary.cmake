@@ -13,11 +13,11 @@ endif()
 set(umbrella "")
 set(symbols "")
 foreach(name ${public_headers})
-  set(header ${CMAKE_SOURCE_DIR}/core/${name}.h)
+  file(GLOB header ${CMAKE_SOURCE_DIR}/core/${name}.h ${CMAKE_SOURCE_DIR}/core/*/${name}.h)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
   # Installed as <mote/NAME.h>; in the sources they include each other from the root.
   file(READ ${header} text)
-  string(REPLACE "#include \"core/" "#include \"mote/" text "${text}")
+  string(REGEX REPLACE "#include \"core/([a-z]+/)?" "#include \"mote/" text "${text}")
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/include/mote/${name}.h CONTENT "${text}" @ONLY)
   # What it declares, which starts in the first column, is what the shared library exports.
   string(REGEX MATCHALL "\n[a-z][^\n;(]*[ *]mote_[a-z0-9_]+(\\(|\\[\\];)" declared "${text}")

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_CELL_H
 #define MOTE_HARNESS_CELL_H
 
-#include "harness/command.h"
+#include "harness/method_choice.h"
 #include "harness/heap_count.h"
 #include "harness/scenario.h"
 #include "harness/truth.h"

@@ -1,6 +1,7 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
 #include "harness/approach.h"
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/curve.h"
 #include "harness/file.h"
 #include "harness/json_print.h"

@@ -1,5 +1,6 @@
 /* mote bodies [--out DIR] [--quick]: several bodies by every method. */
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/file.h"
 #include "harness/manifest.h"
 #include "harness/study_bodies.h"

@@ -1,5 +1,6 @@
 /* mote compare BASE NEW: is a run better or worse than another? */
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/compare.h"
 #include "harness/record.h"
 

@@ -1,5 +1,6 @@
 /* mote dynamics [--out DIR] [--quick] ...: passes through over n, in the closed loop. */
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/file.h"
 #include "harness/manifest.h"
 #include "harness/study_dynamics.h"

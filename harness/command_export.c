@@ -3,6 +3,8 @@
 #include "datasets/obj_write.h"
 #include "harness/answer_json.h"
 #include "harness/command.h"
+#include "harness/method_choice.h"
+#include "harness/options.h"
 #include "harness/file.h"
 #include "harness/json_print.h"
 #include "harness/probe.h"

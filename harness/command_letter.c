@@ -2,6 +2,7 @@
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
 #include "harness/command.h"
+#include "harness/options.h"
 
 #include <stdio.h>
 

@@ -1,7 +1,9 @@
 /* mote list methods|scenarios|fields [--json] */
 #include "core/field_maker.h"
+#include "core/method.h"
 #include "harness/catalog.h"
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/record.h"
 
 #include <jansson.h>

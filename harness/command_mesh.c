@@ -1,6 +1,7 @@
 /* mote mesh FILE [--json]: what a mesh is. */
 #include "core/parts.h"
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/mesh_import.h"
 #include "harness/record.h"
 

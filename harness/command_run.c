@@ -1,6 +1,7 @@
 #include "harness/bodies_run.h"
 #include "harness/child.h"
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/file.h"
 #include "harness/run.h"
 #include "harness/scenario.h"

@@ -2,6 +2,8 @@
 #include "harness/bodies_simulate_print.h"
 #include "harness/film.h"
 #include "harness/json_print.h"
+#include "harness/command.h"
+#include "harness/options.h"
 #include "harness/simulate.h"
 #include "harness/statistics.h"
 #include "harness/trace.h"

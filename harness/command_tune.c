@@ -1,5 +1,6 @@
 /* mote tune DIR: the best configuration of each method on each scenario of a run. */
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/record.h"
 #include "harness/tune.h"
 

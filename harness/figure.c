@@ -1,31 +1,9 @@
 #include "harness/figure.h"
 
-#include "harness/data.h"
 #include "harness/front.h"
-#include "harness/spawn.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-void mote_figure_quote(mote_text *text, const char *string)
-{
-    mote_text_add(text, "\"");
-    for (const char *p = string; *p; ++p) {
-        if (*p == '"')
-            mote_text_add(text, "\xe2\x80\x9d"); /* a typographic quote */
-        else
-            mote_text_add(text, "%c", (unsigned char)*p < ' ' ? ' ' : *p);
-    }
-    mote_text_add(text, "\"");
-}
-
-void mote_figure_block(mote_text *text, const char *title)
-{
-    if (text->size)
-        mote_text_add(text, "\n\n");
-    mote_figure_quote(text, title);
-    mote_text_add(text, "\n");
-}
 
 const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER])
 {
@@ -164,23 +142,4 @@ double mote_figure_triangles(const mote_summary_row *row)
     const double a = json_number_value(json_array_get(triangles, 0));
     const double b = json_number_value(json_array_get(triangles, 1));
     return a > b ? a : b;
-}
-
-mote_status mote_figure_gnuplot(const char *folder, const char *script, const char *base,
-                                const char *heading, const char *footer, const char *formats)
-{
-    /* gnuplot takes a file's name that begins with '<' or '|' for a command. */
-    char *file = mote_format("%s%s", base[0] == '/' ? "" : "./", base);
-    char *plots = mote_format("%s/plots", mote_data_directory());
-    char *draw = mote_format("%s/plots/draw.gp", mote_data_directory());
-    mote_status status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
-    if (file && plots && draw) {
-        const char *const argv[] = {"gnuplot", "-c",    draw,   plots,   script,
-                                    file,      heading, footer, formats, NULL};
-        status = mote_spawn(argv, folder, NULL, 0);
-    }
-    free(file);
-    free(plots);
-    free(draw);
-    return status;
 }

@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_FIGURE_H
 #define MOTE_HARNESS_FIGURE_H
 
+#include "harness/gnuplot.h"
 #include "harness/summary.h"
 
 /* What figures are made from. */
@@ -49,18 +50,6 @@ mote_figure_writer mote_figure_letters;
    data is a line a frame with the geometry's hash. */
 mote_figure_writer mote_figure_animation;
 void mote_figure_animation_clear(const char *directory);
-
-/* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: this one), where BASE.dat
-   is: all text reaches gnuplot as arguments that are never run. formats: "svg png pdf", or
-   "gif". MOTE_EIO when gnuplot is missing or refuses. */
-mote_status mote_figure_gnuplot(const char *folder, const char *script, const char *base,
-                                const char *heading, const char *footer, const char *formats);
-
-/* Appends text in quotes: what would end them or the line is replaced by its like. */
-void mote_figure_quote(mote_text *text, const char *string);
-
-/* Starts a block below a title, after two empty lines unless it is the first. */
-void mote_figure_block(mote_text *text, const char *title);
 
 /* 11920: "11,920". */
 #define MOTE_FIGURE_NUMBER 32

@@ -51,7 +51,7 @@ static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
 {
     size_t i, count = 0;
     const json_t *row;
-    mote_figure_block(text, titles[m]);
+    mote_gnuplot_block(text, titles[m]);
     MOTE_EACH(i, row, rows)
     {
         const char *method = json_string_value(json_object_get(row, "method"));

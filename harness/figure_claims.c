@@ -63,7 +63,7 @@ static void add_lines(mote_text *data, int column, size_t top, char lines[LINES_
 {
     for (size_t i = 0; i < count; ++i) {
         mote_text_add(data, "%d %zu ", column, top + i);
-        mote_figure_quote(data, lines[i]);
+        mote_gnuplot_quote(data, lines[i]);
         mote_text_add(data, "\n");
     }
 }
@@ -106,15 +106,15 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
         return MOTE_OK;
     }
     mote_text verdicts = {0};
-    mote_figure_block(&figure->data, "text");
-    mote_figure_block(&verdicts, "verdicts");
+    mote_gnuplot_block(&figure->data, "text");
+    mote_gnuplot_block(&verdicts, "verdicts");
     size_t top = 0;
     for (size_t i = 0; i < count; ++i) {
         const json_t *claim = json_array_get(run->claims, i);
         const char *verdict = text_of(claim, "verdict");
         const size_t lines = add_claim(claim, top, &figure->data);
         mote_text_add(&verdicts, "%zu %zu %d ", top, lines, verdict_rank(verdict));
-        mote_figure_quote(&verdicts, short_verdict(verdict));
+        mote_gnuplot_quote(&verdicts, short_verdict(verdict));
         mote_text_add(&verdicts, "\n");
         top += lines + 1;
     }

@@ -119,7 +119,7 @@ static mote_status add_series(const mote_summary *summary, const char *scenario,
             !mote_figure_shows(summary, row, scenario))
             continue;
         if (!begun)
-            mote_figure_block(text, title);
+            mote_gnuplot_block(text, title);
         begun = true;
         status = add_errors(row, text);
         ++*points;
@@ -160,7 +160,7 @@ static void add_history(const mote_summary_row *row, const char *title, mote_tex
 {
     const mote_stored_cell *cell = row->first;
     const double length = mote_figure_length(row);
-    mote_figure_block(text, title);
+    mote_gnuplot_block(text, title);
     for (size_t k = 0; k < cell->frames; ++k) {
         const double truth = cell->truth[k] / length, error = cell->error[k];
         const bool missed = cell->contact_truth[k] == 1 && cell->contact[k] == 0;

@@ -116,7 +116,7 @@ static mote_status add_family(canvas *c, const mote_summary *summary, const char
         if (!wanted || !is_point(summary, row, scenario))
             continue;
         if (!begun)
-            mote_figure_block(text, family ? family : "others");
+            mote_gnuplot_block(text, family ? family : "others");
         begun = true;
         status = add_point(c, row, family != NULL, text);
         if (!family)

@@ -65,10 +65,10 @@ static void add_number(mote_text *text, double value)
 /* The names of the rows from top to bottom: "line name". */
 static void add_titles(mote_text *data)
 {
-    mote_figure_block(data, "ingredients");
+    mote_gnuplot_block(data, "ingredients");
     for (int v = 0; v < VARIANTS; ++v) {
         mote_text_add(data, "%d ", v);
-        mote_figure_quote(data, variants[v].title);
+        mote_gnuplot_quote(data, variants[v].title);
         mote_text_add(data, "\n");
     }
 }
@@ -84,7 +84,7 @@ static int add_scenario(const mote_summary *summary, const char *scenario, mote_
         if (!row || !mote_figure_has_error(row))
             continue;
         if (count++ == 0)
-            mote_figure_block(data, scenario);
+            mote_gnuplot_block(data, scenario);
         const mote_time *time = &row->total;
         const bool interval = time->low == time->low;
         mote_text_add(data, "%d ", v);
@@ -219,7 +219,7 @@ static double value_of(const mote_summary_row *row, const char *key)
    the value stands. */
 static void add_series(front *f, int s, mote_text *data)
 {
-    mote_figure_block(data, series[s][0]);
+    mote_gnuplot_block(data, series[s][0]);
     for (int k = 0; k < LONGEST; ++k) {
         const mote_summary_row *row = f->row[s][k];
         if (!row)

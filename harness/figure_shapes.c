@@ -218,7 +218,7 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
         for (int k = 0; k < 4; ++k) {
             char label[64];
             frame_text(row, frames[k], label, sizeof label);
-            mote_figure_quote(&figure->data, label);
+            mote_gnuplot_quote(&figure->data, label);
             mote_text_add(&figure->data, "\n");
         }
         mote_text_add(
@@ -246,7 +246,7 @@ static mote_status write_frame(const mote_figure_run *run, mote_figure_scene *sc
         return mote_fail(MOTE_ENOMEM, "no memory for a frame's name");
     add_frame(scene, camera, frame, &text);
     mote_text_add(&text, "\n\n");
-    mote_figure_quote(&text, label);
+    mote_gnuplot_quote(&text, label);
     mote_text_add(&text, "\n");
     *hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
     const mote_status status = mote_record_text(run->directory, name, &text);

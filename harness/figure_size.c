@@ -118,7 +118,7 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
     for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
         char title[320];
         status = fit_title(&series[s], title, sizeof title, &figure->caption);
-        mote_figure_block(&figure->data, title);
+        mote_gnuplot_block(&figure->data, title);
         for (size_t i = 0; i < series[s].count; ++i) {
             const mote_time *time = &series[s].rows[i]->total;
             const bool interval = time->low == time->low;
@@ -145,7 +145,7 @@ mote_status mote_figure_size_bytes(const mote_figure_run *run, const char *scena
     size_series series[SERIES_MAX];
     const size_t count = find_series(run->summary, series);
     for (size_t s = 0; s < count; ++s) {
-        mote_figure_block(&figure->data, series[s].label);
+        mote_gnuplot_block(&figure->data, series[s].label);
         for (size_t i = 0; i < series[s].count; ++i) {
             const mote_summary_row *row = series[s].rows[i];
             const double vertices = vertices_of(row);

@@ -58,7 +58,7 @@ static mote_status add_queries(const mote_summary_row *row, const char *title,
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     const mote_status status = mote_figure_frames(row, MOTE_FIGURE_TOTAL, values);
     if (status == MOTE_OK) {
-        mote_figure_block(&figure->data, title);
+        mote_gnuplot_block(&figure->data, title);
         for (size_t k = 0; k < first->frames; ++k)
             mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
         const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
@@ -182,7 +182,7 @@ static void add_share(const share *s, size_t place, mote_text *text)
 {
     const double d = s->part[0] / s->total, u = s->part[1] / s->total;
     mote_text_add(text, "%zu %.17g %.17g 1 ", place, d, d + u);
-    mote_figure_quote(text, s->label);
+    mote_gnuplot_quote(text, s->label);
     char number[MOTE_FIGURE_NUMBER];
     if (s->total < 1e6)
         mote_text_add(text, " \"%.3g\"\n", s->total * 1e-3);
@@ -290,7 +290,7 @@ static mote_status add_ratios(const mote_summary_row *row, const mote_summary_ro
     for (int p = 0; p < PARTS; ++p)
         add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, &lines);
     if (lines.size > 0) {
-        mote_figure_block(text, title);
+        mote_gnuplot_block(text, title);
         mote_text_add(text, "%s", lines.data);
     }
     text->failed |= lines.failed;

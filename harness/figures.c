@@ -177,8 +177,7 @@ static mote_status draw_data(drawing *d, const figure_kind *kind, const char *sc
     make_heading(d, kind, scenario, heading, sizeof heading);
     make_footer(d->identity, data, footer, sizeof footer);
     if (status == MOTE_OK)
-        status =
-            mote_figure_gnuplot(d->folder, kind->name, name, heading, footer, kind->formats);
+        status = mote_gnuplot_draw(d->folder, kind->name, name, heading, footer, kind->formats);
     if (status == MOTE_OK)
         status = add_index(d, kind, scenario, name, figure, data);
     free(file);
@@ -358,7 +357,7 @@ mote_status mote_figures_plot(const char *directory, const char *name, const cha
         run_identity(directory, identity, sizeof identity);
         make_footer(identity, mote_hash_bytes(MOTE_HASH_START, text, size), footer,
                     sizeof footer);
-        status = mote_figure_gnuplot(folder, script, name, "", footer, PAPER);
+        status = mote_gnuplot_draw(folder, script, name, "", footer, PAPER);
     }
     free(folder);
     free(text);

@@ -220,7 +220,7 @@ mote_status mote_film_draw(const mote_film *film)
     mote_status status =
         heading && made ? write_index(film) : mote_fail(MOTE_ENOMEM, "no memory for a film");
     if (status == MOTE_OK)
-        status = mote_figure_gnuplot(film->folder, "simulation", "film", heading, "", "gif");
+        status = mote_gnuplot_draw(film->folder, "simulation", "film", heading, "", "gif");
     if (status == MOTE_OK && rename(made, film->path) != 0)
         status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", film->path, strerror(errno));
     free(heading);

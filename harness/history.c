@@ -1,6 +1,6 @@
 #include "harness/history.h"
 
-#include "harness/command.h"
+#include "harness/options.h"
 #include "harness/figure.h"
 #include "harness/hash.h"
 #include "harness/record.h"
@@ -242,7 +242,7 @@ static mote_status add_series(const points *p, const point *start, mote_text *te
     }
     double usual = count > 0 ? mote_statistics_median(moves, count) : 0;
     free(moves);
-    mote_figure_block(text, start->row);
+    mote_gnuplot_block(text, start->row);
     before = MOTE_NONE;
     for (size_t i = 0; i < p->count; ++i) {
         const point *here = &p->items[i];
@@ -266,7 +266,7 @@ static mote_status plot(const char *base, const mote_text *series)
     (void)snprintf(footer, sizeof footer, "data %016" PRIx64,
                    mote_hash_bytes(MOTE_HASH_START, series->data, series->size));
     mote_status status =
-        mote_figure_gnuplot(NULL, "history", base, "Accepted references", footer, "svg png");
+        mote_gnuplot_draw(NULL, "history", base, "Accepted references", footer, "svg png");
     if (status == MOTE_OK)
         (void)printf("%s.svg\n%s.png\n", base, base);
     return status;

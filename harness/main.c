@@ -1,5 +1,6 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command.h"
+#include "harness/options.h"
 #include "harness/json_memory.h"
 #include "harness/reach.h"
 

@@ -1,6 +1,7 @@
 #include "harness/plan.h"
 
 #include "harness/file.h"
+#include "harness/options.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_PROBE_H
 
 #include "core/method.h"
-#include "harness/command.h"
+#include "harness/method_choice.h"
 
 typedef struct mote_probe mote_probe;
 

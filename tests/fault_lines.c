@@ -4,6 +4,7 @@
 #include "harness/file.h"
 #include "harness/heap_count.h"
 #include "harness/json_memory.h"
+#include "harness/options.h"
 #include "tests/diamond.h"
 #include "tests/fault_points.h"
 

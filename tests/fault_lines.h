@@ -8,6 +8,7 @@
 #include "harness/command.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 typedef struct fault_line {
     const char *text; /* the command's */

@@ -1,6 +1,7 @@
 /* Any words, one a line, as what stands on a command line: methods with parameters, ranges,
    numbers, options. */
-#include "harness/command.h"
+#include "harness/method_choice.h"
+#include "harness/options.h"
 #include "tests/fuzz.h"
 
 #include <stdlib.h>

@@ -3,7 +3,7 @@
    simulated processes whose frames depend on each other as real ones do: every process has a
    level of its own, all run the same frames, and neighbouring frames share their disturbance.
    Usage: interval_coverage [SETS]. */
-#include "harness/command.h"
+#include "harness/options.h"
 #include "harness/statistics.h"
 
 #include <gsl/gsl_randist.h>

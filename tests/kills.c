@@ -7,7 +7,7 @@
    kills DIR [KILLS [SEED [plant]]]: plant takes a row out of a finished cell, which must be
    found.
    */
-#include "harness/command.h"
+#include "harness/options.h"
 #include "harness/record.h"
 #include "tests/program.h"
 #include "tests/run_files.h"

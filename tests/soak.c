@@ -5,6 +5,8 @@
    DIR/soak.json and soak.csv have the errors of each method by decades; --plant alters one
    answer of the first case, which must then be found. Exit status 1 where something failed. */
 #include "tests/checks.h"
+
+#include "harness/options.h"
 #include "tests/soak_case.h"
 #include "tests/soak_judge.h"
 #include "tests/soak_shrink.h"

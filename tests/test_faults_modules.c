@@ -7,6 +7,7 @@
 #include "harness/load.h"
 #include "harness/manifest.h"
 #include "harness/measure.h"
+#include "harness/options.h"
 #include "harness/record.h"
 #include "harness/study.h"
 #include "harness/truth.h"

@@ -6,6 +6,7 @@
 
 #include "harness/figures.h"
 #include "harness/file.h"
+#include "harness/options.h"
 #include "harness/record.h"
 
 #include <setjmp.h>

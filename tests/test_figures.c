@@ -422,7 +422,7 @@ static void quoted_text_has_no_quote_nor_line_end_inside(void **state)
 {
     (void)state;
     mote_text made = {0};
-    mote_figure_quote(&made, "a\"b\nc\\");
+    mote_gnuplot_quote(&made, "a\"b\nc\\");
     assert_string_equal(made.data, "\"a\xe2\x80\x9d"
                                    "b c\\\"");
     free(made.data);
