@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_APPROACHES_H
 
 #include "harness/simulate.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <jansson.h>
 

@@ -1,5 +1,5 @@
 #include "harness/bodies_engine.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 
 #include <stdio.h>
 #include <string.h>

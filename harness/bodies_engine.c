@@ -4,7 +4,7 @@
 #include "baselines/broad_phase.h"
 #include "core/deform.h"
 #include "core/pool.h"
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 #include "harness/measure.h"
 
 #include <stdlib.h>

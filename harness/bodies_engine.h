@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_BODIES_ENGINE_H
 
 #include "harness/bodies.h"
-#include "harness/method_choice.h"
+#include "harness/base/method_choice.h"
 
 /* Which bodies a hierarchy is refitted for. */
 typedef enum mote_refit {

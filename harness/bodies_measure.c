@@ -4,7 +4,7 @@
 #include "harness/bodies_record.h"
 #include "harness/cell_process.h"
 #include "harness/measure.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <pthread.h>
 #include <stdlib.h>

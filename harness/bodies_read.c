@@ -1,6 +1,6 @@
 /* A scenario file of several bodies. */
 #include "harness/bodies_place.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/scenario_read.h"
 #include "harness/spread.h"
 

@@ -1,7 +1,7 @@
 #include "harness/bodies_record.h"
 
-#include "harness/file.h"
-#include "harness/hash.h"
+#include "harness/base/file.h"
+#include "harness/base/hash.h"
 
 #include <errno.h>
 #include <inttypes.h>

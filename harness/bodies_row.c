@@ -1,7 +1,7 @@
 #include "harness/bodies_row.h"
 
-#include "harness/record.h"
-#include "harness/statistics.h"
+#include "harness/base/record.h"
+#include "harness/base/statistics.h"
 
 #include <stdlib.h>
 #include <string.h>

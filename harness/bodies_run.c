@@ -1,7 +1,7 @@
 #include "harness/bodies_run.h"
 
-#include "harness/manifest.h"
-#include "harness/record.h"
+#include "harness/base/manifest.h"
+#include "harness/base/record.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "harness/bodies_simulate_print.h"
 
-#include "harness/file.h"
-#include "harness/json_print.h"
+#include "harness/base/file.h"
+#include "harness/base/json_print.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "harness/catalog.h"
 
-#include "harness/data.h"
-#include "harness/file.h"
-#include "harness/json_read.h"
+#include "harness/base/data.h"
+#include "harness/base/file.h"
+#include "harness/base/json_read.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,8 +1,8 @@
 #include "harness/cell.h"
 
-#include "harness/hash.h"
-#include "harness/manifest.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/manifest.h"
+#include "harness/base/record.h"
 
 #include <ctype.h>
 #include <inttypes.h>

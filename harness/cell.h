@@ -3,8 +3,8 @@
 #ifndef MOTE_HARNESS_CELL_H
 #define MOTE_HARNESS_CELL_H
 
-#include "harness/method_choice.h"
-#include "harness/heap_count.h"
+#include "harness/base/method_choice.h"
+#include "harness/base/heap_count.h"
 #include "harness/scenario.h"
 #include "harness/truth.h"
 

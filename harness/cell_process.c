@@ -1,9 +1,9 @@
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "harness/cell_process.h"
 
-#include "harness/load.h"
+#include "harness/base/load.h"
 #include "harness/measure.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <sched.h>
 #include <stdio.h>

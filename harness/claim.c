@@ -1,6 +1,6 @@
 #include "harness/claim.h"
 
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_CLAIM_H
 #define MOTE_HARNESS_CLAIM_H
 
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <jansson.h>
 

@@ -1,7 +1,7 @@
 #include "harness/claims.h"
 
 #include "harness/measure.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdio.h>
 

@@ -1,12 +1,12 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
 #include "harness/approach.h"
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/curve.h"
-#include "harness/file.h"
-#include "harness/json_print.h"
-#include "harness/json_read.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/curve.h"
+#include "harness/base/file.h"
+#include "harness/base/json_print.h"
+#include "harness/base/json_read.h"
+#include "harness/base/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>

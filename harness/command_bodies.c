@@ -1,8 +1,8 @@
 /* mote bodies [--out DIR] [--quick]: several bodies by every method. */
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/file.h"
-#include "harness/manifest.h"
+#include "harness/base/options.h"
+#include "harness/base/file.h"
+#include "harness/base/manifest.h"
 #include "harness/study_bodies.h"
 
 static mote_status study(const char *directory, bool quick, int argc, char **argv, bool *met)

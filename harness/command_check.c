@@ -1,7 +1,7 @@
 /* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether it is what it says. */
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 #include "harness/truth.h"
 
 #include <inttypes.h>

@@ -1,7 +1,7 @@
 /* mote claims: every claim of the paper with a figure, an interval and a verdict. */
 #include "harness/claims.h"
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 
 int mote_command_claims(int argc, char **argv)
 {

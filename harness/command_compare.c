@@ -1,8 +1,8 @@
 /* mote compare BASE NEW: is a run better or worse than another? */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/compare.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdio.h>
 #include <string.h>

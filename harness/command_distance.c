@@ -1,11 +1,11 @@
 /* mote distance A.obj B.obj [--method ...] [--json]: one query on two files, as they lie. */
 #include "harness/answer_json.h"
 #include "harness/command.h"
-#include "harness/method_choice.h"
-#include "harness/options.h"
+#include "harness/base/method_choice.h"
+#include "harness/base/options.h"
 #include "harness/mesh_import.h"
 #include "harness/probe.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* mote dynamics [--out DIR] [--quick] ...: passes through over n, in the closed loop. */
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/file.h"
-#include "harness/manifest.h"
+#include "harness/base/options.h"
+#include "harness/base/file.h"
+#include "harness/base/manifest.h"
 #include "harness/study_dynamics.h"
 
 typedef struct request {

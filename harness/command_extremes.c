@@ -1,7 +1,7 @@
 /* mote extremes [--out DIR] [--quick]: every method where numbers are tiny, huge or degenerate.
  */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/study_extremes.h"
 
 int mote_command_extremes(int argc, char **argv)

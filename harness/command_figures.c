@@ -1,6 +1,6 @@
 /* mote figures DIR: the figures of a run, drawn again from its cells. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/figures.h"
 
 int mote_command_figures(int argc, char **argv)

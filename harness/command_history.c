@@ -1,6 +1,6 @@
 /* mote history: the accepted references, drawn; --add makes a run one of them. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/history.h"
 
 int mote_command_history(int argc, char **argv)

@@ -1,6 +1,6 @@
 /* mote instructions SCENARIO: what methods execute, by callgrind. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/instructions.h"
 
 static const mote_option options[] = {

@@ -2,7 +2,7 @@
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 
 #include <stdio.h>
 

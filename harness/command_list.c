@@ -3,8 +3,8 @@
 #include "core/method.h"
 #include "harness/catalog.h"
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 
 #include <jansson.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* mote merge OUT DIR...: the cells of several runs in one directory, and its summary. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/merge.h"
 #include "harness/summary.h"
 #include "harness/table.h"

@@ -1,9 +1,9 @@
 /* mote mesh FILE [--json]: what a mesh is. */
 #include "core/parts.h"
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/mesh_import.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <inttypes.h>
 #include <jansson.h>

@@ -1,6 +1,6 @@
 /* mote report DIR: a run as a page and as plain text, from what is stored. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/report.h"
 
 #include <stdio.h>

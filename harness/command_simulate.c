@@ -1,11 +1,11 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line. */
 #include "harness/bodies_simulate_print.h"
 #include "harness/film.h"
-#include "harness/json_print.h"
+#include "harness/base/json_print.h"
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/simulate.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 #include "harness/trace.h"
 
 #include <stdio.h>

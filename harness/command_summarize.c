@@ -1,8 +1,8 @@
 /* mote summarize DIR: the rows of a run, computed again from its cells. */
 #include "harness/command.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/front.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/summary.h"
 #include "harness/table.h"
 

@@ -1,7 +1,7 @@
 /* mote tune DIR: the best configuration of each method on each scenario of a run. */
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 #include "harness/tune.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "harness/compare.h"
 
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/summary.h"
 
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef MOTE_HARNESS_COMPARE_H
 #define MOTE_HARNESS_COMPARE_H
 
-#include "harness/file.h"
-#include "harness/statistics.h"
+#include "harness/base/file.h"
+#include "harness/base/statistics.h"
 
 #include <jansson.h>
 

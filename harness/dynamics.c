@@ -1,7 +1,7 @@
 #include "harness/dynamics.h"
 
 #include "harness/figures.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>

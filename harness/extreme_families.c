@@ -1,7 +1,7 @@
 /* What is taken to extremes, and how. Each change starts from the plain scene, L about 1. */
 #include "harness/extreme.h"
 
-#include "harness/curve.h"
+#include "harness/base/curve.h"
 #include "harness/motion.h"
 
 #include <stdio.h>

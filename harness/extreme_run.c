@@ -1,10 +1,10 @@
 /* A method on an extreme scene: its process, and the verdict. */
 #include "harness/extreme.h"
 
-#include "harness/child.h"
+#include "harness/base/child.h"
 #include "harness/measure.h"
 #include "harness/probe.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <float.h>
 #include <stdio.h>

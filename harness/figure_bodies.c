@@ -3,8 +3,8 @@
 
 #include "core/deform.h"
 #include "harness/bodies_engine.h"
-#include "harness/hash.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
 
 #include <math.h>
 #include <stdlib.h>

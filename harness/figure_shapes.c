@@ -3,9 +3,9 @@
 #include "harness/figure.h"
 
 #include "harness/figure_scene.h"
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 #include "harness/probe.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 #include "harness/figures.h"
 
 #include "harness/figure.h"
-#include "harness/hash.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
 
 #include <errno.h>
 #include <inttypes.h>

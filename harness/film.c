@@ -2,7 +2,7 @@
 
 #include "core/deform.h"
 #include "harness/figure.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <errno.h>
 #include <stdio.h>

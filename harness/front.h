@@ -8,7 +8,7 @@
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/summary.h"
 
 #include <stdio.h>

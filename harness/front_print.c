@@ -1,5 +1,5 @@
 #include "harness/front.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 #include "harness/history.h"
 
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/figure.h"
-#include "harness/hash.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
 #include "harness/summary.h"
 
 #include <inttypes.h>

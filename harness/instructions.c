@@ -1,8 +1,8 @@
 #include "harness/instructions.h"
 
 #include "harness/measure.h"
-#include "harness/record.h"
-#include "harness/spawn.h"
+#include "harness/base/record.h"
+#include "harness/base/spawn.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/json_memory.h"
+#include "harness/base/options.h"
+#include "harness/base/json_memory.h"
 #include "harness/reach.h"
 
 #include <signal.h>

@@ -1,6 +1,6 @@
 #include "harness/markdown_html.h"
 
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 
 #include <stdbool.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_MARKDOWN_HTML_H
 #define MOTE_HARNESS_MARKDOWN_HTML_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 /* Appends Markdown as HTML: headings (## becomes h3, one level lower than written), paragraphs,
    code indented by four blanks (folded behind "Reproduction") and `code` within a line. The

@@ -1,7 +1,7 @@
 #include "harness/measure.h"
 
 #include "core/deform.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <stdlib.h>
 #include <string.h>

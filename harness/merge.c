@@ -1,6 +1,6 @@
 #include "harness/merge.h"
 
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/stored.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "harness/mesh_import.h"
 
-#include "harness/child.h"
-#include "harness/file.h"
+#include "harness/base/child.h"
+#include "harness/base/file.h"
 #include "harness/mesh_soup.h"
 
 #include <errno.h>

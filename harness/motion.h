@@ -5,7 +5,7 @@
 #include "core/body.h"
 #include "core/csrbf_fit.h"
 #include "core/quaternion.h"
-#include "harness/curve.h"
+#include "harness/base/curve.h"
 
 /* Rotation by degrees about an axis (any length > 0), right-handed. */
 mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees);

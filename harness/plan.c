@@ -1,7 +1,7 @@
 #include "harness/plan.h"
 
-#include "harness/file.h"
-#include "harness/options.h"
+#include "harness/base/file.h"
+#include "harness/base/options.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

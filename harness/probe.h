@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_PROBE_H
 
 #include "core/method.h"
-#include "harness/method_choice.h"
+#include "harness/base/method_choice.h"
 
 typedef struct mote_probe mote_probe;
 

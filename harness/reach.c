@@ -1,8 +1,8 @@
 #define _DEFAULT_SOURCE /* realpath */
 #include "harness/reach.h"
 
-#include "harness/data.h"
-#include "harness/file.h"
+#include "harness/base/data.h"
+#include "harness/base/file.h"
 
 #include <errno.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "harness/replay.h"
 
-#include "harness/escape.h"
-#include "harness/json_print.h"
+#include "harness/base/escape.h"
+#include "harness/base/json_print.h"
 #include "harness/report_rows.h"
 
 #include <inttypes.h>

@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_REPLAY_H
 #define MOTE_HARNESS_REPLAY_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/report.h"
 
 /* Base-64 bytes that one scenario may take, and all of a page. What does not fit is left out

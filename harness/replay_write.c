@@ -1,8 +1,8 @@
 /* A scene as JSON: small numbers as they are, arrays in base 64, lowest byte first. World
    points have 16 bits a coordinate, on a grid over all that is shown; 65535: there is no point.
  */
-#include "harness/escape.h"
-#include "harness/json_print.h"
+#include "harness/base/escape.h"
+#include "harness/base/json_print.h"
 #include "harness/replay.h"
 
 #include "core/quaternion.h"

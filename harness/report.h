@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_REPORT_H
 #define MOTE_HARNESS_REPORT_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/summary.h"
 
 /* A drawn figure of the run. */

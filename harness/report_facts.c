@@ -1,7 +1,7 @@
 #include "harness/report_facts.h"
 
 #include "harness/catalog.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/report_rows.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/report.h"
 #include "harness/report_rows.h"
 

@@ -1,5 +1,5 @@
-#include "harness/record.h"
-#include "harness/data.h"
+#include "harness/base/record.h"
+#include "harness/base/data.h"
 #include "harness/report.h"
 
 #include <errno.h>

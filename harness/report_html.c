@@ -1,10 +1,10 @@
 /* The page: its frame, what was asked, the machine, the defects. */
 #include "harness/report_html.h"
 
-#include "harness/data.h"
-#include "harness/escape.h"
+#include "harness/base/data.h"
+#include "harness/base/escape.h"
 #include "harness/markdown_html.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/report_facts.h"
 
 #include <stdlib.h>

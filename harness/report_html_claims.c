@@ -1,6 +1,6 @@
 /* The page's claims: a line a claim, which opens to its figures. */
-#include "harness/escape.h"
-#include "harness/record.h"
+#include "harness/base/escape.h"
+#include "harness/base/record.h"
 #include "harness/report_html.h"
 #include "harness/report_rows.h"
 

@@ -1,8 +1,8 @@
 /* The page's replay: its data, and the program that `make page` bundles for it. */
-#include "harness/data.h"
-#include "harness/escape.h"
-#include "harness/json_memory.h"
-#include "harness/record.h"
+#include "harness/base/data.h"
+#include "harness/base/escape.h"
+#include "harness/base/json_memory.h"
+#include "harness/base/record.h"
 #include "harness/replay.h"
 #include "harness/report_html.h"
 

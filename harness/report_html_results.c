@@ -1,5 +1,5 @@
 /* The page's tables: results, each number linked to its cells, and the cells themselves. */
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 #include "harness/report_html.h"
 #include "harness/report_rows.h"
 

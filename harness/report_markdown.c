@@ -1,8 +1,8 @@
 /* The report as text that reads well in a terminal, and as Markdown on a forge: numbers stand
    in tables, and what they were computed from is linked at the end of each row. */
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 #include "harness/markdown_html.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/report_facts.h"
 #include "harness/report_rows.h"
 

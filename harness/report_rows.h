@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_REPORT_ROWS_H
 #define MOTE_HARNESS_REPORT_ROWS_H
 
-#include "harness/number_text.h"
+#include "harness/base/number_text.h"
 #include "harness/report.h"
 
 /* One column of the table of results. */

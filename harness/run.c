@@ -2,10 +2,10 @@
 #include "harness/run.h"
 
 #include "harness/cell_process.h"
-#include "harness/load.h"
-#include "harness/manifest.h"
+#include "harness/base/load.h"
+#include "harness/base/manifest.h"
 #include "harness/measure.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/summary.h"
 
 #include <dirent.h>

@@ -1,7 +1,7 @@
 #include "harness/scenario.h"
 
 #include "core/deform.h"
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 #include "harness/motion.h"
 
 #include <assert.h>

@@ -2,7 +2,7 @@
 #include "harness/scenario_read.h"
 
 #include "core/field_maker.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/spread.h"
 
 #include <stdlib.h>

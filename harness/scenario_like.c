@@ -4,7 +4,7 @@
 #include "harness/scenario_read.h"
 
 #include "harness/catalog.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/reach.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "harness/scenario_read.h"
 
 #include "datasets/letter.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/mesh_import.h"
 #include "harness/reach.h"
 

@@ -3,8 +3,8 @@
 #include "harness/scenario_read.h"
 
 #include "harness/approach.h"
-#include "harness/file.h"
-#include "harness/json_print.h"
+#include "harness/base/file.h"
+#include "harness/base/json_print.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "harness/scenario_read.h"
 
 #include "harness/catalog.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <assert.h>
 #include <math.h>

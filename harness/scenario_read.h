@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SCENARIO_READ_H
 #define MOTE_HARNESS_SCENARIO_READ_H
 
-#include "harness/json_read.h"
+#include "harness/base/json_read.h"
 #include "harness/motion.h"
 #include "harness/scenario.h"
 

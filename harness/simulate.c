@@ -2,7 +2,7 @@
 
 #include "harness/motion.h"
 #include "harness/penetration.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <stdlib.h>
 #include <string.h>

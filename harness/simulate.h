@@ -5,7 +5,7 @@
 #define MOTE_HARNESS_SIMULATE_H
 
 #include "core/response.h"
-#include "harness/method_choice.h"
+#include "harness/base/method_choice.h"
 #include "harness/probe.h"
 #include "harness/scenario.h"
 

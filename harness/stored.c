@@ -1,9 +1,9 @@
 #include "harness/stored.h"
 
-#include "harness/json_print.h"
+#include "harness/base/json_print.h"
 #include "harness/plan.h"
-#include "harness/record.h"
-#include "harness/statistics.h"
+#include "harness/base/record.h"
+#include "harness/base/statistics.h"
 
 #include <dirent.h>
 #include <errno.h>

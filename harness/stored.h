@@ -5,7 +5,7 @@
 
 #include "core/method.h"
 #include "harness/cell.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 /* A count and its sum and largest value over the frames of a cell. */
 typedef struct mote_stored_count {

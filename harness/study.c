@@ -2,9 +2,9 @@
 
 #include "harness/catalog.h"
 #include "harness/figures.h"
-#include "harness/json_read.h"
+#include "harness/base/json_read.h"
 #include "harness/measure.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <math.h>
 #include <stdlib.h>

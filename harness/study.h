@@ -5,7 +5,7 @@
 
 #include "harness/cell.h"
 #include "harness/claim.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/measure.h"
 #include "harness/summary.h"
 

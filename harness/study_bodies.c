@@ -2,7 +2,7 @@
 
 #include "harness/bodies_run.h"
 #include "harness/figures.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 #include "harness/study_dynamics.h"
 
 #include "harness/figure.h"
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 #include "harness/measure.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <ctype.h>
 #include <errno.h>

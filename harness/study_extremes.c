@@ -2,7 +2,7 @@
 
 #include "harness/extreme.h"
 #include "harness/figures.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "harness/summary.h"
 
 #include "harness/front.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/summary_quiet.h"
 #include "harness/summary_row.h"
 

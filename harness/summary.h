@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SUMMARY_H
 #define MOTE_HARNESS_SUMMARY_H
 
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 #include "harness/stored.h"
 
 /* A time over frames and replicates, in nanoseconds. median, p95 and max are over all frames of

@@ -1,7 +1,7 @@
 #include "harness/summary_row.h"
 
-#include "harness/file.h"
-#include "harness/json_print.h"
+#include "harness/base/file.h"
+#include "harness/base/json_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>

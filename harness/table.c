@@ -1,6 +1,6 @@
 #include "harness/table.h"
 
-#include "harness/number_text.h"
+#include "harness/base/number_text.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/table.h"
 
 #include <inttypes.h>

@@ -1,6 +1,6 @@
 #include "harness/trace.h"
 
-#include "harness/json_print.h"
+#include "harness/base/json_print.h"
 #include "harness/motion.h"
 #include "harness/scenario_read.h"
 

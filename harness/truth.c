@@ -1,7 +1,7 @@
 #include "harness/truth.h"
 
-#include "harness/child.h"
-#include "harness/file.h"
+#include "harness/base/child.h"
+#include "harness/base/file.h"
 #include "harness/probe.h"
 
 #include <inttypes.h>

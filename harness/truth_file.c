@@ -2,8 +2,8 @@
    before it, so that a file that was cut or edited is not believed. */
 #include "harness/truth.h"
 
-#include "harness/file.h"
-#include "harness/hash.h"
+#include "harness/base/file.h"
+#include "harness/base/hash.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "harness/tune.h"
 
-#include "harness/record.h"
+#include "harness/base/record.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -10,10 +10,10 @@
    each a scenario and method of its own. Who changes a method on purpose renews
    tests/answers.txt with what this prints, once make determinism agrees on it. */
 #include "harness/catalog.h"
-#include "harness/method_choice.h"
-#include "harness/options.h"
-#include "harness/file.h"
-#include "harness/hash.h"
+#include "harness/base/method_choice.h"
+#include "harness/base/options.h"
+#include "harness/base/file.h"
+#include "harness/base/hash.h"
 #include "harness/probe.h"
 #include "harness/scenario.h"
 

@@ -4,7 +4,7 @@
 #ifndef MOTE_TESTS_CHECKS_H
 #define MOTE_TESTS_CHECKS_H
 
-#include "harness/options.h"
+#include "harness/base/options.h"
 
 #include <inttypes.h>
 #include <stdbool.h>

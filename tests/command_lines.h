@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_COMMAND_LINES_H
 #define MOTE_TESTS_COMMAND_LINES_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

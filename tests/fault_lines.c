@@ -1,10 +1,10 @@
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "tests/fault_lines.h"
 
-#include "harness/file.h"
-#include "harness/heap_count.h"
-#include "harness/json_memory.h"
-#include "harness/options.h"
+#include "harness/base/file.h"
+#include "harness/base/heap_count.h"
+#include "harness/base/json_memory.h"
+#include "harness/base/options.h"
 #include "tests/diamond.h"
 #include "tests/fault_points.h"
 

@@ -1,7 +1,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, realpath */
 #include "tests/fault_points.h"
 
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 
 #include <dirent.h>
 #include <errno.h>

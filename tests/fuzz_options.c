@@ -1,7 +1,7 @@
 /* Any words, one a line, as what stands on a command line: methods with parameters, ranges,
    numbers, options. */
-#include "harness/method_choice.h"
-#include "harness/options.h"
+#include "harness/base/method_choice.h"
+#include "harness/base/options.h"
 #include "tests/fuzz.h"
 
 #include <stdlib.h>

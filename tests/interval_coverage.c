@@ -3,8 +3,8 @@
    simulated processes whose frames depend on each other as real ones do: every process has a
    level of its own, all run the same frames, and neighbouring frames share their disturbance.
    Usage: interval_coverage [SETS]. */
-#include "harness/options.h"
-#include "harness/statistics.h"
+#include "harness/base/options.h"
+#include "harness/base/statistics.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

@@ -7,8 +7,8 @@
    kills DIR [KILLS [SEED [plant]]]: plant takes a row out of a finished cell, which must be
    found.
    */
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 #include "tests/run_files.h"
 

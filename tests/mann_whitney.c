@@ -1,6 +1,6 @@
 /* Our Mann-Whitney p for samples from standard input (make test-exports): each line two
    samples, numbers separated by blanks, the samples by "|". Prints a p a line. */
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>

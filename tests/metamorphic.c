@@ -5,7 +5,7 @@
    Usage: metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit
    status 1 where something broke. */
 #include "harness/probe.h"
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 #include "tests/checks.h"
 #include "tests/twin.h"
 

@@ -15,7 +15,7 @@
 #include "baselines/ccd_triangle.h"
 #include "baselines/fcl_triangle.h"
 #include "core/triangle.h"
-#include "harness/json_print.h"
+#include "harness/base/json_print.h"
 #include "tests/oracle_exact.h"
 #include "tests/oracle_frames.h"
 #include "tests/triangle_pairs.h"

@@ -5,7 +5,7 @@
    perf_planted DIR [RUNS] */
 #include "harness/compare.h"
 #include "harness/measure.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "harness/run.h"
 #include "harness/summary.h"
 

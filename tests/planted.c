@@ -4,8 +4,8 @@
 #include "harness/bodies_run.h"
 #include "harness/dynamics.h"
 #include "harness/figures.h"
-#include "harness/hash.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
 #include "harness/run.h"
 #include "harness/summary.h"
 

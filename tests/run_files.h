@@ -3,7 +3,7 @@
 #ifndef MOTE_TESTS_RUN_FILES_H
 #define MOTE_TESTS_RUN_FILES_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <dirent.h>
 #include <jansson.h>

@@ -6,7 +6,7 @@
    answer of the first case, which must then be found. Exit status 1 where something failed. */
 #include "tests/checks.h"
 
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "tests/soak_case.h"
 #include "tests/soak_judge.h"
 #include "tests/soak_shrink.h"

@@ -1,6 +1,6 @@
 #include "tests/soak_judge.h"
 
-#include "harness/child.h"
+#include "harness/base/child.h"
 #include "harness/probe.h"
 #include "harness/scenario.h"
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_STORED_CELLS_H
 #define MOTE_TESTS_STORED_CELLS_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "tests/plain_file.h"
 
 #include <inttypes.h>

@@ -1,7 +1,7 @@
 /* Where an approach stops, against a closed form, and what it refuses. */
 #include "harness/approach.h"
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "tests/diamond.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"

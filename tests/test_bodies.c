@@ -2,7 +2,7 @@
 #include "harness/bodies_engine.h"
 
 #include "harness/figure.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "tests/program.h"
 #include "tests/solids.h"
 

@@ -3,7 +3,7 @@
 #include "harness/bodies_row.h"
 
 #include "harness/bodies_record.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <setjmp.h>
 #include <signal.h>

@@ -1,7 +1,7 @@
 /* Several bodies in the closed loop: what is booked, what is kept, what is refused. */
 #include "harness/bodies_simulate.h"
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "tests/program.h"
 #include "tests/solids.h"
 

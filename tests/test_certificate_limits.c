@@ -1,6 +1,6 @@
 /* What certified mode does within limits: of precision, boxes tested, rooms and memory. */
 #include "core/certificate_state.h"
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

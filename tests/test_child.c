@@ -1,11 +1,11 @@
 /* Children that crash, hang, say rubbish or too much; that are confined; and files that a
    scenario may not name. */
 #define _DEFAULT_SOURCE /* mkdtemp, symlink */
-#include "harness/child.h"
-#include "harness/confine.h"
-#include "harness/file.h"
+#include "harness/base/child.h"
+#include "harness/base/confine.h"
+#include "harness/base/file.h"
 #include "harness/reach.h"
-#include "harness/spawn.h"
+#include "harness/base/spawn.h"
 
 #include <fcntl.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* The wall clock is set back and forth by years while a run measures (tests/clock_steps.c): its
    times come from a steady clock, its records are valid, and it is not led to measure again. */
 #define _DEFAULT_SOURCE /* mkdtemp, setenv */
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 #include "tests/run_files.h"
 

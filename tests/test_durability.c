@@ -1,6 +1,6 @@
 /* What a run leaves behind when it is stopped, its parent killed, or the disk taken away. */
 #define _GNU_SOURCE /* unshare */
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/run_files.h"

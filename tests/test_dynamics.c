@@ -2,7 +2,7 @@
  */
 #include "harness/dynamics.h"
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

@@ -2,9 +2,9 @@
    an error with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap,
    as in tests/failing.h). */
 #include "core/method.h"
-#include "harness/file.h"
-#include "harness/json_memory.h"
-#include "harness/json_read.h"
+#include "harness/base/file.h"
+#include "harness/base/json_memory.h"
+#include "harness/base/json_read.h"
 #include "harness/probe.h"
 #include "harness/summary.h"
 #include "tests/failing.h"

@@ -3,12 +3,12 @@
 #include "tests/fault_lines.h"
 
 #include "harness/claim.h"
-#include "harness/file.h"
-#include "harness/load.h"
-#include "harness/manifest.h"
+#include "harness/base/file.h"
+#include "harness/base/load.h"
+#include "harness/base/manifest.h"
 #include "harness/measure.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 #include "harness/study.h"
 #include "harness/truth.h"
 

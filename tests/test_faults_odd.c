@@ -5,9 +5,9 @@
 #include "tests/fault_lines.h"
 
 #include "harness/figures.h"
-#include "harness/file.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/file.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

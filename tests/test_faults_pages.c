@@ -2,7 +2,7 @@
    ask for memory, files or processes failing once; and more of what commands read and write. */
 #include "tests/fault_lines.h"
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

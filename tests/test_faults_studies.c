@@ -1,6 +1,6 @@
 /* Every place where a study asks for memory, files or processes, failing once. */
 #include "harness/extreme.h"
-#include "harness/options.h"
+#include "harness/base/options.h"
 #include "tests/fault_lines.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* The FCL adapters against brute force with our own triangle distance. */
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 #include "tests/shapes.h"
 
 #include <stdarg.h>

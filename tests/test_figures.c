@@ -2,8 +2,8 @@
  */
 #include "harness/figure.h"
 #include "harness/figure_scene.h"
-#include "harness/hash.h"
-#include "harness/record.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"

@@ -1,6 +1,6 @@
 /* Fronts of time against error: known answers, and a run that the test writes itself. */
 #include "harness/front.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,8 +1,8 @@
 /* JSON files as users write them: what is wrong is told by file, line and place; and as mote
    prints them. */
-#include "harness/file.h"
-#include "harness/json_print.h"
-#include "harness/json_read.h"
+#include "harness/base/file.h"
+#include "harness/base/json_print.h"
+#include "harness/base/json_read.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -31,9 +31,9 @@ typedef struct library {
 static const library libraries[] = {
     {"gsl/gsl_linalg", {"core/linear_algebra.c"}},
     {"gsl/gsl_eigen", {"core/linear_algebra.c"}},
-    {"gsl/gsl_statistics", {"harness/statistics.c"}},
-    {"gsl/gsl_sort", {"harness/statistics.c"}},
-    {"gsl/gsl_cdf", {"harness/statistics.c"}},
+    {"gsl/gsl_statistics", {"harness/base/statistics.c"}},
+    {"gsl/gsl_sort", {"harness/base/statistics.c"}},
+    {"gsl/gsl_cdf", {"harness/base/statistics.c"}},
     {"meshoptimizer", {"core/parts"}},
     {"bullet/", {"core/parts"}},
     {"fcl/", {"baselines/fcl_"}},

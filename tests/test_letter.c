@@ -1,6 +1,6 @@
 /* Every property of a letter is recomputed here from its positions and indices alone. */
 #include "datasets/letter.h"
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 
 #include <math.h>
 #include <setjmp.h>

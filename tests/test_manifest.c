@@ -1,8 +1,8 @@
 /* The manifest of a directory that was there before, whatever its file says. */
-#include "harness/manifest.h"
+#include "harness/base/manifest.h"
 
-#include "harness/file.h"
-#include "harness/record.h"
+#include "harness/base/file.h"
+#include "harness/base/record.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

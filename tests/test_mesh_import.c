@@ -1,4 +1,4 @@
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/mesh_import.h"
 #include "harness/mesh_soup.h"
 #include "tests/plain_file.h"

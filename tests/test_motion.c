@@ -1,4 +1,4 @@
-#include "harness/curve.h"
+#include "harness/base/curve.h"
 #include "harness/motion.h"
 #include "harness/turn.h"
 

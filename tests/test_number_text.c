@@ -1,7 +1,7 @@
 /* Figures as a person reads them, and text from elsewhere that does no harm in a page. */
-#include "harness/number_text.h"
+#include "harness/base/number_text.h"
 
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 #include "harness/markdown_html.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* The default scenario of two meshes, and the built-in ones by their fingerprints. */
 #include "harness/catalog.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/truth.h"
 
 #include <inttypes.h>

@@ -9,7 +9,7 @@
 #include "core/particles.h"
 #include "core/refine.h"
 #include "core/tracker.h"
-#include "harness/hash.h"
+#include "harness/base/hash.h"
 
 #include "tests/bodies.h"
 

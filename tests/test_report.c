@@ -1,7 +1,7 @@
 /* The report of a run, and what it is written with. */
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 #include "harness/markdown_html.h"
-#include "harness/number_text.h"
+#include "harness/base/number_text.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

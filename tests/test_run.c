@@ -1,5 +1,5 @@
 #include "harness/cell_process.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 #include "core/deform.h"
-#include "harness/file.h"
-#include "harness/json_read.h"
+#include "harness/base/file.h"
+#include "harness/base/json_read.h"
 #include "harness/motion.h"
 #include "harness/scenario.h"
 #include "harness/spread.h"

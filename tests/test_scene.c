@@ -2,7 +2,7 @@
 #include "core/certificate_shared.h"
 #include "core/scene.h"
 
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 #include "tests/crowd.h"
 
 static void check_contained(const crowd *c, const mote_scene_box *boxes)

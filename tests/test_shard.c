@@ -1,5 +1,5 @@
 /* Shards of a run, and runs merged. */
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

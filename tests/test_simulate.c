@@ -2,7 +2,7 @@
 #include "harness/simulate.h"
 
 #include "core/triangle.h"
-#include "harness/file.h"
+#include "harness/base/file.h"
 #include "harness/film.h"
 #include "harness/motion.h"
 #include "harness/penetration.h"

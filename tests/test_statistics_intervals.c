@@ -1,6 +1,6 @@
 /* Intervals and tests of means, shares and figures of processes, against closed forms: of
    Student's t with one and two degrees of freedom, and of sums of binomial terms. */
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

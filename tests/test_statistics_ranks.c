@@ -1,6 +1,6 @@
 /* Tests by ranks and order statistics against every arrangement counted one by one, closed
    forms and the table of the sign test. */
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

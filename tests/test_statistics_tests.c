@@ -1,5 +1,5 @@
 /* Tests of hypotheses, against published examples and closed forms. */
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
    summary and a merge say of the rest follows from it. */
 #include "harness/figure.h"
 #include "harness/merge.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "harness/summary.h"
 #include "tests/stored_run.h"
 

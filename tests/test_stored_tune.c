@@ -1,7 +1,7 @@
 /* What tune makes of runs whose files the test wrote. */
 #include "harness/tune.h"
 
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/stored_run.h"
 
 #define RIGHT(ns) "1,0,0," #ns ",0.5,0,0,0,7\n"

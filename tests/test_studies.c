@@ -2,8 +2,8 @@
    measured, and whatever fails beneath them is handed up with its text. */
 #include "harness/claims.h"
 #include "harness/command.h"
-#include "harness/options.h"
-#include "harness/record.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
 #include "harness/study_bodies.h"
 #include "harness/study_dynamics.h"
 #include "harness/study_extremes.h"

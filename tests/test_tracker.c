@@ -1,7 +1,7 @@
 /* The method `particle` through the contract, against all pairs of triangles. */
 #include "core/tracker.h"
 #include "datasets/letter.h"
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 #include "tests/shapes.h"
 
 #include <setjmp.h>

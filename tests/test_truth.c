@@ -1,5 +1,5 @@
-#include "harness/file.h"
-#include "harness/hash.h"
+#include "harness/base/file.h"
+#include "harness/base/hash.h"
 #include "harness/truth.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"

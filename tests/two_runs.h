@@ -3,7 +3,7 @@
 #define MOTE_TESTS_TWO_RUNS_H
 
 #include "harness/compare.h"
-#include "harness/record.h"
+#include "harness/base/record.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

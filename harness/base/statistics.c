@@ -1,4 +1,4 @@
-#include "harness/statistics.h"
+#include "harness/base/statistics.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

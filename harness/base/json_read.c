@@ -1,7 +1,7 @@
-#include "harness/json_read.h"
+#include "harness/base/json_read.h"
 
-#include "harness/file.h"
-#include "harness/json_memory.h"
+#include "harness/base/file.h"
+#include "harness/base/json_memory.h"
 
 #include <math.h>
 #include <stdarg.h>

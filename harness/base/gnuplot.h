@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_GNUPLOT_H
 #define MOTE_HARNESS_GNUPLOT_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 /* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: this one), where BASE.dat
    is: all text reaches gnuplot as arguments that are never run. formats: "svg png pdf", or

@@ -1,8 +1,8 @@
-#include "harness/gnuplot.h"
+#include "harness/base/gnuplot.h"
 
-#include "harness/data.h"
-#include "harness/file.h"
-#include "harness/spawn.h"
+#include "harness/base/data.h"
+#include "harness/base/file.h"
+#include "harness/base/spawn.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "harness/method_choice.h"
+#include "harness/base/method_choice.h"
 
 #include <stdio.h>
 #include <string.h>

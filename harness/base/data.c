@@ -1,6 +1,6 @@
-#include "harness/data.h"
+#include "harness/base/data.h"
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

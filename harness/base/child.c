@@ -1,6 +1,6 @@
-#include "harness/child.h"
+#include "harness/base/child.h"
 
-#include "harness/confine.h"
+#include "harness/base/confine.h"
 
 #include <errno.h>
 #include <poll.h>

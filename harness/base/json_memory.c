@@ -1,4 +1,4 @@
-#include "harness/json_memory.h"
+#include "harness/base/json_memory.h"
 
 #include <setjmp.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "harness/heap_count.h"
+#include "harness/base/heap_count.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define HEAP_OWNED_BY_SANITIZER 1

@@ -1,6 +1,6 @@
 /* Where a value stands in a JSON text. jansson does not keep the lines of what it read, so the
    text, known to be valid, is walked again along the path when an error has to be told. */
-#include "harness/json_read.h"
+#include "harness/base/json_read.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "harness/options.h"
+#include "harness/base/options.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,6 +1,6 @@
-#include "harness/json_print.h"
+#include "harness/base/json_print.h"
 
-#include "harness/json_memory.h"
+#include "harness/base/json_memory.h"
 
 #include <stdlib.h>
 #include <string.h>

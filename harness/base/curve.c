@@ -1,4 +1,4 @@
-#include "harness/curve.h"
+#include "harness/base/curve.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-#include "harness/record.h"
+#include "harness/base/record.h"
 
-#include "harness/json_print.h"
-#include "harness/json_read.h"
+#include "harness/base/json_print.h"
+#include "harness/base/json_read.h"
 
 #include <math.h>
 #include <stdlib.h>

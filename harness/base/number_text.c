@@ -1,4 +1,4 @@
-#include "harness/number_text.h"
+#include "harness/base/number_text.h"
 
 #include <stddef.h>
 #include <stdio.h>

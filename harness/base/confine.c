@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE /* syscall */
-#include "harness/confine.h"
+#include "harness/base/confine.h"
 
 #include <linux/landlock.h>
 #include <signal.h>

@@ -1,4 +1,4 @@
-#include "harness/escape.h"
+#include "harness/base/escape.h"
 
 #include <stdbool.h>
 #include <string.h>

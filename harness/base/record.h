@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_RECORD_H
 #define MOTE_HARNESS_RECORD_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_ESCAPE_H
 #define MOTE_HARNESS_ESCAPE_H
 
-#include "harness/file.h"
+#include "harness/base/file.h"
 
 /* Appends value as the text of an HTML element or of a quoted attribute: & < > " ' become
    entities, control characters other than line feeds and tabs blanks. NULL adds nothing. */

@@ -1,4 +1,4 @@
-#include "harness/spawn.h"
+#include "harness/base/spawn.h"
 
 #include <errno.h>
 #include <fcntl.h>

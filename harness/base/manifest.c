@@ -1,8 +1,8 @@
-#include "harness/manifest.h"
+#include "harness/base/manifest.h"
 
-#include "harness/hash.h"
-#include "harness/record.h"
-#include "harness/spawn.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
+#include "harness/base/spawn.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
