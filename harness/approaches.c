@@ -1,7 +1,7 @@
 #include "harness/approaches.h"
 
 #include "core/random.h"
-#include "harness/turn.h"
+#include "harness/scene/turn.h"
 
 #include <stdio.h>
 

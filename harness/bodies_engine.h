@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_BODIES_ENGINE_H
 #define MOTE_HARNESS_BODIES_ENGINE_H
 
-#include "harness/bodies.h"
+#include "harness/scene/bodies.h"
 #include "harness/base/method_choice.h"
 
 /* Which bodies a hierarchy is refitted for. */

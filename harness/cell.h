@@ -5,7 +5,7 @@
 
 #include "harness/base/method_choice.h"
 #include "harness/base/heap_count.h"
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 #include "harness/truth.h"
 
 #include <jansson.h>

@@ -6,7 +6,7 @@
 #include "core/parts.h"
 #include "core/random.h"
 #include "datasets/letter.h"
-#include "harness/spread.h"
+#include "harness/scene/spread.h"
 
 #include <math.h>
 #include <stdlib.h>

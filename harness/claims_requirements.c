@@ -2,7 +2,7 @@
  */
 #include "harness/claims.h"
 
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 
 #include <math.h>
 #include <string.h>

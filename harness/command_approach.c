@@ -1,5 +1,5 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
-#include "harness/approach.h"
+#include "harness/scene/approach.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/curve.h"

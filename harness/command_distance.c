@@ -3,8 +3,8 @@
 #include "harness/command.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
-#include "harness/mesh_import.h"
-#include "harness/probe.h"
+#include "harness/scene/mesh_import.h"
+#include "harness/scene/probe.h"
 #include "harness/base/record.h"
 
 #include <jansson.h>

@@ -7,8 +7,8 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 
 #include <jansson.h>
 #include <stdio.h>

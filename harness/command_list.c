@@ -1,7 +1,7 @@
 /* mote list methods|scenarios|fields [--json] */
 #include "core/field_maker.h"
 #include "core/method.h"
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"

@@ -2,7 +2,7 @@
 #include "core/parts.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/mesh_import.h"
+#include "harness/scene/mesh_import.h"
 #include "harness/base/record.h"
 
 #include <inttypes.h>

@@ -4,7 +4,7 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/run.h"
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 #include "harness/summary.h"
 #include "harness/table.h"
 

@@ -2,10 +2,10 @@
 
 #include "core/csrbf_fit.h"
 #include "datasets/letter.h"
-#include "harness/motion.h"
-#include "harness/probe.h"
-#include "harness/spread.h"
-#include "harness/turn.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/spread.h"
+#include "harness/scene/turn.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "harness/extreme.h"
 
 #include "harness/base/curve.h"
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 
 #include "harness/base/child.h"
 #include "harness/measure.h"
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/base/statistics.h"
 
 #include <float.h>

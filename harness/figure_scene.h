@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_FIGURE_SCENE_H
 
 #include "harness/figure.h"
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 
 typedef struct mote_figure_scene {
     mote_scenario *scenario;

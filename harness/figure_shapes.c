@@ -4,7 +4,7 @@
 
 #include "harness/figure_scene.h"
 #include "harness/base/hash.h"
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/base/record.h"
 
 #include <inttypes.h>

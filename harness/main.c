@@ -2,7 +2,7 @@
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
-#include "harness/reach.h"
+#include "harness/scene/reach.h"
 
 #include <signal.h>
 #include <stdio.h>

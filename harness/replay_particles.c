@@ -1,5 +1,5 @@
 /* Where a method's particles were: cells do not store it, so the method is asked once more. */
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/replay.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "harness/report_facts.h"
 
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/base/record.h"
 #include "harness/report_rows.h"
 

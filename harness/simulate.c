@@ -1,6 +1,6 @@
 #include "harness/simulate.h"
 
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 #include "harness/penetration.h"
 #include "harness/base/statistics.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/response.h"
 #include "harness/base/method_choice.h"
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 
 /* Truth is not asked where a lower bound of the distance exceeds this part of L. */
 #define MOTE_SIMULATION_NEAR 0.05

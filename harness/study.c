@@ -1,6 +1,6 @@
 #include "harness/study.h"
 
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/figures.h"
 #include "harness/base/json_read.h"
 #include "harness/measure.h"

@@ -1,8 +1,8 @@
 #include "harness/trace.h"
 
 #include "harness/base/json_print.h"
-#include "harness/motion.h"
-#include "harness/scenario_read.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/scenario_read.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include "harness/base/child.h"
 #include "harness/base/file.h"
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_TRUTH_H
 #define MOTE_HARNESS_TRUTH_H
 
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 
 typedef struct mote_truth {
     uint64_t fingerprint; /* of the scenario it belongs to */

@@ -9,13 +9,13 @@
    compares with FILE, exit status 1 where a line differs. --threads: so many answer at once,
    each a scenario and method of its own. Who changes a method on purpose renews
    tests/answers.txt with what this prints, once make determinism agrees on it. */
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 
 #include <inttypes.h>
 #include <pthread.h>

@@ -1,5 +1,5 @@
 /* Any text as a scenario file. */
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 #include "tests/fuzz.h"
 
 #include <jansson.h>

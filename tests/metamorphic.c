@@ -4,7 +4,7 @@
    methods agree to 1e-12 L, and the errors of the others keep their quantiles.
    Usage: metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit
    status 1 where something broke. */
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/base/statistics.h"
 #include "tests/checks.h"
 #include "tests/twin.h"

@@ -1,7 +1,7 @@
 #include "tests/oracle_frames.h"
 
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 
 #include <math.h>
 

@@ -12,7 +12,7 @@
 #include "core/csrbf_fit.h"
 #include "core/parts.h"
 #include "datasets/letter.h"
-#include "harness/spread.h"
+#include "harness/scene/spread.h"
 
 #include <math.h>
 #include <stdio.h>

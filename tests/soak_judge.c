@@ -1,8 +1,8 @@
 #include "tests/soak_judge.h"
 
 #include "harness/base/child.h"
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 
 #include <math.h>
 #include <stdlib.h>

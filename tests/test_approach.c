@@ -1,5 +1,5 @@
 /* Where an approach stops, against a closed form, and what it refuses. */
-#include "harness/approach.h"
+#include "harness/scene/approach.h"
 
 #include "harness/base/file.h"
 #include "tests/diamond.h"

@@ -4,7 +4,7 @@
 #include "harness/base/child.h"
 #include "harness/base/confine.h"
 #include "harness/base/file.h"
-#include "harness/reach.h"
+#include "harness/scene/reach.h"
 #include "harness/base/spawn.h"
 
 #include <fcntl.h>

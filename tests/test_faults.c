@@ -5,7 +5,7 @@
 #include "harness/base/file.h"
 #include "harness/base/json_memory.h"
 #include "harness/base/json_read.h"
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/summary.h"
 #include "tests/failing.h"
 #include "tests/shapes.h"

@@ -1,6 +1,6 @@
 /* Kinds of fields that scenarios name. */
 #include "core/field_maker.h"
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 #include "harness/base/file.h"
-#include "harness/mesh_import.h"
-#include "harness/mesh_soup.h"
+#include "harness/scene/mesh_import.h"
+#include "harness/scene/mesh_soup.h"
 #include "tests/plain_file.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "harness/base/curve.h"
-#include "harness/motion.h"
-#include "harness/turn.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/turn.h"
 
 #include <math.h>
 #include <setjmp.h>

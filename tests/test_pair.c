@@ -1,5 +1,5 @@
 /* The default scenario of two meshes, and the built-in ones by their fingerprints. */
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/base/file.h"
 #include "harness/truth.h"
 

@@ -1,5 +1,5 @@
 /* One method asked outside a measurement: its particles after it has answered. */
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "tests/shapes.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* The data of the page's replay, read back as the page reads it. */
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 #include "harness/replay.h"
 #include "tests/program.h"
 

@@ -1,9 +1,9 @@
 #include "core/deform.h"
 #include "harness/base/file.h"
 #include "harness/base/json_read.h"
-#include "harness/motion.h"
-#include "harness/scenario.h"
-#include "harness/spread.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/scenario.h"
+#include "harness/scene/spread.h"
 #include "tests/plain_file.h"
 
 #include <math.h>

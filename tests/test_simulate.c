@@ -4,7 +4,7 @@
 #include "core/triangle.h"
 #include "harness/base/file.h"
 #include "harness/film.h"
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 #include "harness/penetration.h"
 #include "harness/trace.h"
 #include "harness/truth.h"

@@ -3,9 +3,9 @@
    with every kind of field. Checked against all faces of the deformed bodies. */
 #include "core/deform.h"
 #include "core/triangle.h"
-#include "harness/catalog.h"
-#include "harness/probe.h"
-#include "harness/scenario.h"
+#include "harness/scene/catalog.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
 #include "tests/bodies.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* The motion of a body: key poses, each giving a position, a rotation, or both. */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
-#include "harness/spread.h"
+#include "harness/scene/spread.h"
 
 #include <math.h>
 #include <stdlib.h>

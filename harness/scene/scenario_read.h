@@ -3,8 +3,8 @@
 #define MOTE_HARNESS_SCENARIO_READ_H
 
 #include "harness/base/json_read.h"
-#include "harness/motion.h"
-#include "harness/scenario.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/scenario.h"
 
 /* A scenario's frames at most. */
 #define MOTE_FRAMES_MAX 1000000
@@ -17,7 +17,7 @@ mote_status mote_scenario_merge_like(mote_json_file *file);
    MOTE_EIO with the names that there are for an unknown one. Close with mote_json_close. */
 mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file);
 
-/* Whether a file's root is of several bodies (harness/bodies.h). */
+/* Whether a file's root is of several bodies (harness/scene/bodies.h). */
 bool mote_scenario_of_bodies(const mote_json_file *file);
 
 /* Reads "frames", "warmup", "active", "ask", "tolerance", "start", "pace" and "purpose" into a

@@ -1,4 +1,4 @@
-#include "harness/mesh_soup.h"
+#include "harness/scene/mesh_soup.h"
 
 #include <stdlib.h>
 #include <string.h>

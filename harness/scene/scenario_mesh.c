@@ -1,10 +1,10 @@
 /* The mesh of a body: a letter or a file, possibly scaled. */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
 #include "datasets/letter.h"
 #include "harness/base/file.h"
-#include "harness/mesh_import.h"
-#include "harness/reach.h"
+#include "harness/scene/mesh_import.h"
+#include "harness/scene/reach.h"
 
 #include <stdlib.h>
 #include <string.h>

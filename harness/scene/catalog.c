@@ -1,4 +1,4 @@
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 
 #include "harness/base/data.h"
 #include "harness/base/file.h"

@@ -1,5 +1,5 @@
 /* Wavefront OBJ, read in double precision: assimp would round the coordinates to 32 bits. */
-#include "harness/mesh_text.h"
+#include "harness/scene/mesh_text.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,8 +9,8 @@
 #define MOTE_HARNESS_BODIES_H
 
 #include "core/scene.h"
-#include "harness/motion.h"
-#include "harness/scenario.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/scenario.h"
 
 /* Bodies and shapes at most. */
 #define MOTE_BODIES_MAX 1000000

@@ -1,6 +1,6 @@
-#include "harness/bodies.h"
+#include "harness/scene/bodies.h"
 
-#include "harness/turn.h"
+#include "harness/scene/turn.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* A scenario that is like another one: what it names replaces, key by key and body by body,
    what the other one says; null takes a key away (as RFC 7396, but bodies are merged one by
    one). */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/base/file.h"
-#include "harness/reach.h"
+#include "harness/scene/reach.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 
 #include "core/random.h"
-#include "harness/turn.h"
+#include "harness/scene/turn.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE /* realpath */
-#include "harness/reach.h"
+#include "harness/scene/reach.h"
 
 #include "harness/base/data.h"
 #include "harness/base/file.h"

@@ -1,7 +1,7 @@
 /* A scenario file: bodies, frames, intervals, what is asked. */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
-#include "harness/catalog.h"
+#include "harness/scene/catalog.h"
 #include "harness/base/file.h"
 
 #include <assert.h>

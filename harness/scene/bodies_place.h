@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_BODIES_PLACE_H
 #define MOTE_HARNESS_BODIES_PLACE_H
 
-#include "harness/bodies.h"
+#include "harness/scene/bodies.h"
 
 /* What a scenario's file says of its box and its bodies. Lengths are of L. */
 typedef struct mote_bodies_wish {

@@ -1,8 +1,8 @@
 /* The default scenario of two meshes: approach, touches, parting, both turning and deforming.
  */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
-#include "harness/approach.h"
+#include "harness/scene/approach.h"
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 

@@ -1,4 +1,4 @@
-#include "harness/spread.h"
+#include "harness/scene/spread.h"
 
 #include <math.h>
 #include <stdlib.h>

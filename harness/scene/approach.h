@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_APPROACH_H
 #define MOTE_HARNESS_APPROACH_H
 
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 
 typedef struct mote_approach_plan {
     mote_vec3 direction;    /* along which body 1 comes to body 0; any length > 0 */

@@ -1,6 +1,6 @@
 /* Meshes by assimp: PLY, STL, glTF and what else it knows. The only file that includes it.
  */
-#include "harness/mesh_soup.h"
+#include "harness/scene/mesh_soup.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>

@@ -1,7 +1,7 @@
-#include "harness/approach.h"
+#include "harness/scene/approach.h"
 
-#include "harness/motion.h"
-#include "harness/probe.h"
+#include "harness/scene/motion.h"
+#include "harness/scene/probe.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* The field of a body and the displacement of its control points. */
-#include "harness/scenario_read.h"
+#include "harness/scene/scenario_read.h"
 
 #include "core/field_maker.h"
 #include "harness/base/file.h"
-#include "harness/spread.h"
+#include "harness/scene/spread.h"
 
 #include <stdlib.h>
 #include <string.h>

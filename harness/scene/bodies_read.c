@@ -1,8 +1,8 @@
 /* A scenario file of several bodies. */
-#include "harness/bodies_place.h"
+#include "harness/scene/bodies_place.h"
 #include "harness/base/file.h"
-#include "harness/scenario_read.h"
-#include "harness/spread.h"
+#include "harness/scene/scenario_read.h"
+#include "harness/scene/spread.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/mesh_text.h"
+#include "harness/scene/mesh_text.h"
 
 #include <math.h>
 #include <stdlib.h>

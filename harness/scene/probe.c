@@ -1,4 +1,4 @@
-#include "harness/probe.h"
+#include "harness/scene/probe.h"
 
 #include "core/deform.h"
 

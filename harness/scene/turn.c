@@ -1,4 +1,4 @@
-#include "harness/turn.h"
+#include "harness/scene/turn.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "harness/bodies_place.h"
+#include "harness/scene/bodies_place.h"
 
 #include "baselines/broad_phase.h"
 #include "core/random.h"

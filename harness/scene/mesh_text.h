@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_MESH_TEXT_H
 #define MOTE_HARNESS_MESH_TEXT_H
 
-#include "harness/mesh_soup.h"
+#include "harness/scene/mesh_soup.h"
 
 typedef struct mote_mesh_reader {
     const char *path; /* for messages */

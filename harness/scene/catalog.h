@@ -10,7 +10,7 @@
 typedef struct mote_catalog_entry {
     char *name;    /* "ww" */
     char *purpose; /* one sentence */
-    bool several;  /* of several bodies (harness/bodies.h), not of two */
+    bool several;  /* of several bodies (harness/scene/bodies.h), not of two */
 } mote_catalog_entry;
 
 typedef struct mote_catalog {

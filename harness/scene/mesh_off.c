@@ -1,6 +1,6 @@
 /* OFF, read in double precision and checked line by line: assimp would round the coordinates to
    32 bits, and put another vertex for an index out of range. */
-#include "harness/mesh_text.h"
+#include "harness/scene/mesh_text.h"
 
 #include <stdlib.h>
 #include <string.h>

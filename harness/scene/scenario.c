@@ -1,8 +1,8 @@
-#include "harness/scenario.h"
+#include "harness/scene/scenario.h"
 
 #include "core/deform.h"
 #include "harness/base/hash.h"
-#include "harness/motion.h"
+#include "harness/scene/motion.h"
 
 #include <assert.h>
 #include <math.h>
