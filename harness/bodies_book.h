@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_BODIES_BOOK_H
 #define MOTE_HARNESS_BODIES_BOOK_H
 
-#include "harness/bodies_engine.h"
+#include "harness/run/bodies_engine.h"
 
 /* A run of contacts that goes on. */
 typedef struct mote_bodies_touch {

@@ -1,7 +1,7 @@
 #include "harness/bodies_simulate.h"
 
 #include "core/deform.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/penetration.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "harness/claims.h"
 
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/record.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
    FCL. Measured in cells, each in a process of its own. */
 #include "harness/claims.h"
 
-#include "harness/run.h"
+#include "harness/run/run.h"
 #include "harness/summary.h"
 
 #include <math.h>

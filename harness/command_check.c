@@ -2,7 +2,7 @@
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include <inttypes.h>
 #include <jansson.h>

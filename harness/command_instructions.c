@@ -1,7 +1,7 @@
 /* mote instructions SCENARIO: what methods execute, by callgrind. */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/instructions.h"
+#include "harness/run/instructions.h"
 
 static const mote_option options[] = {
     {"frames", "A-B"},        {"method", "NAME[:key=value,...]"},

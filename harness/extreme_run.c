@@ -2,7 +2,7 @@
 #include "harness/extreme.h"
 
 #include "harness/base/child.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/scene/probe.h"
 #include "harness/base/statistics.h"
 

@@ -2,7 +2,7 @@
 #include "harness/figure.h"
 
 #include "core/deform.h"
-#include "harness/bodies_engine.h"
+#include "harness/run/bodies_engine.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 

@@ -1,7 +1,7 @@
 /* Figures of error: over n (5), over frames (12). */
 #include "harness/figure.h"
 #include "harness/front.h"
-#include "harness/plan.h"
+#include "harness/run/plan.h"
 
 #include <stdlib.h>
 #include <string.h>

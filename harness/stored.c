@@ -1,7 +1,7 @@
 #include "harness/stored.h"
 
 #include "harness/base/json_print.h"
-#include "harness/plan.h"
+#include "harness/run/plan.h"
 #include "harness/base/record.h"
 #include "harness/base/statistics.h"
 

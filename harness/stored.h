@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_STORED_H
 
 #include "core/method.h"
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 #include "harness/base/file.h"
 
 /* A count and its sum and largest value over the frames of a cell. */

@@ -3,7 +3,7 @@
 #include "harness/scene/catalog.h"
 #include "harness/figures.h"
 #include "harness/base/json_read.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/record.h"
 
 #include <math.h>

@@ -3,10 +3,10 @@
 #ifndef MOTE_HARNESS_STUDY_H
 #define MOTE_HARNESS_STUDY_H
 
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 #include "harness/claim.h"
 #include "harness/base/file.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/summary.h"
 
 /* At most this many seeds and scenes. */

@@ -1,6 +1,6 @@
 #include "harness/study_bodies.h"
 
-#include "harness/bodies_run.h"
+#include "harness/run/bodies_run.h"
 #include "harness/figures.h"
 #include "harness/base/record.h"
 

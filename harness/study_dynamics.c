@@ -2,7 +2,7 @@
 
 #include "harness/figure.h"
 #include "harness/base/hash.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/record.h"
 
 #include <ctype.h>

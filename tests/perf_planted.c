@@ -4,9 +4,9 @@
 
    perf_planted DIR [RUNS] */
 #include "harness/compare.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/options.h"
-#include "harness/run.h"
+#include "harness/run/run.h"
 #include "harness/summary.h"
 
 #include <stdio.h>

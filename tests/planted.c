@@ -1,12 +1,12 @@
 /* See planted.h. */
 #include "tests/planted.h"
 
-#include "harness/bodies_run.h"
+#include "harness/run/bodies_run.h"
 #include "harness/dynamics.h"
 #include "harness/figures.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
-#include "harness/run.h"
+#include "harness/run/run.h"
 #include "harness/summary.h"
 
 #include "core/csrbf_fit.h"

@@ -1,5 +1,5 @@
 /* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
-#include "harness/bodies_engine.h"
+#include "harness/run/bodies_engine.h"
 
 #include "harness/figure.h"
 #include "harness/base/file.h"

@@ -1,8 +1,8 @@
 /* What becomes of the processes of several bodies, and rows of what they measured: contacts
    against a reference, ends that were not good. */
-#include "harness/bodies_row.h"
+#include "harness/run/bodies_row.h"
 
-#include "harness/bodies_record.h"
+#include "harness/run/bodies_record.h"
 #include "harness/base/file.h"
 
 #include <setjmp.h>

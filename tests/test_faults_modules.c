@@ -6,11 +6,11 @@
 #include "harness/base/file.h"
 #include "harness/base/load.h"
 #include "harness/base/manifest.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/study.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* The default scenario of two meshes, and the built-in ones by their fingerprints. */
 #include "harness/scene/catalog.h"
 #include "harness/base/file.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include <inttypes.h>
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-#include "harness/cell_process.h"
+#include "harness/run/cell_process.h"
 #include "harness/base/record.h"
 #include "tests/program.h"
 

@@ -7,7 +7,7 @@
 #include "harness/scene/motion.h"
 #include "harness/penetration.h"
 #include "harness/trace.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 #include "tests/program.h"
 #include "tests/solids.h"
 

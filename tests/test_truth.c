@@ -1,6 +1,6 @@
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_BODIES_RUN_H
 #define MOTE_HARNESS_BODIES_RUN_H
 
-#include "harness/bodies_row.h"
+#include "harness/run/bodies_row.h"
 
 typedef struct mote_bodies_run_options {
     const char *const *scenarios;

@@ -1,9 +1,9 @@
-#include "harness/bodies_measure.h"
+#include "harness/run/bodies_measure.h"
 
 #include "core/frame_queue.h"
-#include "harness/bodies_record.h"
-#include "harness/cell_process.h"
-#include "harness/measure.h"
+#include "harness/run/bodies_record.h"
+#include "harness/run/cell_process.h"
+#include "harness/run/measure.h"
 #include "harness/base/statistics.h"
 
 #include <pthread.h>

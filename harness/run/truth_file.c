@@ -1,6 +1,6 @@
 /* The file of a truth: a line that says whose it is, a CSV, and a last line with a hash of all
    before it, so that a file that was cut or edited is not believed. */
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include "harness/base/file.h"
 #include "harness/base/hash.h"

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_RUN_H
 #define MOTE_HARNESS_RUN_H
 
-#include "harness/plan.h"
+#include "harness/run/plan.h"
 
 typedef struct mote_run_options {
     const char *const *scenarios; /* names or paths */

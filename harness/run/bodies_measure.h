@@ -2,8 +2,8 @@
 #ifndef MOTE_HARNESS_BODIES_MEASURE_H
 #define MOTE_HARNESS_BODIES_MEASURE_H
 
-#include "harness/bodies_engine.h"
-#include "harness/cell.h"
+#include "harness/run/bodies_engine.h"
+#include "harness/run/cell.h"
 
 typedef struct mote_bodies_options {
     uint32_t first, last;  /* frames, inclusive; 0, 0: all */

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_PLAN_H
 #define MOTE_HARNESS_PLAN_H
 
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 
 /* A growing list of configurations. Zero-initialise; free with mote_choices_free. */
 typedef struct mote_choices {

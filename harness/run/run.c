@@ -1,10 +1,10 @@
 #define _DEFAULT_SOURCE /* flock, nanosleep */
-#include "harness/run.h"
+#include "harness/run/run.h"
 
-#include "harness/cell_process.h"
+#include "harness/run/cell_process.h"
 #include "harness/base/load.h"
 #include "harness/base/manifest.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/record.h"
 #include "harness/summary.h"
 

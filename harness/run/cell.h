@@ -6,7 +6,7 @@
 #include "harness/base/method_choice.h"
 #include "harness/base/heap_count.h"
 #include "harness/scene/scenario.h"
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include <jansson.h>
 

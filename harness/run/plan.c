@@ -1,4 +1,4 @@
-#include "harness/plan.h"
+#include "harness/run/plan.h"
 
 #include "harness/base/file.h"
 #include "harness/base/options.h"

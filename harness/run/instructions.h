@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_INSTRUCTIONS_H
 #define MOTE_HARNESS_INSTRUCTIONS_H
 
-#include "harness/plan.h"
+#include "harness/run/plan.h"
 
 /* Whether valgrind can be run. */
 bool mote_instructions_possible(void);

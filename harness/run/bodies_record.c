@@ -1,4 +1,4 @@
-#include "harness/bodies_record.h"
+#include "harness/run/bodies_record.h"
 
 #include "harness/base/file.h"
 #include "harness/base/hash.h"

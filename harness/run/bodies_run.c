@@ -1,4 +1,4 @@
-#include "harness/bodies_run.h"
+#include "harness/run/bodies_run.h"
 
 #include "harness/base/manifest.h"
 #include "harness/base/record.h"

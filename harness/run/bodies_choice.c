@@ -1,4 +1,4 @@
-#include "harness/bodies_engine.h"
+#include "harness/run/bodies_engine.h"
 #include "harness/base/options.h"
 
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_CELL_PROCESS_H
 #define MOTE_HARNESS_CELL_PROCESS_H
 
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 #include "harness/base/child.h"
 
 /* What a probe found: a few frames, nothing stored. */

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_BODIES_ROW_H
 #define MOTE_HARNESS_BODIES_ROW_H
 
-#include "harness/bodies_measure.h"
+#include "harness/run/bodies_measure.h"
 
 #include <jansson.h>
 #include <stdio.h>

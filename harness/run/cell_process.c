@@ -1,8 +1,8 @@
 #define _GNU_SOURCE /* sched_setaffinity */
-#include "harness/cell_process.h"
+#include "harness/run/cell_process.h"
 
 #include "harness/base/load.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/statistics.h"
 
 #include <sched.h>

@@ -1,11 +1,11 @@
-#include "harness/bodies_engine.h"
+#include "harness/run/bodies_engine.h"
 
 #include "baselines/body_trees.h"
 #include "baselines/broad_phase.h"
 #include "core/deform.h"
 #include "core/pool.h"
 #include "harness/base/heap_count.h"
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_MEASURE_H
 #define MOTE_HARNESS_MEASURE_H
 
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 
 /* Monotonic, nanoseconds. */
 uint64_t mote_clock_ns(void);

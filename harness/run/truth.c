@@ -1,4 +1,4 @@
-#include "harness/truth.h"
+#include "harness/run/truth.h"
 
 #include "harness/base/child.h"
 #include "harness/base/file.h"

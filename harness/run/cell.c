@@ -1,4 +1,4 @@
-#include "harness/cell.h"
+#include "harness/run/cell.h"
 
 #include "harness/base/hash.h"
 #include "harness/base/manifest.h"

@@ -1,4 +1,4 @@
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 
 #include "core/deform.h"
 #include "harness/base/statistics.h"
@@ -138,7 +138,7 @@ static uint64_t elapsed(const session *s, uint64_t start, uint64_t end)
 }
 
 /* The timed calls: functions of their own, so that callgrind can count in them alone
-   (harness/instructions.c). */
+   (harness/run/instructions.c). */
 __attribute__((noinline)) static void timed_deform(const session *s, mote_frame *frame)
 {
     deform(s, frame);

@@ -1,4 +1,4 @@
-#include "harness/bodies_row.h"
+#include "harness/run/bodies_row.h"
 
 #include "harness/base/record.h"
 #include "harness/base/statistics.h"

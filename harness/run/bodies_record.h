@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_BODIES_RECORD_H
 #define MOTE_HARNESS_BODIES_RECORD_H
 
-#include "harness/bodies_measure.h"
+#include "harness/run/bodies_measure.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
-#include "harness/instructions.h"
+#include "harness/run/instructions.h"
 
-#include "harness/measure.h"
+#include "harness/run/measure.h"
 #include "harness/base/record.h"
 #include "harness/base/spawn.h"
 
