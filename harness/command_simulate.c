@@ -1,12 +1,12 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line. */
-#include "harness/bodies_simulate_print.h"
-#include "harness/film.h"
+#include "harness/loop/bodies_simulate_print.h"
+#include "harness/loop/film.h"
 #include "harness/base/json_print.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 #include "harness/base/statistics.h"
-#include "harness/trace.h"
+#include "harness/loop/trace.h"
 
 #include <stdio.h>
 #include <stdlib.h>

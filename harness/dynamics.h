@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_DYNAMICS_H
 #define MOTE_HARNESS_DYNAMICS_H
 
-#include "harness/approaches.h"
+#include "harness/loop/approaches.h"
 #include "harness/claim.h"
 
 /* One method on one scene. */

@@ -1,5 +1,5 @@
 /* Several bodies in the closed loop: what is booked, what is kept, what is refused. */
-#include "harness/bodies_simulate.h"
+#include "harness/loop/bodies_simulate.h"
 
 #include "harness/base/file.h"
 #include "tests/program.h"

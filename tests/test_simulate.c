@@ -1,12 +1,12 @@
 /* The closed loop: what it books against independent truth, what it keeps, what it refuses. */
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 
 #include "core/triangle.h"
 #include "harness/base/file.h"
-#include "harness/film.h"
+#include "harness/loop/film.h"
 #include "harness/scene/motion.h"
-#include "harness/penetration.h"
-#include "harness/trace.h"
+#include "harness/loop/penetration.h"
+#include "harness/loop/trace.h"
 #include "harness/run/truth.h"
 #include "tests/program.h"
 #include "tests/solids.h"

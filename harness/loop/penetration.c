@@ -1,4 +1,4 @@
-#include "harness/penetration.h"
+#include "harness/loop/penetration.h"
 
 #include "core/triangle.h"
 

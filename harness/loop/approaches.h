@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_APPROACHES_H
 #define MOTE_HARNESS_APPROACHES_H
 
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 #include "harness/base/statistics.h"
 
 #include <jansson.h>

@@ -1,4 +1,4 @@
-#include "harness/film.h"
+#include "harness/loop/film.h"
 
 #include "core/deform.h"
 #include "harness/figure.h"

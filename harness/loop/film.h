@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_FILM_H
 #define MOTE_HARNESS_FILM_H
 
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 
 /* Pictures, about; besides, one where a contact is first reported, twice as many in all at
    most. */

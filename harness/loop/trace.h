@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_TRACE_H
 #define MOTE_HARNESS_TRACE_H
 
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 
 /* Writes the scenario with a key pose for each of states[count], count >= 2, in place of its
    motion, and the tolerance of the simulation; deformation starts with frame 1. Positions come

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_BODIES_SIMULATE_PRINT_H
 #define MOTE_HARNESS_BODIES_SIMULATE_PRINT_H
 
-#include "harness/bodies_simulate.h"
+#include "harness/loop/bodies_simulate.h"
 
 /* As JSON, with the keys of two bodies' and "bodies", "near_pairs", "bounces". MOTE_ENOMEM. */
 mote_status mote_bodies_simulation_json(const mote_bodies *bodies,

@@ -1,8 +1,8 @@
-#include "harness/bodies_simulate.h"
+#include "harness/loop/bodies_simulate.h"
 
 #include "core/deform.h"
 #include "harness/run/measure.h"
-#include "harness/penetration.h"
+#include "harness/loop/penetration.h"
 
 #include <stdlib.h>
 #include <string.h>

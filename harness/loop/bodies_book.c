@@ -1,4 +1,4 @@
-#include "harness/bodies_book.h"
+#include "harness/loop/bodies_book.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/bodies_simulate_print.h"
+#include "harness/loop/bodies_simulate_print.h"
 
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"

@@ -1,4 +1,4 @@
-#include "harness/approaches.h"
+#include "harness/loop/approaches.h"
 
 #include "core/random.h"
 #include "harness/scene/turn.h"

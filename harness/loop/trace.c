@@ -1,4 +1,4 @@
-#include "harness/trace.h"
+#include "harness/loop/trace.h"
 
 #include "harness/base/json_print.h"
 #include "harness/scene/motion.h"

@@ -1,12 +1,12 @@
 /* The closed loop with several bodies: they move freely in their box, deform as the scenario
    says, collide where a method says that they touch, and turn back at the walls. What the
-   method lets pass is found by an exact one beside it, as in harness/simulate.h. */
+   method lets pass is found by an exact one beside it, as in harness/loop/simulate.h. */
 #ifndef MOTE_HARNESS_BODIES_SIMULATE_H
 #define MOTE_HARNESS_BODIES_SIMULATE_H
 
 #include "core/response.h"
-#include "harness/bodies_book.h"
-#include "harness/simulate.h"
+#include "harness/loop/bodies_book.h"
+#include "harness/loop/simulate.h"
 
 typedef struct mote_bodies_simulation {
     uint32_t steps;        /* made */

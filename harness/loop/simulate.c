@@ -1,7 +1,7 @@
-#include "harness/simulate.h"
+#include "harness/loop/simulate.h"
 
 #include "harness/scene/motion.h"
-#include "harness/penetration.h"
+#include "harness/loop/penetration.h"
 #include "harness/base/statistics.h"
 
 #include <stdlib.h>
