@@ -3,7 +3,7 @@
 #include "harness/claims.h"
 
 #include "harness/run/run.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* mote compare BASE NEW: is a run better or worse than another? */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/compare.h"
+#include "harness/summary/compare.h"
 #include "harness/base/record.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* mote history: the accepted references, drawn; --add makes a run one of them. */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/history.h"
+#include "harness/summary/history.h"
 
 int mote_command_history(int argc, char **argv)
 {

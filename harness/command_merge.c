@@ -1,9 +1,9 @@
 /* mote merge OUT DIR...: the cells of several runs in one directory, and its summary. */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/merge.h"
-#include "harness/summary.h"
-#include "harness/table.h"
+#include "harness/summary/merge.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 #include "harness/base/file.h"
 #include "harness/run/run.h"
 #include "harness/scene/scenario.h"
-#include "harness/summary.h"
-#include "harness/table.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
 
 #include <stdio.h>
 #include <stdlib.h>

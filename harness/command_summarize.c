@@ -1,10 +1,10 @@
 /* mote summarize DIR: the rows of a run, computed again from its cells. */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/front.h"
+#include "harness/summary/front.h"
 #include "harness/base/record.h"
-#include "harness/summary.h"
-#include "harness/table.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
-#include "harness/tune.h"
+#include "harness/summary/tune.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 #include "harness/figure.h"
 
-#include "harness/front.h"
+#include "harness/summary/front.h"
 
 #include <stdlib.h>
 #include <string.h>

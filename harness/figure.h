@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_FIGURE_H
 
 #include "harness/base/gnuplot.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 /* What figures are made from. */
 typedef struct mote_figure_run {

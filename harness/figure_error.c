@@ -1,6 +1,6 @@
 /* Figures of error: over n (5), over frames (12). */
 #include "harness/figure.h"
-#include "harness/front.h"
+#include "harness/summary/front.h"
 #include "harness/run/plan.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Figure 4: speed against error, n beside the curves where there is room. */
 #include "harness/figure.h"
 #include "harness/figure_room.h"
-#include "harness/front.h"
+#include "harness/summary/front.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
 #include "harness/figure.h"
-#include "harness/front.h"
+#include "harness/summary/front.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #define MOTE_HARNESS_REPORT_H
 
 #include "harness/base/file.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 /* A drawn figure of the run. */
 typedef struct mote_report_figure {

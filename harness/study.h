@@ -7,7 +7,7 @@
 #include "harness/claim.h"
 #include "harness/base/file.h"
 #include "harness/run/measure.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 /* At most this many seeds and scenes. */
 #define MOTE_STUDY_SEEDS 16

@@ -1,8 +1,8 @@
 /* Any text as the two files of a cell, the JSON up to a line of "====" and the CSV behind it,
    up to the summary of a run that holds it, in all its formats. */
-#include "harness/front.h"
-#include "harness/summary.h"
-#include "harness/table.h"
+#include "harness/summary/front.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
 #include "tests/fuzz.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Any text as the summaries of two runs, the base's up to a line of "====" and the new one's
    behind it, compared. */
-#include "harness/compare.h"
+#include "harness/summary/compare.h"
 #include "tests/fuzz.h"
 
 #include <stdio.h>

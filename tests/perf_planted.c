@@ -3,11 +3,11 @@
    method; takes minutes, and so is no part of make test.
 
    perf_planted DIR [RUNS] */
-#include "harness/compare.h"
+#include "harness/summary/compare.h"
 #include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/run/run.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <stdio.h>
 #include <stdlib.h>

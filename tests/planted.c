@@ -7,7 +7,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 #include "harness/run/run.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include "core/csrbf_fit.h"
 #include "core/parts.h"

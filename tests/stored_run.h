@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_STORED_RUN_H
 #define MOTE_TESTS_STORED_RUN_H
 
-#include "harness/stored.h"
+#include "harness/summary/stored.h"
 #include "tests/plain_file.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"

@@ -6,7 +6,7 @@
 #include "harness/base/json_memory.h"
 #include "harness/base/json_read.h"
 #include "harness/scene/probe.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 #include "tests/failing.h"
 #include "tests/shapes.h"
 

@@ -1,5 +1,5 @@
 /* Fronts of time against error: known answers, and a run that the test writes itself. */
-#include "harness/front.h"
+#include "harness/summary/front.h"
 #include "harness/base/record.h"
 #include "tests/program.h"
 

@@ -1,9 +1,9 @@
 /* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
    summary and a merge say of the rest follows from it. */
 #include "harness/figure.h"
-#include "harness/merge.h"
+#include "harness/summary/merge.h"
 #include "harness/base/record.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 #include "tests/stored_run.h"
 
 #include <math.h>

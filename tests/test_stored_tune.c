@@ -1,5 +1,5 @@
 /* What tune makes of runs whose files the test wrote. */
-#include "harness/tune.h"
+#include "harness/summary/tune.h"
 
 #include "harness/base/record.h"
 #include "tests/stored_run.h"

@@ -1,8 +1,8 @@
 /* Which cells are put into one row, and which rows are compared with each other. */
 #include "harness/figure.h"
-#include "harness/front.h"
-#include "harness/summary.h"
-#include "harness/table.h"
+#include "harness/summary/front.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"
 

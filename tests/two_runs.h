@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_TWO_RUNS_H
 #define MOTE_TESTS_TWO_RUNS_H
 
-#include "harness/compare.h"
+#include "harness/summary/compare.h"
 #include "harness/base/record.h"
 #include "tests/program.h"
 

@@ -6,7 +6,7 @@
 #include "harness/base/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -1,4 +1,4 @@
-#include "harness/table.h"
+#include "harness/summary/table.h"
 
 #include "harness/base/number_text.h"
 

@@ -1,5 +1,5 @@
 #include "harness/base/file.h"
-#include "harness/table.h"
+#include "harness/summary/table.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "harness/stored.h"
+#include "harness/summary/stored.h"
 
 #include "harness/base/json_print.h"
 #include "harness/run/plan.h"

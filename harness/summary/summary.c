@@ -1,9 +1,9 @@
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
-#include "harness/front.h"
+#include "harness/summary/front.h"
 #include "harness/base/record.h"
-#include "harness/summary_quiet.h"
-#include "harness/summary_row.h"
+#include "harness/summary/summary_quiet.h"
+#include "harness/summary/summary_row.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/front.h"
+#include "harness/summary/front.h"
 #include "harness/base/record.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "harness/summary_quiet.h"
+#include "harness/summary/summary_quiet.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_TABLE_H
 #define MOTE_HARNESS_TABLE_H
 
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <stdio.h>
 

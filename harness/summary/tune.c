@@ -1,4 +1,4 @@
-#include "harness/tune.h"
+#include "harness/summary/tune.h"
 
 #include "harness/base/record.h"
 

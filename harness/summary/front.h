@@ -9,7 +9,7 @@
 #define MOTE_HARNESS_FRONT_H
 
 #include "harness/base/file.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SUMMARY_ROW_H
 #define MOTE_HARNESS_SUMMARY_ROW_H
 
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 /* Fills a row from its cells [replicates], all but the ratios. */
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,

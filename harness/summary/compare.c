@@ -1,7 +1,7 @@
-#include "harness/compare.h"
+#include "harness/summary/compare.h"
 
 #include "harness/base/record.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <stdlib.h>
 #include <string.h>

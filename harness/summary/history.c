@@ -1,10 +1,10 @@
-#include "harness/history.h"
+#include "harness/summary/history.h"
 
 #include "harness/base/options.h"
 #include "harness/figure.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
-#include "harness/summary.h"
+#include "harness/summary/summary.h"
 
 #include <inttypes.h>
 #include <stdio.h>

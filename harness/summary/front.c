@@ -1,4 +1,4 @@
-#include "harness/front.h"
+#include "harness/summary/front.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-#include "harness/merge.h"
+#include "harness/summary/merge.h"
 
 #include "harness/base/record.h"
-#include "harness/stored.h"
+#include "harness/summary/stored.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/summary_row.h"
+#include "harness/summary/summary_row.h"
 
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"

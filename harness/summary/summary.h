@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_SUMMARY_H
 
 #include "harness/base/statistics.h"
-#include "harness/stored.h"
+#include "harness/summary/stored.h"
 
 /* A time over frames and replicates, in nanoseconds. median, p95 and max are over all frames of
    all replicates; the interval is the median's (mote_statistics_median_interval); sum is the
@@ -126,7 +126,7 @@ mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count,
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);
 
-/* Writes directory/summary.json, and fronts.csv and speed.csv (harness/front.h). */
+/* Writes directory/summary.json, and fronts.csv and speed.csv (harness/summary/front.h). */
 mote_status mote_summary_write(const mote_summary *summary, const char *directory);
 
 #endif
