@@ -1,7 +1,7 @@
 /* mote figures DIR: the figures of a run, drawn again from its cells. */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 
 int mote_command_figures(int argc, char **argv)
 {

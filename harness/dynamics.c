@@ -1,6 +1,6 @@
 #include "harness/dynamics.h"
 
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/record.h"
 
 #include <stdio.h>

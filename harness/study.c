@@ -1,7 +1,7 @@
 #include "harness/study.h"
 
 #include "harness/scene/catalog.h"
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/json_read.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"

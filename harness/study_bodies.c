@@ -1,7 +1,7 @@
 #include "harness/study_bodies.h"
 
 #include "harness/run/bodies_run.h"
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/record.h"
 
 #include <math.h>

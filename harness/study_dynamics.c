@@ -1,6 +1,6 @@
 #include "harness/study_dynamics.h"
 
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/base/hash.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"

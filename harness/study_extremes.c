@@ -1,7 +1,7 @@
 #include "harness/study_extremes.h"
 
 #include "harness/extreme.h"
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/record.h"
 
 #include <inttypes.h>

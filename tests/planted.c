@@ -3,7 +3,7 @@
 
 #include "harness/run/bodies_run.h"
 #include "harness/dynamics.h"
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 #include "harness/run/run.h"

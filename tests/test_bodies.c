@@ -1,7 +1,7 @@
 /* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
 #include "harness/run/bodies_engine.h"
 
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/base/file.h"
 #include "tests/program.h"
 #include "tests/solids.h"

@@ -1,7 +1,7 @@
 /* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
 #include "harness/claims.h"
 
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "tests/program.h"
 #include "tests/stored_cells.h"
 

@@ -4,7 +4,7 @@
    fails once. */
 #include "tests/fault_lines.h"
 
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 #include "harness/base/file.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"

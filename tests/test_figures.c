@@ -1,7 +1,7 @@
 /* mote figures: what a small stored run gives, what is missing, names that would be commands.
  */
-#include "harness/figure.h"
-#include "harness/figure_scene.h"
+#include "harness/figure/figure.h"
+#include "harness/figure/figure_scene.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 #include "tests/plain_file.h"

@@ -1,6 +1,6 @@
 /* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
    summary and a merge say of the rest follows from it. */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/summary/merge.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary.h"

@@ -1,5 +1,5 @@
 /* Which cells are put into one row, and which rows are compared with each other. */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/summary/front.h"
 #include "harness/summary/summary.h"
 #include "harness/summary/table.h"

@@ -1,6 +1,6 @@
-#include "harness/figures.h"
+#include "harness/figure/figures.h"
 
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 

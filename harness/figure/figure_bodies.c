@@ -1,5 +1,5 @@
 /* Several bodies: time of a step over their number (15), and letters in a box, moving. */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 
 #include "core/deform.h"
 #include "harness/run/bodies_engine.h"

@@ -1,6 +1,6 @@
 /* Figures over triangles: time with fitted exponents (6), memory (7). Their rows are the
    scenarios that are ww at other sizes: ww, ww-1k, ww-100k, ww-1m. */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 
 #include <stdlib.h>
 #include <string.h>

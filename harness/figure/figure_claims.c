@@ -1,5 +1,5 @@
 /* Figures of studies: the numerical extremes (10), the claims table (11). */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 
 #include "harness/summary/front.h"
 

@@ -1,6 +1,6 @@
 /* Figure 4: speed against error, n beside the curves where there is room. */
-#include "harness/figure.h"
-#include "harness/figure_room.h"
+#include "harness/figure/figure.h"
+#include "harness/figure/figure_room.h"
 #include "harness/summary/front.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Figures of the bodies: particles on two letters T (1), M against V deforming (2), and its
    animation. */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 
-#include "harness/figure_scene.h"
+#include "harness/figure/figure_scene.h"
 #include "harness/base/hash.h"
 #include "harness/scene/probe.h"
 #include "harness/base/record.h"

@@ -1,7 +1,7 @@
 /* Figures of tracked particles: what each ingredient adds (13), the front over its parameters
    (14). Their rows are those that harness/ingredients.sh measures. */
-#include "harness/figure.h"
-#include "harness/figure_room.h"
+#include "harness/figure/figure.h"
+#include "harness/figure/figure_room.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* Figures of error: over n (5), over frames (12). */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/summary/front.h"
 #include "harness/run/plan.h"
 

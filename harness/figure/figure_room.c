@@ -1,4 +1,4 @@
-#include "harness/figure_room.h"
+#include "harness/figure/figure_room.h"
 
 #include <math.h>
 

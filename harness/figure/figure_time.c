@@ -1,5 +1,5 @@
 /* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/summary/front.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_FIGURE_SCENE_H
 #define MOTE_HARNESS_FIGURE_SCENE_H
 
-#include "harness/figure.h"
+#include "harness/figure/figure.h"
 #include "harness/scene/scenario.h"
 
 typedef struct mote_figure_scene {

@@ -1,4 +1,4 @@
-#include "harness/figure_scene.h"
+#include "harness/figure/figure_scene.h"
 
 #include "core/deform.h"
 
