@@ -3,7 +3,7 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/manifest.h"
-#include "harness/study_bodies.h"
+#include "harness/study/study_bodies.h"
 
 static mote_status study(const char *directory, bool quick, int argc, char **argv, bool *met)
 {

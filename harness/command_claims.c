@@ -1,5 +1,5 @@
 /* mote claims: every claim of the paper with a figure, an interval and a verdict. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
 

@@ -3,7 +3,7 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/manifest.h"
-#include "harness/study_dynamics.h"
+#include "harness/study/study_dynamics.h"
 
 typedef struct request {
     const char *directory;

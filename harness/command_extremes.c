@@ -2,7 +2,7 @@
  */
 #include "harness/command.h"
 #include "harness/base/options.h"
-#include "harness/study_extremes.h"
+#include "harness/study/study_extremes.h"
 
 int mote_command_extremes(int argc, char **argv)
 {

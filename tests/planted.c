@@ -2,7 +2,7 @@
 #include "tests/planted.h"
 
 #include "harness/run/bodies_run.h"
-#include "harness/dynamics.h"
+#include "harness/study/dynamics.h"
 #include "harness/figure/figures.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"

@@ -3,7 +3,7 @@
 #ifndef MOTE_TESTS_PLANTED_H
 #define MOTE_TESTS_PLANTED_H
 
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 typedef struct plants {
     long calls, failing; /* calls that may fail, so far; the one that does, or 0 */

@@ -1,5 +1,5 @@
 /* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "harness/figure/figure.h"
 #include "tests/program.h"

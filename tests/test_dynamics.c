@@ -1,6 +1,6 @@
 /* The study of the closed loop: its rows, its approaches, and that it goes on where it stopped.
  */
-#include "harness/dynamics.h"
+#include "harness/study/dynamics.h"
 
 #include "harness/base/file.h"
 #include "tests/program.h"

@@ -1,6 +1,6 @@
 /* The study of numerical extremes: its truth against formulas, its verdicts against answers
    that are right or wrong by construction, and our methods where they were wrong before. */
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 #include <setjmp.h>
 #include <signal.h>

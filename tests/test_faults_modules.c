@@ -2,14 +2,14 @@
    memory or files failing once. */
 #include "tests/fault_lines.h"
 
-#include "harness/claim.h"
+#include "harness/study/claim.h"
 #include "harness/base/file.h"
 #include "harness/base/load.h"
 #include "harness/base/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
-#include "harness/study.h"
+#include "harness/study/study.h"
 #include "harness/run/truth.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* Every place where a study asks for memory, files or processes, failing once. */
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 #include "harness/base/options.h"
 #include "tests/fault_lines.h"
 

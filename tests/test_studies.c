@@ -1,12 +1,12 @@
 /* The studies with planted measurements: their verdicts, tables and files follow from what was
    measured, and whatever fails beneath them is handed up with its text. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 #include "harness/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
-#include "harness/study_bodies.h"
-#include "harness/study_dynamics.h"
-#include "harness/study_extremes.h"
+#include "harness/study/study_bodies.h"
+#include "harness/study/study_dynamics.h"
+#include "harness/study/study_extremes.h"
 #include "tests/planted.h"
 #include "tests/program.h"
 

@@ -1,4 +1,4 @@
-#include "harness/study_bodies.h"
+#include "harness/study/study_bodies.h"
 
 #include "harness/run/bodies_run.h"
 #include "harness/figure/figures.h"

@@ -1,5 +1,5 @@
 /* What the paper claims of accuracy: a, b, c, j. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "core/parts.h"
 

@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_DYNAMICS_H
 
 #include "harness/loop/approaches.h"
-#include "harness/claim.h"
+#include "harness/study/claim.h"
 
 /* One method on one scene. */
 typedef struct mote_dynamics_row {

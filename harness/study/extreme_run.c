@@ -1,5 +1,5 @@
 /* A method on an extreme scene: its process, and the verdict. */
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 #include "harness/base/child.h"
 #include "harness/run/measure.h"

@@ -1,4 +1,4 @@
-#include "harness/study_dynamics.h"
+#include "harness/study/study_dynamics.h"
 
 #include "harness/figure/figure.h"
 #include "harness/base/hash.h"

@@ -1,6 +1,6 @@
 /* What the paper claims against hierarchies, and its own times: i, k, l, and the least ratio to
    FCL. Measured in cells, each in a process of its own. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "harness/run/run.h"
 #include "harness/summary/summary.h"

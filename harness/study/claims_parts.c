@@ -1,5 +1,5 @@
 /* Claim m: the number of convex parts while a body deforms. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "core/csrbf_fit.h"
 #include "core/deform.h"

@@ -1,4 +1,4 @@
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 #include "core/csrbf_fit.h"
 #include "datasets/letter.h"

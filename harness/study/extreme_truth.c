@@ -1,5 +1,5 @@
 /* The exact distance of two small bodies: every pair of triangles in 113 bits. */
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 #include "baselines/wide_triangle.h"
 

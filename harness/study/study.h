@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_STUDY_H
 
 #include "harness/run/cell.h"
-#include "harness/claim.h"
+#include "harness/study/claim.h"
 #include "harness/base/file.h"
 #include "harness/run/measure.h"
 #include "harness/summary/summary.h"

@@ -1,5 +1,5 @@
 /* What the paper claims of relaxation: d, e, f. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "core/particles.h"
 

@@ -1,6 +1,6 @@
-#include "harness/study_extremes.h"
+#include "harness/study/study_extremes.h"
 
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 #include "harness/figure/figures.h"
 #include "harness/base/record.h"
 

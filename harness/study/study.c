@@ -1,4 +1,4 @@
-#include "harness/study.h"
+#include "harness/study/study.h"
 
 #include "harness/scene/catalog.h"
 #include "harness/figure/figures.h"

@@ -1,4 +1,4 @@
-#include "harness/dynamics.h"
+#include "harness/study/dynamics.h"
 
 #include "harness/figure/figures.h"
 #include "harness/base/record.h"

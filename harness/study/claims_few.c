@@ -1,5 +1,5 @@
 /* Claim j: how accurate a few particles are, over n, laws, moves and the exact check. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/claim.h"
+#include "harness/study/claim.h"
 
 #include "harness/base/record.h"
 

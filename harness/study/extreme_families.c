@@ -1,5 +1,5 @@
 /* What is taken to extremes, and how. Each change starts from the plain scene, L about 1. */
-#include "harness/extreme.h"
+#include "harness/study/extreme.h"
 
 #include "harness/base/curve.h"
 #include "harness/scene/motion.h"

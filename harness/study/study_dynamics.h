@@ -3,9 +3,9 @@
 #ifndef MOTE_HARNESS_STUDY_DYNAMICS_H
 #define MOTE_HARNESS_STUDY_DYNAMICS_H
 
-#include "harness/dynamics.h"
+#include "harness/study/dynamics.h"
 
-/* Simulates random approaches, the same for every method of a scene (harness/dynamics.h: which
+/* Simulates random approaches, the same for every method of a scene (harness/study/dynamics.h: which
    rows there are), prints a table and the verdict on the paper's claim, and writes
    DIRECTORY/dynamics.json, dynamics.csv and figures/. Each row is kept in DIRECTORY/rows when
    it is done: the study goes on where it stopped, rows of another number of approaches, and

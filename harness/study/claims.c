@@ -1,4 +1,4 @@
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "harness/run/measure.h"
 #include "harness/base/record.h"

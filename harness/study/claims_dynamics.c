@@ -1,7 +1,7 @@
 /* What the paper claims of motion that depends on the answers: the closed loop. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
-#include "harness/dynamics.h"
+#include "harness/study/dynamics.h"
 
 #include <stdlib.h>
 #include <string.h>

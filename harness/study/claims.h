@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_CLAIMS_H
 #define MOTE_HARNESS_CLAIMS_H
 
-#include "harness/study.h"
+#include "harness/study/study.h"
 
 #define MOTE_CLAIMS(X)                                                                         \
     X(contact_point)    /* a */                                                                \

@@ -1,6 +1,6 @@
 /* What this implementation must show, whatever the paper says: accuracy, allocations, symmetry.
  */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include "harness/scene/motion.h"
 

@@ -1,5 +1,5 @@
 /* What the paper claims of a query's cost: g, h. */
-#include "harness/claims.h"
+#include "harness/study/claims.h"
 
 #include <stdlib.h>
 #include <string.h>
