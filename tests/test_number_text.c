@@ -2,7 +2,7 @@
 #include "harness/base/number_text.h"
 
 #include "harness/base/escape.h"
-#include "harness/markdown_html.h"
+#include "harness/report/markdown_html.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

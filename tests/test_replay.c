@@ -1,6 +1,6 @@
 /* The data of the page's replay, read back as the page reads it. */
 #include "harness/scene/probe.h"
-#include "harness/replay.h"
+#include "harness/report/replay.h"
 #include "tests/program.h"
 
 #include <setjmp.h>

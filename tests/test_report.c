@@ -1,6 +1,6 @@
 /* The report of a run, and what it is written with. */
 #include "harness/base/escape.h"
-#include "harness/markdown_html.h"
+#include "harness/report/markdown_html.h"
 #include "harness/base/number_text.h"
 #include "tests/program.h"
 

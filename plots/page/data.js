@@ -1,4 +1,4 @@
-// The scenes that harness/replay_write.c put into the page: base 64 into typed arrays, numbers on
+// The scenes that harness/report/replay_write.c put into the page: base 64 into typed arrays, numbers on
 // grids into coordinates, and what is asked of them frame by frame.
 
 const NONE = 65535; // on a grid: there is no point

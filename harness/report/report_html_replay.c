@@ -3,8 +3,8 @@
 #include "harness/base/escape.h"
 #include "harness/base/json_memory.h"
 #include "harness/base/record.h"
-#include "harness/replay.h"
-#include "harness/report_html.h"
+#include "harness/report/replay.h"
+#include "harness/report/report_html.h"
 
 #include <stdlib.h>
 #include <string.h>

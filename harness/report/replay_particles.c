@@ -1,6 +1,6 @@
 /* Where a method's particles were: cells do not store it, so the method is asked once more. */
 #include "harness/scene/probe.h"
-#include "harness/replay.h"
+#include "harness/report/replay.h"
 
 #include <stdlib.h>
 #include <string.h>

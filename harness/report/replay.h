@@ -5,7 +5,7 @@
 #define MOTE_HARNESS_REPLAY_H
 
 #include "harness/base/file.h"
-#include "harness/report.h"
+#include "harness/report/report.h"
 
 /* Base-64 bytes that one scenario may take, and all of a page. What does not fit is left out
    and named. */

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_REPORT_FACTS_H
 #define MOTE_HARNESS_REPORT_FACTS_H
 
-#include "harness/report.h"
+#include "harness/report/report.h"
 
 /* Lines "key: value" of the machine and the program, [[key, value], ...] of texts; empty
    without a manifest. NULL when memory ran out; the caller decrefs. */

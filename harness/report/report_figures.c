@@ -1,7 +1,7 @@
 /* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
 #include "harness/base/record.h"
-#include "harness/report.h"
-#include "harness/report_rows.h"
+#include "harness/report/report.h"
+#include "harness/report/report_rows.h"
 
 #include <dirent.h>
 #include <stdlib.h>

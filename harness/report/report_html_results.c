@@ -1,7 +1,7 @@
 /* The page's tables: results, each number linked to its cells, and the cells themselves. */
 #include "harness/base/escape.h"
-#include "harness/report_html.h"
-#include "harness/report_rows.h"
+#include "harness/report/report_html.h"
+#include "harness/report/report_rows.h"
 
 #include <stdio.h>
 #include <string.h>

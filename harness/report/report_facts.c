@@ -1,8 +1,8 @@
-#include "harness/report_facts.h"
+#include "harness/report/report_facts.h"
 
 #include "harness/scene/catalog.h"
 #include "harness/base/record.h"
-#include "harness/report_rows.h"
+#include "harness/report/report_rows.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
-#include "harness/replay.h"
+#include "harness/report/replay.h"
 
 #include "harness/base/escape.h"
 #include "harness/base/json_print.h"
-#include "harness/report_rows.h"
+#include "harness/report/report_rows.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* The page's figures. Each is an image of its own within the page: names inside one drawing
    cannot meet those of another, and no drawing can run anything. */
 #include "harness/base/escape.h"
-#include "harness/report_html.h"
+#include "harness/report/report_html.h"
 
 #include <stdlib.h>
 

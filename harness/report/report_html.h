@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_REPORT_HTML_H
 #define MOTE_HARNESS_REPORT_HTML_H
 
-#include "harness/report.h"
+#include "harness/report/report.h"
 
 /* Each appends a section, or nothing where the report has nothing for it. */
 void mote_report_html_results(const mote_report *report, mote_text *text);

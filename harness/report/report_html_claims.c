@@ -1,8 +1,8 @@
 /* The page's claims: a line a claim, which opens to its figures. */
 #include "harness/base/escape.h"
 #include "harness/base/record.h"
-#include "harness/report_html.h"
-#include "harness/report_rows.h"
+#include "harness/report/report_html.h"
+#include "harness/report/report_rows.h"
 
 #include <string.h>
 

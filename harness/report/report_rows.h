@@ -3,7 +3,7 @@
 #define MOTE_HARNESS_REPORT_ROWS_H
 
 #include "harness/base/number_text.h"
-#include "harness/report.h"
+#include "harness/report/report.h"
 
 /* One column of the table of results. */
 typedef struct mote_report_column {

@@ -1,11 +1,11 @@
 /* The page: its frame, what was asked, the machine, the defects. */
-#include "harness/report_html.h"
+#include "harness/report/report_html.h"
 
 #include "harness/base/data.h"
 #include "harness/base/escape.h"
-#include "harness/markdown_html.h"
+#include "harness/report/markdown_html.h"
 #include "harness/base/record.h"
-#include "harness/report_facts.h"
+#include "harness/report/report_facts.h"
 
 #include <stdlib.h>
 

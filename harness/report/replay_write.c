@@ -3,7 +3,7 @@
  */
 #include "harness/base/escape.h"
 #include "harness/base/json_print.h"
-#include "harness/replay.h"
+#include "harness/report/replay.h"
 
 #include "core/quaternion.h"
 

@@ -1,5 +1,5 @@
 /* The answers of a cell, read from its CSV file for pictures. */
-#include "harness/replay.h"
+#include "harness/report/replay.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "harness/markdown_html.h"
+#include "harness/report/markdown_html.h"
 
 #include "harness/base/escape.h"
 

@@ -1,4 +1,4 @@
-#include "harness/report_rows.h"
+#include "harness/report/report_rows.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "harness/base/record.h"
 #include "harness/base/data.h"
-#include "harness/report.h"
+#include "harness/report/report.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The report as text that reads well in a terminal, and as Markdown on a forge: numbers stand
    in tables, and what they were computed from is linked at the end of each row. */
 #include "harness/base/escape.h"
-#include "harness/markdown_html.h"
+#include "harness/report/markdown_html.h"
 #include "harness/base/record.h"
-#include "harness/report_facts.h"
-#include "harness/report_rows.h"
+#include "harness/report/report_facts.h"
+#include "harness/report/report_rows.h"
 
 #include <stdlib.h>
 #include <string.h>
