@@ -5,7 +5,7 @@
 #ifndef MOTE_TESTS_FAULT_LINES_H
 #define MOTE_TESTS_FAULT_LINES_H
 
-#include "harness/command.h"
+#include "harness/command/command.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* The studies with planted measurements: their verdicts, tables and files follow from what was
    measured, and whatever fails beneath them is handed up with its text. */
 #include "harness/study/claims.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/study/study_bodies.h"

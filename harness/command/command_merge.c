@@ -1,5 +1,5 @@
 /* mote merge OUT DIR...: the cells of several runs in one directory, and its summary. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/merge.h"
 #include "harness/summary/summary.h"

@@ -1,5 +1,5 @@
 /* mote tune DIR: the best configuration of each method on each scenario of a run. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/summary/tune.h"

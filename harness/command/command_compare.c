@@ -1,5 +1,5 @@
 /* mote compare BASE NEW: is a run better or worse than another? */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/compare.h"
 #include "harness/base/record.h"

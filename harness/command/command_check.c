@@ -1,5 +1,5 @@
 /* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether it is what it says. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/run/truth.h"

@@ -1,5 +1,5 @@
 /* mote dynamics [--out DIR] [--quick] ...: passes through over n, in the closed loop. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/manifest.h"

@@ -1,5 +1,5 @@
 /* mote figures DIR: the figures of a run, drawn again from its cells. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/figure/figures.h"
 

@@ -1,6 +1,6 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
 #include "harness/scene/approach.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/curve.h"
 #include "harness/base/file.h"

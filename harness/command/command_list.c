@@ -2,7 +2,7 @@
 #include "core/field_maker.h"
 #include "core/method.h"
 #include "harness/scene/catalog.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 

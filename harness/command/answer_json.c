@@ -1,4 +1,4 @@
-#include "harness/answer_json.h"
+#include "harness/command/answer_json.h"
 
 json_t *mote_answer_json(const mote_answer *answer)
 {

@@ -1,5 +1,5 @@
 /* mote instructions SCENARIO: what methods execute, by callgrind. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/run/instructions.h"
 

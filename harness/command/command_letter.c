@@ -1,7 +1,7 @@
 /* mote letter W --triangles 11920 -o W.obj */
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* mote claims: every claim of the paper with a figure, an interval and a verdict. */
 #include "harness/study/claims.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 
 int mote_command_claims(int argc, char **argv)

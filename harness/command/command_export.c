@@ -1,8 +1,8 @@
 /* mote export SCENARIO --frame K --out DIR [--method ...]: a frame for others to look at. */
 #include "core/deform.h"
 #include "datasets/obj_write.h"
-#include "harness/answer_json.h"
-#include "harness/command.h"
+#include "harness/command/answer_json.h"
+#include "harness/command/command.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"

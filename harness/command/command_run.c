@@ -1,6 +1,6 @@
 #include "harness/run/bodies_run.h"
 #include "harness/base/child.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/run/run.h"

@@ -1,5 +1,5 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
 #include "harness/scene/reach.h"

@@ -1,5 +1,5 @@
 /* mote report DIR: a run as a page and as plain text, from what is stored. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/report/report.h"
 

@@ -1,6 +1,6 @@
 /* mote mesh FILE [--json]: what a mesh is. */
 #include "core/parts.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/scene/mesh_import.h"
 #include "harness/base/record.h"

@@ -1,5 +1,5 @@
 /* mote history: the accepted references, drawn; --add makes a run one of them. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/history.h"
 

@@ -1,6 +1,6 @@
 /* mote distance A.obj B.obj [--method ...] [--json]: one query on two files, as they lie. */
-#include "harness/answer_json.h"
-#include "harness/command.h"
+#include "harness/command/answer_json.h"
+#include "harness/command/command.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
 #include "harness/scene/mesh_import.h"

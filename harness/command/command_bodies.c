@@ -1,5 +1,5 @@
 /* mote bodies [--out DIR] [--quick]: several bodies by every method. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/manifest.h"

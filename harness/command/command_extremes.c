@@ -1,6 +1,6 @@
 /* mote extremes [--out DIR] [--quick]: every method where numbers are tiny, huge or degenerate.
  */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/study/study_extremes.h"
 

@@ -2,7 +2,7 @@
 #include "harness/loop/bodies_simulate_print.h"
 #include "harness/loop/film.h"
 #include "harness/base/json_print.h"
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/loop/simulate.h"
 #include "harness/base/statistics.h"

@@ -1,5 +1,5 @@
 /* mote summarize DIR: the rows of a run, computed again from its cells. */
-#include "harness/command.h"
+#include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/front.h"
 #include "harness/base/record.h"
