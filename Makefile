@@ -65,11 +65,11 @@ test: build
 	cd build-asan && $(SANITIZER) ctest --output-on-failure -j $(JOBS)
 
 bench: build page
-	@harness/bench.sh $(MOTE) $(PROFILE) $(OUT)
+	@harness/scripts/bench.sh $(MOTE) $(PROFILE) $(OUT)
 
 .PHONY: sweep
 sweep: build
-	@harness/bench.sh $(MOTE) sweep $(call out,sweep)
+	@harness/scripts/bench.sh $(MOTE) sweep $(call out,sweep)
 
 oracle: build
 	@mkdir -p $(OUT)
@@ -77,13 +77,13 @@ oracle: build
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
 
 tune: build
-	@harness/tune.sh $(MOTE) $(PROFILE) $(call out,tune)
+	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)
 
 ingredients: build
-	@harness/ingredients.sh $(MOTE) $(PROFILE) $(call out,ingredients)
+	@harness/scripts/ingredients.sh $(MOTE) $(PROFILE) $(call out,ingredients)
 
 ablation: build
-	@harness/ablation.sh $(MOTE) $(PROFILE) $(call out,ablation)
+	@harness/scripts/ablation.sh $(MOTE) $(PROFILE) $(call out,ablation)
 
 certify: build
 	@mkdir -p $(OUT)
@@ -144,7 +144,7 @@ dynamics: build
 	    --jobs $(JOBS) $(if $(filter quick,$(PROFILE)),--quick)
 
 perf-check: build
-	@harness/perf.sh check $(MOTE) results/perf-check
+	@harness/scripts/perf.sh check $(MOTE) results/perf-check
 
 test-perf: build
 	@cmake --build $(BUILD) -j $(JOBS) --target perf_planted
@@ -161,7 +161,7 @@ test-statistics: build
 
 perf-accept: build
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }
-	@harness/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
+	@harness/scripts/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
 
 claims: build
 	@$(MOTE) claims --out $(call out,claims)

@@ -1,6 +1,6 @@
 #!/bin/bash
 # cluster.sh MOTE: starts a Slurm of one node on the loopback interface, out of a folder of its own;
-# submits harness/cluster/bench.sbatch as an array of 4; stops the programs of two tasks, one by
+# submits harness/scripts/cluster/bench.sbatch as an array of 4; stops the programs of two tasks, one by
 # SIGKILL and one by SIGTERM, which are then queued again; waits for the dependent merge; and
 # compares all cells with a run of one process. Stops what it started. Needs root, munge and
 # slurm-wlm; no systemd, no cgroups.
@@ -121,7 +121,7 @@ arguments=(tt mv tw islands rigid-mv --frames 1-400 --replicates 3 --stride 1 --
 mkdir "$work/out"
 cd "$root"
 job=$(MOTE=$mote sbatch --parsable --array=1-4 --output="$work/out/task-%a.log" \
-    harness/cluster/bench.sbatch "$work/out" "${arguments[@]}")
+    harness/scripts/cluster/bench.sbatch "$work/out" "${arguments[@]}")
 echo "array of 4: job $job"
 
 # stop_task TASK SIGNAL AFTER: sends a signal to the task's program once so many cells are there, and

@@ -1,5 +1,5 @@
 /* Figures of tracked particles: what each ingredient adds (13), the front over its parameters
-   (14). Their rows are those that harness/ingredients.sh measures. */
+   (14). Their rows are those that harness/scripts/ingredients.sh measures. */
 #include "harness/figure/figure.h"
 #include "harness/figure/figure_room.h"
 
