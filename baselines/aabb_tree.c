@@ -5,7 +5,7 @@
 #include "baselines/box_tree.h"
 #include "baselines/input.h"
 #include "baselines/wide_triangle.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 #include "core/method.h"
 #include "core/triangle.h"
 

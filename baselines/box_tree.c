@@ -1,6 +1,6 @@
 #include "baselines/box_tree.h"
 
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #include <stdlib.h>
 #include <string.h>

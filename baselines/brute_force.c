@@ -3,7 +3,7 @@
    between frames, so that nothing here can be wrong for the reasons that the other methods can.
  */
 #include "baselines/input.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 #include "core/method.h"
 #include "core/triangle.h"
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_CCD_TRIANGLE_H
 #define MOTE_BASELINES_CCD_TRIANGLE_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #include <stdbool.h>
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_FCL_TRIANGLE_H
 #define MOTE_BASELINES_FCL_TRIANGLE_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
 #ifndef MOTE_BASELINES_GJK_H
 #define MOTE_BASELINES_GJK_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 /* A support point of each set. */
 typedef struct mote_gjk_point {

@@ -9,7 +9,7 @@
    the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
    is 32 u B. */
 #include "core/certificate_state.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Two leaves: directions that keep them apart, then their triangles. */
 #include "core/certificate_state.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 #include "core/triangle.h"
 
 #include <float.h>

@@ -1,6 +1,6 @@
 /* One box against the eight of a block: the innermost test of the traversal. */
 #include "core/certificate_state.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #define WIDTH MOTE_CERT_WIDTH
 

@@ -1,6 +1,6 @@
 /* Faces of two leaves: which pairs of them may be near. */
 #include "core/certificate_state.h"
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #include <float.h>
 

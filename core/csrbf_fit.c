@@ -1,7 +1,7 @@
 #include "core/csrbf_fit.h"
 
 #include "core/field_kinds.h"
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 
 #include <float.h>
 #include <math.h>

@@ -7,8 +7,8 @@
 #define MOTE_CORE_FAR_CACHE_H
 
 #include "core/potential.h"
-#include "core/status.h"
-#include "core/vec3.h"
+#include "core/base/status.h"
+#include "core/base/vec3.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -9,7 +9,7 @@
 #ifndef MOTE_CORE_FIELD_H
 #define MOTE_CORE_FIELD_H
 
-#include "core/clones.h"
+#include "core/base/clones.h"
 #include "core/mesh.h"
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 #include "core/levels.h"
 
-#include "core/random.h"
+#include "core/base/random.h"
 
 #include <assert.h>
 #include <stdlib.h>

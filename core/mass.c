@@ -1,6 +1,6 @@
 #include "core/mass.h"
 
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 
 #include <stdlib.h>
 

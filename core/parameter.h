@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_PARAMETER_H
 #define MOTE_CORE_PARAMETER_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

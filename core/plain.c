@@ -2,7 +2,7 @@
    other libraries (MOTE_CORE_ONLY): main axes by ourselves, no convex parts. Fits of CSRBF
    weights are left out there: weights come from the caller. */
 #include "core/certificate_fit.h"
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 #include "core/parts.h"
 
 #include <math.h>

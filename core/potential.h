@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_POTENTIAL_H
 #define MOTE_CORE_POTENTIAL_H
 
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 #define MOTE_CORE_RIGID_MOTION_H
 
 #include "core/mass.h"
-#include "core/quaternion.h"
+#include "core/base/quaternion.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,7 +1,7 @@
 #include "core/scene.h"
 
 #include "core/certificate_shared.h"
-#include "core/pool.h"
+#include "core/base/pool.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "core/start.h"
 
-#include "core/random.h"
+#include "core/base/random.h"
 
 #include <math.h>
 #include <stdlib.h>

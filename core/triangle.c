@@ -6,7 +6,7 @@
    by its own residual. */
 #include "core/triangle.h"
 
-#include "core/clones.h"
+#include "core/base/clones.h"
 
 #include <stdbool.h>
 #include <stdint.h>

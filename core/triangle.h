@@ -16,7 +16,7 @@
 #ifndef MOTE_CORE_TRIANGLE_H
 #define MOTE_CORE_TRIANGLE_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #ifdef __cplusplus
 extern "C" {

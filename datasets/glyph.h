@@ -5,8 +5,8 @@
 #ifndef MOTE_DATASETS_GLYPH_H
 #define MOTE_DATASETS_GLYPH_H
 
-#include "core/status.h"
-#include "core/vec3.h"
+#include "core/base/status.h"
+#include "core/base/vec3.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #define MOTE_DATASETS_LETTER_H
 
 #include "core/mesh.h"
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stddef.h>
 

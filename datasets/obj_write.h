@@ -3,7 +3,7 @@
 #define MOTE_DATASETS_OBJ_WRITE_H
 
 #include "core/mesh.h"
-#include "core/status.h"
+#include "core/base/status.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,8 +3,8 @@
 #ifndef MOTE_DATASETS_SURFACE_H
 #define MOTE_DATASETS_SURFACE_H
 
-#include "core/status.h"
-#include "core/vec3.h"
+#include "core/base/status.h"
+#include "core/base/vec3.h"
 
 #include <stdbool.h>
 #include <stddef.h>

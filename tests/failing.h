@@ -4,7 +4,7 @@
 #ifndef MOTE_TESTS_FAILING_H
 #define MOTE_TESTS_FAILING_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_ORACLE_EXACT_H
 #define MOTE_TESTS_ORACLE_EXACT_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #include <stdbool.h>
 

@@ -1,6 +1,6 @@
 #include "tests/soak_case.h"
 
-#include "core/random.h"
+#include "core/base/random.h"
 
 #include <math.h>
 #include <stdbool.h>

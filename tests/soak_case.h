@@ -3,7 +3,7 @@
 #ifndef MOTE_TESTS_SOAK_CASE_H
 #define MOTE_TESTS_SOAK_CASE_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <jansson.h>
 #include <stdint.h>

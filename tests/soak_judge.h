@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_SOAK_JUDGE_H
 #define MOTE_TESTS_SOAK_JUDGE_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -3,14 +3,14 @@
    needs memory only to be fast, the same answer. The linker puts the functions below in the
    place of GSL's, HACD's and libstdc++'s (--wrap). */
 #include "core/csrbf_fit.h"
-#include "core/frame_queue.h"
+#include "core/base/frame_queue.h"
 #include "core/lazy.h"
 #include "core/levels.h"
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 #include "core/mass.h"
 #include "core/method.h"
 #include "core/parts.h"
-#include "core/pool.h"
+#include "core/base/pool.h"
 #include "core/start.h"
 #include "tests/crowd.h"
 #include "tests/failing.h"

@@ -29,8 +29,8 @@ typedef struct library {
 } library;
 
 static const library libraries[] = {
-    {"gsl/gsl_linalg", {"core/linear_algebra.c"}},
-    {"gsl/gsl_eigen", {"core/linear_algebra.c"}},
+    {"gsl/gsl_linalg", {"core/base/linear_algebra.c"}},
+    {"gsl/gsl_eigen", {"core/base/linear_algebra.c"}},
     {"gsl/gsl_statistics", {"harness/base/statistics.c"}},
     {"gsl/gsl_sort", {"harness/base/statistics.c"}},
     {"gsl/gsl_cdf", {"harness/base/statistics.c"}},

@@ -1,5 +1,5 @@
 /* Factors and main axes of random symmetric matrices against what defines them. */
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 
 #include "tests/solids.h"
 

@@ -1,5 +1,5 @@
 /* Random numbers: in their range, evenly, the same on every machine. */
-#include "core/random.h"
+#include "core/base/random.h"
 
 #include <math.h>
 #include <setjmp.h>

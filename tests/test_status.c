@@ -1,5 +1,5 @@
 /* Status codes and the remembered text. */
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <pthread.h>
 #include <setjmp.h>

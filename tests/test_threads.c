@@ -1,6 +1,6 @@
 /* The pool of threads and the queue of frames. */
-#include "core/frame_queue.h"
-#include "core/pool.h"
+#include "core/base/frame_queue.h"
+#include "core/base/pool.h"
 
 #include <pthread.h>
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_TESTS_TRIANGLE_PAIRS_H
 #define MOTE_TESTS_TRIANGLE_PAIRS_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #include <stdint.h>
 

@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_CHILD_H
 #define MOTE_HARNESS_CHILD_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

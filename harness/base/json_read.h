@@ -2,8 +2,8 @@
 #ifndef MOTE_HARNESS_JSON_READ_H
 #define MOTE_HARNESS_JSON_READ_H
 
-#include "core/status.h"
-#include "core/vec3.h"
+#include "core/base/status.h"
+#include "core/base/vec3.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_OPTIONS_H
 #define MOTE_HARNESS_OPTIONS_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

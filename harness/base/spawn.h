@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SPAWN_H
 #define MOTE_HARNESS_SPAWN_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stddef.h>
 

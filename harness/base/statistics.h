@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_STATISTICS_H
 #define MOTE_HARNESS_STATISTICS_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_FIGURES_H
 #define MOTE_HARNESS_FIGURES_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 #include "harness/loop/approaches.h"
 
-#include "core/random.h"
+#include "core/base/random.h"
 #include "harness/scene/turn.h"
 
 #include <stdio.h>

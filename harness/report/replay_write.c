@@ -5,7 +5,7 @@
 #include "harness/base/json_print.h"
 #include "harness/report/replay.h"
 
-#include "core/quaternion.h"
+#include "core/base/quaternion.h"
 
 #include <math.h>
 #include <stdlib.h>

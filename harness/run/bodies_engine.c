@@ -3,7 +3,7 @@
 #include "baselines/body_trees.h"
 #include "baselines/broad_phase.h"
 #include "core/deform.h"
-#include "core/pool.h"
+#include "core/base/pool.h"
 #include "harness/base/heap_count.h"
 #include "harness/run/measure.h"
 

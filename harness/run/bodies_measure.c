@@ -1,6 +1,6 @@
 #include "harness/run/bodies_measure.h"
 
-#include "core/frame_queue.h"
+#include "core/base/frame_queue.h"
 #include "harness/run/bodies_record.h"
 #include "harness/run/cell_process.h"
 #include "harness/run/measure.h"

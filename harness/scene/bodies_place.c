@@ -1,7 +1,7 @@
 #include "harness/scene/bodies_place.h"
 
 #include "baselines/broad_phase.h"
-#include "core/random.h"
+#include "core/base/random.h"
 
 #include <stdlib.h>
 #include <string.h>

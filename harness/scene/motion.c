@@ -1,6 +1,6 @@
 #include "harness/scene/motion.h"
 
-#include "core/random.h"
+#include "core/base/random.h"
 #include "harness/scene/turn.h"
 
 #include <math.h>

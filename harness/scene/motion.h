@@ -4,7 +4,7 @@
 
 #include "core/body.h"
 #include "core/csrbf_fit.h"
-#include "core/quaternion.h"
+#include "core/base/quaternion.h"
 #include "harness/base/curve.h"
 
 /* Rotation by degrees about an axis (any length > 0), right-handed. */

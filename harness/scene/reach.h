@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_REACH_H
 #define MOTE_HARNESS_REACH_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 /* Files in this folder and below may be named by every scenario from now on (mote --allow).
    MOTE_EIO when it cannot be found, MOTE_EINVAL when there are too many. Not for threads. */

@@ -4,7 +4,7 @@
 #include "core/csrbf_fit.h"
 #include "core/deform.h"
 #include "core/parts.h"
-#include "core/random.h"
+#include "core/base/random.h"
 #include "datasets/letter.h"
 #include "harness/scene/spread.h"
 

@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_EXTREME_H
 
 #include "core/method.h"
-#include "core/quaternion.h"
+#include "core/base/quaternion.h"
 
 #define MOTE_EXTREME_FRAMES 4
 #define MOTE_EXTREME_CONTROLS 16

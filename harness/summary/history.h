@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_HISTORY_H
 #define MOTE_HARNESS_HISTORY_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 /* Adds the rows of the run in directory to the file, which is made if missing: date, commit,
    why, row, time, ratio, counts, bytes, error. why may not be empty. */

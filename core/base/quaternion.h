@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_QUATERNION_H
 #define MOTE_CORE_QUATERNION_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 /* w + xi + yj + zk; of length 1 where it stands for a rotation. */
 typedef struct mote_quaternion {

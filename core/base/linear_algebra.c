@@ -1,4 +1,4 @@
-#include "core/linear_algebra.h"
+#include "core/base/linear_algebra.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_errno.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_POOL_H
 #define MOTE_CORE_POOL_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stddef.h>
 #include <stdint.h>

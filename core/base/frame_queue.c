@@ -1,4 +1,4 @@
-#include "core/frame_queue.h"
+#include "core/base/frame_queue.h"
 
 #include <pthread.h>
 #include <stdint.h>

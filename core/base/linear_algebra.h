@@ -3,8 +3,8 @@
 #ifndef MOTE_CORE_LINEAR_ALGEBRA_H
 #define MOTE_CORE_LINEAR_ALGEBRA_H
 
-#include "core/status.h"
-#include "core/vec3.h"
+#include "core/base/status.h"
+#include "core/base/vec3.h"
 
 #include <stdint.h>
 

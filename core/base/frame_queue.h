@@ -4,7 +4,7 @@
 #ifndef MOTE_CORE_FRAME_QUEUE_H
 #define MOTE_CORE_FRAME_QUEUE_H
 
-#include "core/status.h"
+#include "core/base/status.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_RANDOM_H
 #define MOTE_CORE_RANDOM_H
 
-#include "core/vec3.h"
+#include "core/base/vec3.h"
 
 #include <stdint.h>
 
