@@ -7,7 +7,7 @@
 #include "baselines/wide_triangle.h"
 #include "core/base/clones.h"
 #include "core/method.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <stdlib.h>
 

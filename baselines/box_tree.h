@@ -4,7 +4,7 @@
 #ifndef MOTE_BASELINES_BOX_TREE_H
 #define MOTE_BASELINES_BOX_TREE_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 /* Children of a node. */
 #define MOTE_BOX_WIDTH 8

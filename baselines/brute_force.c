@@ -5,7 +5,7 @@
 #include "baselines/input.h"
 #include "core/base/clones.h"
 #include "core/method.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* libccd's contact of two triangles, for comparison with core/triangle.h. */
+/* libccd's contact of two triangles, for comparison with core/body/triangle.h. */
 #ifndef MOTE_BASELINES_CCD_TRIANGLE_H
 #define MOTE_BASELINES_CCD_TRIANGLE_H
 

@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_CONVEX_PART_H
 #define MOTE_BASELINES_CONVEX_PART_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 /* A climb starts from the best of this many vertices spread over the part. */
 #define MOTE_CONVEX_LANDMARKS 16
@@ -23,7 +23,7 @@ typedef struct mote_convex_parts {
     mote_convex_part *part; /* [count] */
 } mote_convex_parts;
 
-/* Splits a mesh into its convex parts (core/parts.h). A triangle belongs to the part of most of
+/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part of most of
    its vertices, the first one's on a tie; a vertex belongs to the parts of all its triangles,
    so that the hulls of the parts cover the surface. Errors as mote_parts_create. The caller
    destroys *parts. */

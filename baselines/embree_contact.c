@@ -4,7 +4,7 @@
    refitted each frame (quality LOW: at a higher one Embree rebuilds). rtcCollide cannot be
    stopped, so that an early yes saves only the triangle tests that follow. */
 #include "baselines/input.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <embree3/rtcore.h>
 #include <stdlib.h>

@@ -21,7 +21,7 @@
 
 #include "baselines/fcl_parameters.hpp"
 #include "baselines/input.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-/* FCL's distance of two triangles, for comparison with core/triangle.h. */
+/* FCL's distance of two triangles, for comparison with core/body/triangle.h. */
 #ifndef MOTE_BASELINES_FCL_TRIANGLE_H
 #define MOTE_BASELINES_FCL_TRIANGLE_H
 

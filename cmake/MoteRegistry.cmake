@@ -39,7 +39,7 @@ const mote_${type} *mote_${type}_find(const char *name)
   endforeach()
   set(file ${CMAKE_BINARY_DIR}/${name}.c)
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
-#include \"core/field_maker.h\"
+#include \"core/body/field_maker.h\"
 #include \"core/method.h\"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "core/certificate.h"
 
 #include "core/certificate_state.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <float.h>
 #include <string.h>

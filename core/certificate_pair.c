@@ -1,7 +1,7 @@
 /* Two leaves: directions that keep them apart, then their triangles. */
 #include "core/certificate_state.h"
 #include "core/base/clones.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <float.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #define MOTE_CORE_CERTIFICATE_STATE_H
 
 #include "core/certificate_shared.h"
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 #include "core/refine.h"
 
 /* A block deformed for this frame, relative to the query's origin, in the trees' units. The

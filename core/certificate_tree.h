@@ -15,7 +15,7 @@
 #ifndef MOTE_CORE_CERTIFICATE_TREE_H
 #define MOTE_CORE_CERTIFICATE_TREE_H
 
-#include "core/body.h"
+#include "core/body/body.h"
 
 /* Children of a block: the lanes of every test of boxes. */
 #define MOTE_CERT_WIDTH 8

@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_DESCENT_H
 #define MOTE_CORE_DESCENT_H
 
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 #include "core/levels.h"
 
 #ifdef __cplusplus

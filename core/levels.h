@@ -5,7 +5,7 @@
 #ifndef MOTE_CORE_LEVELS_H
 #define MOTE_CORE_LEVELS_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

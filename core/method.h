@@ -6,7 +6,7 @@
 #ifndef MOTE_CORE_METHOD_H
 #define MOTE_CORE_METHOD_H
 
-#include "core/body.h"
+#include "core/body/body.h"
 #include "core/parameter.h"
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* Tracked particles behind the contract of methods: core/tracker.h. */
 #include "core/method.h"
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "core/tracker.h"
 
 #include <math.h>

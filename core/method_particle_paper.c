@@ -1,7 +1,7 @@
 /* The method `particle-paper`: the paper's particle system as it stands (paper 3.3 to 3.5). */
 #include "core/method.h"
 #include "core/particles.h"
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "core/refine.h"
 
 #include <math.h>

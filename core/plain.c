@@ -3,7 +3,7 @@
    weights are left out there: weights come from the caller. */
 #include "core/certificate_fit.h"
 #include "core/base/linear_algebra.h"
-#include "core/parts.h"
+#include "core/body/parts.h"
 
 #include <math.h>
 

@@ -4,7 +4,7 @@
    rejects nearly all faces before any of them is looked at closely. */
 #include "core/refine.h"
 
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <string.h>
 

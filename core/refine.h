@@ -4,7 +4,7 @@
 #ifndef MOTE_CORE_REFINE_H
 #define MOTE_CORE_REFINE_H
 
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,7 +5,7 @@
 #ifndef MOTE_CORE_RIGID_MOTION_H
 #define MOTE_CORE_RIGID_MOTION_H
 
-#include "core/mass.h"
+#include "core/body/mass.h"
 #include "core/base/quaternion.h"
 
 #ifdef __cplusplus

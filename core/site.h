@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_SITE_H
 #define MOTE_CORE_SITE_H
 
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_START_H
 #define MOTE_CORE_START_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,9 +2,9 @@
 #ifndef MOTE_CORE_TRACKER_STATE_H
 #define MOTE_CORE_TRACKER_STATE_H
 
-#include "core/coherence.h"
+#include "core/body/coherence.h"
 #include "core/descent.h"
-#include "core/pairs.h"
+#include "core/body/pairs.h"
 #include "core/particles.h"
 #include "core/tracker.h"
 

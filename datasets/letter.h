@@ -2,7 +2,7 @@
 #ifndef MOTE_DATASETS_LETTER_H
 #define MOTE_DATASETS_LETTER_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 #include "core/base/status.h"
 
 #include <stddef.h>

@@ -2,7 +2,7 @@
 #ifndef MOTE_DATASETS_OBJ_WRITE_H
 #define MOTE_DATASETS_OBJ_WRITE_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 #include "core/base/status.h"
 
 #ifdef __cplusplus

@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_BODIES_H
 #define MOTE_TESTS_BODIES_H
 
-#include "core/body.h"
+#include "core/body/body.h"
 
 #include "tests/solids.h"
 

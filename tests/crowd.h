@@ -3,7 +3,7 @@
 #define MOTE_TESTS_CROWD_H
 
 #include "core/scene.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 #include "datasets/letter.h"
 
 #include "tests/bodies.h"

@@ -1,6 +1,6 @@
 /* Any text as an OBJ file, up to the rings and measures of its mesh; and as an OFF
    file, and as the text of a PLY or STL file. */
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 #include "harness/scene/mesh_soup.h"
 #include "tests/fuzz.h"
 

@@ -14,7 +14,7 @@
    of threads. */
 #include "baselines/ccd_triangle.h"
 #include "baselines/fcl_triangle.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 #include "harness/base/json_print.h"
 #include "tests/oracle_exact.h"
 #include "tests/oracle_frames.h"
@@ -67,7 +67,7 @@ static double by_ccd(const mote_vec3 s[3], const mote_vec3 t[3])
 }
 
 static const engine engines[] = {
-    {"mote", "core/triangle.h", true, by_mote},
+    {"mote", "core/body/triangle.h", true, by_mote},
     {"fcl", "FCL's triangle distance, size about 2", true, mote_fcl_triangle_distance},
     {"fcl-scaled", "the same, brought to size 2^20 as our FCL methods do", true, by_fcl_scaled},
     {"libccd", "libccd's GJK, contact only", false, by_ccd},

@@ -3,7 +3,7 @@
 #define MOTE_TESTS_PARTICLE_SCENE_H
 
 #include "core/particles.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include "tests/bodies.h"
 

@@ -9,8 +9,8 @@
 #include "harness/run/run.h"
 #include "harness/summary/summary.h"
 
-#include "core/csrbf_fit.h"
-#include "core/parts.h"
+#include "core/body/csrbf_fit.h"
+#include "core/body/parts.h"
 #include "datasets/letter.h"
 #include "harness/scene/spread.h"
 

@@ -2,9 +2,9 @@
 #ifndef MOTE_TESTS_SHAPES_H
 #define MOTE_TESTS_SHAPES_H
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "core/method.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_TESTS_SOLIDS_H
 #define MOTE_TESTS_SOLIDS_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #include <math.h>
 #include <setjmp.h>

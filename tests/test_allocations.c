@@ -2,14 +2,14 @@
    with a text, nothing leaked (under AddressSanitizer), outputs untouched; and where a query
    needs memory only to be fast, the same answer. The linker puts the functions below in the
    place of GSL's, HACD's and libstdc++'s (--wrap). */
-#include "core/csrbf_fit.h"
+#include "core/body/csrbf_fit.h"
 #include "core/base/frame_queue.h"
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 #include "core/levels.h"
 #include "core/base/linear_algebra.h"
-#include "core/mass.h"
+#include "core/body/mass.h"
 #include "core/method.h"
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "core/base/pool.h"
 #include "core/start.h"
 #include "tests/crowd.h"

@@ -1,6 +1,6 @@
 /* What certified mode rules out by floats, against the vertices and faces themselves. */
 #include "core/certificate_state.h"
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

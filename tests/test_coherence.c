@@ -1,7 +1,7 @@
 /* The motion of two bodies against each other: nothing for what they do together, at least what
    the farthest vertex does, and not much more. */
-#include "core/coherence.h"
-#include "core/deform.h"
+#include "core/body/coherence.h"
+#include "core/body/deform.h"
 
 #include "tests/bodies.h"
 

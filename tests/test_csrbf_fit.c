@@ -1,5 +1,5 @@
 /* The fit of CSRBF weights against interpolation, an explicit inverse, and symmetry. */
-#include "core/csrbf_fit.h"
+#include "core/body/csrbf_fit.h"
 
 #include "tests/solids.h"
 

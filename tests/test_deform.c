@@ -1,7 +1,7 @@
 /* Full deformation against single positions, and both against the definition. */
-#include "core/deform.h"
+#include "core/body/deform.h"
 
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 
 #include "tests/bodies.h"
 

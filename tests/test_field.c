@@ -1,5 +1,5 @@
 /* Fields of the three kinds against closed forms, finite differences and explicit sums. */
-#include "core/field.h"
+#include "core/body/field.h"
 
 #include "tests/solids.h"
 

@@ -1,5 +1,5 @@
 /* Kinds of fields that scenarios name. */
-#include "core/field_maker.h"
+#include "core/body/field_maker.h"
 #include "harness/scene/scenario.h"
 
 #include <setjmp.h>

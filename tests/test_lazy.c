@@ -1,6 +1,6 @@
 /* Lazy positions: the same bits as full evaluation, forgotten with the frame, growing tables.
  */
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 
 #include "tests/bodies.h"
 

@@ -1,5 +1,5 @@
 /* Mass properties against closed forms, exact solids and changes of frame. */
-#include "core/mass.h"
+#include "core/body/mass.h"
 
 #include "tests/solids.h"
 

@@ -1,5 +1,5 @@
 /* Linear modes against explicit sums, closed forms and linear maps. */
-#include "core/field.h"
+#include "core/body/field.h"
 
 #include "tests/solids.h"
 

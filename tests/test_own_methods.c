@@ -1,6 +1,6 @@
 /* Our methods behind the contract: what "auto" stands for, and what a contact question says. */
 #include "core/method.h"
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "datasets/letter.h"
 #include "tests/shapes.h"
 #include "tests/solids.h"

@@ -1,5 +1,5 @@
 /* Lists of pairs against a list that is sorted whole. */
-#include "core/pairs.h"
+#include "core/body/pairs.h"
 
 #include "tests/bodies.h"
 

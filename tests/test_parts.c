@@ -1,5 +1,5 @@
 /* Convex parts of letters, combs and awkward meshes. */
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "datasets/letter.h"
 #include "tests/solids.h"
 

@@ -4,8 +4,8 @@
    method on purpose takes the new hashes from the failing test, once portability.sh agrees on
    them. */
 #include "core/certificate.h"
-#include "core/deform.h"
-#include "core/lazy.h"
+#include "core/body/deform.h"
+#include "core/body/lazy.h"
 #include "core/particles.h"
 #include "core/refine.h"
 #include "core/tracker.h"

@@ -1,7 +1,7 @@
 /* The local search against all pairs of faces, over random poses and deformations. */
 #include "core/refine.h"
 
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 #include "datasets/letter.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/base/file.h"
 #include "harness/base/json_read.h"
 #include "harness/scene/motion.h"

@@ -1,7 +1,7 @@
 /* The closed loop: what it books against independent truth, what it keeps, what it refuses. */
 #include "harness/loop/simulate.h"
 
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 #include "harness/base/file.h"
 #include "harness/loop/film.h"
 #include "harness/scene/motion.h"

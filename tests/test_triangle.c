@@ -1,5 +1,5 @@
 /* Distances of triangles against closed forms and against a slow reference in 113 bits. */
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include "tests/triangle_pairs.h"
 #include "baselines/wide_triangle.h"

@@ -1,6 +1,6 @@
 /* What the triangle distance leaves undone when a bound is given, and where two triangles count
    as touching: pairs that are made so that the answer is known. */
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include "tests/triangle_pairs.h"
 

@@ -1,8 +1,8 @@
 /* Every answer's witnesses lie on the surfaces and are as far apart as the answer says, to
    1e-12 L: of our own methods on every built-in scenario, and on meshes from random numbers
    with every kind of field. Checked against all faces of the deformed bodies. */
-#include "core/deform.h"
-#include "core/triangle.h"
+#include "core/body/deform.h"
+#include "core/body/triangle.h"
 #include "harness/scene/catalog.h"
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"

@@ -1,5 +1,5 @@
 /* mote export SCENARIO --frame K --out DIR [--method ...]: a frame for others to look at. */
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "datasets/obj_write.h"
 #include "harness/command/answer_json.h"
 #include "harness/command/command.h"

@@ -1,5 +1,5 @@
 /* mote list methods|scenarios|fields [--json] */
-#include "core/field_maker.h"
+#include "core/body/field_maker.h"
 #include "core/method.h"
 #include "harness/scene/catalog.h"
 #include "harness/command/command.h"

@@ -1,5 +1,5 @@
 /* mote mesh FILE [--json]: what a mesh is. */
-#include "core/parts.h"
+#include "core/body/parts.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/scene/mesh_import.h"

@@ -1,7 +1,7 @@
 /* Several bodies: time of a step over their number (15), and letters in a box, moving. */
 #include "harness/figure/figure.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/run/bodies_engine.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"

@@ -1,6 +1,6 @@
 #include "harness/figure/figure_scene.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

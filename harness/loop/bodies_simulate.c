@@ -1,6 +1,6 @@
 #include "harness/loop/bodies_simulate.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/run/measure.h"
 #include "harness/loop/penetration.h"
 

@@ -1,6 +1,6 @@
 #include "harness/loop/film.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/figure/figure.h"
 #include "harness/base/record.h"
 

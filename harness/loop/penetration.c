@@ -1,6 +1,6 @@
 #include "harness/loop/penetration.h"
 
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include <stdlib.h>
 #include <string.h>

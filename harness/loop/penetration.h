@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_PENETRATION_H
 #define MOTE_HARNESS_PENETRATION_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 typedef struct mote_penetration mote_penetration;
 

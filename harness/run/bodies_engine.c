@@ -2,7 +2,7 @@
 
 #include "baselines/body_trees.h"
 #include "baselines/broad_phase.h"
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "core/base/pool.h"
 #include "harness/base/heap_count.h"
 #include "harness/run/measure.h"

@@ -1,6 +1,6 @@
 #include "harness/run/measure.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/base/statistics.h"
 
 #include <stdlib.h>

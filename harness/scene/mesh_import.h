@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_MESH_IMPORT_H
 #define MOTE_HARNESS_MESH_IMPORT_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 /* What happened to a file's triangles on the way to a mesh. */
 typedef struct mote_import {

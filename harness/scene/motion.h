@@ -2,8 +2,8 @@
 #ifndef MOTE_HARNESS_MOTION_H
 #define MOTE_HARNESS_MOTION_H
 
-#include "core/body.h"
-#include "core/csrbf_fit.h"
+#include "core/body/body.h"
+#include "core/body/csrbf_fit.h"
 #include "core/base/quaternion.h"
 #include "harness/base/curve.h"
 

@@ -1,6 +1,6 @@
 #include "harness/scene/probe.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "harness/scene/scenario.h"
 
-#include "core/deform.h"
+#include "core/body/deform.h"
 #include "harness/base/hash.h"
 #include "harness/scene/motion.h"
 

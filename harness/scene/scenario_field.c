@@ -1,7 +1,7 @@
 /* The field of a body and the displacement of its control points. */
 #include "harness/scene/scenario_read.h"
 
-#include "core/field_maker.h"
+#include "core/body/field_maker.h"
 #include "harness/base/file.h"
 #include "harness/scene/spread.h"
 

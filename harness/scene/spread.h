@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SPREAD_H
 #define MOTE_HARNESS_SPREAD_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 /* Picks count different vertices by the farthest-point rule: the first is the farthest from the
    middle of the bounding box, each next the farthest from all before; the lowest index on a

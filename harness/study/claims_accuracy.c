@@ -1,7 +1,7 @@
 /* What the paper claims of accuracy: a, b, c, j. */
 #include "harness/study/claims.h"
 
-#include "core/parts.h"
+#include "core/body/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

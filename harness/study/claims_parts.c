@@ -1,9 +1,9 @@
 /* Claim m: the number of convex parts while a body deforms. */
 #include "harness/study/claims.h"
 
-#include "core/csrbf_fit.h"
-#include "core/deform.h"
-#include "core/parts.h"
+#include "core/body/csrbf_fit.h"
+#include "core/body/deform.h"
+#include "core/body/parts.h"
 #include "core/base/random.h"
 #include "datasets/letter.h"
 #include "harness/scene/spread.h"

@@ -1,6 +1,6 @@
 #include "harness/study/extreme.h"
 
-#include "core/csrbf_fit.h"
+#include "core/body/csrbf_fit.h"
 #include "datasets/letter.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/probe.h"

@@ -34,7 +34,7 @@ static wide wendland(wide r)
     return s * s * (4 * r + 1);
 }
 
-/* The world position that core/body.h defines, without rounding. */
+/* The world position that core/body/body.h defines, without rounding. */
 static wide3 position(const mote_body *body, const mote_body_state *state, uint32_t vertex)
 {
     const wide3 x = wide_from(body->mesh->positions[vertex]);

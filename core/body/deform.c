@@ -1,4 +1,4 @@
-#include "core/deform.h"
+#include "core/body/deform.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* stretch: the body is stretched and sheared as a whole. Basis function j is coordinate j (x,
    y, z) from the middle of the box at rest, in L, so that the three weights are the columns of
    a matrix, times L. */
-#include "core/field_kinds.h"
-#include "core/field_maker.h"
+#include "core/body/field_kinds.h"
+#include "core/body/field_maker.h"
 
 #include <stdlib.h>
 #include <string.h>

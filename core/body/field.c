@@ -1,6 +1,6 @@
-#include "core/field.h"
+#include "core/body/field.h"
 
-#include "core/field_kinds.h"
+#include "core/body/field_kinds.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "core/mesh_ring.h"
+#include "core/body/mesh_ring.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_MASS_H
 #define MOTE_CORE_MASS_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,4 +1,4 @@
-#include "core/body.h"
+#include "core/body/body.h"
 
 mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
                              uint32_t vertex)

@@ -1,4 +1,4 @@
-#include "core/parts.h"
+#include "core/body/parts.h"
 
 #include <algorithm>
 #include <cmath>

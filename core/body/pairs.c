@@ -1,4 +1,4 @@
-#include "core/pairs.h"
+#include "core/body/pairs.h"
 
 /* The same vertex, or one in the other's ring. */
 static bool adjacent(const mote_mesh *mesh, uint32_t v, uint32_t w)

@@ -10,7 +10,7 @@
 #define MOTE_CORE_FIELD_H
 
 #include "core/base/clones.h"
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_PARTS_H
 #define MOTE_CORE_PARTS_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #ifdef __cplusplus
 extern "C" {

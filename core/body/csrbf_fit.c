@@ -1,6 +1,6 @@
-#include "core/csrbf_fit.h"
+#include "core/body/csrbf_fit.h"
 
-#include "core/field_kinds.h"
+#include "core/body/field_kinds.h"
 #include "core/base/linear_algebra.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
 /* Compactly supported radial basis functions (paper section 4): Wendland's C2 function. */
-#include "core/field_kinds.h"
+#include "core/body/field_kinds.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #ifndef MOTE_CORE_FIELD_MAKER_H
 #define MOTE_CORE_FIELD_MAKER_H
 
-#include "core/field.h"
+#include "core/body/field.h"
 #include "core/parameter.h"
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-#include "core/lazy.h"
+#include "core/body/lazy.h"
 
 #include <stdlib.h>
 

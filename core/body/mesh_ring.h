@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_MESH_RING_H
 #define MOTE_CORE_MESH_RING_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 /* Fills ring_start, ring, edge_count and open_edge_count of a mesh whose positions and
    triangles are set. MOTE_EINVAL, with a text that names it, for an edge of more than two faces

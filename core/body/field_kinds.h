@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_FIELD_KINDS_H
 #define MOTE_CORE_FIELD_KINDS_H
 
-#include "core/field.h"
+#include "core/body/field.h"
 
 /* A zeroed field with kind, count, padded and bytes set. */
 mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,

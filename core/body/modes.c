@@ -1,5 +1,5 @@
 /* Linear modes: a displacement vector per vertex and mode. */
-#include "core/field_kinds.h"
+#include "core/body/field_kinds.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "core/mass.h"
+#include "core/body/mass.h"
 
 #include "core/base/linear_algebra.h"
 

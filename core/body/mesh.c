@@ -1,6 +1,6 @@
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
-#include "core/mesh_ring.h"
+#include "core/body/mesh_ring.h"
 
 #include <float.h>
 #include <math.h>

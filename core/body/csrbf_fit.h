@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_CSRBF_FIT_H
 #define MOTE_CORE_CSRBF_FIT_H
 
-#include "core/field.h"
+#include "core/body/field.h"
 
 #ifdef __cplusplus
 extern "C" {

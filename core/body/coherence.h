@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_COHERENCE_H
 #define MOTE_CORE_COHERENCE_H
 
-#include "core/body.h"
+#include "core/body/body.h"
 
 #ifdef __cplusplus
 extern "C" {

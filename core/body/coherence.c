@@ -1,4 +1,4 @@
-#include "core/coherence.h"
+#include "core/body/coherence.h"
 
 #include <stdlib.h>
 

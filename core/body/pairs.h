@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_PAIRS_H
 #define MOTE_CORE_PAIRS_H
 
-#include "core/mesh.h"
+#include "core/body/mesh.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -4,7 +4,7 @@
    pair is decided by the side on which each triangle lies of the other's plane; whatever
    rounding could decide wrongly there goes to a slower search of all candidates, each refined
    by its own residual. */
-#include "core/triangle.h"
+#include "core/body/triangle.h"
 
 #include "core/base/clones.h"
 
