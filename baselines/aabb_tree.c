@@ -6,7 +6,7 @@
 #include "baselines/input.h"
 #include "baselines/wide_triangle.h"
 #include "core/base/clones.h"
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/triangle.h"
 
 #include <stdlib.h>

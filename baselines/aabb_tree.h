@@ -3,7 +3,7 @@
 #define MOTE_BASELINES_AABB_TREE_H
 
 #include "baselines/box_tree.h"
-#include "core/method.h"
+#include "core/method/method.h"
 
 typedef struct mote_aabb_pair {
     const mote_box_tree *tree[2];

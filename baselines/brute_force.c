@@ -4,7 +4,7 @@
  */
 #include "baselines/input.h"
 #include "core/base/clones.h"
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/triangle.h"
 
 #include <stdlib.h>

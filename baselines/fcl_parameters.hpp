@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_FCL_PARAMETERS_HPP
 #define MOTE_BASELINES_FCL_PARAMETERS_HPP
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 namespace mote_fcl
 {

@@ -4,7 +4,7 @@
 #ifndef MOTE_BASELINES_INPUT_H
 #define MOTE_BASELINES_INPUT_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 #ifdef __cplusplus
 extern "C" {

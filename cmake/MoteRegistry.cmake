@@ -40,7 +40,7 @@ const mote_${type} *mote_${type}_find(const char *name)
   set(file ${CMAKE_BINARY_DIR}/${name}.c)
   file(CONFIGURE OUTPUT ${file} @ONLY CONTENT "/* Written by the build: see cmake/MoteRegistry.cmake. */
 #include \"core/body/field_maker.h\"
-#include \"core/method.h\"
+#include \"core/method/method.h\"
 
 #include <string.h>
 ${tables}")

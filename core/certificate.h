@@ -9,7 +9,7 @@
 #ifndef MOTE_CORE_CERTIFICATE_H
 #define MOTE_CORE_CERTIFICATE_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,5 +1,5 @@
 /* Tracked particles behind the contract of methods: core/tracker.h. */
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/parts.h"
 #include "core/tracker.h"
 

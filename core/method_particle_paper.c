@@ -1,5 +1,5 @@
 /* The method `particle-paper`: the paper's particle system as it stands (paper 3.3 to 3.5). */
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/particles.h"
 #include "core/body/parts.h"
 #include "core/refine.h"

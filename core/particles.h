@@ -4,7 +4,7 @@
 #ifndef MOTE_CORE_PARTICLES_H
 #define MOTE_CORE_PARTICLES_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/potential.h"
 #include "core/site.h"
 #include "core/start.h"

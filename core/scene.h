@@ -10,7 +10,7 @@
 #ifndef MOTE_CORE_SCENE_H
 #define MOTE_CORE_SCENE_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -6,7 +6,7 @@
 #ifndef MOTE_CORE_TRACKER_H
 #define MOTE_CORE_TRACKER_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/refine.h"
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
 /* One hash over what our methods answer on the built-in scenarios of two bodies: distance,
    lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames; and one
-   over what they counted on the way (core/method.h), which is how they got there. The
+   over what they counted on the way (core/method/method.h), which is how they got there. The
    same bits are expected of every compiler, optimisation and number of threads, again and
    again.
 

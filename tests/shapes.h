@@ -3,7 +3,7 @@
 #define MOTE_TESTS_SHAPES_H
 
 #include "core/body/deform.h"
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/triangle.h"
 
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #include "core/levels.h"
 #include "core/base/linear_algebra.h"
 #include "core/body/mass.h"
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/parts.h"
 #include "core/base/pool.h"
 #include "core/start.h"

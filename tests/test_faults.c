@@ -1,7 +1,7 @@
 /* What happens when the n-th allocation, or the n-th write, sync or rename, fails, for every n:
    an error with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap,
    as in tests/failing.h). */
-#include "core/method.h"
+#include "core/method/method.h"
 #include "harness/base/file.h"
 #include "harness/base/json_memory.h"
 #include "harness/base/json_read.h"

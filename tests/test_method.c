@@ -1,5 +1,5 @@
 /* What stands for the functions that a method leaves out. */
-#include "core/method.h"
+#include "core/method/method.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

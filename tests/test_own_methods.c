@@ -1,5 +1,5 @@
 /* Our methods behind the contract: what "auto" stands for, and what a contact question says. */
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/body/parts.h"
 #include "datasets/letter.h"
 #include "tests/shapes.h"

@@ -1,5 +1,5 @@
 /* The parser of parameters: values, defaults, every error text, and the way back to text. */
-#include "core/parameter.h"
+#include "core/method/parameter.h"
 
 #include "tests/solids.h"
 

@@ -1,6 +1,6 @@
 /* The method particle-paper behind the contract: scale, rigid motion, seeds, components, tiny
    and open meshes, bad n. */
-#include "core/method.h"
+#include "core/method/method.h"
 
 #include "tests/particle_scene.h"
 

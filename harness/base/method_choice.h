@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_METHOD_CHOICE_H
 #define MOTE_HARNESS_METHOD_CHOICE_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 /* A method and its parameters, as named on the command line. */
 typedef struct mote_method_choice {

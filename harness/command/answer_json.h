@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_ANSWER_JSON_H
 #define MOTE_HARNESS_ANSWER_JSON_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 #include <jansson.h>
 

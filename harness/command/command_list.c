@@ -1,6 +1,6 @@
 /* mote list methods|scenarios|fields [--json] */
 #include "core/body/field_maker.h"
-#include "core/method.h"
+#include "core/method/method.h"
 #include "harness/scene/catalog.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"

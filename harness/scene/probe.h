@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_PROBE_H
 #define MOTE_HARNESS_PROBE_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 #include "harness/base/method_choice.h"
 
 typedef struct mote_probe mote_probe;

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_SCENARIO_H
 #define MOTE_HARNESS_SCENARIO_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 
 typedef struct mote_interval {
     uint32_t first, last; /* frames, inclusive, from 1; 0, 0 when the scenario names none */

@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_EXTREME_H
 #define MOTE_HARNESS_EXTREME_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 #include "core/base/quaternion.h"
 
 #define MOTE_EXTREME_FRAMES 4

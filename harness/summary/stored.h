@@ -3,7 +3,7 @@
 #ifndef MOTE_HARNESS_STORED_H
 #define MOTE_HARNESS_STORED_H
 
-#include "core/method.h"
+#include "core/method/method.h"
 #include "harness/run/cell.h"
 #include "harness/base/file.h"
 

@@ -1,4 +1,4 @@
-#include "core/method.h"
+#include "core/method/method.h"
 
 #include <stdlib.h>
 

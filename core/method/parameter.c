@@ -1,4 +1,4 @@
-#include "core/parameter.h"
+#include "core/method/parameter.h"
 
 #include <math.h>
 #include <stdio.h>
