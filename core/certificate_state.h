@@ -4,7 +4,7 @@
 
 #include "core/certificate_shared.h"
 #include "core/body/lazy.h"
-#include "core/refine.h"
+#include "core/particle/refine.h"
 
 /* A block deformed for this frame, relative to the query's origin, in the trees' units. The
    plane needs reach, extent and clear only, which take a fifth of the time of the boxes. */

@@ -1,6 +1,6 @@
 /* The method certified: the exact distance with its proof (DESIGN section 5). */
 #include "core/certificate.h"
-#include "core/tracker.h"
+#include "core/particle/tracker.h"
 
 #include <math.h>
 #include <stdlib.h>

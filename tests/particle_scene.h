@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_PARTICLE_SCENE_H
 #define MOTE_TESTS_PARTICLE_SCENE_H
 
-#include "core/particles.h"
+#include "core/particle/particles.h"
 #include "core/body/triangle.h"
 
 #include "tests/bodies.h"

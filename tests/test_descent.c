@@ -1,5 +1,5 @@
 /* Walks over pairs of deforming tori: where they end, and that they only come nearer. */
-#include "core/descent.h"
+#include "core/particle/descent.h"
 #include "tests/shapes.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* The levels of a mesh against their definition, checked edge by edge. */
-#include "core/levels.h"
+#include "core/particle/levels.h"
 #include "datasets/letter.h"
 #include "tests/solids.h"
 

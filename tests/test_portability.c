@@ -6,9 +6,9 @@
 #include "core/certificate.h"
 #include "core/body/deform.h"
 #include "core/body/lazy.h"
-#include "core/particles.h"
-#include "core/refine.h"
-#include "core/tracker.h"
+#include "core/particle/particles.h"
+#include "core/particle/refine.h"
+#include "core/particle/tracker.h"
 #include "harness/base/hash.h"
 
 #include "tests/bodies.h"

@@ -1,7 +1,7 @@
 /* Potentials of the forces between particles against sums of logarithms and powers in long
    double; with the distant ones cached, too. */
-#include "core/far_cache.h"
-#include "core/potential.h"
+#include "core/particle/far_cache.h"
+#include "core/particle/potential.h"
 
 #include "tests/solids.h"
 

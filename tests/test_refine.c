@@ -1,5 +1,5 @@
 /* The local search against all pairs of faces, over random poses and deformations. */
-#include "core/refine.h"
+#include "core/particle/refine.h"
 
 #include "core/body/triangle.h"
 #include "datasets/letter.h"

@@ -1,5 +1,5 @@
 /* Where particles are placed first. */
-#include "core/start.h"
+#include "core/particle/start.h"
 
 #include "tests/solids.h"
 

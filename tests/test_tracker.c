@@ -1,5 +1,5 @@
 /* The method `particle` through the contract, against all pairs of triangles. */
-#include "core/tracker.h"
+#include "core/particle/tracker.h"
 #include "datasets/letter.h"
 #include "harness/base/heap_count.h"
 #include "tests/shapes.h"

@@ -1,7 +1,7 @@
 /* What the paper claims of relaxation: d, e, f. */
 #include "harness/study/claims.h"
 
-#include "core/particles.h"
+#include "core/particle/particles.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "core/site.h"
+#include "core/particle/site.h"
 
 static mote_site edge_site(uint32_t a, uint32_t b)
 {

@@ -1,4 +1,4 @@
-#include "core/levels.h"
+#include "core/particle/levels.h"
 
 #include "core/base/random.h"
 

@@ -7,7 +7,7 @@
 #define MOTE_CORE_TRACKER_H
 
 #include "core/method/method.h"
-#include "core/refine.h"
+#include "core/particle/refine.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,4 +1,4 @@
-#include "core/far_cache.h"
+#include "core/particle/far_cache.h"
 
 #include <math.h>
 #include <stdlib.h>

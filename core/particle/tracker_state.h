@@ -3,10 +3,10 @@
 #define MOTE_CORE_TRACKER_STATE_H
 
 #include "core/body/coherence.h"
-#include "core/descent.h"
+#include "core/particle/descent.h"
 #include "core/body/pairs.h"
-#include "core/particles.h"
-#include "core/tracker.h"
+#include "core/particle/particles.h"
+#include "core/particle/tracker.h"
 
 #define MOTE_NO_VERTEX UINT32_MAX
 

@@ -6,7 +6,7 @@
 #ifndef MOTE_CORE_FAR_CACHE_H
 #define MOTE_CORE_FAR_CACHE_H
 
-#include "core/potential.h"
+#include "core/particle/potential.h"
 #include "core/base/status.h"
 #include "core/base/vec3.h"
 

@@ -1,6 +1,6 @@
-#include "core/tracker.h"
+#include "core/particle/tracker.h"
 
-#include "core/tracker_state.h"
+#include "core/particle/tracker_state.h"
 
 #include <stdlib.h>
 #include <string.h>

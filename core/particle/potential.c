@@ -1,4 +1,4 @@
-#include "core/potential.h"
+#include "core/particle/potential.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
-/* Tracked particles behind the contract of methods: core/tracker.h. */
+/* Tracked particles behind the contract of methods: core/particle/tracker.h. */
 #include "core/method/method.h"
 #include "core/body/parts.h"
-#include "core/tracker.h"
+#include "core/particle/tracker.h"
 
 #include <math.h>
 #include <stdlib.h>

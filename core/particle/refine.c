@@ -2,7 +2,7 @@
    is how far it lies from its own body's witness towards the other's. A pair of faces can only
    be nearer than the distance d of the witnesses if their reaches add up to more than 0, which
    rejects nearly all faces before any of them is looked at closely. */
-#include "core/refine.h"
+#include "core/particle/refine.h"
 
 #include "core/body/triangle.h"
 

@@ -5,9 +5,9 @@
 #define MOTE_CORE_PARTICLES_H
 
 #include "core/method/method.h"
-#include "core/potential.h"
-#include "core/site.h"
-#include "core/start.h"
+#include "core/particle/potential.h"
+#include "core/particle/site.h"
+#include "core/particle/start.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -4,7 +4,7 @@
 #define MOTE_CORE_DESCENT_H
 
 #include "core/body/lazy.h"
-#include "core/levels.h"
+#include "core/particle/levels.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,6 +1,6 @@
-#include "core/particles.h"
+#include "core/particle/particles.h"
 
-#include "core/far_cache.h"
+#include "core/particle/far_cache.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "core/tracker_state.h"
+#include "core/particle/tracker_state.h"
 
 #include <string.h>
 

@@ -1,8 +1,8 @@
 /* The method `particle-paper`: the paper's particle system as it stands (paper 3.3 to 3.5). */
 #include "core/method/method.h"
-#include "core/particles.h"
+#include "core/particle/particles.h"
 #include "core/body/parts.h"
-#include "core/refine.h"
+#include "core/particle/refine.h"
 
 #include <math.h>
 #include <stdlib.h>

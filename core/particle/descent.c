@@ -1,4 +1,4 @@
-#include "core/descent.h"
+#include "core/particle/descent.h"
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-#include "core/start.h"
+#include "core/particle/start.h"
 
 #include "core/base/random.h"
 
