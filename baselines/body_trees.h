@@ -5,7 +5,7 @@
 #ifndef MOTE_BASELINES_BODY_TREES_H
 #define MOTE_BASELINES_BODY_TREES_H
 
-#include "core/scene.h"
+#include "core/certificate/scene.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,7 +2,7 @@
 #ifndef MOTE_BASELINES_BROAD_PHASE_H
 #define MOTE_BASELINES_BROAD_PHASE_H
 
-#include "core/scene.h"
+#include "core/certificate/scene.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_CERTIFICATE_SCENE_H
 #define MOTE_TESTS_CERTIFICATE_SCENE_H
 
-#include "core/certificate.h"
+#include "core/certificate/certificate.h"
 #include "tests/shapes.h"
 
 static inline mote_certificate *certificate_of(const scene *s,

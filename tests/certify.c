@@ -4,7 +4,7 @@
    triangles. Usage: certify [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where a
    bound is above the truth, an answer below it, or an unstopped query is wrong, or its bracket
    wide, by more than its slack and 1e-12 L. */
-#include "core/certificate.h"
+#include "core/certificate/certificate.h"
 #include "tests/checks.h"
 #include "tests/shapes.h"
 

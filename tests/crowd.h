@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_CROWD_H
 #define MOTE_TESTS_CROWD_H
 
-#include "core/scene.h"
+#include "core/certificate/scene.h"
 #include "core/body/triangle.h"
 #include "datasets/letter.h"
 

@@ -15,7 +15,7 @@ printf '#define MOTE_SOURCE_DIR "%s"\n' "$PWD" >"$work/config.h"
 libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread -lm"
 cache=$(command -v ccache || true)
 
-sources=$(ls core/*.c datasets/*.c harness/scenario*.c harness/mesh_*.c | grep -v core/plain.c)
+sources=$(ls core/*.c datasets/*.c harness/scenario*.c harness/mesh_*.c | grep -v core/certificate/plain.c)
 for name in approach catalog child command confine curve data file json_line json_memory json_print \
     json_read motion number_text probe reach spread turn; do
     sources="$sources harness/$name.c"

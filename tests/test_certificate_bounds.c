@@ -1,5 +1,5 @@
 /* What certified mode rules out by floats, against the vertices and faces themselves. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
 #include <setjmp.h>

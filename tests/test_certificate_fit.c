@@ -1,5 +1,5 @@
 /* Boxes of the certificate's tree: their axes and their coordinates. */
-#include "core/certificate_fit.h"
+#include "core/certificate/certificate_fit.h"
 
 #include "tests/solids.h"
 

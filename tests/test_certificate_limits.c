@@ -1,5 +1,5 @@
 /* What certified mode does within limits: of precision, boxes tested, rooms and memory. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "harness/base/heap_count.h"
 
 #include <setjmp.h>

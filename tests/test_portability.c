@@ -3,7 +3,7 @@
    and all that is hashed use only operations that IEEE 754 rounds exactly. Who changes the
    method on purpose takes the new hashes from the failing test, once portability.sh agrees on
    them. */
-#include "core/certificate.h"
+#include "core/certificate/certificate.h"
 #include "core/body/deform.h"
 #include "core/body/lazy.h"
 #include "core/particle/particles.h"

@@ -1,6 +1,6 @@
 /* Several bodies: bounds against all vertices, answers against all pairs of triangles. */
-#include "core/certificate_shared.h"
-#include "core/scene.h"
+#include "core/certificate/certificate_shared.h"
+#include "core/certificate/scene.h"
 
 #include "harness/base/heap_count.h"
 #include "tests/crowd.h"

@@ -8,7 +8,7 @@
 #ifndef MOTE_HARNESS_BODIES_H
 #define MOTE_HARNESS_BODIES_H
 
-#include "core/scene.h"
+#include "core/certificate/scene.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario.h"
 

@@ -1,5 +1,5 @@
 /* One box against the eight of a block: the innermost test of the traversal. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 
 #define WIDTH MOTE_CERT_WIDTH

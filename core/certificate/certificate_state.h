@@ -2,7 +2,7 @@
 #ifndef MOTE_CORE_CERTIFICATE_STATE_H
 #define MOTE_CORE_CERTIFICATE_STATE_H
 
-#include "core/certificate_shared.h"
+#include "core/certificate/certificate_shared.h"
 #include "core/body/lazy.h"
 #include "core/particle/refine.h"
 

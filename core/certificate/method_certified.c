@@ -1,5 +1,5 @@
 /* The method certified: the exact distance with its proof (DESIGN section 5). */
-#include "core/certificate.h"
+#include "core/certificate/certificate.h"
 #include "core/particle/tracker.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* What takes the place of linear_algebra.c and parts_hacd.cpp where the core is built without
    other libraries (MOTE_CORE_ONLY): main axes by ourselves, no convex parts. Fits of CSRBF
    weights are left out there: weights come from the caller. */
-#include "core/certificate_fit.h"
+#include "core/certificate/certificate_fit.h"
 #include "core/base/linear_algebra.h"
 #include "core/body/parts.h"
 

@@ -1,6 +1,6 @@
-#include "core/certificate.h"
+#include "core/certificate/certificate.h"
 
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
 #include <float.h>

@@ -1,5 +1,5 @@
 /* Two leaves: directions that keep them apart, then their triangles. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 #include "core/body/triangle.h"
 

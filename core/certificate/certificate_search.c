@@ -1,5 +1,5 @@
 /* The plane pass and the traversal of both trees. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 
 #include <float.h>
 

@@ -1,6 +1,6 @@
-#include "core/scene.h"
+#include "core/certificate/scene.h"
 
-#include "core/certificate_shared.h"
+#include "core/certificate/certificate_shared.h"
 #include "core/base/pool.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Rooms for what one query deforms, of a certificate with trees of its own or of a workspace
    for the trees of others. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,8 +7,8 @@
 #ifndef MOTE_CORE_CERTIFICATE_SHARED_H
 #define MOTE_CORE_CERTIFICATE_SHARED_H
 
-#include "core/certificate.h"
-#include "core/certificate_tree.h"
+#include "core/certificate/certificate.h"
+#include "core/certificate/certificate_tree.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,5 +1,5 @@
 /* Faces of two leaves: which pairs of them may be near. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 
 #include <float.h>

@@ -1,4 +1,4 @@
-#include "core/certificate_fit.h"
+#include "core/certificate/certificate_fit.h"
 
 #include <float.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef MOTE_CORE_CERTIFICATE_FIT_H
 #define MOTE_CORE_CERTIFICATE_FIT_H
 
-#include "core/certificate_tree.h"
+#include "core/certificate/certificate_tree.h"
 
 /* An oriented box. The values are floats, kept as doubles. */
 typedef struct mote_cert_box {

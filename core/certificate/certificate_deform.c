@@ -21,7 +21,7 @@
    whose axes are rounded, and the rounding of the double precision positions themselves, at
    most 2^-50 of the coordinates' size in the world for each function. The half width grows by
    this in every coordinate, and so the projection on any direction by at least as much. */
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-#include "core/certificate_shared.h"
+#include "core/certificate/certificate_shared.h"
 
-#include "core/certificate_state.h"
+#include "core/certificate/certificate_state.h"
 
 #include <float.h>
 
