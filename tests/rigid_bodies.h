@@ -2,7 +2,7 @@
 #ifndef MOTE_TESTS_RIGID_BODIES_H
 #define MOTE_TESTS_RIGID_BODIES_H
 
-#include "core/rigid_motion.h"
+#include "core/motion/rigid_motion.h"
 
 #include "tests/solids.h"
 

@@ -1,5 +1,5 @@
 /* The paper's response against the conservation laws, in both readings of its sign. */
-#include "core/response.h"
+#include "core/motion/response.h"
 
 #include "tests/rigid_bodies.h"
 

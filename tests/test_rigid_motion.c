@@ -1,5 +1,5 @@
 /* Free motion against closed forms, conservation laws and a finer independent integration. */
-#include "core/rigid_motion.h"
+#include "core/motion/rigid_motion.h"
 
 #include "tests/rigid_bodies.h"
 

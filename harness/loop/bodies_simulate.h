@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_BODIES_SIMULATE_H
 #define MOTE_HARNESS_BODIES_SIMULATE_H
 
-#include "core/response.h"
+#include "core/motion/response.h"
 #include "harness/loop/bodies_book.h"
 #include "harness/loop/simulate.h"
 

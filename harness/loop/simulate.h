@@ -4,7 +4,7 @@
 #ifndef MOTE_HARNESS_SIMULATE_H
 #define MOTE_HARNESS_SIMULATE_H
 
-#include "core/response.h"
+#include "core/motion/response.h"
 #include "harness/base/method_choice.h"
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"

@@ -11,7 +11,7 @@
 #ifndef MOTE_CORE_RESPONSE_H
 #define MOTE_CORE_RESPONSE_H
 
-#include "core/rigid_motion.h"
+#include "core/motion/rigid_motion.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,4 +1,4 @@
-#include "core/response.h"
+#include "core/motion/response.h"
 
 double mote_effective_mass(const mote_mass *mass, const mote_rigid_state *state, mote_vec3 arm,
                            mote_vec3 normal)

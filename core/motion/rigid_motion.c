@@ -1,4 +1,4 @@
-#include "core/rigid_motion.h"
+#include "core/motion/rigid_motion.h"
 
 #include <float.h>
 
