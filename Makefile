@@ -100,7 +100,7 @@ reliability: build build-fuzz
 	    --target test_faults test_allocations > /dev/null
 	@cmake --preset tsan > /dev/null && cmake --build build-tsan -j $(JOBS) --target answers > /dev/null
 	@mkdir -p results
-	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
+	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/scripts/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
 	    $(call out,reliability) \
 	    $(if $(PLANT),plant,$(if $(RECORD),record))
@@ -108,7 +108,7 @@ reliability: build build-fuzz
 RUNS ?= 56
 .PHONY: determinism
 determinism: build
-	@tests/determinism.sh $(BUILD) $(RUNS) $(JOBS)
+	@tests/scripts/determinism.sh $(BUILD) $(RUNS) $(JOBS)
 
 # As many targets at a time as there are cores.
 SECONDS ?= 60
@@ -118,9 +118,9 @@ build-fuzz: deps
 	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell fuzz_summary > /dev/null
 
 fuzz: build-fuzz
-	@tests/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
+	@tests/scripts/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
 	    $(call out,fuzz) $(SEED)
-	@$(if $(RECORD),tests/record.sh --fuzz $(call out,fuzz)/fuzz.tsv)
+	@$(if $(RECORD),tests/scripts/record.sh --fuzz $(call out,fuzz)/fuzz.tsv)
 
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1
@@ -183,10 +183,10 @@ page-deps:
 
 test-page: build page-deps
 	@plots/page/build.sh $(BUILD)/page
-	@node tests/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
+	@node tests/scripts/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
 
 SOURCES = $(wildcard $(foreach folder,core baselines datasets harness tests cmake,\
-    $(foreach kind,c h cpp,$(folder)/*.$(kind))))
+    $(foreach kind,c h cpp hpp,$(folder)/*.$(kind) $(folder)/*/*.$(kind) $(folder)/*/*/*.$(kind))))
 
 format: deps
 	@clang-format --dry-run -Werror $(SOURCES)
@@ -201,10 +201,10 @@ lint: format build
 	@mkdir -p $(BUILD)/lint
 	@sed 's/-fno-loop-unroll-and-jam//' $(BUILD)/compile_commands.json \
 	    > $(BUILD)/lint/compile_commands.json
-	@grep -qE '"file": ".*/($(DEEP))/[^/]+"' $(BUILD)/lint/compile_commands.json || \
+	@grep -qE '"file": ".*/($(DEEP))/.+"' $(BUILD)/lint/compile_commands.json || \
 	    { echo 'lint: there is no file in $(DEEP)' >&2; exit 1; }
-	@$(TIDY) '/($(DEEP))/[^/]+$$'
-	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='/%/[^/]+$$'))
+	@$(TIDY) '/($(DEEP))/.+$$'
+	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='/%/.+$$'))
 
 # Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
 .PHONY: check-static check-threads valgrind
@@ -219,20 +219,20 @@ check-static: deps
 coverage: deps
 	@cmake --preset coverage > /dev/null
 	@cmake --build build-coverage -j $(JOBS) > /dev/null
-	@tests/coverage.sh build-coverage $(JOBS) \
+	@tests/scripts/coverage.sh build-coverage $(JOBS) \
 	    $(call out,coverage) '$(TESTS)'
-	@$(if $(RECORD),tests/record.sh --coverage $(call out,coverage)/coverage.tsv)
+	@$(if $(RECORD),tests/scripts/record.sh --coverage $(call out,coverage)/coverage.tsv)
 
-# A seeded sample of each module; FILES='core/triangle*' looks at one file. RECORD=1: into README.md.
+# A seeded sample of each module; FILES='core/body/triangle*' looks at one file. RECORD=1: into README.md.
 # An hour on two cores; below 85 % it fails.
 COUNT ?= 120
 FILES ?= *
 .PHONY: mutation
 mutation: build
-	@/usr/bin/python3 tests/mutate.py $(BUILD) \
+	@/usr/bin/python3 tests/scripts/mutate.py $(BUILD) \
 	    $(call out,mutation) \
 	    --files '$(FILES)' --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
-	@$(if $(RECORD),tests/record.sh --mutation $(call out,mutation)/mutation.tsv)
+	@$(if $(RECORD),tests/scripts/record.sh --mutation $(call out,mutation)/mutation.tsv)
 
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.
@@ -260,19 +260,19 @@ clean:
 
 test-library: deps
 	@cmake/deps.sh tests/packages-library.txt || echo "going on with the compilers at hand"
-	@tests/core_only.sh
+	@tests/scripts/core_only.sh
 
 test-stranger: deps
-	@tests/stranger.sh
+	@tests/scripts/stranger.sh
 
 test-cluster: build
 	@cmake/deps.sh tests/packages-cluster.txt
-	@tests/cluster.sh $(MOTE)
+	@tests/scripts/cluster.sh $(MOTE)
 
 test-exports: build
 	@cmake/deps.sh tests/packages-exports.txt
 	@cmake --build $(BUILD) -j $(JOBS) --target mann_whitney
-	@/usr/bin/python3 tests/exports.py $(MOTE) $(BUILD)/tests/mann_whitney results/schema
+	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) $(BUILD)/tests/mann_whitney results/schema
 
 PREFIX ?= /usr/local
 

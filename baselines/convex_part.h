@@ -23,10 +23,10 @@ typedef struct mote_convex_parts {
     mote_convex_part *part; /* [count] */
 } mote_convex_parts;
 
-/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part of most of
-   its vertices, the first one's on a tie; a vertex belongs to the parts of all its triangles,
-   so that the hulls of the parts cover the surface. Errors as mote_parts_create. The caller
-   destroys *parts. */
+/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part of
+   most of its vertices, the first one's on a tie; a vertex belongs to the parts of all its
+   triangles, so that the hulls of the parts cover the surface. Errors as mote_parts_create. The
+   caller destroys *parts. */
 mote_status mote_convex_parts_create(const mote_mesh *mesh, mote_convex_parts **parts);
 
 /* NULL is allowed. */

@@ -7,7 +7,7 @@
 #define MOTE_CORE_FIELD_MAKER_H
 
 #include "core/body/field.h"
-#include "core/method/parameter.h"
+#include "core/base/parameter.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,7 @@
 #define MOTE_CORE_METHOD_H
 
 #include "core/body/body.h"
-#include "core/method/parameter.h"
+#include "core/base/parameter.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,8 +5,8 @@
 
 #include "harness/study/dynamics.h"
 
-/* Simulates random approaches, the same for every method of a scene (harness/study/dynamics.h: which
-   rows there are), prints a table and the verdict on the paper's claim, and writes
+/* Simulates random approaches, the same for every method of a scene (harness/study/dynamics.h:
+   which rows there are), prints a table and the verdict on the paper's claim, and writes
    DIRECTORY/dynamics.json, dynamics.csv and figures/. Each row is kept in DIRECTORY/rows when
    it is done: the study goes on where it stopped, rows of another number of approaches, and
    without `keep` those of another build of the program, being measured again. It runs `jobs`

@@ -1,0 +1,530 @@
+/* The library when there is no memory, no thread, or when a library under it fails: a status
+   with a text, nothing leaked (under AddressSanitizer), outputs untouched; and where a query
+   needs memory only to be fast, the same answer. The linker puts the functions below in the
+   place of GSL's, HACD's and libstdc++'s (--wrap). */
+#include "core/body/csrbf_fit.h"
+#include "core/base/frame_queue.h"
+#include "core/body/lazy.h"
+#include "core/particle/levels.h"
+#include "core/base/linear_algebra.h"
+#include "core/body/mass.h"
+#include "core/method/method.h"
+#include "core/body/parts.h"
+#include "core/base/pool.h"
+#include "core/particle/start.h"
+#include "tests/support/crowd.h"
+#include "tests/faults/failing.h"
+
+#include <errno.h>
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
+#include <pthread.h>
+#include <stdio.h>
+
+/* Calls of another kind until one fails. */
+static long others_left = -1;
+
+gsl_matrix *__real_gsl_matrix_alloc(size_t rows, size_t columns);
+gsl_vector *__real_gsl_vector_alloc(size_t size);
+gsl_eigen_symmv_workspace *__real_gsl_eigen_symmv_alloc(size_t size);
+int __real_gsl_linalg_cholesky_rcond(const gsl_matrix *factor, double *rcond, gsl_vector *work);
+int __real_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vectors,
+                           gsl_eigen_symmv_workspace *work);
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*run)(void *), void *argument);
+gsl_matrix *__wrap_gsl_matrix_alloc(size_t rows, size_t columns);
+gsl_vector *__wrap_gsl_vector_alloc(size_t size);
+gsl_eigen_symmv_workspace *__wrap_gsl_eigen_symmv_alloc(size_t size);
+int __wrap_gsl_linalg_cholesky_rcond(const gsl_matrix *factor, double *rcond, gsl_vector *work);
+int __wrap_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vectors,
+                           gsl_eigen_symmv_workspace *work);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*run)(void *), void *argument);
+
+gsl_matrix *__wrap_gsl_matrix_alloc(size_t rows, size_t columns)
+{
+    return is_due(&allocations_left) ? NULL : __real_gsl_matrix_alloc(rows, columns);
+}
+
+gsl_vector *__wrap_gsl_vector_alloc(size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_gsl_vector_alloc(size);
+}
+
+gsl_eigen_symmv_workspace *__wrap_gsl_eigen_symmv_alloc(size_t size)
+{
+    return is_due(&allocations_left) ? NULL : __real_gsl_eigen_symmv_alloc(size);
+}
+
+int __wrap_gsl_linalg_cholesky_rcond(const gsl_matrix *factor, double *rcond, gsl_vector *work)
+{
+    return is_due(&others_left) ? GSL_EFAILED
+                                : __real_gsl_linalg_cholesky_rcond(factor, rcond, work);
+}
+
+int __wrap_gsl_eigen_symmv(gsl_matrix *a, gsl_vector *values, gsl_matrix *vectors,
+                           gsl_eigen_symmv_workspace *work)
+{
+    return is_due(&others_left) ? GSL_EMAXITER
+                                : __real_gsl_eigen_symmv(a, values, vectors, work);
+}
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
+                          void *(*run)(void *), void *argument)
+{
+    return is_due(&others_left) ? EAGAIN
+                                : __real_pthread_create(thread, attributes, run, argument);
+}
+
+/* operator new, std::bad_alloc, std::length_error and the throwing of an int, as C++ names them
+   on every system whose size_t is an unsigned long. */
+extern const char _ZTIi[];
+_Noreturn void _ZSt17__throw_bad_allocv(void);
+_Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
+void *__cxa_allocate_exception(size_t size);
+_Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
+void *__real__Znwm(size_t size);
+bool __real__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
+void *__wrap__Znwm(size_t size);
+bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
+
+void *__wrap__Znwm(size_t size)
+{
+    if (is_due(&allocations_left))
+        _ZSt17__throw_bad_allocv();
+    return __real__Znwm(size);
+}
+
+static enum { HACD_WORKS, HACD_FAILS, HACD_THROWS, HACD_THROWS_A_NUMBER } hacd_does;
+
+bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude)
+{
+    switch (hacd_does) {
+    case HACD_FAILS:
+        return false;
+    case HACD_THROWS:
+        _ZSt20__throw_length_errorPKc("planted");
+    case HACD_THROWS_A_NUMBER:
+        __cxa_throw(__cxa_allocate_exception(sizeof(int)), _ZTIi, NULL);
+    case HACD_WORKS:
+        break;
+    }
+    return __real__ZN4HACD4HACD7ComputeEbb(hacd, full, exclude);
+}
+
+static mote_status make_fields(void *context)
+{
+    const mote_mesh *mesh = context;
+    mote_field *field = NULL;
+    mote_status status = mote_field_create_csrbf(mesh->positions, 5, mesh->diagonal, &field);
+    mote_csrbf_fit *fit = NULL;
+    if (status == MOTE_OK)
+        status = mote_csrbf_fit_create(field, &fit, NULL);
+    mote_csrbf_fit_destroy(fit);
+    mote_field_destroy(field);
+    field = NULL;
+    /* Any vectors: the rest positions are two modes of half of the vertices. */
+    if (status == MOTE_OK)
+        status = mote_field_create_modes(mesh->positions, 2, mesh->vertex_count / 2, &field);
+    mote_field_destroy(field);
+    return status;
+}
+
+static void fields_when_an_allocation_fails_say_so(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    fail_each_allocation(make_fields, mesh, "fields");
+    mote_mesh_destroy(mesh);
+}
+
+static mote_status make_places(void *context)
+{
+    const mote_mesh *mesh = context;
+    uint32_t random[9], farthest[9];
+    mote_status status = mote_start_vertices(mesh, 9, MOTE_START_RANDOM, 3, random);
+    if (status == MOTE_OK)
+        status = mote_start_vertices(mesh, 9, MOTE_START_FARTHEST, 3, farthest);
+    return status;
+}
+
+static void start_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    fail_each_allocation(make_places, mesh, "mote_start_vertices");
+    mote_mesh_destroy(mesh);
+}
+
+static mote_status weigh(void *context)
+{
+    mote_mass mass;
+    return mote_mass_of_mesh(context, 1, &mass);
+}
+
+static void mass_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    fail_each_allocation(weigh, mesh, "mote_mass_of_mesh");
+    mote_mesh_destroy(mesh);
+}
+
+static mote_status make_levels(void *context)
+{
+    const mote_mesh *mesh = context;
+    mote_levels *levels = NULL;
+    mote_status status = mote_levels_create(mesh, &levels);
+    uint32_t nodes[4], *home = NULL;
+    if (status == MOTE_OK)
+        status = mote_levels_spread(levels, mesh, 0, 4, true, 1, nodes);
+    if (status == MOTE_OK)
+        status = mote_levels_home(levels, mesh, 0, &home);
+    free(home);
+    mote_levels_destroy(levels);
+    return status;
+}
+
+static void levels_when_an_allocation_fails_say_so(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
+    fail_each_allocation(make_levels, mesh, "levels");
+    mote_mesh_destroy(mesh);
+}
+
+static mote_status make_queue_and_pool(void *context)
+{
+    (void)context;
+    mote_frame_queue *queue = NULL;
+    mote_pool *pool = NULL;
+    mote_status status = mote_frame_queue_create(2, &queue);
+    if (status == MOTE_OK)
+        status = mote_pool_create(3, &pool);
+    mote_frame_queue_destroy(queue);
+    mote_pool_destroy(pool);
+    return status;
+}
+
+static void queue_and_pool_when_an_allocation_fails_say_so(void **state)
+{
+    (void)state;
+    fail_each_allocation(make_queue_and_pool, NULL, "queue and pool");
+}
+
+static void pool_when_a_thread_cannot_be_started_says_which(void **state)
+{
+    (void)state;
+    for (long n = 0; n < 3; ++n) {
+        mote_pool *pool = NULL;
+        char expected[80];
+        (void)snprintf(expected, sizeof expected, "only %ld of 4 threads could be started",
+                       n + 1);
+        others_left = n;
+        assert_int_equal(mote_pool_create(4, &pool), MOTE_ENOMEM);
+        assert_string_equal(mote_error_text(), expected);
+        assert_null(pool);
+        assert_int_equal(others_left, never);
+    }
+}
+
+static mote_status make_scene(void *context)
+{
+    static const uint32_t pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    crowd *c = context;
+    mote_scene_options options = mote_default_scene_options();
+    options.threads = 2;
+    mote_scene *s = NULL;
+    mote_status status =
+        mote_scene_create(c->shape, CROWD_SHAPES, c->shape_of, c->count, &options, &s);
+    for (size_t near = 1; status == MOTE_OK && near <= 3; near += 2)
+        status = mote_scene_query(s, c->states, pairs, near);
+    mote_scene_destroy(s);
+    return status;
+}
+
+static void scene_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    static crowd c;
+    crowd_init(&c, 3, 400, 2);
+    fail_each_allocation(make_scene, &c, "scene");
+    crowd_free(&c);
+}
+
+/* A query that finds no memory for more pairs goes on from the states of the last one. */
+static void scene_query_out_of_memory_keeps_all_states(void **state)
+{
+    (void)state;
+    static const uint32_t one[1][2] = {{0, 1}};
+    static uint32_t many[CROWD_MAX * (CROWD_MAX - 1) / 2][2];
+    static crowd c;
+    size_t count = 0;
+    crowd_init(&c, 12, 400, 4);
+    for (uint32_t i = 0; i < c.count; ++i) {
+        for (uint32_t j = i + 1; j < c.count; ++j, ++count)
+            many[count][0] = i, many[count][1] = j;
+    }
+    const mote_scene_options options = mote_default_scene_options();
+    mote_scene *s = NULL;
+    assert_int_equal(
+        mote_scene_create(c.shape, CROWD_SHAPES, c.shape_of, c.count, &options, &s), MOTE_OK);
+    assert_int_equal(mote_scene_query(s, c.states, one, 1), MOTE_OK);
+    for (long n = 0; n < 2; ++n) {
+        allocations_left = n;
+        assert_int_equal(mote_scene_query(s, c.states, (const uint32_t(*)[2])many, count),
+                         MOTE_ENOMEM);
+        assert_string_equal(mote_error_text(), "no memory for 66 near pairs");
+        assert_int_equal(allocations_left, never);
+    }
+    assert_int_equal(mote_scene_query(s, c.states, (const uint32_t(*)[2])many, count), MOTE_OK);
+    const mote_scene_pair *pairs = mote_scene_pairs(s, &count);
+    assert_int_equal(count, 66);
+    assert_int_equal(pairs[0].steps, 2);
+    assert_int_equal(pairs[1].steps, 1);
+    mote_scene_destroy(s);
+    crowd_free(&c);
+}
+
+typedef struct method_work {
+    const mote_method *method;
+    mote_setup setup;
+} method_work;
+
+static mote_status make_method(void *context)
+{
+    const method_work *w = context;
+    void *made = NULL;
+    const mote_status status = mote_method_create(w->method, &w->setup, &made);
+    if (status == MOTE_OK)
+        mote_method_destroy(w->method, made);
+    else
+        assert_null(made);
+    return status;
+}
+
+/* With their own number of particles, which takes the convex parts of two meshes. */
+static void methods_when_an_allocation_fails_say_so(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *keys;
+    } cases[] = {{"particle", ""},
+                 {"particle", "n=4,forces=on"},
+                 {"particle-paper", ""},
+                 {"particle-paper", "n=4,far_cache=0.2,precision=single"},
+                 {"certified", "seed=tracked"},
+                 {"brute-force", ""}};
+    uint64_t seed = 5;
+    test_body b[2];
+    test_body_init(&b[0], solid_to_mesh(solid_icosahedron()), 4, &seed);
+    test_body_init(&b[1], solid_to_mesh(solid_torus(4, 4)), -2, &seed);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        double values[MOTE_PARAMETERS_MAX];
+        method_work w = {.method = mote_method_find(cases[k].name)};
+        const mote_parameter *table = w.method->parameters;
+        mote_parameters_default(table, w.method->parameter_count, values);
+        assert_int_equal(
+            mote_parameters_parse(table, w.method->parameter_count, cases[k].keys, values),
+            MOTE_OK);
+        w.setup = (mote_setup){.body = {&b[0].body, &b[1].body},
+                               .length = fmax(b[0].mesh->diagonal, b[1].mesh->diagonal),
+                               .seed = 1,
+                               .values = values};
+        fail_each_allocation(make_method, &w, cases[k].name);
+    }
+    static const mote_method least = {.name = "least"}; /* its state is a copy of the setup */
+    method_work w = {.method = &least, .setup = {.length = 1}};
+    fail_each_allocation(make_method, &w, "least");
+    test_body_free(&b[0]);
+    test_body_free(&b[1]);
+}
+
+static mote_status make_parts(void *context)
+{
+    mote_parts *parts = NULL;
+    const mote_status status = mote_parts_create(context, NULL, &parts);
+    if (status != MOTE_OK)
+        assert_null(parts);
+    mote_parts_destroy(parts);
+    return status;
+}
+
+static void parts_when_an_allocation_fails_say_so(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = solid_to_mesh(solid_join(solid_torus(5, 4), solid_tetrahedron(), 5));
+    fail_each_allocation(make_parts, mesh, "mote_parts_create");
+    mote_mesh_destroy(mesh);
+}
+
+static void parts_when_hacd_fails_say_so(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        [HACD_FAILS] = "HACD could not decompose the mesh into convex parts",
+        [HACD_THROWS] = "convex parts: planted",
+        [HACD_THROWS_A_NUMBER] = "HACD threw something unknown"};
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
+    for (int does = HACD_FAILS; does <= HACD_THROWS_A_NUMBER; ++does) {
+        hacd_does = does;
+        assert_int_equal(make_parts(mesh), MOTE_ENUMERIC);
+        assert_string_equal(mote_error_text(), texts[does]);
+    }
+    hacd_does = HACD_WORKS;
+    assert_int_equal(make_parts(mesh), MOTE_OK);
+    mote_mesh_destroy(mesh);
+}
+
+static void linear_algebra_when_gsl_fails_says_so(void **state)
+{
+    (void)state;
+    const double matrix[4] = {2, 0, 0, 1};
+    mote_cholesky *factor = NULL;
+    double condition = -1;
+    others_left = 0;
+    assert_int_equal(mote_cholesky_create(2, matrix, &factor, &condition), MOTE_ENUMERIC);
+    assert_string_equal(mote_error_text(), "a matrix of 2 rows is not positive definite");
+    assert_null(factor);
+    assert_true(condition == -1);
+    const mote_mat3 diagonal = {{{3, 0, 0}, {0, 1, 0}, {0, 0, 2}}};
+    mote_vec3 values = {0, 0, 0};
+    mote_mat3 vectors;
+    others_left = 0;
+    assert_int_equal(mote_eigen_symmetric(&diagonal, &values, &vectors), MOTE_ENUMERIC);
+    assert_string_equal(mote_error_text(), "the main axes of a matrix were not found");
+    assert_true(values.x == 0);
+    assert_int_equal(mote_eigen_symmetric(&diagonal, &values, &vectors), MOTE_OK);
+    assert_true(values.x == 1 && values.y == 2 && values.z == 3);
+}
+
+/* Tables of positions that cannot grow: each position is right, and none is remembered but
+   those that there is room for. */
+static void lazy_without_memory_answers_the_same(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 14, &seed);
+    const mote_body_state s = test_body_state(&b, 1, &seed);
+    mote_lazy lazy, single, single_ample;
+    assert_int_equal(mote_lazy_init(&lazy, &b.body, 0), MOTE_OK);
+    assert_int_equal(mote_lazy_init_single(&single, &b.body, 0), MOTE_OK);
+    assert_int_equal(mote_lazy_init_single(&single_ample, &b.body, UINT32_MAX), MOTE_OK);
+    mote_lazy_begin(&lazy, &s, false);
+    mote_lazy_begin(&single, &s, false);
+    mote_lazy_begin(&single_ample, &s, false);
+    for (uint32_t v = 0; v < b.mesh->vertex_count; ++v) {
+        allocations_left = 0;
+        const mote_vec3 got = mote_lazy_position(&lazy, v);
+        allocations_left = 0;
+        const mote_vec3 rounded = mote_lazy_position(&single, v);
+        allocations_left = never;
+        const mote_vec3 right = mote_body_position(&b.body, &s, v);
+        const mote_vec3 right_rounded = mote_lazy_position(&single_ample, v);
+        assert_memory_equal(&got, &right, sizeof got);
+        assert_memory_equal(&rounded, &right_rounded, sizeof got);
+    }
+    assert_int_equal(lazy.filled, lazy.limit);
+    assert_int_equal(single.filled, single.limit);
+    mote_lazy_free(&lazy);
+    mote_lazy_free(&single);
+    mote_lazy_free(&single_ample);
+    test_body_free(&b);
+}
+
+/* Fetching what there is no room for fetches what there is room for. */
+static void lazy_fetch_without_memory_answers_the_same(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 14, &seed);
+    uint32_t vertices[100];
+    for (uint32_t i = 0; i < 100; ++i)
+        vertices[i] = 3 * i;
+    for (int rings = 0; rings <= 1; ++rings) {
+        const mote_body_state s = test_body_state(&b, 1, &seed);
+        mote_lazy lazy;
+        assert_int_equal(mote_lazy_init(&lazy, &b.body, 0), MOTE_OK);
+        mote_lazy_begin(&lazy, &s, false);
+        allocations_left = 0;
+        if (rings)
+            mote_lazy_fetch_rings(&lazy, vertices, 100);
+        else
+            mote_lazy_fetch(&lazy, vertices, 100);
+        assert_int_equal(allocations_left, never);
+        assert_int_equal(lazy.filled, lazy.limit);
+        assert_int_equal(lazy.evaluated, lazy.limit);
+        for (uint32_t i = 0; i < 100; ++i) {
+            const mote_vec3 got = mote_lazy_position(&lazy, vertices[i]);
+            const mote_vec3 right = mote_body_position(&b.body, &s, vertices[i]);
+            assert_memory_equal(&got, &right, sizeof got);
+        }
+        mote_lazy_free(&lazy);
+    }
+    test_body_free(&b);
+}
+
+static mote_status make_lazy(void *context)
+{
+    mote_lazy lazy;
+    mote_status status = mote_lazy_init(&lazy, context, 100);
+    if (status != MOTE_OK)
+        return status;
+    mote_lazy_free(&lazy);
+    status = mote_lazy_init_single(&lazy, context, 100);
+    if (status == MOTE_OK)
+        mote_lazy_free(&lazy);
+    return status;
+}
+
+static void lazy_init_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    test_body b;
+    test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 2, &seed);
+    fail_each_allocation(make_lazy, &b.body, "mote_lazy_init");
+    test_body_free(&b);
+}
+
+/* The largest table is asked for whatever is expected, and is not had. */
+static void lazy_init_of_the_largest_mesh_asks_for_two_to_the_31(void **state)
+{
+    (void)state;
+    const mote_mesh mesh = {.vertex_count = UINT32_MAX / 2};
+    const mote_body body = {.mesh = &mesh};
+    mote_lazy lazy;
+    allocations_left = 0;
+    assert_int_equal(mote_lazy_init(&lazy, &body, UINT32_MAX), MOTE_ENOMEM);
+    assert_string_equal(mote_error_text(), "no memory for 2147483648 positions");
+    assert_int_equal(allocations_left, never);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fields_when_an_allocation_fails_say_so),
+        cmocka_unit_test(start_when_an_allocation_fails_says_so),
+        cmocka_unit_test(mass_when_an_allocation_fails_says_so),
+        cmocka_unit_test(levels_when_an_allocation_fails_say_so),
+        cmocka_unit_test(queue_and_pool_when_an_allocation_fails_say_so),
+        cmocka_unit_test(pool_when_a_thread_cannot_be_started_says_which),
+        cmocka_unit_test(scene_when_an_allocation_fails_says_so),
+        cmocka_unit_test(scene_query_out_of_memory_keeps_all_states),
+        cmocka_unit_test(methods_when_an_allocation_fails_say_so),
+        cmocka_unit_test(parts_when_an_allocation_fails_say_so),
+        cmocka_unit_test(parts_when_hacd_fails_say_so),
+        cmocka_unit_test(linear_algebra_when_gsl_fails_says_so),
+        cmocka_unit_test(lazy_without_memory_answers_the_same),
+        cmocka_unit_test(lazy_fetch_without_memory_answers_the_same),
+        cmocka_unit_test(lazy_init_when_an_allocation_fails_says_so),
+        cmocka_unit_test(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31),
+    };
+    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    (void)printf("%ld calls failed\n", calls_failed);
+    (void)fflush(stdout); /* LeakSanitizer ends without */
+    return failed;
+}

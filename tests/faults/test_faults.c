@@ -1,0 +1,326 @@
+/* What happens when the n-th allocation, or the n-th write, sync or rename, fails, for every n:
+   an error with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap,
+   as in tests/faults/failing.h). */
+#include "core/method/method.h"
+#include "harness/base/file.h"
+#include "harness/base/json_memory.h"
+#include "harness/base/json_read.h"
+#include "harness/scene/probe.h"
+#include "harness/summary/summary.h"
+#include "tests/faults/failing.h"
+#include "tests/support/shapes.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Calls until one fails; below 0: none does. */
+static long writes_left = -1;
+
+ssize_t __real_write(int file, const void *data, size_t size);
+int __real_fsync(int file);
+int __real_rename(const char *from, const char *to);
+ssize_t __wrap_write(int file, const void *data, size_t size);
+int __wrap_fsync(int file);
+int __wrap_rename(const char *from, const char *to);
+
+ssize_t __wrap_write(int file, const void *data, size_t size)
+{
+    if (is_due(&writes_left)) {
+        errno = ENOSPC;
+        return -1;
+    }
+    return __real_write(file, data, size);
+}
+
+int __wrap_fsync(int file)
+{
+    if (is_due(&writes_left)) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_fsync(file);
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    if (is_due(&writes_left)) {
+        errno = EIO;
+        return -1;
+    }
+    return __real_rename(from, to);
+}
+
+typedef struct method_work {
+    scene *scene;
+    mote_method_choice choice;
+    mote_answer answer; /* where none fails */
+} method_work;
+
+static mote_status answer_twice(const method_work *w, mote_answer *answer)
+{
+    mote_probe *probe = NULL;
+    mote_status status = mote_probe_create(&w->scene->body[0], &w->scene->body[1], &w->choice,
+                                           MOTE_ASK_DISTANCE, 0, 1, &probe);
+    if (status == MOTE_OK)
+        status = mote_probe_answer(probe, &w->scene->frame, answer);
+    if (status == MOTE_OK)
+        status = mote_probe_answer(probe, &w->scene->frame, answer);
+    mote_probe_destroy(probe);
+    return status;
+}
+
+/* Goes well only with the answer that it has when nothing fails. */
+static mote_status answer_again(void *context)
+{
+    const method_work *w = context;
+    mote_answer answer;
+    const mote_status status = answer_twice(w, &answer);
+    if (status == MOTE_OK)
+        assert_true(answer.distance == w->answer.distance);
+    return status;
+}
+
+static void method_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "certified",          "certified:seed=tracked",           "particle:n=8",
+        "particle-paper:n=5", "particle-paper:n=8,far_cache=0.1", "aabb-tree",
+        "brute-force"};
+    scene s;
+    scene_init(&s, 8, 6, 1.1, true);
+    scene_next(&s, 1.2, false);
+    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
+        method_work work = {.scene = &s};
+        assert_int_equal(mote_method_choice_read(names[k], &work.choice), MOTE_OK);
+        assert_int_equal(answer_twice(&work, &work.answer), MOTE_OK);
+        fail_each_allocation(answer_again, &work, names[k]);
+    }
+    scene_free(&s);
+}
+
+static mote_status make_mesh(void *context)
+{
+    const mote_mesh *like = context;
+    mote_mesh *mesh = NULL;
+    const mote_status status =
+        mote_mesh_create(&like->positions[0].x, like->vertex_count, &like->triangles[0][0],
+                         like->triangle_count, &mesh);
+    mote_mesh_destroy(mesh);
+    return status;
+}
+
+static void mesh_create_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    mote_mesh *like = make_torus(5, 4, 1);
+    fail_each_allocation(make_mesh, like, "mote_mesh_create");
+    mote_mesh_destroy(like);
+}
+
+static mote_status load_scenario(void *context)
+{
+    mote_scenario *scenario = NULL;
+    mote_frame_buffer *buffer = NULL;
+    mote_status status = mote_scenario_load(context, &scenario);
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(scenario, &buffer);
+    if (status == MOTE_OK)
+        (void)mote_scenario_frame(scenario, buffer, 2, 1);
+    mote_frame_buffer_destroy(buffer);
+    mote_scenario_destroy(scenario);
+    return status;
+}
+
+static void scenario_load_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    char path[] = MOTE_SOURCE_DIR "/tests/corpus/fuzz_scenario/sines.json";
+    fail_each_allocation(load_scenario, path, "mote_scenario_load");
+}
+
+static char folder[] = "/tmp/mote-faults-XXXXXX";
+
+static void write_cell(const char *name, const char *text)
+{
+    char path[128];
+    (void)snprintf(path, sizeof path, "%s/cells/%s", folder, name);
+    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+}
+
+static mote_status make_summary(void *context)
+{
+    mote_summary summary;
+    const mote_status status = mote_summary_make(context, &summary);
+    if (status == MOTE_OK)
+        mote_summary_free(&summary);
+    return status;
+}
+
+static void summary_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    assert_int_equal(
+        mote_file_read(MOTE_SOURCE_DIR "/tests/corpus/fuzz_cell/whole", 1 << 20, &text, &size),
+        MOTE_OK);
+    char *cut = strstr(text, "\n====\n");
+    assert_non_null(cut);
+    *cut = '\0';
+    write_cell("fuzz.json", text);
+    write_cell("fuzz.csv", cut + 6);
+    free(text);
+    fail_each_allocation(make_summary, folder, "mote_summary_make");
+}
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+static void file_read_of_more_than_the_limit_says_both(void **state)
+{
+    (void)state;
+    char path[128], *text = NULL;
+    size_t size = 77;
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    assert_int_equal(mote_file_write(path, "12345", 5), MOTE_OK);
+    assert_int_equal(mote_file_read(path, 4, &text, &size), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), path));
+    assert_non_null(strstr(mote_error_text(), "5"));
+    assert_non_null(strstr(mote_error_text(), "4"));
+    assert_null(text);
+    assert_int_equal(size, 77);
+    assert_int_equal(mote_file_read(path, 5, &text, &size), MOTE_OK);
+    assert_string_equal(text, "12345");
+    free(text);
+    assert_int_equal(remove(path), 0);
+}
+
+static void directory_make_of_what_cannot_be_one_says_so(void **state)
+{
+    (void)state;
+    char path[128];
+    assert_int_equal(mote_directory_make(""), MOTE_EIO);
+    assert_non_null(strstr(mote_error_text(), "name a directory that can be written to"));
+    (void)snprintf(path, sizeof path, "%s/cells/fuzz.csv/a/b/c", folder);
+    assert_int_equal(mote_directory_make(path), MOTE_EIO);
+    assert_non_null(
+        strstr(mote_error_text(), "cells/fuzz.csv: cannot be made: Not a directory"));
+}
+
+static void file_write_when_a_step_fails_leaves_the_file_whole(void **state)
+{
+    (void)state;
+    char path[128], beside[160];
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    (void)snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid());
+    assert_int_equal(mote_file_write(path, "old", 3), MOTE_OK);
+    for (long n = 0;; ++n) {
+        writes_left = n;
+        const mote_status status = mote_file_write(path, "new!", 4);
+        const bool failed = writes_left < 0;
+        writes_left = never;
+        assert_false(exists(beside));
+        char *text = NULL;
+        size_t size;
+        assert_int_equal(mote_file_read(path, 100, &text, &size), MOTE_OK);
+        assert_true(strcmp(text, "old") == 0 || strcmp(text, "new!") == 0);
+        if (!failed)
+            assert_string_equal(text, "new!");
+        free(text);
+        assert_int_equal(status, failed ? MOTE_EIO : MOTE_OK);
+        if (!failed) {
+            assert_int_equal(n, 4); /* write, fsync, rename, fsync of the directory */
+            break;
+        }
+    }
+    assert_int_equal(remove(path), 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    char path[128];
+    if (!mkdtemp(folder))
+        return -1;
+    (void)snprintf(path, sizeof path, "%s/cells", folder);
+    return mkdir(path, 0700);
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char path[128];
+    static const char *const names[] = {"cells/fuzz.json", "cells/fuzz.csv", "cells", ""};
+    for (int k = 0; k < 4; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        (void)remove(path);
+    }
+    return 0;
+}
+
+/* make reliability PLANT=1: what AddressSanitizer must find. */
+static void plant_leak(void)
+{
+    volatile char *lost = __real_malloc(16);
+    if (lost)
+        lost[0] = 1;
+}
+
+enum { TEXTS = 40 };
+
+/* Texts of 1, 2, ..., TEXTS letters. */
+static mote_status parse_json(void *context)
+{
+    json_t *root;
+    const char *text = context;
+    const mote_status status = mote_json_parse("a file", text, strlen(text), "mend it", &root);
+    if (status != MOTE_OK)
+        return status;
+    assert_int_equal(json_array_size(root), TEXTS);
+    for (size_t i = 0; i < TEXTS; ++i)
+        assert_int_equal(json_string_length(json_array_get(root, i)), i + 1);
+    json_decref(root);
+    return MOTE_OK;
+}
+
+/* jansson's parser itself runs past a token's end where its text could not grow. Last: from
+   here on its memory fails, too. */
+static void json_parse_when_an_allocation_fails_says_so(void **state)
+{
+    (void)state;
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz";
+    char text[TEXTS * (TEXTS + 4)];
+    size_t size = 0;
+    for (int i = 1; i <= TEXTS; ++i)
+        size += (size_t)snprintf(text + size, sizeof text - size, "%c\"%.*s\"",
+                                 i > 1 ? ',' : '[', i, letters);
+    (void)snprintf(text + size, sizeof text - size, "]");
+    mote_json_heed_memory();
+    fail_each_allocation(parse_json, text, "mote_json_parse");
+}
+
+int main(void)
+{
+    if (getenv("MOTE_PLANT_LEAK"))
+        plant_leak();
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mesh_create_when_an_allocation_fails_says_so),
+        cmocka_unit_test(method_when_an_allocation_fails_says_so),
+        cmocka_unit_test(scenario_load_when_an_allocation_fails_says_so),
+        cmocka_unit_test(summary_when_an_allocation_fails_says_so),
+        cmocka_unit_test(file_read_of_more_than_the_limit_says_both),
+        cmocka_unit_test(directory_make_of_what_cannot_be_one_says_so),
+        cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
+        cmocka_unit_test(json_parse_when_an_allocation_fails_says_so),
+    };
+    const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
+    printf("%ld calls failed\n", calls_failed);
+    (void)fflush(stdout); /* LeakSanitizer ends without */
+    return failed;
+}

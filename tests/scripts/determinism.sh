@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Builds tests/studies/answers.c, and what it needs, with each compiler and optimisation, and once with
+# sanitizers, and runs each build with 1 to 8 threads: every run must give the answers of
+# tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the root; BUILD holds
+# the table of methods. RUNS in all: those beyond eight of each build (56) are shared by the
+# optimised ones; 1: one run of one build, to see that it can be built. CHECKS: a file that make
+# reliability makes its table of.
+set -eu
+build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I.
+    -include $work/config.h"
+printf '#define MOTE_SOURCE_DIR "%s"\n' "$PWD" >"$work/config.h"
+libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread -lm"
+cache=$(command -v ccache || true)
+
+sources=$(ls core/*/*.c datasets/*.c harness/scene/scenario*.c harness/scene/mesh_*.c |
+    grep -v core/certificate/plain.c)
+for name in approach catalog child confine curve data file json_line json_memory json_print \
+    json_read method_choice motion number_text options probe reach spread turn; do
+    sources="$sources $(ls harness/*/$name.c)"
+done
+sources="$sources tests/studies/answers.c $build/core_registry.c"
+
+# Prints nothing when it goes well.
+make_program() { # NAME COMPILER FLAGS
+    local cxx=${2/clang/clang++}
+    cxx=${cxx/gcc/g++}
+    mkdir -p "$work/$1"
+    # shellcheck disable=SC2086 # lists of words
+    printf '%s\n' $sources | xargs -P "$jobs" -I {} sh -c \
+        "$cache $2 $(echo $flags) $3 -c {} -o $work/$1/\$(echo {} | tr / _).o" &&
+        $cache $cxx -std=c++17 -I. $3 -c core/body/parts_hacd.cpp -o "$work/$1/parts.o" &&
+        $cxx $3 "$work/$1"/*.o -o "$work/$1/answers" $libraries
+}
+
+tried=0
+failed=0
+check() { # PROGRAM WORDS...
+    tried=$((tried + 1))
+    "$@" >"$work/log" 2>&1 && return
+    cat "$work/log"
+    echo "other answers: $*"
+    failed=$((failed + 1))
+}
+
+try_build() { # NAME COMPILER FLAGS MORE_RUNS
+    command -v "$2" >"$work/log" || { echo "left out: $2 is not installed"; return; }
+    if ! make_program "$1" "$2" "$3"; then
+        echo "not built: $2 $3"
+        failed=$((failed + 1))
+        return
+    fi
+    for threads in $all_threads; do
+        check "$work/$1/answers" --check tests/answers.txt --threads "$threads"
+    done
+    for ((run = 0; run < $4; ++run)); do
+        check "$work/$1/answers" --check tests/answers.txt
+    done
+    rm -r "${work:?}/$1"
+    echo "answered: $2 $3"
+}
+
+if [ "$runs" -eq 1 ]; then
+    all_threads=2
+    try_build gcc-O0 gcc -O0 0
+    [ $tried -gt 0 ] && [ $failed -eq 0 ]
+    exit
+fi
+all_threads="1 2 3 4 5 6 7 8"
+more=$((runs > 56 ? (runs - 56 + 3) / 4 : 0))
+for compiler in gcc clang; do
+    try_build $compiler-O0 $compiler -O0 0
+    try_build $compiler-O2 $compiler -O2 $more
+    try_build $compiler-O3 $compiler -O3 $more
+done
+try_build asan gcc "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined" 0
+echo "$tried runs, $failed with other answers"
+[ -z "$checks" ] ||
+    printf 'one hash over all answers: builds, threads and runs\t%d\t%d\n' $tried $failed >>"$checks"
+[ $tried -gt 0 ] && [ $failed -eq 0 ]

@@ -1,0 +1,428 @@
+"""Mutation: does a test fail when the code is wrong?
+
+  mutate.py BUILD OUT [--module NAME] [--files GLOB] [--count N] [--seed S] [--jobs J]
+
+Makes small changes in the files of each module, one at a time: another comparison or operator,
+another constant, a condition negated, a statement left out, two arguments swapped. Each mutant
+is compiled by itself, linked into the tests of its module from BUILD (a release build), and
+run. A mutant is killed when a test fails, crashes or takes much longer than it should. Those
+that do not compile, or compile to the very code of the original, are none. A seeded sample of
+N (120) of each module is tried.
+
+Mutants that change no answer that the headers promise are listed in
+tests/mutants_equivalent.txt with the reason; they count neither way. OUT/mutation.json: a list of
+{module, mutants, killed, equivalent, score, survivors}; OUT/mutation.md: the table. The exit
+status is 1 where a score is below the target.
+"""
+import argparse
+import concurrent.futures
+import fnmatch
+import glob
+import hashlib
+import json
+import os
+import random
+import re
+import resource
+import shlex
+import subprocess
+import sys
+import tempfile
+
+TARGET = 0.85
+EQUIVALENT = "tests/mutants_equivalent.txt"
+
+# Files, and the tests that concern them, the quickest first.
+MODULES = {
+    "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "answers", "test_triangle"]),
+    "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
+                                              "test_statistics_ranks", "test_statistics_intervals"]),
+    "certificate": (
+        "core/certificate/certificate*.c",
+        ["test_certificate_bounds", "answers", "test_certificate_limits", "test_allocations",
+         "test_certificate", "test_scene"],
+    ),
+}
+# They put their own allocation functions in the place of libc's, and so cannot look for leaks.
+COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_scene"}
+ARGUMENTS = {"answers": ["--check", "tests/answers.txt"]}
+
+TOKEN = re.compile(
+    r"""(?P<space>\s+)
+      |(?P<comment>/\*.*?\*/|//[^\n]*)
+      |(?P<string>"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*')
+      |(?P<number>0[xX][0-9a-fA-F.]+(?:[pP][+-]?\d+)?[uUlLfF]*
+                 |(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?[uUlLfF]*)
+      |(?P<word>[A-Za-z_]\w*)
+      |(?P<mark><<=|>>=|->|\+\+|--|<=|>=|==|!=|&&|\|\||<<|>>|[-+*/%&|^]=|.)""",
+    re.X | re.S,
+)
+
+KEYWORDS = set("if else for while do switch case return sizeof const static inline struct enum "
+               "union void double float int char bool unsigned long typedef goto default".split())
+OTHER_MARK = {
+    "<": ["<=", ">"], ">": [">=", "<"], "<=": ["<", ">"], ">=": [">", "<"],
+    "==": ["!="], "!=": ["=="], "&&": ["||"], "||": ["&&"],
+    "+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["*"],
+    "+=": ["-="], "-=": ["+="], "*=": ["/="], "/=": ["*="], "++": ["--"], "--": ["++"],
+    "&": ["|"], "|": ["&"], "<<": [">>"], ">>": ["<<"],
+}
+OTHER_WORD = {
+    "fmin": ["fmax"], "fmax": ["fmin"], "true": ["false"], "false": ["true"],
+    "break": ["continue"], "continue": ["break"],
+}
+# The same either way round.
+SYMMETRIC = {"mote_dot", "mote_add", "mote_distance_squared", "fmin", "fmax", "max2", "fminf",
+             "fmaxf", "mote_dot_lanes", "memcpy", "calloc"}
+
+
+class Mutant:
+    def __init__(self, path, line, kind, start, end, text, source):
+        self.path, self.line, self.kind = path, line, kind
+        self.start, self.end, self.text = start, end, text
+        from_line = source.rfind("\n", 0, start) + 1
+        to_line = source.find("\n", end)
+        squeeze = lambda s: " ".join(s.split())
+        self.before = squeeze(source[from_line:to_line])
+        self.after = squeeze(source[from_line:start] + text + source[end:to_line])
+        self.killed_by = None
+
+    def name(self):
+        return f"{self.path}: {self.before} => {self.after}"
+
+
+def tokens_of(source):
+    found = []
+    for match in TOKEN.finditer(source):
+        kind = match.lastgroup
+        if kind not in ("space", "comment"):
+            found.append((kind, match.group(), match.start(), match.end()))
+    return found
+
+
+def close_of(tokens, at):
+    """The index of the bracket that closes the one at `at`."""
+    depth = 0
+    for k in range(at, len(tokens)):
+        if tokens[k][1] in ("(", "[", "{"):
+            depth += 1
+        elif tokens[k][1] in (")", "]", "}"):
+            depth -= 1
+            if depth == 0:
+                return k
+    return len(tokens) - 1
+
+
+def is_operand_end(token):
+    return token[0] == "number" or token[1] in (")", "]") or (
+        token[0] == "word" and token[1] not in KEYWORDS)
+
+
+def other_numbers(text):
+    if text in ("0", "0u", "0.0"):
+        return ["1"]
+    if text in ("1", "1u", "1.0"):
+        return ["0", "2"]
+    return [f"(2 * {text})", "0"]
+
+
+def split_arguments(tokens, at, end):
+    """The arguments of the call whose bracket is at `at`: pairs of positions in the source."""
+    parts, depth, first = [], 0, at + 1
+    for k in range(at + 1, end + 1):
+        if tokens[k][1] in ("(", "[", "{"):
+            depth += 1
+        if k == end or (depth == 0 and tokens[k][1] == ","):
+            if k > first:
+                parts.append((tokens[first][2], tokens[k - 1][3]))
+            first = k + 1
+        if tokens[k][1] in (")", "]", "}"):
+            depth -= 1
+    return parts
+
+
+def statement_end(tokens, at):
+    """The index of the semicolon of an expression statement at `at`; None: it is none."""
+    if tokens[at][0] != "word" and tokens[at][1] not in ("*", "++", "--", "("):
+        return None
+    if tokens[at][1] in KEYWORDS or tokens[at][1] in ("break", "continue"):
+        return None
+    following = tokens[at + 1]
+    if following[0] == "word" or (following[1] == "*" and tokens[at][0] == "word"):
+        return None  # a declaration
+    k = at
+    while k < len(tokens) and tokens[k][1] != ";":
+        if tokens[k][1] in ("{", "}"):
+            return None
+        k = close_of(tokens, k) + 1 if tokens[k][1] in ("(", "[") else k + 1
+    return k
+
+
+def mutants_of(path):
+    source = open(path).read()
+    tokens = tokens_of(source)
+    found = []
+    line_of = lambda position: source.count("\n", 0, position) + 1
+    directive = {number + 1 for number, text in enumerate(source.split("\n"))
+                 if re.match(r"\s*#(?!\s*define\s+\w+\s+[^\\]*$)", text)}
+    depth = brackets = 0
+
+    def add(kind, start, end, text):
+        if line_of(start) not in directive:
+            found.append(Mutant(path, line_of(start), kind, start, end, text, source))
+
+    for k, (kind, text, start, end) in enumerate(tokens):
+        before = tokens[k - 1] if k else ("mark", ";", 0, 0)
+        after = tokens[k + 1] if k + 1 < len(tokens) else ("mark", ";", 0, 0)
+        in_define = source[source.rfind("\n", 0, start) + 1:start].lstrip().startswith("#define")
+        depth += (text == "{") - (text == "}")
+        brackets += (text in "([") - (text in ")]")
+        if kind == "number" and (depth > 0 or in_define):
+            for other in other_numbers(text):
+                add("constant", start, end, other)
+        if depth == 0:
+            continue
+        if kind == "mark" and text in OTHER_MARK:
+            unary = text in "+-*&" and not is_operand_end(before)
+            if text == "-" and unary:
+                add("sign", start, end, "")
+            elif not unary:
+                for other in OTHER_MARK[text]:
+                    add("operator", start, end, other)
+        if kind == "word" and text in OTHER_WORD:
+            for other in OTHER_WORD[text]:
+                add("word", start, end, other)
+        if text in ("if", "while") and after[1] == "(":
+            stop = close_of(tokens, k + 1)
+            add("condition", after[2], tokens[stop][3],
+                f"(!{source[after[2]:tokens[stop][3]]})")
+        if kind == "word" and after[1] == "(" and text not in KEYWORDS | SYMMETRIC:
+            parts = split_arguments(tokens, k + 1, close_of(tokens, k + 1))
+            for one, two in zip(parts, parts[1:]):
+                add("arguments", one[0], two[1], source[two[0]:two[1]] +
+                    source[one[1]:two[0]] + source[one[0]:one[1]])
+        if brackets == 0 and before[1] in (";", "{", "}", ")", "else"):
+            stop = statement_end(tokens, k)
+            if stop is not None and stop > k:
+                add("statement", start, tokens[stop][2], "")
+    return found
+
+
+def compile_command(build, path):
+    for entry in json.load(open(f"{build}/compile_commands.json")):
+        if os.path.realpath(entry["file"]) == os.path.realpath(path):
+            words = shlex.split(entry["command"])
+            break
+    else:
+        sys.exit(f"mutate: {path} is not compiled in {build}")
+    kept, skip = [], False
+    for word in words:
+        if skip or word in ("ccache", "-c") or word.endswith("/ccache"):
+            skip = False
+        elif word == "-o":
+            skip = True
+        elif not (word.startswith(("-DMOTE_HAVE_CLONES", "-Werror", "-O", "-W", "-g")) or
+                  word.endswith(path)):
+            kept.append(word)
+    # Arguments of another type are no mutants; warnings go nowhere.
+    strict = [f"-Werror={name}" for name in ("incompatible-pointer-types", "int-conversion",
+                                             "discarded-qualifiers", "return-type")]
+    return kept + ["-O1"] + strict, entry["directory"]
+
+
+def link_command(build, test):
+    """Words and folder of the command that links a test."""
+    text = f"{build}/tests/CMakeFiles/{test}.dir/link.txt"
+    if os.path.exists(text):
+        return shlex.split(open(text).read()), f"{build}/tests"
+    lines = subprocess.run(["ninja", "-C", build, "-t", "commands", f"tests/{test}"],
+                           capture_output=True, text=True, check=True).stdout.strip()
+    words = shlex.split(lines.split("\n")[-1])
+    return [w for w in words if w not in (":", "&&")], build
+
+
+def limits(seconds):
+    def set_limits():
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+        resource.setrlimit(resource.RLIMIT_DATA, (4 << 30, 4 << 30))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    return set_limits
+
+
+class Bench:
+    """Compiles, links and runs mutants of one module."""
+
+    def __init__(self, build, work, tests):
+        self.build, self.work, self.tests = os.path.abspath(build), work, tests
+        self.source_dir = os.getcwd()
+        self.links = {test: link_command(self.build, test) for test in tests}
+        self.seconds, self.originals = {}, {}
+
+    def compile(self, path, source, folder):
+        """The object of a file with this text; None where it does not compile."""
+        words, directory = compile_command(self.build, path)
+        # Beside no other file: the text goes in by standard input, as the file's own lines.
+        made = f"{folder}/mutant.o"
+        result = subprocess.run(
+            words + [f"-I{self.source_dir}", "-x", "c", "-c", "-o", made, "-"], cwd=directory,
+            input=source.encode(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return made if result.returncode == 0 else None
+
+    def link(self, test, made, folder):
+        words, directory = self.links[test]
+        words = list(words)
+        at = words.index("-o")
+        words[at + 1] = f"{folder}/{test}"
+        first = next(k for k, w in enumerate(words) if w.endswith(".o"))
+        words[first:first] = [made] if test in COUNTS_HEAP else [made, "-fsanitize=leak"]
+        result = subprocess.run(words, cwd=directory, capture_output=True, text=True)
+        if result.returncode != 0:
+            sys.exit(f"mutate: {test} does not link: {result.stderr[-500:]}")
+        return f"{folder}/{test}"
+
+    def run(self, program, test, folder, seconds):
+        """Exit status; None when it took too long."""
+        try:
+            return subprocess.run([program] + ARGUMENTS.get(test, []), stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL, preexec_fn=limits(seconds),
+                                  timeout=60 * seconds, cwd=self.source_dir,
+                                  env=dict(os.environ, TMPDIR=folder)).returncode
+        except subprocess.TimeoutExpired:
+            return None
+
+    def prepare(self, paths):
+        """The originals: their objects' texts, and how long the tests take with them."""
+        folder = tempfile.mkdtemp(dir=self.work)
+        for path in paths:
+            made = self.compile(path, open(path).read(), folder)
+            if made is None:
+                sys.exit(f"mutate: {path} does not compile")
+            self.originals[path] = code_of(made)
+        for test in self.tests:
+            program = self.link(test, made, folder)
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            if self.run(program, test, folder, 600) != 0:
+                sys.exit(f"mutate: {test} fails without a mutant")
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            self.seconds[test] = int(4 * spent + 3)
+
+    def try_one(self, mutant):
+        """'killed by TEST', 'survived', 'none': no mutant."""
+        source = open(mutant.path).read()
+        text = source[:mutant.start] + mutant.text + source[mutant.end:]
+        with tempfile.TemporaryDirectory(dir=self.work) as folder:
+            made = self.compile(mutant.path, text, folder)
+            if made is None or code_of(made) == self.originals[mutant.path]:
+                return "none"
+            for test in self.tests:
+                program = self.link(test, made, folder)
+                if self.run(program, test, folder, self.seconds[test]) != 0:
+                    return f"killed by {test}"
+        return "survived"
+
+
+def code_of(made):
+    """A hash of what an object holds, its name and notes aside."""
+    text = subprocess.run(["objdump", "-d", "-r", "-s", "-j", ".text", "-j", ".rodata", "-j",
+                           ".rodata.cst8", "-j", ".rodata.cst16", "-j", ".data.rel.ro.local",
+                           made], capture_output=True).stdout
+    return hashlib.sha256(text[text.find(b"\n", text.find(b"file format")):]).hexdigest()
+
+
+def read_equivalents():
+    if not os.path.exists(EQUIVALENT):
+        return set()
+    lines = [line.strip() for line in open(EQUIVALENT)]
+    return {line for line in lines if line and not line.startswith("#")}
+
+
+def study(module, arguments):
+    pattern, tests = MODULES[module]
+    paths = [p for p in sorted(glob.glob(pattern)) if fnmatch.fnmatch(p, arguments.files)]
+    if not paths:
+        return None
+    mutants = [m for path in paths for m in mutants_of(path)]
+    random.Random(arguments.seed).shuffle(mutants)
+    equivalents = read_equivalents()
+    counted, killed, known, survivors = 0, 0, 0, []
+    with tempfile.TemporaryDirectory(prefix="mote-mutants-") as work:
+        bench = Bench(arguments.build, work, tests)
+        bench.prepare(paths)
+        left = iter(mutants)
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+            while counted < arguments.count:
+                batch = [m for m, _ in zip(left, range(arguments.count - counted))]
+                if not batch:
+                    break
+                for mutant, outcome in zip(batch, pool.map(bench.try_one, batch)):
+                    if outcome == "none":
+                        continue
+                    counted += 1
+                    same = mutant.name() in equivalents
+                    killed += outcome != "survived"
+                    known += outcome == "survived" and same
+                    if outcome == "survived" and not same:
+                        survivors.append(mutant)
+                    if outcome != "survived" and same:
+                        print(f"listed as equivalent, but {outcome}: {mutant.name()}")
+                    print(f"{mutant.path}:{mutant.line}: {mutant.kind}: {outcome}"
+                          f"{' (equivalent)' if outcome == 'survived' and same else ''}",
+                          file=arguments.log, flush=True)
+    for mutant in survivors:
+        print(f"survived: {mutant.path}:{mutant.line}: {mutant.before} => {mutant.after}")
+    return {"module": module, "files": len(paths), "possible": len(mutants), "mutants": counted,
+            "killed": killed, "equivalent": known,
+            "score": round(killed / (counted - known), 4) if counted > known else None,
+            "survivors": [{"file": m.path, "line": m.line, "kind": m.kind, "from": m.before,
+                           "to": m.after} for m in survivors]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description="mutation of some modules; see the file's head")
+    parser.add_argument("build")
+    parser.add_argument("out")
+    parser.add_argument("--module", choices=sorted(MODULES), action="append")
+    parser.add_argument("--files", default="*")
+    parser.add_argument("--count", type=int, default=120)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--list", action="store_true", help="only list what could be tried")
+    arguments = parser.parse_args()
+    os.makedirs(arguments.out, exist_ok=True)
+    if arguments.list:
+        for module in arguments.module or MODULES:
+            for path in sorted(glob.glob(MODULES[module][0])):
+                for m in mutants_of(path):
+                    print(f"{m.path}:{m.line}: {m.kind}: {m.before} => {m.after}")
+        return 0
+    results = []
+    with open(f"{arguments.out}/mutants.log", "w") as log:
+        arguments.log = log
+        for module in arguments.module or MODULES:
+            result = study(module, arguments)
+            if result:
+                results.append(result)
+    if not any(r["mutants"] for r in results):
+        sys.exit(f"mutate: nothing to change in {arguments.files}")
+    with open(f"{arguments.out}/mutation.json", "w") as file:
+        json.dump(results, file, indent=2)
+        file.write("\n")
+    with open(f"{arguments.out}/mutation.tsv", "w") as file:
+        for r in results:
+            file.write(f"{r['module']}\t{r['mutants']}\t{r['killed']}\t{r['equivalent']}\n")
+    table = ["| module | mutants | killed | equivalent | score |",
+             "| --- | ---: | ---: | ---: | ---: |"]
+    for r in results:
+        score = "" if r["score"] is None else f"{100 * r['score']:.1f} %"
+        table.append(f"| {r['module']} | {r['mutants']} | {r['killed']} | {r['equivalent']} | "
+                     f"{score} |")
+    text = "\n".join(table) + "\n"
+    with open(f"{arguments.out}/mutation.md", "w") as file:
+        file.write(text)
+    print(text, end="")
+    return 0 if all(r["score"] and r["score"] >= TARGET for r in results) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,346 @@
+// node tests/scripts/page.mjs MOTE BUNDLE CHROMIUM WORK: opens reports in headless Chromium, plays, scrubs,
+// switches methods, and compares what is shown with the cells. Ends with "N passed, N failed".
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const { chromium } = createRequire(new URL("../../plots/page/package.json", import.meta.url))("playwright-core");
+const [mote, bundle, executablePath, work] = process.argv.slice(2).map((path) => resolve(path));
+const run = `${work}/run`;
+const HOSTILE = "'; system(\"x\")<script>";
+const LIMIT = 5e6; // bytes of a page with ww
+
+let passed = 0;
+let failed = 0;
+
+async function check(name, test) {
+    try {
+        await test();
+        ++passed;
+        console.log(`ok      ${name}`);
+    } catch (error) {
+        ++failed;
+        console.log(`FAILED  ${name}\n        ${String(error.stack ?? error).replaceAll("\n", "\n        ")}`);
+    }
+}
+
+function equal(shown, expected, what) {
+    if (!Object.is(shown, expected)) throw new Error(`${what}: ${shown}, not ${expected}`);
+}
+
+function truth(condition, what) {
+    if (!condition) throw new Error(what);
+}
+
+function program(...words) {
+    return execFileSync(mote, words, { cwd: work, stdio: ["ignore", "pipe", "pipe"] }).toString();
+}
+
+// Rows of the cell of a scenario and a method with these parameters, by frame.
+function readCell(scenario, method, parameters = {}) {
+    for (const name of readdirSync(`${run}/cells`).filter((file) => file.endsWith(".json"))) {
+        const cell = JSON.parse(readFileSync(`${run}/cells/${name}`));
+        const same = Object.entries(parameters).every(([key, value]) => cell.parameters[key] === value);
+        if (cell.scenario !== scenario || cell.method !== method || !same) continue;
+        const [head, ...lines] = readFileSync(`${run}/cells/${cell.id}.csv`, "utf8").trim().split("\n");
+        const names = head.split(",");
+        const rows = new Map();
+        for (const line of lines) {
+            const fields = line.split(",");
+            const row = Object.fromEntries(
+                names.map((key, k) => [key, fields[k] === "" ? NaN : Number(fields[k])]));
+            rows.set(row.frame, row);
+        }
+        return rows;
+    }
+    throw new Error(`no cell of ${scenario}, ${method}`);
+}
+
+function measure() {
+    rmSync(work, { recursive: true, force: true });
+    mkdirSync(work, { recursive: true });
+    program("run", "ww", "--out", run, "--replicates", "1", "--method", "certified", "--method", "fcl-aabb",
+        "--method", "particle-paper", "--particles", "1,5");
+    program("run", "tt", "--out", run, "--replicates", "1", "--frames", "1-100", "--method", "certified");
+    program("report", run);
+    writeFileSync(`${work}/${HOSTILE}.json`, JSON.stringify({
+        purpose: HOSTILE, like: "mv", frames: 5, pace: 149.75, warmup: null, active: null,
+    }));
+    program("run", `./${HOSTILE}.json`, "--out", `${work}/hostile`, "--replicates", "1", "--method", "certified");
+    program("report", `${work}/hostile`);
+}
+
+// A page that fails on any message, request or dialog.
+async function open(browser, directory, options = {}) {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
+    page.troubles = [];
+    page.on("console", (message) => {
+        if (["error", "warning"].includes(message.type())) page.troubles.push(message.text());
+    });
+    page.on("pageerror", (error) => page.troubles.push(String(error)));
+    page.on("dialog", (dialog) => page.troubles.push(`dialog: ${dialog.message()}`));
+    page.on("request", (request) => {
+        if (!/^(file|data|blob):/.test(request.url())) page.troubles.push(`asked for ${request.url()}`);
+    });
+    await page.goto(pathToFileURL(`${directory}/report.html`).href);
+    return page;
+}
+
+const shown = (page, id) => page.locator(`#replay-${id}`).evaluate((element) => element.value);
+const frameOf = async (page) => Number(await shown(page, "slider"));
+
+async function scrub(page, frame) {
+    await page.locator("#replay-slider").evaluate((slider, to) => {
+        slider.value = to;
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }, frame);
+    equal(await frameOf(page), frame, "frame");
+}
+
+const six = (value) => (Number.isNaN(value) ? "not asked" : String(Number(value.toPrecision(6))));
+
+async function compare(page, rows, frames) {
+    for (const frame of frames) {
+        await scrub(page, frame);
+        const row = rows.get(frame);
+        equal(await shown(page, "distance"), six(row.distance), `distance at frame ${frame}`);
+        equal(await shown(page, "truth"), six(row.truth), `truth at frame ${frame}`);
+        if (!Number.isNaN(row.error))
+            equal(await shown(page, "error"), row.error.toExponential(2), `error at frame ${frame}`);
+    }
+}
+
+async function worstOf(rows) {
+    let worst = null;
+    for (const row of rows.values())
+        if (worst === null || Math.abs(row.error) > Math.abs(worst.error)) worst = row;
+    return worst.frame;
+}
+
+// Texts whose contrast with what is behind them is below WCAG AA.
+function lowContrast() {
+    const parse = (text) => {
+        const n = text.match(/[\d.]+/g).map(Number);
+        return { rgb: n.slice(0, 3), alpha: n.length > 3 ? n[3] : 1 };
+    };
+    const luminance = (rgb) => {
+        const [r, g, b] = rgb.map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const behind = (element) => {
+        for (let e = element; e; e = e.parentElement) {
+            const colour = parse(getComputedStyle(e).backgroundColor);
+            if (colour.alpha === 1) return colour.rgb;
+        }
+        return [255, 255, 255];
+    };
+    const low = [];
+    let texts = 0;
+    for (const element of document.querySelectorAll("body *")) {
+        const own = [...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
+        const control = element.tagName === "SELECT" || element.type === "number";
+        if ((!own && !control) || element.closest("script, noscript") || element.disabled) continue;
+        if (element.offsetParent === null) continue;
+        ++texts;
+        const style = getComputedStyle(element);
+        const [a, b] = [luminance(parse(style.color).rgb), luminance(behind(element))];
+        const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+        const large = parseFloat(style.fontSize) >= 24;
+        if (ratio < (large ? 3 : 4.5)) low.push(`${element.tagName} "${element.textContent.slice(0, 30)}" ${ratio.toFixed(2)}`);
+    }
+    return { low, texts };
+}
+
+async function testNumbers(page) {
+    const five = readCell("ww", "particle-paper", { n: 5 });
+    const one = readCell("ww", "particle-paper", { n: 1 });
+    const exact = readCell("ww", "certified");
+    const frames = [1, 388, 951, 1130, 1500, 1984];
+    await check("opens with the paper's n = 5 and draws both bodies", async () => {
+        equal(await shown(page, "method"), "particle-paper", "method");
+        equal(await page.locator("#replay-n option:checked").textContent(), "5", "n");
+        truth((await page.evaluate(() => window.moteReplay.drawn())) >= 2 * 11920, "triangles drawn");
+    });
+    await check("scrubbing shows the CSV's distance, truth and error", () => compare(page, five, frames));
+    await check("another n shows its own answers", async () => {
+        await page.locator("#replay-n").selectOption({ label: "1" });
+        await compare(page, one, frames);
+    });
+    await check("a missed contact is named", async () => {
+        const missed = [...one.values()].find((row) => row.contact_truth === 1 && row.contact === 0);
+        await scrub(page, missed.frame);
+        equal(await page.locator("#replay-contact").textContent(), "Contact missed", "badge");
+    });
+    await check("the worst frame is the CSV's", async () => {
+        await page.locator("#replay-worst").click();
+        equal(await frameOf(page), await worstOf(one), "frame");
+    });
+    await check("another method shows its own answers", async () => {
+        for (const [method, rows] of [["certified", exact], ["fcl-aabb", readCell("ww", "fcl-aabb")]]) {
+            await page.locator("#replay-method").selectOption(method);
+            await compare(page, rows, frames);
+        }
+    });
+    await check("contacts of an exact method are contacts", async () => {
+        const contact = [...exact.values()].find((row) => row.contact_truth === 1);
+        await scrub(page, contact.frame);
+        equal(await page.locator("#replay-contact").textContent(), "Contact", "badge");
+    });
+}
+
+async function testKeys(page) {
+    const stage = page.locator(".stage canvas");
+    await check("space plays and pauses", async () => {
+        await scrub(page, 100);
+        await stage.focus();
+        await page.keyboard.press("Space");
+        equal(await page.locator("#replay-play").textContent(), "Pause", "button");
+        await page.waitForFunction(() => Number(document.getElementById("replay-slider").value) > 110);
+        await page.keyboard.press("Space");
+        const frame = await frameOf(page);
+        await page.waitForTimeout(250);
+        equal(await frameOf(page), frame, "frame after the pause");
+    });
+    await check("arrows, shift, home and end step", async () => {
+        await scrub(page, 500);
+        await stage.focus();
+        for (const [key, frame] of [["ArrowRight", 501], ["ArrowLeft", 500], ["Shift+ArrowRight", 510],
+            ["Shift+ArrowLeft", 500], ["End", 1984], ["ArrowRight", 1984], ["Home", 1], ["ArrowLeft", 1]]) {
+            await page.keyboard.press(key);
+            equal(await frameOf(page), frame, key);
+        }
+        await page.locator("#replay-slider").focus();
+        await page.keyboard.press("ArrowRight");
+        equal(await frameOf(page), 2, "ArrowRight on the slider");
+    });
+    await check("the frame can be typed, and stays within the scenario", async () => {
+        for (const [typed, frame] of [["1234", 1234], ["999999", 1984], ["-5", 1]]) {
+            await page.locator("#replay-frame").fill(typed);
+            await page.keyboard.press("Enter");
+            equal(await frameOf(page), frame, typed);
+        }
+    });
+    await check("tab goes through the controls in their order", async () => {
+        await stage.focus();
+        const order = [];
+        for (let k = 0; k < 9; ++k) {
+            await page.keyboard.press("Tab");
+            order.push(await page.evaluate(() => document.activeElement.id));
+        }
+        equal(order.join(" "), ["slider", "play", "worst", "frame", "speed", "close", "scene", "method", ""]
+            .map((id) => (id ? `replay-${id}` : "")).join(" "), "order");
+    });
+    await check("every focus can be seen", async () => {
+        for (const id of ["replay-play", "replay-method", "replay-slider"]) {
+            await page.locator(`#${id}`).focus();
+            await page.keyboard.press("Shift");
+            const style = await page.locator(`#${id}`).evaluate((e) => getComputedStyle(e).outlineStyle);
+            truth(style !== "none", `${id} has no outline`);
+        }
+    });
+}
+
+// A vertex line of an exported mesh as three numbers.
+const vertices = (file) => readFileSync(file, "utf8").split("\n")
+    .filter((line) => line.startsWith("v ")).map((line) => line.slice(2).trim().split(/\s+/).map(Number));
+
+async function testField(page) {
+    await check("the page deforms as the program does, to 1e-4 L", async () => {
+        let most = 0;
+        for (const frame of [1, 700, 1984]) {
+            program("export", "ww", "--frame", String(frame), "--out", `${work}/export`);
+            await scrub(page, frame);
+            for (const body of [0, 1]) {
+                const exact = vertices(`${work}/export/${"AB"[body]}.obj`);
+                const drawn = await page.evaluate((b) => {
+                    const count = window.moteReplay.vertexCount(b);
+                    return Array.from({ length: count }, (_, i) => window.moteReplay.vertex(b, i));
+                }, body);
+                equal(drawn.length, exact.length, "vertices");
+                drawn.forEach((p, i) => {
+                    most = Math.max(most, Math.hypot(...p.map((c, k) => c - exact[i][k])));
+                });
+            }
+        }
+        truth(most < 1e-4, `a vertex is ${most} off`);
+        console.log(`        largest difference ${most.toExponential(1)}`);
+    });
+}
+
+async function testScenes(page) {
+    await check("a scenario that asks for contact only shows no distance", async () => {
+        await page.locator("#replay-scene").selectOption({ label: "tt" });
+        await compare(page, readCell("tt", "certified"), [1, 50, 100]);
+        equal(await shown(page, "distance"), "not asked", "distance");
+    });
+    await check("nothing went wrong on the way", async () => equal(page.troubles.join("; "), "", "messages"));
+}
+
+async function testLooks(browser) {
+    mkdirSync(`${work}/shots`, { recursive: true });
+    for (const colorScheme of ["light", "dark"]) {
+        for (const width of [1280, 400]) {
+            const page = await open(browser, run, { colorScheme, viewport: { width, height: 900 } });
+            await page.evaluate(() => document.querySelectorAll("details").forEach((d) => (d.open = true)));
+            await check(`legible and no wider than the screen: ${colorScheme}, ${width}`, async () => {
+                const { low, texts } = await page.evaluate(lowContrast);
+                equal(low.join("; "), "", "low contrast");
+                truth(texts > 100, `only ${texts} texts`);
+                truth(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "too wide");
+                equal(page.troubles.join("; "), "", "messages");
+            });
+            await page.locator("#replay").scrollIntoViewIfNeeded();
+            await page.screenshot({ path: `${work}/shots/${colorScheme}-${width}.png` });
+            await page.close();
+        }
+    }
+}
+
+async function testOthers(browser) {
+    await check("a hostile scenario name runs nothing", async () => {
+        const page = await open(browser, `${work}/hostile`);
+        equal(page.troubles.join("; "), "", "messages");
+        equal(await page.evaluate(() => document.scripts.length), 2, "scripts");
+        truth((await page.locator("main").textContent()).includes(HOSTILE), "the name is not shown");
+        equal(await shown(page, "truth"), six(Number(await shown(page, "truth"))), "truth");
+        await page.close();
+    });
+    await check("without the bundle the page has no replay and says so", async () => {
+        renameSync(bundle, `${bundle}.away`);
+        try {
+            program("report", `${work}/hostile`);
+        } finally {
+            renameSync(`${bundle}.away`, bundle);
+        }
+        const page = await open(browser, `${work}/hostile`, { javaScriptEnabled: false });
+        truth((await page.locator("main").textContent()).includes("This page has no replay"), "not said");
+        equal(await page.locator("script").count(), 0, "scripts");
+        truth(await page.locator("#results").isVisible(), "no results");
+        await page.close();
+    });
+    await check("a page with ww stays below 5 MB", async () => {
+        const { size } = statSync(`${run}/report.html`);
+        truth(size < LIMIT, `${size} bytes`);
+        console.log(`        ${size} bytes`);
+    });
+}
+
+truth(existsSync(bundle), `${bundle} is not there: make page`);
+measure();
+const browser = await chromium.launch({
+    executablePath,
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+});
+const page = await open(browser, run);
+await testNumbers(page);
+await testKeys(page);
+await testField(page);
+await testScenes(page);
+await page.close();
+await testLooks(browser);
+await testOthers(browser);
+await browser.close();
+console.log(`${passed} passed, ${failed} failed`);
+process.exit(failed ? 1 : 0);

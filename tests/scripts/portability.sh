@@ -1,0 +1,69 @@
+#!/bin/sh
+# Builds tests/unit/core/test_portability.c with each compiler, optimisation and instruction set and runs
+# it: every build must give the hashes that the test holds. Usage: portability.sh SOURCE_DIR
+# Instruction sets that this machine cannot run, and compilers that it lacks, are left out and
+# named.
+set -eu
+cd "$1"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I."
+sources="tests/unit/core/test_portability.c"
+for name in status mesh mesh_ring field csrbf modes body deform lazy potential site start \
+    far_cache particles triangle refine certificate certificate_create certificate_tree certificate_fit \
+    certificate_deform certificate_leaf certificate_row certificate_pair \
+    certificate_triangles certificate_search levels descent coherence pairs \
+    tracker tracker_search; do
+    sources="$sources $(ls core/*/$name.c)"
+done
+
+runs_here()
+{
+    printf 'int main(void) { return 0; }' > "$work/probe.c"
+    "$1" -march="$2" "$work/probe.c" -o "$work/probe" 2> "$work/log" || return 1
+    case $2 in
+    x86-64) true ;;
+    x86-64-v3) grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo ;;
+    x86-64-v4) grep -qw avx512vl /proc/cpuinfo && grep -qw avx512dq /proc/cpuinfo ;;
+    esac
+}
+
+checked=0
+failed=0
+check()
+{
+    program="$work/test_portability"
+    # shellcheck disable=SC2086 # lists of words
+    if "$1" $flags $2 $sources -lcmocka -lm -o "$program" && "$program" > "$work/log" 2>&1; then
+        echo "same bits: $1 $2"
+    else
+        cat "$work/log"
+        echo "other bits: $1 $2"
+        failed=$((failed + 1))
+    fi
+    checked=$((checked + 1))
+}
+
+for compiler in gcc clang; do
+    if ! command -v "$compiler" > "$work/log"; then
+        echo "left out: $compiler is not installed"
+        continue
+    fi
+    for level in -O0 -O2 -O3; do
+        check "$compiler" "$level"
+    done
+    case $(uname -m) in
+    x86_64)
+        for isa in x86-64-v3 x86-64-v4; do
+            if runs_here "$compiler" "$isa"; then
+                check "$compiler" "-O0 -march=$isa"
+                check "$compiler" "-O3 -march=$isa"
+            else
+                echo "left out: $compiler -march=$isa does not run here"
+            fi
+        done
+        ;;
+    esac
+done
+echo "$checked builds, $failed with other bits"
+[ "$checked" -gt 0 ] && [ "$failed" -eq 0 ]

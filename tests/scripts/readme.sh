@@ -1,0 +1,11 @@
+#!/bin/sh
+# readme.sh NAME [FILE]: prints the block of README.md (or FILE) that stands below the comment
+# <!-- NAME -->, so that what is tested is what is read.
+set -eu
+file=${2:-$(dirname "$0")/../../README.md}
+text=$(awk -v mark="<!-- $1 -->" '
+    $0 == mark { found = 1; next }
+    found && /^```/ { if (inside) exit; inside = 1; next }
+    inside { print }' "$file")
+[ -n "$text" ] || { echo "$file: no block below <!-- $1 -->" >&2; exit 1; }
+printf '%s\n' "$text"

@@ -1,0 +1,186 @@
+#include "tests/studies/soak_judge.h"
+
+#include "harness/base/child.h"
+#include "harness/scene/probe.h"
+#include "harness/scene/scenario.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RIGHT 1e-12 /* of L */
+#define CONTACT 0.0
+#define BOUNDED 4 /* the exact method that may stop early, with a bracket */
+
+const char *const soak_methods[SOAK_METHODS] = {
+    "certified",           "certified:seed=none", "certified:seed=tracked",
+    "certified:seed=pair", "certified:budget=60", "aabb-tree",
+    "particle:n=8",        "particle-paper:n=5",  "particle-paper:n=8,refine=always"};
+
+static const char *const settler = "aabb-tree:arithmetic=wide,seed=none";
+
+typedef struct bench {
+    const char *path;
+    const soak_plant *plant;
+    bool stop;
+    mote_scenario *scenario;
+    mote_frame_buffer *buffer;
+    mote_probe *probe[SOAK_METHODS + 1]; /* the last settles; made when needed */
+    soak_verdict verdict;
+} bench;
+
+static mote_status open_probe(bench *b, int m)
+{
+    mote_method_choice choice;
+    mote_status status =
+        mote_method_choice_read(m < SOAK_METHODS ? soak_methods[m] : settler, &choice);
+    if (status == MOTE_OK)
+        status = mote_probe_create(&b->scenario->body[0], &b->scenario->body[1], &choice,
+                                   MOTE_ASK_DISTANCE, CONTACT, 1, &b->probe[m]);
+    return status;
+}
+
+static mote_status open_bench(bench *b)
+{
+    mote_status status = mote_scenario_load(b->path, &b->scenario);
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(b->scenario, &b->buffer);
+    for (int m = 0; m < SOAK_METHODS && status == MOTE_OK; ++m) {
+        status = open_probe(b, m);
+        /* Few particles are refused on meshes of many components. */
+        if (status == MOTE_EUNSUPPORTED || (status == MOTE_EINVAL && m >= SOAK_EXACT))
+            status = MOTE_OK;
+    }
+    return status;
+}
+
+static void close_bench(bench *b)
+{
+    for (int m = 0; m <= SOAK_METHODS; ++m)
+        mote_probe_destroy(b->probe[m]);
+    mote_frame_buffer_destroy(b->buffer);
+    mote_scenario_destroy(b->scenario);
+}
+
+static bool is_right(double distance, double truth, double length)
+{
+    return fabs(distance - truth) <= RIGHT * length;
+}
+
+/* The distance that all exact methods agree on, or what 113 bits say. */
+static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answer *answers,
+                              double *truth)
+{
+    const double length = b->scenario->length;
+    *truth = answers[SOAK_EXACT - 1].distance;
+    bool agreed = true;
+    for (int m = 0; m < SOAK_EXACT && agreed; ++m)
+        agreed = m == BOUNDED || is_right(answers[m].distance, *truth, length);
+    if (agreed)
+        return MOTE_OK;
+    ++b->verdict.settled;
+    mote_status status = b->probe[SOAK_METHODS] ? MOTE_OK : open_probe(b, SOAK_METHODS);
+    mote_answer settled;
+    if (status == MOTE_OK)
+        status = mote_probe_answer(b->probe[SOAK_METHODS], frame, &settled);
+    if (status == MOTE_OK)
+        *truth = settled.distance;
+    return status;
+}
+
+/* Counts one answer; true when it must not be so. */
+static bool count(soak_tally *tally, const mote_answer *answer, int m, double truth,
+                  double length)
+{
+    const double error = fabs(answer->distance - truth) / length;
+    const bool violated = answer->has_lower && !(answer->lower <= truth + 1e-15 * length);
+    bool wrong = !(answer->distance >= 0) || !(error < HUGE_VAL);
+    if (m < SOAK_EXACT && m != BOUNDED)
+        wrong = wrong || !(error <= RIGHT);
+    if (m < BOUNDED)
+        wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, length);
+    /* Answers are located on the surfaces, so that no method may be below the truth. */
+    wrong = wrong || answer->distance < truth - RIGHT * length;
+    if (answer->has_witness && answer->distance > 0)
+        wrong = wrong ||
+                !is_right(sqrt(mote_distance_squared(answer->witness[0], answer->witness[1])),
+                          answer->distance, length);
+    int decade = 0;
+    while (decade < SOAK_DECADES - 1 && !(error < pow(10, decade - 16)))
+        ++decade;
+    ++tally->queries;
+    ++tally->decades[decade];
+    tally->wrong += wrong;
+    tally->violated += violated;
+    tally->missed += truth <= CONTACT && answer->distance > RIGHT * length;
+    tally->false_contacts += truth > RIGHT * length && answer->distance <= CONTACT;
+    if (!(error <= tally->largest))
+        tally->largest = error;
+    return wrong || violated;
+}
+
+static mote_status judge_frame(bench *b, uint32_t number, uint32_t previous)
+{
+    const mote_frame *frame = mote_scenario_frame(b->scenario, b->buffer, number, previous);
+    mote_answer answers[SOAK_METHODS];
+    for (int m = 0; m < SOAK_METHODS; ++m) {
+        mote_status status =
+            b->probe[m] ? mote_probe_answer(b->probe[m], frame, &answers[m]) : MOTE_OK;
+        if (status != MOTE_OK)
+            return status;
+    }
+    if (b->plant && b->plant->frame == number)
+        answers[0].distance = answers[0].distance * (1 + 1e-9) + 1e-9 * b->scenario->length;
+    double truth;
+    mote_status status = find_truth(b, frame, answers, &truth);
+    for (int m = 0; m < SOAK_METHODS && status == MOTE_OK; ++m) {
+        if (b->probe[m] &&
+            count(&b->verdict.tally[m], &answers[m], m, truth, b->scenario->length) &&
+            b->verdict.failed_frame == 0)
+            b->verdict.failed_frame = number;
+    }
+    ++b->verdict.frames;
+    return status;
+}
+
+static mote_status judge_frames(bench *b)
+{
+    mote_status status = MOTE_OK;
+    for (uint32_t number = 1; number <= b->scenario->frames && status == MOTE_OK; ++number) {
+        status = judge_frame(b, number, number - 1);
+        if (b->stop && b->verdict.failed_frame > 0)
+            break;
+    }
+    return status;
+}
+
+static mote_status work(void *context, int output)
+{
+    bench *b = context;
+    mote_status status = open_bench(b);
+    /* A scenario that is refused is no failure; a query that is, is one. */
+    if (status == MOTE_OK)
+        status = judge_frames(b) == MOTE_OK ? MOTE_OK : MOTE_EIO;
+    if (status == MOTE_OK)
+        status = mote_child_put(output, &b->verdict, sizeof b->verdict);
+    close_bench(b);
+    return status;
+}
+
+mote_status soak_judge(const char *path, const soak_plant *plant, bool stop,
+                       soak_verdict *verdict)
+{
+    bench b = {.path = path, .plant = plant, .stop = stop};
+    const mote_child_limits limits = {.seconds = 300, .output_bytes = sizeof b.verdict};
+    char *output = NULL;
+    size_t size = 0;
+    *verdict = (soak_verdict){0};
+    mote_status status = mote_child_run(path, work, &b, limits, &output, &size);
+    if (status == MOTE_OK && size != sizeof *verdict)
+        status = mote_fail(MOTE_EIO, "%s: its judge said %zu bytes, not %zu", path, size,
+                           sizeof *verdict);
+    if (status == MOTE_OK)
+        memcpy(verdict, output, sizeof *verdict);
+    free(output);
+    return status;
+}

@@ -1,0 +1,98 @@
+#include "tests/support/fcl_defects.h"
+
+#include "baselines/fcl_adapter.hpp"
+
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+
+using mote_fcl::Transform;
+using mote_fcl::Vector;
+
+/* FCL's error stream, silenced for the life of this object. */
+class Silence
+{
+  public:
+    Silence() : original(std::cerr.rdbuf(sink.rdbuf()))
+    {
+    }
+
+    ~Silence()
+    {
+        std::cerr.rdbuf(original);
+    }
+
+    Silence(const Silence &) = delete;
+    Silence &operator=(const Silence &) = delete;
+
+  private:
+    std::ostringstream sink;
+    std::streambuf *original;
+};
+
+const std::vector<Vector> corners = {Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0)};
+
+template <class BV> int build(fcl::BVHModel<BV> &model, const std::vector<Vector> &vertices)
+{
+    model.beginModel(1, 3);
+    model.addSubModel(vertices, {fcl::Triangle(0, 1, 2)});
+    return model.endModel();
+}
+
+} // namespace
+
+double mote_fcl_rss_sum_cosine(void)
+{
+    Vector first[3] = {Vector(0, 0, 0), Vector(2, 0, 0), Vector(0, 1, 0)};
+    Vector second[3] = {Vector(0, 0, 3), Vector(0, 1, 5), Vector(1, 3, 3)};
+    fcl::RSS<double> a, b;
+    fcl::fit(first, 3, a);
+    fcl::fit(second, 3, b);
+    const fcl::RSS<double> sum = a + b;
+    double largest = 0;
+    for (int k = 0; k < 3; ++k)
+        largest = std::max(largest, std::abs(sum.axis.col(k).dot(sum.axis.col((k + 1) % 3))));
+    return largest;
+}
+
+double mote_fcl_obb_distance(void)
+{
+    Silence silence;
+    fcl::BVHModel<fcl::OBB<double>> a, b;
+    build(a, corners);
+    build(b, corners);
+    Transform above = Transform::Identity();
+    above.translation() = Vector(0, 0, 1);
+    fcl::DistanceRequest<double> request;
+    fcl::DistanceResult<double> result;
+    fcl::distance(&a, Transform::Identity(), &b, above, request, result);
+    return result.min_distance;
+}
+
+int mote_fcl_memory_usage(void)
+{
+    fcl::BVHModel<fcl::AABB<double>> model;
+    build(model, corners);
+    return model.memUsage(0);
+}
+
+int mote_fcl_replace_after_update(void)
+{
+    Silence silence;
+    fcl::BVHModel<fcl::AABB<double>> model;
+    build(model, corners);
+    model.beginUpdateModel();
+    model.updateSubModel(corners);
+    model.endUpdateModel();
+    return model.beginReplaceModel();
+}
+
+bool mote_fcl_builds_with_nan(void)
+{
+    fcl::BVHModel<fcl::AABB<double>> model;
+    std::vector<Vector> vertices = corners;
+    vertices[1][0] = std::numeric_limits<double>::quiet_NaN();
+    return build(model, vertices) == fcl::BVH_OK;
+}

@@ -1,0 +1,390 @@
+/* See planted.h. */
+#include "tests/support/planted.h"
+
+#include "harness/run/bodies_run.h"
+#include "harness/study/dynamics.h"
+#include "harness/figure/figures.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
+#include "harness/run/run.h"
+#include "harness/summary/summary.h"
+
+#include "core/body/csrbf_fit.h"
+#include "core/body/parts.h"
+#include "datasets/letter.h"
+#include "harness/scene/spread.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+plants planted;
+
+static void need(bool condition)
+{
+    if (!condition)
+        abort();
+}
+
+#define FCL_RATIO 1000.0
+
+static mote_status due(const char *function)
+{
+    return ++planted.calls == planted.failing ? mote_fail(MOTE_EIO, "planted in %s", function)
+                                              : MOTE_OK;
+}
+
+/* NAME in its own place, planted.failing when it is due; arguments as declared and as passed.
+ */
+#define SEAM(name, declared, passed)                                                           \
+    mote_status __real_##name declared;                                                        \
+    mote_status __wrap_##name declared;                                                        \
+    mote_status __wrap_##name declared                                                         \
+    {                                                                                          \
+        const mote_status status = due(#name);                                                 \
+        return status == MOTE_OK ? __real_##name passed : status;                              \
+    }
+
+SEAM(mote_letter_create, (char letter, size_t count, mote_mesh **mesh), (letter, count, mesh))
+SEAM(mote_spread, (const mote_mesh *mesh, uint32_t count, mote_vec3 *points),
+     (mesh, count, points))
+SEAM(mote_csrbf_fit_create, (const mote_field *field, mote_csrbf_fit **fit, double *condition),
+     (field, fit, condition))
+SEAM(mote_csrbf_fit_solve,
+     (const mote_csrbf_fit *fit, const mote_vec3 *displacements, mote_vec3 *weights),
+     (fit, displacements, weights))
+mote_status __real_mote_record_json(const char *directory, const char *name, json_t *object);
+mote_status __real_mote_record_text(const char *directory, const char *name, mote_text *text);
+
+/* The same where nothing is done. */
+#define PLANT(name, ...)                                                                       \
+    mote_status __wrap_##name(__VA_ARGS__);                                                    \
+    mote_status __wrap_##name(__VA_ARGS__)
+
+/* What these are given is theirs. */
+PLANT(mote_record_json, const char *directory, const char *name, json_t *object)
+{
+    const mote_status status = due("mote_record_json");
+    if (status == MOTE_OK)
+        return __real_mote_record_json(directory, name, object);
+    json_decref(object);
+    return status;
+}
+
+PLANT(mote_record_text, const char *directory, const char *name, mote_text *text)
+{
+    const mote_status status = due("mote_record_text");
+    if (status == MOTE_OK)
+        return __real_mote_record_text(directory, name, text);
+    free(text->data);
+    *text = (mote_text){0};
+    return status;
+}
+
+PLANT(mote_figures_plot, const char *directory, const char *name, const char *script)
+{
+    (void)directory;
+    (void)name;
+    (void)script;
+    return due("mote_figures_plot");
+}
+
+PLANT(mote_statistics_exponent, const double *x, const double *y, size_t count,
+      double *exponent, mote_confidence *interval)
+{
+    need(count >= 4 && x[0] > 0 && y[0] > 0);
+    *exponent = planted.exponent;
+    *interval = (mote_confidence){planted.exponent - 0.01, planted.exponent + 0.01};
+    return due("mote_statistics_exponent");
+}
+
+PLANT(mote_figures_draw, const char *directory, size_t *drawn)
+{
+    (void)directory;
+    *drawn = 1;
+    return due("mote_figures_draw");
+}
+
+mote_status __real_mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
+                                  const char *unit, const char *format, ...);
+
+PLANT(mote_claim_add, mote_claim *claim, double value, mote_confidence interval,
+      const char *unit, const char *format, ...)
+{
+    char name[256];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(name, sizeof name, format, arguments);
+    va_end(arguments);
+    const mote_status status = due("mote_claim_add");
+    if (claim->count == 0)
+        planted.first_figure = planted.calls;
+    return status == MOTE_OK ? __real_mote_claim_add(claim, value, interval, unit, "%s", name)
+                             : status;
+}
+
+/* Every scene is two letters of a few hundred triangles. */
+mote_status __real_mote_scenario_load(const char *name, mote_scenario **scenario);
+
+PLANT(mote_scenario_load, const char *name, mote_scenario **scenario)
+{
+    mote_status status = due("mote_scenario_load");
+    if (status != MOTE_OK)
+        return status;
+    const char *slash = strrchr(name, '/'), *digits = strrchr(name, '-');
+    char *stem = mote_format("%.*s", (int)strcspn(slash ? slash + 1 : name, "."),
+                             slash ? slash + 1 : name);
+    char *path = mote_format("%s/%s.json", planted.folder, stem);
+    const double wished = digits ? fmax(0, log10(fmax(1, strtod(digits + 1, NULL)))) : 0;
+    mote_text text = {0};
+    mote_text_add(
+        &text,
+        "{\"purpose\": \"planted\", \"frames\": 2000, \"ask\": \"distance\", "
+        "\"bodies\": [{\"letter\": \"T\", \"triangles\": %d}, {\"letter\": \"T\", "
+        "\"triangles\": 400, \"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}]}]}",
+        400 + 40 * (int)wished);
+    need(mote_file_write(path, text.data, text.size) == MOTE_OK);
+    status = __real_mote_scenario_load(path, scenario); /* which makes letters */
+    free(text.data);
+    free(path);
+    free(stem);
+    return status;
+}
+
+/* Contact in 10 of 100 frames, near it in 20. */
+static double distance_at(uint32_t frame)
+{
+    const uint32_t k = frame % 100;
+    return k < 10 ? 0 : (k < 30 ? 0.05 : 0.5);
+}
+
+PLANT(mote_truth_load_or_compute, const mote_scenario *scenario, const char *directory,
+      mote_truth **truth)
+{
+    (void)directory;
+    const mote_status status = due("mote_truth_load_or_compute");
+    if (status != MOTE_OK)
+        return status;
+    need(mote_truth_allocate(scenario->frames, truth) == MOTE_OK);
+    for (uint32_t k = 0; k < scenario->frames; ++k) {
+        (*truth)->distance[k] = distance_at(k + 1) * scenario->length;
+        (*truth)->witness_a[k] = (*truth)->witness_b[k] = mote_vec3_make(0, 0, 0);
+    }
+    mote_truth_set_contacts(scenario, *truth);
+    return MOTE_OK;
+}
+
+PLANT(mote_measure_cell, const mote_cell *cell, size_t limit, mote_cell_result *result)
+{
+    (void)limit;
+    const mote_status status = due("mote_measure_cell");
+    if (status != MOTE_OK)
+        return status;
+    const double length = cell->subject->scenario->length;
+    /* Times waver by a few per cent from seed to seed and method to method. */
+    const uint64_t mixed = mote_hash_text(cell->choice->text) + cell->seed * 7919;
+    const double waver = 1 + 0.03 * sin((double)(mixed % 1000));
+    *result = (mote_cell_result){.rows = calloc(cell->last, sizeof *result->rows)};
+    need(result->rows != NULL);
+    for (uint32_t f = cell->first; f <= cell->last; f += cell->stride) {
+        mote_cell_row *row = &result->rows[result->row_count++];
+        row->frame = f;
+        row->query_ns = (uint64_t)(planted.ours_ns * waver + f % 7);
+        row->answer.distance = (distance_at(f) + planted.error) * length;
+        row->answer.contact = planted.contact_seen && distance_at(f) == 0;
+        row->answer.witness[0] = row->answer.witness[1] =
+            mote_vec3_make(planted.error * length, 0, 0);
+        row->answer.counters.steps = (uint64_t)(1000 * waver) + f % 5;
+    }
+    return MOTE_OK;
+}
+
+PLANT(mote_parts_create, const mote_mesh *mesh, const mote_vec3 *positions, mote_parts **parts)
+{
+    (void)positions;
+    const mote_status status = due("mote_parts_create");
+    if (status != MOTE_OK)
+        return status;
+    *parts = calloc(1, sizeof **parts);
+    need(*parts != NULL);
+    **parts = (mote_parts){.count = 3, .vertex_count = mesh->vertex_count};
+    return MOTE_OK;
+}
+
+PLANT(mote_approaches_simulate, const mote_scenario *scenario, const char *method,
+      uint32_t wanted, mote_approaches *sum)
+{
+    (void)scenario;
+    const mote_status status = due("mote_approaches_simulate");
+    ++planted.simulated;
+    if (status == MOTE_OK)
+        *sum = (mote_approaches){
+            .trials = wanted,
+            .approaches = wanted,
+            .passes_through = strstr(method, "paper") ? planted.passes : planted.others_pass,
+            .steps = 100 * wanted};
+    return status;
+}
+
+PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
+{
+    (void)options;
+    *outcome =
+        (mote_run_outcome){.cells = 1, .failed = planted.body_failed ? 1 : 0, .started = true};
+    return due("mote_run");
+}
+
+/* The rows of claims against hierarchies, three replicates each. */
+enum { TIMED_FRAMES = 20, REPLICATES = 3 };
+static const struct {
+    const char *scenario, *cache, *label;
+} timed[PLANTED_ROWS] = {{"ww", "hot", "particle-paper:n=5"},
+                         {"ww", "hot", "fcl-aabb"},
+                         {"ww", "hot", "fcl-aabb:queue=64,seed=previous"},
+                         {"ww", "hot", "fcl-obbrss"},
+                         {"ww", "evict", "particle-paper:n=5"},
+                         {"ww", "evict", "fcl-aabb"},
+                         {"ww", "evict", "fcl-aabb:queue=64,seed=previous"},
+                         {"tt", "hot", "particle-paper:n=3"},
+                         {"tt", "hot", "fcl-aabb"},
+                         {"tt", "hot", "fcl-obbrss:update=none"}};
+enum { TIMED = PLANTED_ROWS };
+
+static void plant_cell(size_t row, size_t replicate, mote_stored_cell *cell)
+{
+    static uint32_t frames[TIMED_FRAMES];
+    static double times[2][3][TIMED_FRAMES]; /* particles, trees; total, refit, query */
+    const bool tree = strncmp(timed[row].label, "fcl", 3) == 0;
+    for (uint32_t k = 0; k < TIMED_FRAMES; ++k) {
+        frames[k] = k + 1;
+        times[tree][0][k] = planted.ours_ns * (tree ? FCL_RATIO : 1) + k;
+        times[tree][1][k] = tree ? 0.9 * times[tree][0][k] : 0;
+        times[tree][2][k] = times[tree][0][k] - times[tree][1][k];
+    }
+    *cell = (mote_stored_cell){.json = json_pack("{s:i, s:i}", "heap_live_bytes",
+                                                 tree ? 1000000 : 10000, "deform_bytes", 0),
+                               .scenario = timed[row].scenario,
+                               .cache = timed[row].cache,
+                               .status = MOTE_CELL_OK,
+                               .replicate = (uint32_t)replicate + 1,
+                               .active_first = 5,
+                               .active_last = 15,
+                               .frames = TIMED_FRAMES,
+                               .frame = frames,
+                               .deform_ns = times[0][1],
+                               .update_ns = times[tree][1],
+                               .query_ns = times[tree][2],
+                               .total_ns = times[tree][0]};
+}
+
+PLANT(mote_summary_make, const char *directory, mote_summary *summary)
+{
+    (void)directory;
+    const mote_status status = due("mote_summary_make");
+    if (status != MOTE_OK)
+        return status;
+    *summary =
+        (mote_summary){.rows = calloc(TIMED, sizeof *summary->rows), .count = planted.rows};
+    summary->stored.cells = calloc(TIMED * REPLICATES, sizeof *summary->stored.cells);
+    need(summary->rows && summary->stored.cells);
+    for (size_t i = 0; i < TIMED; ++i) {
+        mote_stored_cell *cells = &summary->stored.cells[i * REPLICATES];
+        for (size_t r = 0; r < REPLICATES; ++r)
+            plant_cell(i, r, &cells[r]);
+        summary->rows[i] = (mote_summary_row){.cells = cells,
+                                              .replicates = REPLICATES,
+                                              .first = &cells[0],
+                                              .status = MOTE_CELL_OK,
+                                              .label = (char *)(uintptr_t)timed[i].label,
+                                              .jobs = 1};
+    }
+    return MOTE_OK;
+}
+
+void __wrap_mote_summary_free(mote_summary *summary);
+void __wrap_mote_summary_free(mote_summary *summary)
+{
+    for (size_t i = 0; i < (size_t)TIMED * REPLICATES; ++i)
+        json_decref(summary->stored.cells[i].json);
+    free(summary->stored.cells);
+    free(summary->rows);
+}
+
+PLANT(mote_bodies_load, const char *path, mote_bodies **bodies)
+{
+    (void)path;
+    *bodies = NULL;
+    return due("mote_bodies_load");
+}
+
+PLANT(mote_bodies_run_scenario, const mote_bodies *bodies, const mote_bodies_choice *choices,
+      size_t count, uint32_t replicates, const mote_bodies_options *options,
+      mote_bodies_row *rows)
+{
+    (void)bodies;
+    (void)replicates;
+    (void)options;
+    for (size_t k = 0; k < count; ++k) {
+        mote_bodies_row *row = &rows[k];
+        *row = (mote_bodies_row){.bodies = 10,
+                                 .exact = strncmp(choices[k].text, "particle", 8) != 0,
+                                 .ok = true,
+                                 .threads = choices[k].threads,
+                                 .ahead = choices[k].ahead,
+                                 .steps = 4,
+                                 .wall_ns = 1e6 / (1 + choices[k].ahead),
+                                 .step_ns = 1e6,
+                                 .rss_peak_bytes = planted.body_bytes,
+                                 .ratio = planted.ratio};
+        (void)snprintf(row->scenario, sizeof row->scenario, "planted");
+        (void)snprintf(row->method, sizeof row->method, "%s", choices[k].text);
+        (void)snprintf(row->reference, sizeof row->reference, "%s",
+                       planted.body_alone ? "" : "fcl-aabb:refit=every");
+        row->missed = planted.body_missed && row->exact ? 1 : 0;
+        if ((planted.body_failed && k == 1) || planted.bodies_failed) {
+            row->ok = false;
+            row->status = MOTE_CELL_CRASHED;
+        }
+    }
+    return due("mote_bodies_run_scenario");
+}
+
+PLANT(mote_extreme_measure, mote_extreme *e)
+{
+    for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f)
+        e->truth[f] = e->unrounded[f] = 0.1 * e->length;
+    return due("mote_extreme_measure");
+}
+
+PLANT(mote_extreme_set_gap, mote_extreme_recipe *recipe, uint32_t frame, double gap)
+{
+    recipe->place[1][frame].x += gap;
+    return due("mote_extreme_set_gap");
+}
+
+PLANT(mote_extreme_run, const mote_extreme *e, const char *method, mote_extreme_cell *cell)
+{
+    (void)e;
+    const bool ours = strcmp(method, "certified") == 0;
+    *cell = (mote_extreme_cell){.verdict = ours ? planted.ours_verdict : planted.others_verdict,
+                                .error = ours ? 1e-3 : 0,
+                                .frame = ours ? 2 : 0};
+    if (cell->verdict > MOTE_EXTREME_RIGHT)
+        (void)snprintf(cell->reason, sizeof cell->reason, "planted, as %s",
+                       mote_extreme_verdicts[cell->verdict]);
+    return due("mote_extreme_run");
+}
+
+void plant_good(void)
+{
+    planted = (plants){.folder = planted.folder,
+                       .exponent = 0.05,
+                       .contact_seen = true,
+                       .ours_ns = 1e4,
+                       .rows = PLANTED_ROWS,
+                       .ratio = 25,
+                       .body_bytes = 1 << 20,
+                       .ours_verdict = MOTE_EXTREME_RIGHT,
+                       .others_verdict = MOTE_EXTREME_RIGHT};
+}

@@ -1,0 +1,143 @@
+/* Two runs of one method, base and new, which a test writes itself and compares. */
+#ifndef MOTE_TESTS_TWO_RUNS_H
+#define MOTE_TESTS_TWO_RUNS_H
+
+#include "harness/summary/compare.h"
+#include "harness/base/record.h"
+#include "tests/support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <sys/stat.h>
+
+static char base[] = "/tmp/mote-test-compare-XXXXXX";
+static char old_run[64], new_run[64], said[64];
+
+static inline int make_base(void **state)
+{
+    (void)state;
+    if (!mkdtemp(base))
+        return -1;
+    (void)snprintf(old_run, sizeof old_run, "%s/old", base);
+    (void)snprintf(new_run, sizeof new_run, "%s/new", base);
+    (void)snprintf(said, sizeof said, "%s/said", base);
+    return mkdir(old_run, 0777) || mkdir(new_run, 0777);
+}
+
+static inline int remove_base(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+/* Without the sync of mote_record_json; object is taken over. */
+static inline void put(const char *directory, const char *name, json_t *object)
+{
+    char path[96];
+    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
+    assert_non_null(object);
+    assert_int_equal(json_dump_file(object, path, 0), 0);
+    json_decref(object);
+}
+
+/* A run of one method, five replicates. */
+typedef struct figures {
+    double ratio;     /* of fcl-aabb's time to this one's, about */
+    double jitter;    /* how much replicates differ, a share */
+    double box_tests; /* a replicate */
+    double heap, missed, p99;
+} figures;
+
+static const figures usual = {100, 0.002, 5000, 1e6, 2, 1e-3};
+
+static inline json_t *one_process(const figures *f, int replicate, double sign)
+{
+    double wobble = 1 + sign * f->jitter * ((replicate * 7) % 5 - 2);
+    return json_pack("{s:i, s:f, s:f, s:{s:f}}", "replicate", replicate, "median_ns",
+                     1e6 / f->ratio * wobble, "ratio", f->ratio / wobble, "counters",
+                     "box_tests", f->box_tests);
+}
+
+/* sign: the two runs of a pair wobble differently. */
+static inline void write_run(const char *directory, const figures *f, double sign)
+{
+    json_t *processes = json_array();
+    for (int r = 1; r <= 5; ++r)
+        assert_int_equal(json_array_append_new(processes, one_process(f, r, sign)), 0);
+    json_t *row =
+        json_pack("{s:s, s:s, s:s, s:{s:i}, s:s, s:s, s:i, s:i, s:i, s:s, s:{s:s}, s:f, s:f, "
+                  "s:f, s:f, s:o,"
+                  " s:{s:f, s:f, s:f, s:f}}",
+                  "scenario", "ww", "fingerprint", "0123456789abcdef", "method",
+                  "particle-paper", "parameters", "n", 5, "cache", "hot", "label",
+                  "particle-paper:n=5", "stride", 1, "seed", 0, "frames", 100, "status", "ok",
+                  "ratio", "to", "fcl-aabb", "heap_live_bytes", f->heap, "heap_peak_bytes",
+                  f->heap, "missed", f->missed, "false_contacts", 0.0, "processes", processes,
+                  "error", "median", 1e-4, "p99", f->p99, "max", 1e-2, "exact_rate", 0.5);
+    assert_non_null(row);
+    json_t *summary =
+        json_pack("{s:i, s:f, s:[o]}", "schema", 1, "noise_floor", 0.004, "rows", row);
+    put(directory, "summary.json", summary);
+}
+
+static inline mote_comparison compare_with(const figures *fresh)
+{
+    mote_comparison c;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, fresh, -1);
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_int_equal(c.count, 1);
+    return c;
+}
+
+/* What a run on a processor leaves beside its summary. */
+static inline void write_beside(const char *directory, const char *processor,
+                                double instructions)
+{
+    json_t *row = json_pack("{s:s, s:s, s:{s:i}, s:f}", "scenario", "ww", "method",
+                            "particle-paper", "parameters", "n", 5, "per_frame", instructions);
+    put(directory, "instructions.json", json_pack("{s:i, s:[o]}", "schema", 1, "rows", row));
+    put(directory, "manifest.json",
+        json_pack("{s:s, s:s}", "processor", processor, "compiler", "GNU 12"));
+}
+
+static inline void remove_beside(void)
+{
+    char command[256];
+    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
+    assert_int_equal(system(command), 0);
+}
+
+/* Puts the members of an object, written with ', into the first row of a run's file. */
+static inline void change_row(const char *directory, const char *name, const char *members)
+{
+    char plain[1024];
+    json_t *summary = NULL;
+    (void)snprintf(plain, sizeof plain, "%s", members);
+    for (char *c = plain; *c; ++c)
+        *c = *c == '\'' ? '"' : *c;
+    json_t *change = json_loads(plain, 0, NULL);
+    assert_non_null(change);
+    assert_int_equal(mote_record_read_json(directory, name, &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_update_recursive(row, change), 0);
+    json_decref(change);
+    put(directory, name, summary);
+}
+
+/* mote compare OLD NEW OPTIONS: its exit status, and what it must say. */
+static inline void expect(const char *options, int status, const char *says)
+{
+    char line[256], text[8192];
+    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
+    const int ended = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    if (ended != status || !strstr(text, says))
+        fail_msg("exit %d, not %d, or not \"%s\":\n%s", ended, status, says, text);
+}
+
+#endif

@@ -1,0 +1,335 @@
+/* What a run leaves behind when it is stopped, its parent killed, or the disk taken away. */
+#define _GNU_SOURCE /* unshare */
+#include "harness/base/record.h"
+#include "tests/support/plain_file.h"
+#include "tests/support/program.h"
+#include "tests/support/run_files.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <sched.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#define SWEEP                                                                                  \
+    "run tt --frames 1-200 --method particle-paper:n=2 --method aabb-tree --replicates 10"
+#define SWEEP_CELLS 20
+#define SLOW "run tt --frames 1-600 --stride 1 --method brute-force --replicates 5"
+
+static char base[] = "/tmp/mote-test-durable-XXXXXX";
+static int directories;
+static char directory[64], said[64], line[512], text[1 << 14];
+
+static void pause_ms(long ms)
+{
+    const struct timespec pause = {ms / 1000, ms % 1000 * 1000000};
+    (void)nanosleep(&pause, NULL);
+}
+
+/* A directory of its own, the truth shared by all. */
+static int use_directory(const char *name)
+{
+    char truth[64], link[96];
+    (void)snprintf(directory, sizeof directory, "%s/%s", base, name);
+    (void)snprintf(truth, sizeof truth, "%s/truth", base);
+    (void)snprintf(link, sizeof link, "%s/truth", directory);
+    (void)mkdir(truth, 0777);
+    (void)mkdir(directory, 0777);
+    return symlink(truth, link);
+}
+
+static int next_directory(void **state)
+{
+    char name[16];
+    (void)state;
+    (void)snprintf(name, sizeof name, "%d", directories);
+    (void)snprintf(said, sizeof said, "%s/said-%d", base, directories++);
+    return use_directory(name);
+}
+
+static int remove_base(void **state)
+{
+    char disk[64];
+    (void)state;
+    (void)snprintf(disk, sizeof disk, "%s/disk", base);
+    (void)umount(disk); /* if it was mounted */
+    return program_remove(base);
+}
+
+static pid_t start(const char *what)
+{
+    (void)snprintf(line, sizeof line, "%s --out %s", what, directory);
+    return program_start(line, said);
+}
+
+static int run(const char *what)
+{
+    int status = program_wait(start(what));
+    program_read(said, text, sizeof text);
+    return status;
+}
+
+/* The truth is there: from now on a run measures at once. */
+static int make_base(void **state)
+{
+    (void)state;
+    if (!mkdtemp(base) || next_directory(NULL) != 0)
+        return -1;
+    return run("run tt --frames 1-2 --replicates 1 --method aabb-tree");
+}
+
+/* Waits until some cells are finished. */
+static void wait_for_cells(int count)
+{
+    for (int tries = 0; run_files_count(directory, ".json") < count; ++tries) {
+        assert_true(tries < 3000);
+        pause_ms(10);
+    }
+}
+
+/* Waits until a file of the directory is there. */
+static void wait_for_file(const char *name)
+{
+    char path[96];
+    struct stat info;
+    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
+    for (int tries = 0; stat(path, &info) != 0; ++tries) {
+        assert_true(tries < 3000);
+        pause_ms(10);
+    }
+}
+
+static void check(run_files *finished)
+{
+    const char *wrong = run_files_check(directory, 200, finished);
+    if (wrong)
+        fail_msg("%s: %s", directory, wrong);
+}
+
+/* Stops a sweep in its middle; it must say so, keep what is finished and go on later. */
+static void stopped_by(int signal_number)
+{
+    pid_t pid = start(SWEEP);
+    wait_for_cells(3);
+    assert_int_equal(kill(pid, signal_number), 0);
+    assert_int_equal(program_wait(pid), 5);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "mote: stopped by a signal; run the same command again"));
+    run_files finished = {0};
+    check(&finished);
+    assert_in_range(finished.count, 3, SWEEP_CELLS - 1);
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+    assert_int_equal(run(SWEEP), 0);
+    check(&finished);
+    assert_int_equal(finished.count, SWEEP_CELLS);
+    run_files_free(&finished);
+}
+
+static void run_after_sigterm_keeps_its_cells_and_goes_on(void **state)
+{
+    (void)state;
+    stopped_by(SIGTERM);
+}
+
+static void run_after_sigint_keeps_its_cells_and_goes_on(void **state)
+{
+    (void)state;
+    stopped_by(SIGINT);
+}
+
+/* A process's state ('Z': dead, not yet reaped) and parent; false when it is gone. */
+static bool look_at(long pid, char *process_state, long *parent)
+{
+    char path[64], stat[512];
+    (void)snprintf(path, sizeof path, "/proc/%ld/stat", pid);
+    program_read(path, stat, sizeof stat);
+    const char *rest = strrchr(stat, ')');
+    if (!rest)
+        return false;
+    *process_state = rest[2];
+    *parent = strtol(rest + 3, NULL, 10);
+    return true;
+}
+
+/* The process that measures, child of pid; 0 when there is none. */
+static pid_t child_of(pid_t pid)
+{
+    DIR *folder = opendir("/proc");
+    long found = 0, parent;
+    char process_state;
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry && !found;
+         entry = readdir(folder)) {
+        long number = strtol(entry->d_name, NULL, 10);
+        if (number > 0 && look_at(number, &process_state, &parent) && parent == pid)
+            found = number;
+    }
+    if (folder)
+        (void)closedir(folder);
+    return (pid_t)found;
+}
+
+/* Gone, or a zombie that nobody has reaped. */
+static bool is_dead(pid_t pid)
+{
+    char process_state;
+    long parent;
+    return !look_at(pid, &process_state, &parent) || process_state == 'Z' ||
+           process_state == 'X';
+}
+
+static pid_t wait_for_child(pid_t pid)
+{
+    pid_t child = 0;
+    for (int tries = 0; tries < 3000 && child == 0; ++tries) {
+        pause_ms(10);
+        child = child_of(pid);
+    }
+    return child;
+}
+
+static void child_of_a_killed_run_dies_with_it(void **state)
+{
+    (void)state;
+    pid_t pid = start(SLOW);
+    wait_for_file("manifest.json"); /* git has answered what it asks: children measure now */
+    pid_t child = wait_for_child(pid);
+    assert_true(child > 0);
+    assert_false(is_dead(child));
+    assert_int_equal(kill(pid, SIGKILL), 0);
+    (void)waitpid(pid, NULL, 0);
+    for (int tries = 0; tries < 3000 && !is_dead(child); ++tries)
+        pause_ms(10); /* a disk that is busy keeps the dead for seconds */
+    assert_true(is_dead(child));
+}
+
+static void run_beside_another_in_one_directory_is_refused(void **state)
+{
+    (void)state;
+    char other[64];
+    pid_t pid = start(SLOW);
+    wait_for_file("manifest.json");
+    (void)snprintf(other, sizeof other, "%s/said-other", base);
+    assert_int_equal(program_wait(program_start(line, other)), 4);
+    program_read(other, text, sizeof text);
+    assert_non_null(strstr(text, "another run is measuring into it"));
+    assert_int_equal(kill(pid, SIGTERM), 0);
+    assert_int_equal(program_wait(pid), 5);
+}
+
+/* Started at the same moment: one measures, and the other says why it does not. */
+static void runs_started_together_in_one_directory_are_as_one(void **state)
+{
+    (void)state;
+    char other[64];
+    (void)snprintf(other, sizeof other, "%s/said-together", base);
+    const pid_t first = start(SWEEP), second = program_start(line, other);
+    const int status[2] = {program_wait(first), program_wait(second)};
+    assert_true(status[0] == 0 || status[1] == 0);
+    for (int k = 0; k < 2; ++k) {
+        program_read(k ? other : said, text, sizeof text);
+        if (status[k] != 0) {
+            assert_int_equal(status[k], 4);
+            assert_non_null(strstr(text, "another run is measuring into it"));
+        }
+    }
+    run_files finished = {0};
+    check(&finished);
+    assert_int_equal(finished.count, SWEEP_CELLS);
+    assert_int_equal(run_files_count(directory, ".csv"), SWEEP_CELLS);
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+    run_files_free(&finished);
+}
+
+static void run_beyond_the_largest_file_allowed_fails_with_a_message(void **state)
+{
+    (void)state;
+    const struct rlimit small = {20000, RLIM_INFINITY}, none = {RLIM_INFINITY, RLIM_INFINITY};
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    int status = run(SWEEP);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &none), 0);
+    assert_int_equal(status, 5);
+    assert_non_null(strstr(text, "cannot be written: File too large"));
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+}
+
+/* Whether this process may mount: as root, or as root of a user namespace of its own. */
+static bool may_mount(void)
+{
+    char map[64];
+    const uid_t uid = getuid();
+    const gid_t gid = getgid();
+    if (unshare(CLONE_NEWNS) != 0) {
+        if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0)
+            return false;
+        (void)snprintf(map, sizeof map, "0 %u 1\n", (unsigned)uid);
+        (void)plain_file_put("/proc/self/setgroups", "deny\n");
+        if (!plain_file_put("/proc/self/uid_map", map))
+            return false;
+        (void)snprintf(map, sizeof map, "0 %u 1\n", (unsigned)gid);
+        (void)plain_file_put("/proc/self/gid_map", map);
+    }
+    return mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) == 0;
+}
+
+/* A file system of 256 kB; false where that is not permitted. */
+static bool mount_small_disk(void)
+{
+    char disk[64];
+    (void)snprintf(disk, sizeof disk, "%s/disk", base);
+    (void)mkdir(disk, 0777);
+    return may_mount() && mount("none", disk, "tmpfs", 0, "size=256k") == 0 &&
+           use_directory("disk/run") == 0;
+}
+
+static void remount(unsigned long flags, const char *options)
+{
+    char disk[64];
+    (void)snprintf(disk, sizeof disk, "%s/disk", base);
+    assert_int_equal(mount("none", disk, "tmpfs", MS_REMOUNT | flags, options), 0);
+}
+
+static void run_on_a_full_then_read_only_disk_keeps_its_cells(void **state)
+{
+    (void)state;
+    if (!mount_small_disk())
+        skip();
+    run_files finished = {0};
+    assert_int_equal(run(SWEEP), 5);
+    assert_non_null(strstr(text, "No space left on device"));
+    check(&finished);
+    assert_in_range(finished.count, 1, SWEEP_CELLS - 1);
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+    remount(MS_RDONLY, "size=256k");
+    assert_int_equal(run(SWEEP), 5);
+    assert_non_null(strstr(text, "Read-only file system"));
+    size_t before = finished.count;
+    check(&finished);
+    assert_int_equal(finished.count, before);
+    remount(0, "size=16m");
+    assert_int_equal(run(SWEEP), 0);
+    check(&finished);
+    assert_int_equal(finished.count, SWEEP_CELLS);
+    run_files_free(&finished);
+}
+
+#define TEST(name) cmocka_unit_test_setup(name, next_directory)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(run_after_sigterm_keeps_its_cells_and_goes_on),
+        TEST(run_after_sigint_keeps_its_cells_and_goes_on),
+        TEST(child_of_a_killed_run_dies_with_it),
+        TEST(run_beside_another_in_one_directory_is_refused),
+        TEST(runs_started_together_in_one_directory_are_as_one),
+        TEST(run_beyond_the_largest_file_allowed_fails_with_a_message),
+        TEST(run_on_a_full_then_read_only_disk_keeps_its_cells), /* last: it changes mounts */
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

@@ -1,0 +1,361 @@
+/* The libraries' known defects (datasets/defects.md). A test here passes while the library
+   shows the defect; when it fails, the library has been mended, and the adapter can be
+   relieved. */
+#include "tests/support/ccd_triangle.h"
+#include "tests/support/fcl_defects.h"
+#include "tests/support/fcl_triangle.h"
+#include "baselines/wide_triangle.h"
+#include "tests/support/shapes.h"
+
+#include <ccd/ccd.h>
+#include <float.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <setjmp.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define MENDED "the library no longer shows this defect; see datasets/defects.md"
+
+static void *create(const char *name, const char *options, const scene *s, mote_ask ask)
+{
+    const mote_method *m = mote_method_find(name);
+    assert_non_null(m);
+    double values[MOTE_PARAMETERS_MAX];
+    mote_parameters_default(m->parameters, m->parameter_count, values);
+    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
+                     MOTE_OK);
+    mote_setup setup = scene_setup(s, ask, 0, values);
+    void *state = NULL;
+    assert_int_equal(m->create(&setup, &state), MOTE_OK);
+    return state;
+}
+
+static mote_answer answer(const char *name, void *state, const mote_frame *frame)
+{
+    const mote_method *m = mote_method_find(name);
+    mote_answer result = {0};
+    assert_int_equal(m->update(state, frame), MOTE_OK);
+    assert_int_equal(m->query(state, frame, &result), MOTE_OK);
+    return result;
+}
+
+/* Of frames random poses without deformation, how many does a method get wrong? A contact
+   question counts missed contacts; *contacts is how many there were. */
+static int count_wrong(const char *name, const char *options, mote_ask ask, int frames,
+                       int *contacts)
+{
+    scene s;
+    scene_init(&s, 14, 9, 1, true);
+    void *tested = create(name, options, &s, ask);
+    void *truth = create("fcl-aabb", "", &s, MOTE_ASK_DISTANCE);
+    int wrong = 0;
+    *contacts = 0;
+    for (int f = 0; f < frames; ++f) {
+        mote_frame frame = *scene_next(&s, ask == MOTE_ASK_CONTACT ? 0.9 : 1.3, true);
+        for (int b = 0; b < 2; ++b) {
+            memset(s.weights[b], 0, sizeof s.weights[b]);
+            mote_deform_all(s.deform[b], &frame.body[b], s.world[b]);
+            frame.body[b].shape_changed = true;
+        }
+        mote_answer a = answer(name, tested, &frame);
+        double expected = answer("fcl-aabb", truth, &frame).distance;
+        *contacts += expected == 0;
+        if (ask == MOTE_ASK_CONTACT)
+            wrong += expected == 0 && !a.contact;
+        else
+            wrong += fabs(a.distance - expected) > 1e-9 * s.length;
+    }
+    mote_method_find(name)->destroy(tested);
+    mote_method_find("fcl-aabb")->destroy(truth);
+    scene_free(&s);
+    return wrong;
+}
+
+static void expect_wrong(const char *name, mote_ask ask, const char *what)
+{
+    int contacts, frames = 40;
+    int wrong = count_wrong(name, "update=refit-bottom-up", ask, frames, &contacts);
+    print_message("%s, refitted bottom-up: %d of %d %s\n", name, wrong,
+                  ask == MOTE_ASK_CONTACT ? contacts : frames, what);
+    if (wrong == 0)
+        fail_msg(MENDED);
+    assert_int_equal(count_wrong(name, "update=refit-top-down", ask, frames, &contacts), 0);
+}
+
+static void fcl_refit_bottom_up_of_rss_gives_wrong_distances(void **unused)
+{
+    (void)unused;
+    expect_wrong("fcl-rss", MOTE_ASK_DISTANCE, "distances are wrong");
+    expect_wrong("fcl-obbrss", MOTE_ASK_DISTANCE, "distances are wrong");
+}
+
+static void fcl_refit_bottom_up_of_rss_misses_contacts(void **unused)
+{
+    (void)unused;
+    expect_wrong("fcl-rss", MOTE_ASK_CONTACT, "contacts are missed");
+}
+
+static void fcl_sum_of_rss_has_skew_axes(void **unused)
+{
+    (void)unused;
+    double cosine = mote_fcl_rss_sum_cosine();
+    print_message("largest cosine between axes of a sum: %.3f\n", cosine);
+    if (cosine < 1e-9)
+        fail_msg(MENDED);
+}
+
+/* Random pairs of triangles of a size, at least a tenth of it apart: how many does FCL take for
+   intersecting, and how many does libccd? */
+static void count_false_contacts(double size, int wrong[2])
+{
+    scene s = {.random = 5};
+    wrong[0] = wrong[1] = 0;
+    for (int i = 0; i < 2000; ++i) {
+        mote_vec3 t[2][3];
+        for (int k = 0; k < 6; ++k) {
+            t[k / 3][k % 3] =
+                mote_vec3_make(scene_random(&s, -size, size), scene_random(&s, -size, size),
+                               scene_random(&s, -size, size));
+        }
+        if (mote_triangle_triangle(t[0], t[1], NULL, NULL) < 0.01 * size * size)
+            continue;
+        wrong[0] += mote_fcl_triangle_distance(t[0], t[1]) == 0;
+        wrong[1] += mote_ccd_triangles_touch(t[0], t[1]);
+    }
+}
+
+static void fcl_distance_of_small_triangles_is_zero(void **unused)
+{
+    (void)unused;
+    int large[2], small[2];
+    count_false_contacts(1, large);
+    count_false_contacts(1e-6, small);
+    print_message("separated pairs at distance 0 by FCL: size 1: %d, size 1e-6: %d\n", large[0],
+                  small[0]);
+    assert_int_equal(large[0], 0);
+    if (small[0] == 0)
+        fail_msg(MENDED);
+}
+
+/* Triangles of whole numbers: a corner of one, (2, 2, 1) and (2, 2, 2), is in the other. */
+static void fcl_distance_of_triangles_that_touch_is_not_zero(void **unused)
+{
+    (void)unused;
+    static const mote_vec3 pairs[2][2][3] = {
+        {{{3, 3, 1}, {0, 1, 2}, {3, 2, 0}}, {{1, 2, 3}, {1, 1, 2}, {2, 2, 1}}},
+        {{{1, 1, 2}, {2, 0, 0}, {2, 2, 2}}, {{1, 3, 3}, {2, 2, 1}, {3, 1, 2}}}};
+    for (int i = 0; i < 2; ++i) {
+        assert_true(reference_triangle_triangle(pairs[i][0], pairs[i][1]) == 0);
+        const double said = mote_fcl_triangle_distance(pairs[i][0], pairs[i][1]);
+        print_message("two triangles that touch, by FCL: %.3f apart\n", said);
+        if (said == 0)
+            fail_msg(MENDED);
+    }
+}
+
+static void fcl_distance_of_oriented_boxes_is_missing(void **unused)
+{
+    (void)unused;
+    if (mote_fcl_obb_distance() != DBL_MAX)
+        fail_msg(MENDED);
+}
+
+static void fcl_memory_usage_is_a_status(void **unused)
+{
+    (void)unused;
+    if (mote_fcl_memory_usage() != 0)
+        fail_msg(MENDED);
+}
+
+static void fcl_replace_after_update_fails(void **unused)
+{
+    (void)unused;
+    if (mote_fcl_replace_after_update() == 0)
+        fail_msg(MENDED);
+}
+
+static void fcl_builds_models_of_nan(void **unused)
+{
+    (void)unused;
+    if (!mote_fcl_builds_with_nan())
+        fail_msg(MENDED);
+}
+
+/* Convex sets as a list of points. */
+typedef struct points {
+    int count;
+    double xyz[128][3];
+} points;
+
+static void support(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *point)
+{
+    const points *p = object;
+    double best = -DBL_MAX;
+    for (int k = 0; k < p->count; ++k) {
+        double h = p->xyz[k][0] * direction->v[0] + p->xyz[k][1] * direction->v[1] +
+                   p->xyz[k][2] * direction->v[2];
+        if (h > best) {
+            best = h;
+            ccdVec3Set(point, p->xyz[k][0], p->xyz[k][1], p->xyz[k][2]);
+        }
+    }
+}
+
+static void centre(const void *object, ccd_vec3_t *result)
+{
+    const points *p = object;
+    ccdVec3Set(result, 0, 0, 0);
+    for (int k = 0; k < p->count; ++k) {
+        for (int axis = 0; axis < 3; ++axis)
+            result->v[axis] += p->xyz[k][axis];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        result->v[axis] /= p->count;
+}
+
+static ccd_t ccd_settings(void)
+{
+    ccd_t ccd;
+    CCD_INIT(&ccd);
+    ccd.support1 = ccd.support2 = support;
+    ccd.center1 = ccd.center2 = centre;
+    ccd.max_iterations = 100;
+    return ccd;
+}
+
+static void ccd_mpr_loops_for_ever(void **unused)
+{
+    (void)unused;
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        const points a = {3, {{3, 1, 0}, {1, 1, 0}, {0, 2, 1}}};
+        const points b = {3, {{3, 1, 0}, {1, 1, 0}, {0, 3, 2}}};
+        ccd_t ccd = ccd_settings();
+        signal(SIGALRM, SIG_DFL);
+        alarm(2);
+        _exit(ccdMPRIntersect(&a, &b, &ccd) ? 1 : 0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (!WIFSIGNALED(status) || WTERMSIG(status) != SIGALRM)
+        fail_msg(MENDED);
+}
+
+static void ccd_gjk_of_small_triangles_is_wrong(void **unused)
+{
+    (void)unused;
+    scene s = {.random = 9};
+    int hits = 0, missed = 0;
+    for (int i = 0; i < 4000; ++i) {
+        mote_vec3 t[2][3], small[2][3];
+        for (int k = 0; k < 6; ++k) {
+            t[k / 3][k % 3] = mote_vec3_make(scene_random(&s, -1, 1), scene_random(&s, -1, 1),
+                                             scene_random(&s, -1, 1));
+            small[k / 3][k % 3] = mote_scale(t[k / 3][k % 3], 1e-3);
+        }
+        if (mote_triangle_triangle(t[0], t[1], NULL, NULL) > 0 ||
+            !mote_ccd_triangles_touch(t[0], t[1]))
+            continue;
+        hits++;
+        missed += !mote_ccd_triangles_touch(small[0], small[1]);
+    }
+    int tiny[2], large[2];
+    count_false_contacts(1e-6, tiny);
+    count_false_contacts(1, large);
+    print_message("libccd at size 1e-3 misses %d of %d hits; at 1e-6 it has %d false ones\n",
+                  missed, hits, tiny[1]);
+    assert_int_equal(large[1], 0);
+    if (missed == 0 || tiny[1] == 0)
+        fail_msg(MENDED);
+}
+
+/* A cube of side 2 around (0, 0, z). */
+static points cube_at(double z)
+{
+    points p = {.count = 8};
+    for (int k = 0; k < 8; ++k) {
+        p.xyz[k][0] = k & 1 ? 1 : -1;
+        p.xyz[k][1] = k & 2 ? 1 : -1;
+        p.xyz[k][2] = z + (k & 4 ? 1 : -1);
+    }
+    return p;
+}
+
+static void ccd_epa_of_cubes_has_no_direction(void **unused)
+{
+    (void)unused;
+    const points a = cube_at(0), b = cube_at(1.9);
+    ccd_t ccd = ccd_settings();
+    ccd_real_t depth;
+    ccd_vec3_t direction, position;
+    assert_int_equal(ccdGJKPenetration(&a, &b, &ccd, &depth, &direction, &position), 0);
+    print_message("cubes overlapping by 0.1: depth %g, direction (%g, %g, %g)\n", depth,
+                  direction.v[0], direction.v[1], direction.v[2]);
+    if (isfinite(direction.v[0]) && depth > 0.09)
+        fail_msg(MENDED);
+}
+
+/* Points on a sphere of radius 0.5 around (x, 0, 0), turned by an angle about x. */
+static points sphere_at(double x, double angle)
+{
+    points p = {.count = 128};
+    for (int k = 0; k < p.count; ++k) {
+        double z = 1 - (2 * k + 1.0) / p.count, r = sqrt(1 - z * z), u = 2.399963 * k + angle;
+        p.xyz[k][0] = x + 0.5 * z;
+        p.xyz[k][1] = 0.5 * r * cos(u);
+        p.xyz[k][2] = 0.5 * r * sin(u);
+    }
+    return p;
+}
+
+/* The depth at the default tolerance, 1e-4, against that at 1e-9: the tolerance is one of
+   squared lengths, so that at unit size shallow depths are noise. */
+static void ccd_epa_at_the_default_tolerance_is_coarse(void **unused)
+{
+    (void)unused;
+    int coarse = 0, count = 0;
+    double worst = 1;
+    for (double x = 0.9; x < 0.99; x += 0.001) {
+        const points a = sphere_at(0, 0), b = sphere_at(x, 1);
+        ccd_t ccd = ccd_settings();
+        ccd_real_t depth[2];
+        ccd_vec3_t direction, position;
+        for (int k = 0; k < 2; ++k) {
+            ccd.epa_tolerance = k == 0 ? 1e-4 : 1e-9;
+            depth[k] = 0;
+            ccdGJKPenetration(&a, &b, &ccd, &depth[k], &direction, &position);
+        }
+        if (!(depth[1] > 0.002))
+            continue;
+        count++;
+        coarse += !(fabs(depth[0] - depth[1]) < 0.1 * depth[1]);
+        worst = fmin(worst, depth[0] / depth[1]);
+    }
+    print_message("%d of %d depths are off by over a tenth, one by a factor of %.2g\n", coarse,
+                  count, worst);
+    if (coarse == 0)
+        fail_msg(MENDED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fcl_refit_bottom_up_of_rss_gives_wrong_distances),
+        cmocka_unit_test(fcl_refit_bottom_up_of_rss_misses_contacts),
+        cmocka_unit_test(fcl_sum_of_rss_has_skew_axes),
+        cmocka_unit_test(fcl_distance_of_small_triangles_is_zero),
+        cmocka_unit_test(fcl_distance_of_triangles_that_touch_is_not_zero),
+        cmocka_unit_test(fcl_distance_of_oriented_boxes_is_missing),
+        cmocka_unit_test(fcl_memory_usage_is_a_status),
+        cmocka_unit_test(fcl_replace_after_update_fails),
+        cmocka_unit_test(fcl_builds_models_of_nan),
+        cmocka_unit_test(ccd_mpr_loops_for_ever),
+        cmocka_unit_test(ccd_gjk_of_small_triangles_is_wrong),
+        cmocka_unit_test(ccd_epa_of_cubes_has_no_direction),
+        cmocka_unit_test(ccd_epa_at_the_default_tolerance_is_coarse),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,296 @@
+/* The program itself, run as a user runs it. */
+#include "tests/support/command_lines.h"
+#include "tests/support/diamond.h"
+
+#include <unistd.h>
+
+#define FOLDER "test_command_files"
+
+#define TEN "0123456789"
+#define SEVENTY TEN TEN TEN TEN TEN TEN TEN
+/* Two diamonds that pass each other. */
+#define SCENARIO SCENE("", "2.1", "1.9")
+/* more: keys; from, until: along x, in L. They touch below 0.48. */
+#define SCENE(more, from, until)                                                               \
+    "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\"" more ", \"bodies\": [{"   \
+    "\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": "   \
+    "[" from ", 0.1, 0]}, {\"frame\": 4, \"position\": [" until ", 0.1, 0]}]}]}\n"
+
+static int run(const char *arguments, char *output, size_t size)
+{
+    return command_run(FOLDER, arguments, "2>&1", output, size);
+}
+
+static const struct {
+    const char *path, *text;
+} files[] = {{FOLDER "/broken.json", "{\"purpose\": \"x\",\n \"frames\": }\n"},
+             {FOLDER "/unknown.json", "{\"purpose\": \"x\",\n \"speed\": 1}\n"},
+             {FOLDER "/d.obj", DIAMOND},
+             {FOLDER "/s.json", SCENARIO},
+             {FOLDER "/away.json", SCENE("", "0.9", "1.5")},
+             {FOLDER "/near.json", SCENE(", \"active\": [1, 4]", "0.58", "0.6")},
+             {FOLDER "/far.json", SCENE(", \"active\": [2, 4]", "0.6", "3")}};
+#define FILES (sizeof files / sizeof files[0])
+
+static int set_up(void **state)
+{
+    (void)state;
+    if (mote_directory_make(FOLDER) != MOTE_OK)
+        return -1;
+    for (size_t i = 0; i < FILES; ++i) {
+        if (mote_file_write(files[i].path, files[i].text, strlen(files[i].text)) != MOTE_OK)
+            return -1;
+    }
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < FILES; ++i)
+        (void)unlink(files[i].path);
+    return rmdir(FOLDER); /* fails if a command left anything behind */
+}
+
+static const command_line bad_lines[] = {
+    {"", 2, "no command"},
+    {"fly", 2, "unknown command fly; known are"},
+    {"list", 2, "methods or scenarios"},
+    {"list planets", 2, "planets"},
+    {"list methods --yaml", 2, "unknown option --yaml"},
+    {"letter W", 2, "missing"},
+    {"letter W --triangles", 2, "needs a value"},
+    {"letter W --triangles many -o W.obj", 2, "whole number"},
+    {"letter W --triangles 401 -o W.obj", 4, "odd"},
+    {"letter WW --triangles 400 -o W.obj", 4, "not one letter"},
+    {"letter W --triangles 400 -o no/W.obj", 4, "no/W.obj"},
+    {"check", 2, "no scenario"},
+    {"check nothing", 4, "nothing: no such scenario; known are"},
+    {"check missing.json", 4, "missing.json: No such file"},
+    {"check broken.json", 4, "broken.json:2:"},
+    {"check unknown.json", 4, "unknown.json:2: speed: unknown key"},
+    {"check ./", 4, "not a regular file"},
+    {"check /dev/zero/", 4, "/dev/zero/"},
+    {"export tt --frame 1", 2, "missing"},
+    {"export tt --frame 0 --out x", 2, "--frame 0"},
+    {"export tt --frame 601 --out x", 4, "frames 1-600"},
+    {"export tt --frame 1 --out x --method magic", 4, "unknown method magic; known are"},
+    {"export tt --frame 1 --out x --method fcl-aabb:speed=9", 4, "speed"},
+    {"export tt --frame 1 --out x --method particle-paper:n=0", 4, "n"},
+    {"export tt --frame 1 --out x --method particle-paper:n=100000", 4, "n"},
+    {"export tt --frame 1 --out /proc/x", 4, "/proc/x"},
+    {"export tt --frame 1 --out broken.json/x", 4, "broken.json"},
+    {"approach tt -o x.json", 2, "missing"},
+    {"approach tt --gaps 1:0.1,700:1 -o x.json", 4, "700:1"},
+    {"approach tt --gaps 1:0.1,zwei -o x.json", 4, "zwei"},
+    {"run missing.json --method fcl-aabb --out x", 4, "missing.json"},
+    {"run broken.json --method fcl-aabb --out x", 4, "broken.json:2:"},
+    {"run tt --method magic --out x", 4, "magic"},
+    {"run tt --method particle-paper:n=0 --out x", 4, "n"},
+    {"run tt --method fcl-aabb --frames 9-3 --out x", 4, "9-3"},
+    {"run tt --method fcl-aabb --out /proc/x", 4, "/proc/x"},
+    {"run --pair a.obj", 2, "two mesh files"},
+    {"run --pair a.obj b.obj --method fcl-aabb --out x", 4, "a.obj"},
+    {"check pair:a.obj", 4, "not two files"},
+    {"mesh", 2, "no file"},
+    {"mesh nothing.obj", 4, "nothing.obj"},
+    {"mesh broken.json", 4, "broken.json"},
+    {"mesh .", 4, "not a regular file"},
+    {"distance a.obj", 2, "two files"},
+    {"distance a.obj b.obj", 4, "a.obj"},
+    {"distance a.obj b.obj --method magic", 4, "magic"},
+    {"check s.json s.json", 2, "one scenario at a time"},
+    {"check far.json --json", 1, "far.json: active 2-4: only 0 of 3 frames"},
+    {"check s.json --fast", 2, "unknown option --fast; known are: --json, --out DIR"},
+    {"check s.json --json=yes", 2, "--json takes no value"},
+    {"check -", 4, "-: no such scenario"},
+    {"summarize --formats x", 2, "unknown option --formats"},
+    {"summarize --format=yaml x", 2, "--format yaml: choose table"},
+    {"summarize x y", 2, "y: one directory at a time"},
+    {"summarize", 2, "no directory"},
+    {"letter W --triangles 99999999999999999999999 -o W.obj", 2, "whole number"},
+    {"letter W --triangles 400x -o W.obj", 2, "--triangles 400x"},
+    {"approach s.json --gaps 1:0.1 --direction 1,0 -o x.json", 2,
+     "--direction 1,0: give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,nan,0 -o x.json", 2, "give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,,0 -o x.json", 2, "give x,y,z"},
+    {"approach s.json --gaps 1:0.1 --direction 1,0,0,0 -o x.json", 2, "give x,y,z"},
+    {"run s.json --frames 0-3 --out x", 4, "--frames 0-3: outside 1-"},
+    {"run s.json --frames " SEVENTY " --out x", 4, "not a range"},
+    {"run s.json --frames 1-x --out x", 4, "not a range"},
+    {"run s.json --method " SEVENTY SEVENTY SEVENTY SEVENTY " --out x", 4,
+     "longer than 255 characters"},
+    {"run s.json --particles 1-2 --method " SEVENTY " --out x", 4, "unknown method 01234"},
+    {"run s.json --particles 1-2 --method magic --out x", 4, "unknown method magic"},
+    {"run s.json --particles 1-4000000000 --method particle --out x", 4, "more than 10000"},
+    {"run s.json --particles 1-2 --replicates 1000 --out x", 4, "at most 10000 in one run"},
+    {"run s.json --shard 1", 2, "--shard 1: expected I/N"},
+    {"run s.json --shard " SEVENTY "/2", 2, "expected I/N"},
+    {"run s.json --shard 1/x", 2, "--shard 1/x: expected I/N"},
+    {"run s.json --seed -1", 2, "--seed -1: expected a whole number"},
+    {"run s.json --timeout 0", 2, "--timeout 0: expected seconds"},
+    {"run s.json --budget -1", 2, "--budget -1: expected seconds"},
+    {"run s.json --until-ci %", 2, "expected a percentage"},
+    {"run s.json --until-ci " SEVENTY "%", 2, "expected a percentage"},
+    {"run s.json --until-ci 200%", 2, "expected a percentage"},
+    {"run s.json --out ''", 2, "expected a directory"},
+    {"run --pair d.obj d.obj --pair d.obj d.obj", 2, "two mesh files, once"},
+    {"history --fast", 2, "unknown option --fast"},
+    {"history --add x", 2, "go together"},
+    {"history x --why y", 2, "go together"},
+    {"history --add x --why ''", 4, "no reason"},
+    {"merge --x", 2, "known are: none"},
+    {"merge", 2, "runs are missing"},
+    {"merge x", 2, "runs are missing"},
+    {"tune --x", 2, "unknown option --x; known are: --best-fcl SCENARIO"},
+    {"tune x y", 2, "y: one directory at a time"},
+    {"tune --best-fcl=s x", 4, "x/tune.json: No such file"},
+    {"compare --x", 2, "unknown option --x"},
+    {"compare x", 2, "two runs are needed"},
+    {"compare x y z", 2, "z: two runs at a time"},
+    {"compare x y --floor nine", 2, "--floor nine: expected a share"},
+    {"compare x y --format yaml", 2, "choose table or json"},
+    {"instructions --x", 2, "unknown option --x"},
+    {"instructions s.json s.json", 2, "one scenario at a time"},
+    {"instructions --frames 1-2 --method certified --out x", 2, "a scenario, --frames"},
+    {"instructions s.json --method certified --out x", 2, "a scenario, --frames"},
+    {"instructions s.json --frames 1-2 --method certified", 2, "--out are needed"},
+    {"instructions s.json --frames 1-2 --out x", 2, "--method and --out are needed"},
+    {"instructions s.json --frames 2-1 --inside --method certified", 4, "2-1: an empty range"},
+    {"instructions s.json --frames 1-9 --inside --method certified", 4, "it has frames 1-4"},
+    {"instructions s.json --frames 1-2 --inside --method magic", 4, "unknown method magic"},
+    {"instructions s.json --frames 1-2 --inside --particles 2,x --method particle", 4,
+     "x: not a range"},
+    {"instructions missing.json --frames 1-2 --inside --method certified", 4,
+     "missing.json: No such file"},
+    {"report --fast", 2, "known are: none"},
+    {"report x y", 2, "y: one directory at a time"},
+    {"report", 2, "no directory"},
+    {"claims --quick x", 2, "x: takes no argument"},
+    {"claims --out", 2, "--out needs a value"},
+};
+
+static void main_bad_line_one_line_and_its_exit_status(void **state)
+{
+    (void)state;
+    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
+}
+
+/* Lines that are right, and what they must say. */
+static const command_line good_lines[] = {
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:n=3", 0,
+     "plan: 1 cells, 0 of them done"},
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:law=log,n=3",
+     0, "s particle-paper:law=log,n=3 replicate 1, frames 1-4"},
+    {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper", 0,
+     "plan: 2 cells"},
+    {"run s.json s.json --dry-run --replicates 1 --method 'fcl-aabb|fcl-rss' --method "
+     "fcl-aabb:queue=2",
+     0, "plan: 2 cells"},
+    {"run s.json --dry-run --method fcl-aabb --seed 3 --fixed-seed --cache evict --stride 2 "
+     "--jobs 2 --force --timeout 3 --budget 2",
+     0, "s fcl-aabb replicate 3, frames 1-4, stride 2, evict"},
+    {"run s.json --dry-run --method fcl-aabb --cache hot --stride auto --frames 2-3", 0,
+     "s fcl-aabb replicate 1, frames 2-3, stride 1, hot"},
+    {"check away.json", 0, "4 frames checked by brute force\n"},
+    {"check away.json --json", 0, "\"longest_active\": [\n    0,\n    0\n"},
+    {"check near.json", 0, "active 1-4: truth <= 0.1 L in 100.0 % of frames"},
+    {"check near.json --json", 0, "\"active_holds\": true"},
+    {"instructions s.json --frames 1-2 --inside --method certified", 0, ""},
+    {"instructions s.json --frames 4 --inside --particles 2,3 --method particle-paper", 0, ""},
+};
+
+static void main_good_line_says_what_it_will_do(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
+        const command_line *good = &good_lines[i];
+        char output[4096];
+        const int status = run(good->arguments, output, sizeof output);
+        if (status != 0 || !strstr(output, good->says) || strstr(output, "mote: "))
+            fail_msg("mote %s: exit %d, or not \"%s\":\n%s", good->arguments, status,
+                     good->says, output);
+        if (good->says[0] == '\0')
+            assert_string_equal(output, "");
+    }
+}
+
+static void command_list_names_what_there_is(void **state)
+{
+    (void)state;
+    char output[1 << 16];
+    assert_int_equal(run("list methods", output, sizeof output), 0);
+    assert_non_null(strstr(output, "fcl-aabb"));
+    assert_non_null(strstr(output, "particle-paper"));
+    assert_int_equal(run("list scenarios --json", output, sizeof output), 0);
+    assert_non_null(strstr(output, "\"ww\""));
+    assert_int_equal(run("--help", output, sizeof output), 0);
+    assert_non_null(strstr(output, "mote check SCENARIO"));
+}
+
+static void command_letter_writes_that_many_triangles(void **state)
+{
+    (void)state;
+    char output[1024];
+    assert_int_equal(run("letter V --triangles 500 -o V.obj", output, sizeof output), 0);
+    char *text;
+    size_t size;
+    assert_int_equal(mote_file_read(FOLDER "/V.obj", 1 << 20, &text, &size), MOTE_OK);
+    int faces = 0;
+    for (const char *at = text; (at = strstr(at, "\nf ")); ++at)
+        ++faces;
+    assert_int_equal(faces, 500);
+    free(text);
+    assert_int_equal(unlink(FOLDER "/V.obj"), 0);
+}
+
+static void command_export_answers_match_between_exact_methods(void **state)
+{
+    (void)state;
+    char output[1024];
+    assert_int_equal(run("export tt --frame 120 --out e --method brute-force "
+                         "--method fcl-aabb:seed=previous,queue=64",
+                         output, sizeof output),
+                     0);
+    char *text;
+    size_t size;
+    assert_int_equal(mote_file_read(FOLDER "/e/answers.json", 1 << 20, &text, &size), MOTE_OK);
+    double distance[2] = {-1, -2};
+    const char *at = text;
+    for (int i = 0; i < 2; ++i) {
+        at = strstr(at, "\"distance\": ");
+        assert_non_null(at);
+        at += strlen("\"distance\": ");
+        distance[i] = strtod(at, NULL);
+    }
+    assert_true(distance[0] > 0);
+    assert_true(distance[0] - distance[1] < 1e-12 && distance[1] - distance[0] < 1e-12);
+    free(text);
+    assert_int_equal(unlink(FOLDER "/e/answers.json"), 0);
+    assert_int_equal(unlink(FOLDER "/e/A.obj"), 0);
+    assert_int_equal(unlink(FOLDER "/e/B.obj"), 0);
+    assert_int_equal(rmdir(FOLDER "/e"), 0);
+}
+
+static void command_list_full_disk_is_an_error(void **state)
+{
+    (void)state;
+    char output[1024];
+    if (access("/dev/full", W_OK) != 0)
+        skip();
+    assert_int_equal(
+        command_run(FOLDER, "list methods", "2>&1 >/dev/full", output, sizeof output), 4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(main_bad_line_one_line_and_its_exit_status),
+        cmocka_unit_test(main_good_line_says_what_it_will_do),
+        cmocka_unit_test(command_list_names_what_there_is),
+        cmocka_unit_test(command_letter_writes_that_many_triangles),
+        cmocka_unit_test(command_export_answers_match_between_exact_methods),
+        cmocka_unit_test(command_list_full_disk_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

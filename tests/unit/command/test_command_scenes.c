@@ -1,0 +1,282 @@
+/* Commands of meshes and of scenarios, and of studies, run as a user runs them: what each
+   refuses and says. The others are in test_command.c. */
+#include "tests/support/command_lines.h"
+#include "tests/support/diamond.h"
+#include "tests/support/program.h"
+
+#include <unistd.h>
+
+#define FOLDER "test_command_scenes_files"
+
+/* Two tetrahedra far apart, and a vertex that no face has. */
+#define TWO                                                                                    \
+    "v 0 5 0\nv 1 5 0\nv 0 6 0\nv 0 5 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nv 0 -6 0\n"       \
+    "v 1 -6 0\nv 0 -5 0\nv 0 -6 1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\nv 9 9 9\n"
+#define STL                                                                                    \
+    "solid t\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\n"     \
+    "endloop\nendfacet\nendsolid t\n"
+#define SCENE(more, first)                                                                     \
+    "{\"purpose\": \"x\", \"frames\": 4, \"ask\": \"distance\"" more                           \
+    ", \"bodies\": [{\"file\": \"" first "\"}, {\"file\": \"a.obj\", \"motion\": ["            \
+    "{\"frame\": 1, \"position\": [2.1, 0.1, 0], \"axis\": [0, 1, 0], \"degrees\": 30}, "      \
+    "{\"frame\": 4, \"position\": [1.9, 0.1, 0]}]}]}\n"
+#define SEVERAL                                                                                \
+    "{\"purpose\": \"x\", \"frames\": 4, \"ask\": \"distance\", \"tolerance\": 0.01, "         \
+    "\"bodies\": {\"count\": 3, \"seed\": 2, \"near_pairs\": 1, \"near\": 0.2, "               \
+    "\"speed\": 0.01, \"spin\": 1, \"shapes\": [{\"file\": \"a.obj\"}]}}\n"
+
+static const struct {
+    const char *name, *text;
+} files[] = {{"diamond.obj", DIAMOND},
+             {"a.obj", DIAMOND},
+             {"two.obj", TWO},
+             {"t.stl", STL},
+             {"s.json", SCENE("", "a.obj")},
+             {"contact.json", SCENE(", \"tolerance\": 0.01", "a.obj")},
+             {"start.json", SCENE(", \"start\": 2", "a.obj")},
+             {"pace.json", SCENE(", \"pace\": 0.5", "a.obj")},
+             {"like.json", "{\"purpose\": \"x\", \"like\": \"s.json\"}\n"},
+             {"two.json", SCENE("", "two.obj")},
+             {"b.json", SEVERAL}};
+enum { FILES = sizeof files / sizeof files[0] };
+
+static int run(const char *arguments, char *output, size_t size)
+{
+    return command_run(FOLDER, arguments, "2>&1", output, size);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    if (mote_directory_make(FOLDER) != MOTE_OK)
+        return -1;
+    for (int i = 0; i < FILES; ++i) {
+        char path[64];
+        (void)snprintf(path, sizeof path, FOLDER "/%s", files[i].name);
+        if (mote_file_write(path, files[i].text, strlen(files[i].text)) != MOTE_OK)
+            return -1;
+    }
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    for (int i = 0; i < FILES; ++i) {
+        char path[64];
+        (void)snprintf(path, sizeof path, FOLDER "/%s", files[i].name);
+        (void)unlink(path);
+    }
+    return rmdir(FOLDER); /* fails if a command left anything behind */
+}
+
+static const command_line bad_lines[] = {
+    {"--allow nowhere check s.json", 4, "nowhere: No such file"},
+    {"--allow", 2, "unknown command --allow"},
+    {"--allow .", 2, "no command"},
+    {"list methods scenarios", 2, "scenarios: one thing at a time"},
+    {"list -", 2, "-: list fields"},
+    {"list methods --json=1", 2, "--json takes no value"},
+    {"list methods --jsonx", 2, "unknown option --jsonx; known are: --json"},
+    {"figures --quick", 2, "unknown option --quick; known are: none"},
+    {"figures one two", 2, "two: one directory at a time"},
+    {"figures", 2, "no directory; write `mote figures results/paper`"},
+    {"extremes here", 2, "here: takes no argument; write `mote extremes --out DIR`"},
+    {"extremes --quick --quick=1", 2, "--quick takes no value"},
+    {"extremes --out", 2, "--out needs a value: --out DIR"},
+    {"extremes --out /proc/x", 4, "/proc/x"},
+    {"bodies here", 2, "here: takes no argument; write `mote bodies --out DIR`"},
+    {"bodies --quick --out /proc/x", 4, "/proc/x"},
+    {"dynamics --every 3", 2, "unknown option --every; known are: --out DIR, --quick"},
+    {"letter --size 3", 2, "unknown option --size; known are: --triangles COUNT, -o FILE"},
+    {"letter W V", 2, "V: one letter at a time"},
+    {"letter --triangles 400 -o W.obj", 2, "missing"},
+    {"letter W --triangles 400", 2, "missing"},
+    {"letter '' --triangles 400 -o W.obj", 4, "not one letter"},
+    {"mesh a.obj two.obj", 2, "two.obj: one file at a time"},
+    {"mesh a.obj --yaml", 2, "unknown option --yaml"},
+    {"export s.json --yaml", 2, "unknown option --yaml"},
+    {"export s.json a.json", 2, "a.json: one scenario at a time"},
+    {"export --frame 1 --out x", 2, "missing"},
+    {"export s.json --out x", 2, "missing"},
+    {"export s.json --frame 99999999999999999999999 --out x", 2, "--frame 99999999"},
+    {"export s.json --frame 4294967296 --out x", 2, "--frame 4294967296"},
+    {"export s.json --frame 3rd --out x", 2, "--frame 3rd"},
+    {"export s.json --frame 2 --out x $(yes -- '--method certified' | head -65)", 2,
+     "at most 64 methods"},
+    {"export s.json --frame 2 --out x --method certified:$(printf %0300d 1)", 4, "longer than"},
+    {"distance a.obj two.obj t.stl", 2, "t.stl: two files at a time"},
+    {"distance a.obj two.obj --yaml", 2, "unknown option --yaml"},
+    {"distance a.obj two.obj $(yes -- '--method certified' | head -65)", 2,
+     "at most 64 methods"},
+    {"distance a.obj two.obj --method particle-paper:n=9", 4, "body 0 has 6 vertices"},
+    {"approach", 2, "missing"},
+    {"approach s.json --gaps 1:0.1", 2, "missing"},
+    {"approach s.json --yaml", 2, "unknown option --yaml"},
+    {"approach s.json b.json", 2, "b.json: one scenario at a time"},
+    {"approach s.json --every 0", 2, "--every 0: give a number of frames"},
+    {"approach s.json --direction 1,x,2", 2, "--direction 1,x,2: give x,y,z"},
+    {"approach s.json --direction inf,1,2", 2, "--direction inf,1,2: give x,y,z"},
+    {"approach s.json --direction 0,0,0", 2, "--direction 0,0,0: give x,y,z"},
+    {"approach s.json --gaps 1 -o x.json", 4, "--gaps: 1: write FRAME:GAP"},
+    {"approach s.json --gaps 0:1 -o x.json", 4, "--gaps: 0:1: write FRAME:GAP"},
+    {"approach s.json --gaps 1:0.2,5:1 -o x.json", 4, "frames from 1 to 4"},
+    {"approach s.json --gaps 1: -o x.json", 4, "not a gap"},
+    {"approach s.json --gaps 1:0.2x -o x.json", 4, "0.2x: not a gap"},
+    {"approach s.json --gaps 1:-1 -o x.json", 4, "-1: not a gap"},
+    {"approach s.json --gaps 1:1000 -o x.json", 4, "1000: not a gap"},
+    {"approach s.json --gaps 4:0.1,1:0.2 -o x.json", 4, "rise"},
+    {"approach s.json --gaps $(yes 1:0.1 | head -1025 | paste -sd,) -o x.json", 4,
+     "write FRAME:GAP"},
+    {"approach like.json --gaps 1:0.1 -o x.json", 4, "its path is not its own"},
+    {"approach start.json --gaps 1:0.1 -o x.json", 4, "its path is not its own"},
+    {"approach pace.json --gaps 1:0.1 -o x.json", 4, "its path is not its own"},
+    {"approach pair:a.obj:diamond.obj --gaps 1:0.1 --every 1000 -o x.json", 4,
+     "a-diamond.json"},
+    {"approach nothing --gaps 1:0.1 -o x.json", 4, "nothing: no such scenario"},
+    {"approach two.json --gaps 1:0.01 -o x.json", 4, "the bodies pass each other"},
+    {"check pair::a.obj", 4, "not two files"},
+    {"check pair:a.obj:", 4, "not two files"},
+    {"check \"$(printf 'pair:\\377.obj:a.obj')\"", 4, "names that are not UTF-8"},
+    {"simulate", 2, "missing"},
+    {"simulate tt", 2, "missing"},
+    {"simulate tt --method certified --steps 0", 2, "--steps 0"},
+    {"simulate tt --method certified --gravity 1,2", 2, "--gravity"},
+    {"simulate tt --method certified --density 0", 4, "density 0"},
+    {"simulate tt --method certified --density -3", 4, "density -3"},
+    {"simulate tt --method certified --tolerance 0", 4, "tolerance 0"},
+    {"simulate tt --method magic", 4, "magic"},
+    {"simulate nothing --method certified", 4, "nothing"},
+    {"simulate teapot --method certified", 4, "open"},
+    {"simulate tt --method certified --steps 2 --film /proc/x.gif", 4, "/proc/x.gif"},
+    {"simulate tt --method certified --time-step x", 2, "--time-step x"},
+    {"simulate tt --method certified --time-step nan", 2, "--time-step nan"},
+    {"simulate tt --method certified --time-step 0", 4, "time step 0"},
+    {"simulate tt --method certified --time-step -1", 4, "time step -1"},
+    {"simulate jump --method certified", 4, "start in contact"},
+    {"simulate mv --method certified --time-step 0.5 --steps 2 --trace x.json", 4,
+     "time step of 1"},
+    {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
+    {"simulate s.json --method certified --yaml", 2, "unknown option --yaml"},
+    {"simulate s.json b.json --method certified", 2, "b.json: one scenario at a time"},
+    {"simulate s.json --method certified --seed -1", 2, "--seed -1: give a whole number"},
+    {"simulate s.json --method certified --density x", 2, "--density x: give a number"},
+    {"simulate s.json --method certified --restitution x", 2, "--restitution x: give"},
+    {"simulate s.json --method certified --tolerance 0.1.2", 2, "--tolerance 0.1.2: give"},
+    {"simulate s.json --method certified --restitution -0.5", 4, "restitution -0.5"},
+    {"simulate s.json --method certified --gravity 1e200,0,0", 2, "--gravity 1e200,0,0"},
+    {"simulate b.json --method certified --seed 2", 2, "are for two bodies"},
+    {"simulate b.json --method certified --film x.gif", 2, "are for two bodies"},
+    {"simulate b.json --method certified --trace x.json", 2, "are for two bodies"},
+};
+
+static void commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing(void **state)
+{
+    (void)state;
+    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
+}
+
+typedef struct good_line {
+    const char *arguments;
+    const char *says[3];
+} good_line;
+
+static const good_line good_lines[] = {
+    {"help", {"mote check SCENARIO", "Exit status: 0 done"}},
+    {"-h", {"mote check SCENARIO"}},
+    {"--version", {"mote "}},
+    {"list --help", {"mote list "}},
+    {"list -h", {"mote list "}},
+    {"list fields", {"stretch: "}},
+    {"--allow . check s.json", {"4 frames"}},
+    {"mesh two.obj",
+     {"components          2", "cleaned             0 vertices welded, 0 faces "
+                               "collapsed by it, 1 vertices in no face"}},
+    {"mesh two.obj --json", {"\"components\": 2", "\"unused\": 1", "\"part_labels\""}},
+    {"mesh t.stl", {"32-bit floats"}},
+    {"distance t.stl a.obj", {"fcl-aabb: distance 0, contact", "t.stl was read in 32-bit"}},
+    {"distance a.obj t.stl", {"t.stl was read in 32-bit floats"}},
+    {"distance a.obj t.stl --json", {"\"coordinates\": \"float\""}},
+    {"distance t.stl a.obj --json", {"\"coordinates\": \"float\""}},
+    {"distance a.obj two.obj --json", {"\"coordinates\": \"double\"", "\"contact\": false"}},
+    {"distance a.obj two.obj --method embree-contact", {"embree-contact: no contact"}},
+    {"distance a.obj t.stl --method embree-contact", {"embree-contact: contact"}},
+    {"distance a.obj two.obj --method fcl-aabb:update=none",
+     {"fcl-aabb:update=none: unsupported: update=none needs"}},
+    {"distance a.obj two.obj --method fcl-aabb:update=none --json",
+     {"\"fcl-aabb:update=none\": {", "\"unsupported\": \"update=none needs"}},
+    {"simulate s.json --method certified --gravity 0,0.001,0 --restitution 0.5 --steps 3",
+     {"3 steps", "momentum "}},
+    {"simulate s.json --method certified --gravity 0,0.001,0 --steps 3 --json",
+     {"\"steps\": 3,", "\"angular_momentum_drift\": null"}},
+    {"simulate s.json --method certified --seed 7 --steps 2 --tolerance 0.01 --time-step 0.5",
+     {"2 steps"}},
+    {"simulate contact.json --method certified --steps 2 --json", {"\"steps\": 2,"}},
+    {"simulate b.json --method certified --steps 2 --restitution 0.5", {"2 steps"}},
+    {"simulate b.json --method certified --steps 2 --tolerance 0.02 --json", {"\"steps\": 2,"}},
+};
+
+static void commands_with_a_good_line_say_what_was_asked(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
+        const good_line *good = &good_lines[i];
+        static char output[1 << 16];
+        const int status = run(good->arguments, output, sizeof output);
+        for (int k = 0; k < 3; ++k) {
+            if (status != 0 || (good->says[k] && !strstr(output, good->says[k])))
+                fail_msg("mote %s: exit %d, or not \"%s\":\n%s", good->arguments, status,
+                         good->says[k], output);
+        }
+    }
+}
+
+/* What cannot answer a distance answers the contact, and what cannot answer at all says why. */
+static void command_export_tells_what_a_method_cannot_answer(void **state)
+{
+    (void)state;
+    char output[1024], *text;
+    size_t size;
+    assert_int_equal(run("export s.json --frame 3 --out e --method embree-contact --method "
+                         "fcl-aabb:update=none",
+                         output, sizeof output),
+                     0);
+    assert_int_equal(mote_file_read(FOLDER "/e/answers.json", 1 << 20, &text, &size), MOTE_OK);
+    assert_non_null(strstr(text, "\"contact\": false"));
+    assert_null(strstr(text, "\"distance\""));
+    assert_non_null(strstr(text, "\"unsupported\": \"update=none needs"));
+    free(text);
+    assert_int_equal(program_remove(FOLDER "/e"), 0);
+}
+
+/* Rotations of the keys stay, positions are the ones found. */
+static void command_approach_replaces_positions_only(void **state)
+{
+    (void)state;
+    char output[1024], *text;
+    size_t size;
+    assert_int_equal(run("approach s.json --gaps 1:0.1,4:0.05 --every 2 --direction 0,1,0 -o "
+                         "found.json",
+                         output, sizeof output),
+                     0);
+    assert_int_equal(mote_file_read(FOLDER "/found.json", 1 << 20, &text, &size), MOTE_OK);
+    assert_non_null(strstr(text, "\"degrees\": 30"));
+    assert_null(strstr(text, "2.1"));
+    int positions = 0;
+    for (const char *at = text; (at = strstr(at, "\"position\"")); ++at)
+        ++positions;
+    assert_int_equal(positions, 3); /* frames 1, 3, 4 */
+    free(text);
+    assert_int_equal(unlink(FOLDER "/found.json"), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing),
+        cmocka_unit_test(commands_with_a_good_line_say_what_was_asked),
+        cmocka_unit_test(command_export_tells_what_a_method_cannot_answer),
+        cmocka_unit_test(command_approach_replaces_positions_only),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,83 @@
+/* Boxes of the certificate's tree: their axes and their coordinates. */
+#include "core/certificate/certificate_fit.h"
+
+#include "tests/support/solids.h"
+
+static double entry(double m[3][3], mote_vec3 a, mote_vec3 b)
+{
+    const double x[3] = {a.x, a.y, a.z}, y[3] = {b.x, b.y, b.z};
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            sum += x[i] * m[i][k] * y[k];
+    }
+    return sum;
+}
+
+static void check_axes(double m[3][3])
+{
+    double work[3][3], size = 0;
+    mote_vec3 axes[3];
+    memcpy(work, m, sizeof work);
+    for (int i = 0; i < 9; ++i)
+        size = fmax(size, fabs(m[i / 3][i % 3]));
+    mote_cert_principal_axes(work, axes);
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            assert_true(fabs(mote_dot(axes[i], axes[k]) - (i == k)) < 1e-14);
+            if (i != k)
+                assert_true(fabs(entry(m, axes[i], axes[k])) < 1e-14 * size);
+        }
+        if (i > 0)
+            assert_true(entry(m, axes[i], axes[i]) <=
+                        entry(m, axes[i - 1], axes[i - 1]) + 1e-14 * size);
+    }
+}
+
+static void principal_axes_diagonalise_by_falling_eigenvalue(void **unused)
+{
+    (void)unused;
+    uint64_t seed = 3;
+    for (int round = 0; round < 2000; ++round) {
+        double m[3][3];
+        for (int i = 0; i < 3; ++i) {
+            for (int k = i; k < 3; ++k)
+                m[i][k] = m[k][i] = random_between(&seed, -1, 1);
+        }
+        check_axes(m);
+    }
+}
+
+/* Where the eigenvalues' sum is 0, nothing tells how small is small: it ends all the same. */
+static void principal_axes_without_a_trace_diagonalise(void **unused)
+{
+    (void)unused;
+    static double m[3][3][3] = {{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},
+                                {{1, 2, 3}, {2, -3, 5}, {3, 5, 2}},
+                                {{-1, 0.1, 0.7}, {0.1, -1, 0.3}, {0.7, 0.3, -1}}};
+    for (int k = 0; k < 3; ++k)
+        check_axes(m[k]);
+}
+
+static void box_coordinates_outside_are_held_within(void **unused)
+{
+    (void)unused;
+    const mote_cert_box box = {.centre = {1, 2, 3}, .half = {{4, 0, 0}, {0, 2, 0}, {0, 0, 1}}};
+    double z[3];
+    mote_cert_box_coordinates(&box, mote_vec3_make(3, 1, 3), z);
+    assert_true(z[0] == 0.5 && z[1] == -0.5 && z[2] == 0);
+    mote_cert_box_coordinates(&box, mote_vec3_make(5.001, -0.001, 9), z);
+    assert_true(z[0] == 1 && z[1] == -1 && z[2] == 1);
+    mote_cert_box_coordinates(&box, mote_vec3_make(-7, 4.1, 1.9), z);
+    assert_true(z[0] == -1 && z[1] == 1 && z[2] == -1);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(principal_axes_diagonalise_by_falling_eigenvalue),
+        cmocka_unit_test(principal_axes_without_a_trace_diagonalise),
+        cmocka_unit_test(box_coordinates_outside_are_held_within),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,200 @@
+/* What certified mode does within limits: of precision, boxes tested, rooms and memory. */
+#include "core/certificate/certificate_state.h"
+#include "harness/base/heap_count.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "tests/support/certificate_scene.h"
+
+static void query_with_slack_returns_a_bracket(void **state)
+{
+    (void)state;
+    const double slacks[3] = {1e-6, 1e-3, 0.2};
+    scene s;
+    scene_init(&s, 18, 9, 1, true);
+    mote_certificate *c[3];
+    for (int i = 0; i < 3; ++i) {
+        mote_certificate_options options = mote_default_certificate_options(s.length);
+        options.slack = slacks[i];
+        c[i] = certificate_of(&s, &options);
+    }
+    for (int k = 0; k < 30; ++k) {
+        scene_next(&s, 1.4, false);
+        const double truth = scene_distance(&s);
+        for (int i = 0; i < 3; ++i) {
+            mote_certificate_answer a;
+            mote_certificate_query(c[i], &s.frame, NULL, -1, &a);
+            check_bracket(&s, &a, truth);
+            assert_true(a.distance - a.lower <= (slacks[i] + 1e-12) * s.length);
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        mote_certificate_destroy(c[i]);
+    scene_free(&s);
+}
+
+/* Squares of squares of the distance leave the range of floats: where they decide nothing, all
+   is found in double precision. The start is the worst: faces in the order of the mesh. */
+static void query_far_beyond_the_range_of_floats_finds_the_nearest(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 18, 9, 1, true);
+    mote_certificate_options options = mote_default_certificate_options(s.length);
+    options.seed = MOTE_CERT_SEED_PAIR;
+    mote_certificate *c = certificate_of(&s, &options);
+    for (int k = 0; k < 12; ++k) {
+        const double far = pow(10, 3 + k % 6 * 1.6) * s.length;
+        scene_next(&s, 1, false);
+        s.frame.body[1].pose.translation =
+            mote_vec3_make(scene_random(&s, -1, 1) * far, far, scene_random(&s, -1, 1) * far);
+        mote_deform_all(s.deform[1], &s.frame.body[1], s.world[1]);
+        const double truth = scene_distance(&s);
+        uint32_t first[2][3];
+        for (int b = 0; b < 2; ++b)
+            memcpy(first[b], s.mesh[b]->triangles[k], sizeof first[b]);
+        mote_certificate_answer a;
+        mote_certificate_query(c, &s.frame, (const uint32_t(*)[3])first, -1, &a);
+        assert_true(fabs(a.distance - truth) <= 1e-13 * truth);
+        assert_true(a.lower <= truth);
+    }
+    mote_certificate_destroy(c);
+    scene_free(&s);
+}
+
+static void query_with_budget_returns_an_honest_bracket(void **state)
+{
+    (void)state;
+    const uint64_t budgets[5] = {0, 8, 60, 400, 3000};
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    for (int i = 0; i < 5; ++i) {
+        mote_certificate_options options = mote_default_certificate_options(s.length);
+        options.seed = MOTE_CERT_SEED_NONE;
+        options.budget = budgets[i];
+        options.plane = i % 2;
+        mote_certificate *c = certificate_of(&s, &options);
+        int stopped = 0;
+        for (int k = 0; k < 15; ++k) {
+            scene_next(&s, 1.1, false);
+            const double truth = scene_distance(&s);
+            mote_certificate_answer a;
+            mote_certificate_query(c, &s.frame, NULL, -1, &a);
+            check_bracket(&s, &a, truth);
+            stopped += a.stopped;
+            assert_true(a.stopped || a.distance <= truth + 1e-12 * s.length);
+        }
+        if (budgets[i] <= 8)
+            assert_true(stopped > 0);
+        mote_certificate_destroy(c);
+    }
+    scene_free(&s);
+}
+
+/* After a leap the search does not start from where the last faces are now. */
+static void query_after_a_leap_costs_about_as_much_as_a_cold_one(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 60, 30, 1, true);
+    mote_certificate_options none = mote_default_certificate_options(s.length);
+    none.seed = MOTE_CERT_SEED_NONE;
+    mote_certificate *warm = certificate_of(&s, NULL);
+    mote_certificate *cold = certificate_of(&s, &none);
+    uint64_t positions[2] = {0, 0};
+    for (int k = 0; k < 200; ++k) {
+        scene_next(&s, 1.3, false);
+        mote_certificate_answer a[2];
+        mote_certificate_query(warm, &s.frame, NULL, -1, &a[0]);
+        mote_certificate_query(cold, &s.frame, NULL, -1, &a[1]);
+        assert_true(fabs(a[0].distance - a[1].distance) <= 1e-15 * s.length);
+        for (int i = 0; i < 2; ++i)
+            positions[i] += a[i].counters.positions;
+    }
+    assert_true((double)positions[0] < 2 * (double)positions[1]);
+    mote_certificate_destroy(warm);
+    mote_certificate_destroy(cold);
+    scene_free(&s);
+}
+
+static void query_when_its_rooms_are_full_gives_the_same(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 40, 16, 1, true);
+    mote_certificate *roomy = certificate_of(&s, NULL);
+    mote_certificate *tight = certificate_of(&s, NULL);
+    for (int b = 0; b < 2; ++b) {
+        tight->side[b].node_room = 1;
+        tight->side[b].lazy.limit = 0;
+    }
+    for (int k = 0; k < 40; ++k) {
+        scene_next(&s, 1.1, false);
+        mote_certificate_answer a, b;
+        mote_certificate_query(roomy, &s.frame, NULL, -1, &a);
+        mote_certificate_query(tight, &s.frame, NULL, -1, &b);
+        assert_true(fabs(a.distance - b.distance) <= 1e-15 * s.length);
+        assert_true(b.counters.blocks >= a.counters.blocks);
+    }
+    mote_certificate_destroy(roomy);
+    mote_certificate_destroy(tight);
+    scene_free(&s);
+}
+
+static void query_from_frame_fifty_on_does_not_allocate(void **state)
+{
+    (void)state;
+    if (!mote_heap_read().counted)
+        skip();
+    scene s;
+    scene_init(&s, 60, 30, 1, true);
+    mote_certificate *c = certificate_of(&s, NULL);
+    uint64_t before = 0;
+    for (int k = 0; k < 400; ++k) {
+        scene_next(&s, 1.3, false);
+        if (k == 50)
+            before = mote_heap_read().allocations;
+        mote_certificate_answer a;
+        mote_certificate_query(c, &s.frame, NULL, -1, &a);
+    }
+    assert_int_equal(mote_heap_read().allocations, before);
+    mote_certificate_destroy(c);
+    scene_free(&s);
+}
+
+static void bytes_of_a_large_pair_stay_below_180_a_vertex(void **state)
+{
+    (void)state;
+    scene s;
+    scene_init(&s, 120, 50, 1, true);
+    const int64_t before = mote_heap_read().live_bytes;
+    mote_certificate *c = certificate_of(&s, NULL);
+    const double vertices = s.mesh[0]->vertex_count + s.mesh[1]->vertex_count;
+    const double bytes = (double)mote_certificate_bytes(c);
+    assert_true(bytes < 180 * vertices);
+    assert_true(bytes > 40 * vertices);
+    if (mote_heap_read().counted) {
+        const double live = (double)(mote_heap_read().live_bytes - before);
+        assert_true(fabs(live - bytes) < 0.02 * bytes);
+    }
+    mote_certificate_destroy(c);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(query_with_slack_returns_a_bracket),
+        cmocka_unit_test(query_far_beyond_the_range_of_floats_finds_the_nearest),
+        cmocka_unit_test(query_with_budget_returns_an_honest_bracket),
+        cmocka_unit_test(query_after_a_leap_costs_about_as_much_as_a_cold_one),
+        cmocka_unit_test(query_when_its_rooms_are_full_gives_the_same),
+        cmocka_unit_test(query_from_frame_fifty_on_does_not_allocate),
+        cmocka_unit_test(bytes_of_a_large_pair_stay_below_180_a_vertex),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

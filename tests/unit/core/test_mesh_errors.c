@@ -1,0 +1,170 @@
+/* What mote_mesh_create rejects: each text whole, and the output untouched. */
+#include "tests/support/solids.h"
+
+#include <float.h>
+#include <stdio.h>
+
+/* Expects MOTE_EINVAL with this text, and an untouched output. s is freed. */
+static void expect_error(solid s, const char *text)
+{
+    mote_mesh *const mark = (mote_mesh *)(void *)&s;
+    mote_mesh *mesh = mark;
+    assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
+                     MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), text);
+    assert_ptr_equal(mesh, mark);
+    solid_free(&s);
+}
+
+static void create_without_a_triangle_is_an_error(void **unused)
+{
+    (void)unused;
+    const char *text = "the mesh has no triangle; at least one is needed";
+    solid s = solid_triangle();
+    s.triangle_count = 0;
+    expect_error(s, text);
+    s = solid_triangle();
+    s.vertex_count = 0;
+    expect_error(s, text);
+}
+
+static void create_with_too_many_elements_is_an_error(void **unused)
+{
+    (void)unused;
+    solid s = solid_triangle();
+    s.vertex_count = (size_t)1 << 31;
+    expect_error(s, "the mesh has 2147483648 vertices and 1 triangles; below 2^31 vertices and "
+                    "2^31 / 3 triangles are supported");
+    s = solid_triangle();
+    s.triangle_count = ((size_t)1 << 31) / 3;
+    expect_error(s, "the mesh has 3 vertices and 715827882 triangles; below 2^31 vertices and "
+                    "2^31 / 3 triangles are supported");
+}
+
+static void create_with_a_coordinate_not_finite_names_it(void **unused)
+{
+    (void)unused;
+    const double bad[] = {NAN, INFINITY, -INFINITY};
+    const char *text[] = {
+        "vertex 3: x is not finite; every coordinate must be a finite number",
+        "vertex 3: y is not finite; every coordinate must be a finite number",
+        "vertex 3: z is not finite; every coordinate must be a finite number"};
+    for (int k = 0; k < 3; ++k) {
+        solid s = solid_tetrahedron();
+        s.xyz[9 + k] = bad[k];
+        expect_error(s, text[k]);
+    }
+}
+
+static void create_with_an_index_out_of_range_names_the_face(void **unused)
+{
+    (void)unused;
+    solid s = solid_tetrahedron();
+    s.faces[7] = 4;
+    expect_error(s, "face 2: index 4 is out of range; there are 4 vertices, counted from 0");
+    s = solid_tetrahedron();
+    s.faces[11] = UINT32_MAX;
+    expect_error(
+        s, "face 3: index 4294967295 is out of range; there are 4 vertices, counted from 0");
+}
+
+static void create_with_a_repeated_vertex_names_the_face(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < 3; ++k) {
+        solid s = solid_tetrahedron();
+        solid_set_face(&s, 1, 2, 2, 2);
+        s.faces[3 + k] = 3;
+        char text[120];
+        (void)snprintf(text, sizeof text,
+                       "face 1: repeats a vertex (%u, %u, %u); a face needs three different "
+                       "vertices",
+                       s.faces[3], s.faces[4], s.faces[5]);
+        expect_error(s, text);
+    }
+}
+
+static void create_with_three_faces_at_an_edge_names_the_edge(void **unused)
+{
+    (void)unused;
+    const uint32_t order[][2] = {{2, 3}, {3, 2}};
+    for (int k = 0; k < 2; ++k) {
+        solid s = solid_join(solid_tetrahedron(), solid_triangle(), 5);
+        s.faces[12] = order[k][0]; /* a fin on edge 2-3 */
+        s.faces[13] = order[k][1];
+        solid_weld(&s, 5, 5);
+        solid_weld(&s, 4, 4);
+        expect_error(s, "edge 2-3 has more than two faces (non-manifold); every edge may have "
+                        "one or two");
+    }
+}
+
+static void create_with_three_equal_faces_names_an_edge(void **unused)
+{
+    (void)unused;
+    solid s = solid_allocate(3, 3);
+    solid_set_vertex(&s, 0, 0, 0, 0);
+    solid_set_vertex(&s, 1, 1, 0, 0);
+    solid_set_vertex(&s, 2, 0, 1, 0);
+    for (size_t f = 0; f < 3; ++f)
+        solid_set_face(&s, f, 0, 1, 2);
+    expect_error(s, "edge 0-1 has more than two faces (non-manifold); every edge may have one "
+                    "or two");
+}
+
+static void create_with_an_unused_vertex_names_it(void **unused)
+{
+    (void)unused;
+    solid s = solid_tetrahedron();
+    s.triangle_count = 1; /* 0, 1, 2 */
+    expect_error(s, "vertex 3 belongs to no face; leave it out or use it");
+}
+
+static void create_without_extent_is_an_error(void **unused)
+{
+    (void)unused;
+    solid s = solid_tetrahedron();
+    for (size_t i = 0; i < 12; ++i)
+        s.xyz[i] = 7.5;
+    expect_error(s, "all vertices coincide; a mesh needs an extent");
+}
+
+static void create_with_an_extent_out_of_range_is_an_error(void **unused)
+{
+    (void)unused;
+    solid s = solid_tetrahedron();
+    for (size_t i = 0; i < 12; ++i)
+        s.xyz[i] *= 1.7e308;
+    expect_error(s,
+                 "the bounding-box diagonal is inf; it must be a normal number, from 2.2e-308 "
+                 "to 1.8e+308");
+    s = solid_tetrahedron();
+    for (size_t i = 0; i < 12; ++i)
+        s.xyz[i] *= 1e-310;
+    expect_error(
+        s, "the bounding-box diagonal is 3.46e-310; it must be a normal number, from 2.2e-308 "
+           "to 1.8e+308");
+    s = solid_triangle();
+    for (size_t i = 0; i < 9; ++i)
+        s.xyz[i] *= 2 * DBL_TRUE_MIN; /* 6 and 8 of the smallest steps there are */
+    expect_error(
+        s, "the bounding-box diagonal is 4.94e-323; it must be a normal number, from 2.2e-308 "
+           "to 1.8e+308");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(create_without_a_triangle_is_an_error),
+        cmocka_unit_test(create_with_too_many_elements_is_an_error),
+        cmocka_unit_test(create_with_a_coordinate_not_finite_names_it),
+        cmocka_unit_test(create_with_an_index_out_of_range_names_the_face),
+        cmocka_unit_test(create_with_a_repeated_vertex_names_the_face),
+        cmocka_unit_test(create_with_three_faces_at_an_edge_names_the_edge),
+        cmocka_unit_test(create_with_three_equal_faces_names_an_edge),
+        cmocka_unit_test(create_with_an_unused_vertex_names_it),
+        cmocka_unit_test(create_without_extent_is_an_error),
+        cmocka_unit_test(create_with_an_extent_out_of_range_is_an_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

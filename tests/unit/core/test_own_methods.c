@@ -1,0 +1,223 @@
+/* Our methods behind the contract: what "auto" stands for, and what a contact question says. */
+#include "core/method/method.h"
+#include "core/body/parts.h"
+#include "datasets/letter.h"
+#include "tests/support/shapes.h"
+#include "tests/support/solids.h"
+
+#include <stdio.h>
+
+typedef struct subject {
+    const mote_method *method;
+    double values[MOTE_PARAMETERS_MAX];
+    mote_setup setup;
+    void *state;
+} subject;
+
+static void subject_init(subject *u, const char *name, const char *keys,
+                         const mote_setup *setup)
+{
+    u->method = mote_method_find(name);
+    assert_non_null(u->method);
+    mote_parameters_default(u->method->parameters, u->method->parameter_count, u->values);
+    if (mote_parameters_parse(u->method->parameters, u->method->parameter_count, keys,
+                              u->values) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    u->setup = *setup;
+    u->setup.values = u->values;
+    assert_int_equal(mote_method_create(u->method, &u->setup, &u->state), MOTE_OK);
+}
+
+static void subject_free(subject *u)
+{
+    mote_method_destroy(u->method, u->state);
+}
+
+static mote_answer ask(subject *u, const mote_frame *frame)
+{
+    mote_answer answer = {0};
+    assert_int_equal(u->method->query(u->state, frame, &answer), MOTE_OK);
+    return answer;
+}
+
+static mote_mesh *letter(char name, size_t triangles)
+{
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_letter_create(name, triangles, &mesh), MOTE_OK);
+    return mesh;
+}
+
+static uint32_t parts_of(const mote_mesh *mesh)
+{
+    mote_parts *parts = NULL;
+    assert_int_equal(mote_parts_create(mesh, NULL, &parts), MOTE_OK);
+    const uint32_t count = parts->count;
+    mote_parts_destroy(parts);
+    return count;
+}
+
+/* The same answers, found in the same way, whatever is left to the method. */
+static void check_same(scene *s, const char *name, const char *keys, const char *spelled_out)
+{
+    mote_setup setup = scene_setup(s, MOTE_ASK_DISTANCE, 0, NULL);
+    subject by_itself, told;
+    subject_init(&by_itself, name, keys, &setup);
+    setup.seed = 99; /* for nobody */
+    subject_init(&told, name, spelled_out, &setup);
+    for (int k = 0; k < 6; ++k) {
+        const mote_frame *frame = scene_next(s, 1.2, false);
+        const mote_answer a = ask(&by_itself, frame);
+        const mote_answer b = ask(&told, frame);
+        assert_memory_equal(&a, &b, sizeof a);
+    }
+    subject_free(&by_itself);
+    subject_free(&told);
+}
+
+typedef struct pair {
+    mote_mesh *first, *second;
+} pair;
+
+/* Twice the convex parts of the body that has more (paper 3.5), but not more than a body has
+   vertices, and 8 at least when tracked; N_min = n / 10, N_max the square root of the vertices
+   of the larger body. */
+static void automatic_numbers_are_those_of_the_paper(void **unused)
+{
+    (void)unused;
+    const pair pairs[] = {{letter('W', 400), letter('T', 400)},
+                          {letter('T', 400), letter('W', 400)},
+                          {letter('W', 400), solid_to_mesh(solid_icosahedron())},
+                          {solid_to_mesh(solid_tetrahedron()), letter('M', 400)}};
+    bool above_8 = false;
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; ++k) {
+        const uint32_t a = parts_of(pairs[k].first), b = parts_of(pairs[k].second);
+        const uint32_t v = pairs[k].first->vertex_count, w = pairs[k].second->vertex_count;
+        const uint32_t limit = v < w ? v : w;
+        uint32_t n = 2 * (a > b ? a : b);
+        above_8 |= n > 8;
+        uint32_t tracked = n < 8 ? 8 : n;
+        n = n < limit ? n : limit;
+        tracked = tracked < limit ? tracked : limit;
+        char keys[96];
+        scene s;
+        scene_init_meshes(&s, pairs[k].first, pairs[k].second, true);
+        (void)snprintf(keys, sizeof keys, "n=%u,nmin=%u,nmax=%.0f,seed=1", n, n / 10,
+                       ceil(sqrt(v > w ? v : w)));
+        check_same(&s, "particle-paper", "", keys);
+        (void)snprintf(keys, sizeof keys, "n=%u,launch=0,seed=1", tracked);
+        check_same(&s, "particle", "", keys);
+        scene_free(&s);
+    }
+    assert_true(above_8);
+}
+
+/* Two bodies of one mesh have its parts. */
+static void automatic_number_of_one_mesh_twice_is_that_of_one(void **unused)
+{
+    (void)unused;
+    scene s;
+    scene_init_meshes(&s, letter('W', 400), letter('W', 400), false);
+    mote_mesh *second = s.mesh[1];
+    char keys[32];
+    (void)snprintf(keys, sizeof keys, "n=%u,seed=1", 2 * parts_of(s.mesh[0]));
+    s.body[1].mesh = s.mesh[0];
+    check_same(&s, "particle-paper", "", keys);
+    check_same(&s, "particle", "", keys);
+    s.body[1].mesh = second;
+    scene_free(&s);
+}
+
+/* A cached influence does not outlive a query that starts anew. */
+static void far_cache_without_coherence_answers_the_same_again(void **unused)
+{
+    (void)unused;
+    scene s;
+    scene_init(&s, 20, 10, 1, true);
+    const mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);
+    subject u;
+    subject_init(&u, "particle-paper", "n=20,far_cache=0.5,coherent=no", &setup);
+    const mote_frame first = *scene_next(&s, 1.2, true);
+    const mote_answer a = ask(&u, &first);
+    const mote_frame second = *scene_next(&s, 1.2, true);
+    const mote_answer b = ask(&u, &second);
+    const mote_answer again = ask(&u, &first);
+    assert_memory_equal(&a, &again, sizeof a);
+    assert_true(a.distance != b.distance);
+    assert_true(a.counters.moves > 0);
+    subject_free(&u);
+    scene_free(&s);
+}
+
+/* What certified says of a contact is true whenever it says anything, and it says so unless it
+   was told to stop early. */
+static void certified_contact_question_says_what_it_knows(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *keys;
+        bool always;
+    } cases[] = {{"", true}, {"seed=tracked", true}, {"slack=0.3", false}, {"budget=8", false}};
+    scene s;
+    scene_init(&s, 20, 10, 1, true);
+    const double tolerance = 0.05 * s.length;
+    const mote_setup setup = scene_setup(&s, MOTE_ASK_CONTACT, tolerance, NULL);
+    subject u[4];
+    int open[4] = {0}, contacts = 0, apart = 0;
+    for (int i = 0; i < 4; ++i)
+        subject_init(&u[i], "certified", cases[i].keys, &setup);
+    for (int k = 0; k < 60; ++k) {
+        const mote_frame *frame = scene_next(&s, 1.5, false);
+        const bool truth = scene_distance(&s) <= tolerance;
+        contacts += truth;
+        apart += !truth;
+        for (int i = 0; i < 4; ++i) {
+            const mote_answer a = ask(&u[i], frame);
+            open[i] += !a.has_contact;
+            assert_false(a.has_distance);
+            assert_true(a.has_lower && a.lower <= a.distance);
+            assert_true(!a.has_contact || a.contact == truth);
+            assert_true(a.has_contact || a.lower <= tolerance);
+            assert_true(a.has_witness == a.contact);
+            assert_true(a.has_contact || !cases[i].always);
+        }
+    }
+    assert_true(contacts > 5 && apart > 5);
+    assert_int_equal(open[0] + open[1], 0);
+    assert_true(open[2] > 0 && open[3] > 0);
+    for (int i = 0; i < 4; ++i)
+        subject_free(&u[i]);
+    scene_free(&s);
+}
+
+/* Exact is what neither slack nor a budget ends early. */
+static void certified_claims_to_be_exact_where_nothing_ends_it(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *keys;
+        bool exact;
+    } cases[] = {{"", true}, {"slack=1e-6", false}, {"budget=100", false}, {"seed=none", true}};
+    const mote_method *m = mote_method_find("certified");
+    for (int k = 0; k < 4; ++k) {
+        double values[MOTE_PARAMETERS_MAX];
+        mote_parameters_default(m->parameters, m->parameter_count, values);
+        assert_int_equal(
+            mote_parameters_parse(m->parameters, m->parameter_count, cases[k].keys, values),
+            MOTE_OK);
+        const mote_traits t = mote_method_traits(m, values);
+        assert_int_equal(t.exact, cases[k].exact);
+        assert_int_equal(t.keeps_state, k != 3);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(automatic_numbers_are_those_of_the_paper),
+        cmocka_unit_test(automatic_number_of_one_mesh_twice_is_that_of_one),
+        cmocka_unit_test(far_cache_without_coherence_answers_the_same_again),
+        cmocka_unit_test(certified_claims_to_be_exact_where_nothing_ends_it),
+        cmocka_unit_test(certified_contact_question_says_what_it_knows),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,395 @@
+/* The method `particle` through the contract, against all pairs of triangles. */
+#include "core/particle/tracker.h"
+#include "datasets/letter.h"
+#include "harness/base/heap_count.h"
+#include "tests/support/shapes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+typedef struct subject {
+    const mote_method *method;
+    double values[MOTE_PARAMETERS_MAX];
+    void *state;
+} subject;
+
+static void subject_init(subject *u, const scene *s, mote_ask ask, double tolerance,
+                         const char *parameters)
+{
+    u->method = mote_method_find("particle");
+    assert_non_null(u->method);
+    mote_parameters_default(u->method->parameters, u->method->parameter_count, u->values);
+    assert_int_equal(mote_parameters_parse(u->method->parameters, u->method->parameter_count,
+                                           parameters, u->values),
+                     MOTE_OK);
+    const mote_setup setup = scene_setup(s, ask, tolerance, u->values);
+    assert_int_equal(u->method->create(&setup, &u->state), MOTE_OK);
+}
+
+static mote_answer ask(subject *u, const mote_frame *frame)
+{
+    mote_answer answer = {0};
+    assert_int_equal(u->method->query(u->state, frame, &answer), MOTE_OK);
+    return answer;
+}
+
+static void subject_free(subject *u)
+{
+    u->method->destroy(u->state);
+}
+
+/* A smooth motion: both bodies turn, body 1 comes and goes, the shapes swing. */
+static const mote_frame *smooth_frame(scene *s, double apart)
+{
+    const double time = 0.02 * (double)s->frame.number++;
+    for (int b = 0; b < 2; ++b) {
+        mote_body_state *state = &s->frame.body[b];
+        const double c = cos(time + b), d = sin(time + b);
+        const double e = cos(0.7 * time), f = sin(0.7 * time);
+        state->pose.rotation = (mote_mat3){{{c, -d, 0}, {d * e, c * e, -f}, {d * f, c * f, e}}};
+        state->pose.translation = mote_vec3_make(
+            b * (apart + 0.2 * sin(1.3 * time)) * s->length, 0.1 * b * cos(time), 0);
+        for (uint32_t j = 0; j < s->field[b]->count; ++j) {
+            for (int k = 0; k < 3; ++k)
+                s->weights[b][k][j] = 0.05 * s->length * sin(time + 2 * j + k);
+        }
+        state->weights = (mote_weights){s->weights[b][0], s->weights[b][1], s->weights[b][2],
+                                        s->field[b]->count, s->field[b]->padded};
+        mote_deform_all(s->deform[b], state, s->world[b]);
+        state->vertices = s->world[b];
+        state->shape_changed = state->pose_changed = true;
+    }
+    return &s->frame;
+}
+
+/* What every answer promises, whatever the search has found. */
+static void assert_answer(const scene *s, const mote_answer *a, double truth)
+{
+    assert_true(a->has_distance && a->has_witness && a->has_contact);
+    assert_true(a->distance >= truth - 1e-12 * s->length);
+    assert_true(a->contact == (a->distance <= 0));
+    const double apart = mote_length(mote_sub(a->witness[1], a->witness[0]));
+    assert_true(fabs(apart - a->distance) <= 1e-12 * s->length);
+    for (int b = 0; b < 2; ++b)
+        assert_true(scene_point_distance(s, b, a->witness[b]) <= 1e-12 * s->length);
+}
+
+/* Runs frames and returns the part of them that is exact. */
+static double run(scene *s, const char *parameters, int frames, bool smooth)
+{
+    subject u;
+    int exact = 0;
+    subject_init(&u, s, MOTE_ASK_DISTANCE, 0, parameters);
+    for (int i = 0; i < frames; ++i) {
+        const mote_frame *frame = smooth ? smooth_frame(s, 0.6) : scene_next(s, 1.2, false);
+        const mote_answer a = ask(&u, frame);
+        const double truth = scene_distance(s);
+        assert_answer(s, &a, truth);
+        exact += a.distance <= truth + 1e-9 * s->length;
+    }
+    subject_free(&u);
+    return exact / (double)frames;
+}
+
+static double run_tori(const char *parameters, int frames, bool deforming, bool smooth)
+{
+    scene s;
+    scene_init(&s, 18, 10, 1, deforming);
+    const double rate = run(&s, parameters, frames, smooth);
+    scene_free(&s);
+    return rate;
+}
+
+static void query_smooth_motion_nearly_always_exact(void **context)
+{
+    (void)context;
+    assert_true(run_tori("n=8", 80, true, true) >= 0.98);
+    assert_true(run_tori("n=8,positions=given", 80, true, true) >= 0.98);
+    assert_true(run_tori("n=8", 80, false, true) >= 0.98);
+}
+
+static void query_teleports_mostly_exact(void **context)
+{
+    (void)context;
+    assert_true(run_tori("n=16", 80, true, false) >= 0.9);
+    assert_true(run_tori("n=16,positions=given", 80, true, false) >= 0.9);
+}
+
+static void query_switches_answers_on_surfaces(void **context)
+{
+    (void)context;
+    static const char *const choices[] = {
+        "n=0",
+        "n=1",
+        "n=8,forces=on",
+        "n=8,forces=on,reseed=off",
+        "n=8,reseed=off",
+        "n=8,leap=off",
+        "n=8,descend=off",
+        "n=8,start=random",
+        "n=8,track=0,refine=1,launch=0",
+        "n=8,forces=on,positions=given",
+        "n=150,launch=150,track=64,refine=64",
+    };
+    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; ++i) {
+        run_tori(choices[i], 8, true, true);
+        run_tori(choices[i], 8, true, false);
+    }
+}
+
+/* One query after a jump must not depend on a wrong idea of where things are: a tracker that
+   comes from elsewhere finds what a new one finds. */
+static void query_after_teleport_as_good_as_new(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    subject old;
+    subject_init(&old, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
+    for (int jump = 0; jump < 60; ++jump) {
+        for (int i = 0; i < 5; ++i)
+            ask(&old, smooth_frame(&s, 0.6));
+        subject fresh;
+        subject_init(&fresh, &s, MOTE_ASK_DISTANCE, 0, "n=8,refine=64,track=64");
+        const mote_frame *frame = scene_next(&s, 1.2, false);
+        const mote_answer a = ask(&old, frame);
+        const mote_answer b = ask(&fresh, frame);
+        assert_true(a.distance <= b.distance + 1e-12 * s.length);
+        assert_true(a.distance == 0 || a.counters.launches >= 16);
+        subject_free(&fresh);
+    }
+    subject_free(&old);
+    scene_free(&s);
+}
+
+static void query_same_frames_same_bits(void **context)
+{
+    (void)context;
+    mote_answer answers[2][40];
+    for (int round = 0; round < 2; ++round) {
+        scene s;
+        scene_init(&s, 24, 12, 1, true);
+        subject u;
+        subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+        for (int i = 0; i < 40; ++i)
+            answers[round][i] =
+                ask(&u, i % 7 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false));
+        subject_free(&u);
+        scene_free(&s);
+    }
+    assert_memory_equal(answers[0], answers[1], sizeof answers[0]);
+}
+
+static void contact_question_as_the_distance_says(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 120, 40, 1, true);
+    const double tolerance = 0.02 * s.length;
+    subject distance, contact;
+    subject_init(&distance, &s, MOTE_ASK_DISTANCE, tolerance, "n=8,launch=8");
+    subject_init(&contact, &s, MOTE_ASK_CONTACT, tolerance, "n=8,launch=8");
+    int contacts = 0;
+    uint64_t checks[2] = {0}; /* exact checks of frames without a contact */
+    for (int i = 0; i < 200; ++i) {
+        const mote_frame *frame = smooth_frame(&s, 0.7);
+        const mote_answer a = ask(&distance, frame);
+        const mote_answer b = ask(&contact, frame);
+        assert_true(b.has_contact && !b.has_distance && !b.has_witness);
+        assert_true(b.contact == a.contact);
+        contacts += b.contact;
+        if (!b.contact) {
+            checks[0] += a.counters.refined;
+            checks[1] += b.counters.refined;
+        }
+    }
+    assert_in_range(contacts, 20, 180);
+    assert_true(2 * checks[1] < checks[0]);
+    subject_free(&distance);
+    subject_free(&contact);
+    scene_free(&s);
+}
+
+static void query_warm_no_allocation(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 60, 24, 1, true);
+    subject u;
+    subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+    uint64_t before = 0;
+    for (int i = 0; i < 300; ++i) {
+        const mote_frame *frame = smooth_frame(&s, 0.5);
+        if (i == 50)
+            before = mote_heap_read().allocations;
+        ask(&u, frame);
+    }
+    if (mote_heap_read().counted)
+        assert_true(mote_heap_read().allocations == before);
+    subject_free(&u);
+    scene_free(&s);
+}
+
+/* Multiplies a frame by a factor; weights and vertices are the caller's. */
+static mote_frame scaled_frame(const mote_frame *frame, double factor,
+                               double weights[2][3][MOTE_FIELD_MAX])
+{
+    mote_frame made = *frame;
+    for (int b = 0; b < 2; ++b) {
+        mote_body_state *state = &made.body[b];
+        const mote_weights *w = &frame->body[b].weights;
+        const double *from[3] = {w->x, w->y, w->z};
+        for (int k = 0; k < 3; ++k) {
+            for (uint32_t j = 0; j < w->padded; ++j)
+                weights[b][k][j] = factor * from[k][j];
+        }
+        state->pose.translation = mote_scale(state->pose.translation, factor);
+        state->weights =
+            (mote_weights){weights[b][0], weights[b][1], weights[b][2], w->count, w->padded};
+        state->vertices = NULL;
+    }
+    return made;
+}
+
+static void query_scaled_by_powers_of_two_same_bits(void **context)
+{
+    (void)context;
+    for (int exponent = -60; exponent <= 60; exponent += 40) {
+        const double factor = ldexp(1, exponent);
+        scene s, t;
+        scene_init(&s, 24, 12, 1, true);
+        scene_init(&t, 24, 12, factor, true);
+        subject u, v;
+        subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
+        subject_init(&v, &t, MOTE_ASK_DISTANCE, 0, "n=8");
+        for (int i = 0; i < 40; ++i) {
+            double weights[2][3][MOTE_FIELD_MAX];
+            const mote_frame *frame = i % 9 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false);
+            const mote_frame scaled = scaled_frame(frame, factor, weights);
+            const mote_answer a = ask(&u, frame);
+            mote_answer b = ask(&v, &scaled);
+            b.distance /= factor;
+            b.witness[0] = mote_scale(b.witness[0], 1 / factor);
+            b.witness[1] = mote_scale(b.witness[1], 1 / factor);
+            assert_memory_equal(&a, &b, sizeof a);
+        }
+        subject_free(&u);
+        subject_free(&v);
+        scene_free(&s);
+        scene_free(&t);
+    }
+}
+
+/* Vertices of their bodies in the frame, the first pair as near as the closest vertices of the
+   faces that the answer is on, and no more than room was given for are written. */
+static void particles_after_query_are_vertices_nearest_first(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    subject u;
+    subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8,track=5");
+    mote_vec3 p[2][6], none = mote_vec3_make(7, 7, 7);
+    assert_int_equal(u.method->particles(u.state, 0, p[0], 6), 0);
+    size_t most = 0;
+    for (int i = 0; i < 60; ++i) {
+        const mote_answer a = ask(&u, smooth_frame(&s, 0.6));
+        const size_t count = u.method->particles(u.state, 0, p[0], 6);
+        assert_in_range(count, 1, 6);
+        assert_int_equal(u.method->particles(u.state, 1, p[1], 6), count);
+        most = count > most ? count : most;
+        mote_vec3 first[2] = {none, none};
+        assert_int_equal(u.method->particles(u.state, 0, first, 1), count);
+        assert_memory_equal(&first[0], &p[0][0], sizeof none);
+        assert_memory_equal(&first[1], &none, sizeof none);
+        double before = 0;
+        for (size_t k = 0; k < count; ++k) {
+            for (int b = 0; b < 2; ++b) {
+                uint32_t v = 0;
+                while (v < s.mesh[b]->vertex_count &&
+                       mote_distance_squared(s.world[b][v], p[b][k]) > 1e-24)
+                    ++v;
+                assert_true(v < s.mesh[b]->vertex_count);
+            }
+            const double apart = mote_length(mote_sub(p[0][k], p[1][k]));
+            assert_true(apart >= a.distance - 1e-12);
+            if (k > 1) /* those that were not walked again keep an earlier distance */
+                assert_true(apart >= before - 0.1 * s.length);
+            before = apart;
+        }
+        for (int b = 0; b < 2; ++b) /* on a face of the witness */
+            assert_true(mote_length(mote_sub(p[b][0], a.witness[b])) <=
+                        2 * s.mesh[b]->mean_edge);
+    }
+    assert_true(most > 1);
+    p[0][0] = none;
+    assert_true(u.method->particles(u.state, 0, p[0], 0) >= 1);
+    assert_memory_equal(&p[0][0], &none, sizeof none);
+    subject_free(&u);
+    scene_free(&s);
+}
+
+/* Without seeds there is nothing that forces could move. */
+static void forces_without_seeds_change_nothing(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 24, 12, 1, true);
+    subject with, without;
+    subject_init(&with, &s, MOTE_ASK_DISTANCE, 0, "n=0,forces=on");
+    subject_init(&without, &s, MOTE_ASK_DISTANCE, 0, "n=0");
+    for (int i = 0; i < 20; ++i) {
+        const mote_frame *frame = smooth_frame(&s, 0.6);
+        const mote_answer a = ask(&with, frame);
+        const mote_answer b = ask(&without, frame);
+        assert_true(a.distance == b.distance);
+        assert_int_equal(a.counters.positions, b.counters.positions);
+        assert_int_equal(a.counters.steps, 0);
+    }
+    subject_free(&with);
+    subject_free(&without);
+    scene_free(&s);
+}
+
+static void create_bad_options_rejected(void **context)
+{
+    (void)context;
+    scene s;
+    scene_init(&s, 12, 6, 1, false);
+    const mote_body *bodies[2] = {&s.body[0], &s.body[1]};
+    mote_tracker *tracker = NULL;
+    mote_tracker_options o = mote_default_tracker_options();
+    o.count = 73;
+    assert_int_equal(mote_tracker_create(bodies, s.length, &o, &tracker), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "72"));
+    o = mote_default_tracker_options();
+    o.track = MOTE_TRACK_MAX + 1;
+    assert_int_equal(mote_tracker_create(bodies, s.length, &o, &tracker), MOTE_EINVAL);
+    o = mote_default_tracker_options();
+    o.refine = 0;
+    assert_int_equal(mote_tracker_create(bodies, s.length, &o, &tracker), MOTE_EINVAL);
+    assert_null(tracker);
+    mote_tracker_destroy(NULL);
+    scene_free(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(query_smooth_motion_nearly_always_exact),
+        cmocka_unit_test(query_teleports_mostly_exact),
+        cmocka_unit_test(query_switches_answers_on_surfaces),
+        cmocka_unit_test(query_after_teleport_as_good_as_new),
+        cmocka_unit_test(query_same_frames_same_bits),
+        cmocka_unit_test(contact_question_as_the_distance_says),
+        cmocka_unit_test(query_warm_no_allocation),
+        cmocka_unit_test(query_scaled_by_powers_of_two_same_bits),
+        cmocka_unit_test(particles_after_query_are_vertices_nearest_first),
+        cmocka_unit_test(forces_without_seeds_change_nothing),
+        cmocka_unit_test(create_bad_options_rejected),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

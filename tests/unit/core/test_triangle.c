@@ -1,0 +1,309 @@
+/* Distances of triangles against closed forms and against a slow reference in 113 bits. */
+#include "core/body/triangle.h"
+
+#include "tests/support/triangle_pairs.h"
+#include "baselines/wide_triangle.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+/* Relative to the pair's extent: a few units in the last place. */
+#define TOLERANCE 1e-15
+
+static const mote_vec3 floor_triangle[3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+
+/* A pair whose distance is known from geometry. */
+typedef struct closed_form {
+    const char *name;
+    mote_vec3 t[3]; /* against floor_triangle */
+    double squared;
+} closed_form;
+
+static const closed_form closed_forms[] = {
+    {"parallel faces", {{1, 1, 2}, {2, 1, 2}, {1, 2, 2}}, 4},
+    {"parallel faces, larger above", {{-9, -9, 3}, {20, -9, 3}, {-9, 20, 3}}, 9},
+    {"vertex over face", {{1, 1, 1}, {1, 1, 5}, {2, 2, 5}}, 1},
+    {"vertex beyond edge", {{2, -3, 0}, {2, -8, 1}, {3, -8, -1}}, 9},
+    {"vertex to vertex", {{7, 0, 4}, {9, 1, 5}, {9, -1, 6}}, 25},
+    {"edge over edge", {{2, -1, 3}, {2, -1, 9}, {2, -5, 3}}, 10},
+    {"edges crossing at a gap", {{2, -1, 1}, {2, 1, -3}, {2, -9, -3}}, 1.0 / 5},
+    {"coplanar apart", {{-1, 0, 0}, {-3, 0, 0}, {-3, 3, 0}}, 1},
+    {"coplanar overlapping", {{1, 1, 0}, {9, 1, 0}, {1, 9, 0}}, 0},
+    {"coplanar inside", {{0.5, 0.5, 0}, {1, 0.5, 0}, {0.5, 1, 0}}, 0},
+    {"coplanar around", {{-9, -9, 0}, {20, -9, 0}, {-9, 20, 0}}, 0},
+    {"the same", {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, 0},
+    {"piercing by an edge", {{1, 1, -1}, {1, 1, 1}, {9, 9, 3}}, 0},
+    {"piercing through its edge", {{-1, 1, -1}, {-1, 1, 1}, {3, 1, 0}}, 0},
+    {"both planes crossed, apart", {{3, 3, -1}, {3, 3, 1}, {9, 9, 0}}, 2},
+    {"touching at a vertex", {{4, 0, 0}, {5, 0, 1}, {5, 0, -1}}, 0},
+    {"vertex touching an edge", {{2, 0, 0}, {2, -3, 1}, {2, -3, -1}}, 0},
+    {"vertex touching the face", {{1, 1, 0}, {1, 1, 3}, {2, 1, 3}}, 0},
+    {"edges touching", {{2, 0, -1}, {2, 0, 1}, {2, -5, 0}}, 0},
+    {"shared edge", {{0, 0, 0}, {4, 0, 0}, {0, -4, 1}}, 0},
+    {"segment over face", {{1, 1, 2}, {2, 1, 2}, {1.5, 1, 2}}, 4},
+    {"segment through face", {{1, 1, 2}, {1, 1, -2}, {1, 1, 0.5}}, 0},
+    {"segment beside", {{-2, 1, 5}, {-2, 1, -5}, {-2, 1, 5}}, 4},
+    {"point over face", {{1, 1, 3}, {1, 1, 3}, {1, 1, 3}}, 9},
+    {"point on face", {{1, 1, 0}, {1, 1, 0}, {1, 1, 0}}, 0},
+    {"point beyond vertex", {{7, 0, 4}, {7, 0, 4}, {7, 0, 4}}, 25},
+};
+
+static void check_points(const mote_vec3 s[3], const mote_vec3 t[3], double squared,
+                         mote_vec3 p, mote_vec3 q)
+{
+    double extent = pair_extent(s, t, sqrt(squared));
+    wide3 a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = wide_from(s[k]);
+        b[k] = wide_from(t[k]);
+        extent = fmax(extent, fmax(mote_length(s[k]), mote_length(t[k])));
+    }
+    assert_true(wide_sqrt(reference_point_triangle(wide_from(p), a)) <= TOLERANCE * extent);
+    assert_true(wide_sqrt(reference_point_triangle(wide_from(q), b)) <= TOLERANCE * extent);
+    assert_true(fabs(mote_length(mote_sub(p, q)) - sqrt(squared)) <= TOLERANCE * extent);
+    if (squared == 0)
+        assert_memory_equal(&p, &q, sizeof(p));
+}
+
+static void triangle_triangle_closed_forms_exact(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(closed_forms); i++) {
+        const closed_form *c = &closed_forms[i];
+        for (int turn = 0; turn < 9; turn++) {
+            mote_vec3 s[3], t[3], p, q;
+            for (int k = 0; k < 3; k++) {
+                s[k] = floor_triangle[(k + turn) % 3];
+                t[k] = c->t[(k + turn / 3) % 3];
+            }
+            double squared = mote_triangle_triangle(s, t, &p, &q);
+            if (fabs(squared - c->squared) > 1e-15 * c->squared)
+                fail_msg("%s: %.17g instead of %.17g", c->name, squared, c->squared);
+            check_points(s, t, squared, p, q);
+            squared = mote_triangle_triangle(t, s, &p, &q);
+            if (fabs(squared - c->squared) > 1e-15 * c->squared)
+                fail_msg("%s, swapped: %.17g instead of %.17g", c->name, squared, c->squared);
+        }
+    }
+}
+
+/* Compares one pair with the reference, both ways round. */
+static void check_pair(pair_sort sort, const mote_vec3 s[3], const mote_vec3 t[3])
+{
+    mote_vec3 p, q;
+    double squared = mote_triangle_triangle(s, t, &p, &q);
+    double swapped = mote_triangle_triangle(t, s, NULL, NULL);
+    double truth = wide_sqrt(reference_triangle_triangle(s, t));
+    double extent = pair_extent(s, t, truth), error = fabs(sqrt(squared) - truth);
+    if (!(error <= TOLERANCE * extent) || (truth == 0 && squared != 0))
+        fail_msg("sort %d: distance %.17g instead of %.17g", (int)sort, sqrt(squared), truth);
+    assert_true(fabs(sqrt(squared) - sqrt(swapped)) <= TOLERANCE * extent);
+    check_points(s, t, squared, p, q);
+}
+
+static void triangle_triangle_random_pairs_match_reference(void **state)
+{
+    (void)state;
+    uint64_t seed = 1;
+    for (int i = 0; i < 108000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_sort sort = (pair_sort)(i % PAIR_SORTS);
+        pair_make(sort, s, t, &seed);
+        check_pair(sort, s, t);
+    }
+}
+
+static mote_mat3 random_rotation(uint64_t *seed)
+{
+    mote_vec3 a = pair_point(seed), b = pair_point(seed);
+    a = mote_scale(a, 1 / mote_length(a));
+    b = mote_add_scaled(b, -mote_dot(a, b), a);
+    b = mote_scale(b, 1 / mote_length(b));
+    mote_vec3 c = mote_cross(a, b);
+    mote_mat3 r = {{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}};
+    return r;
+}
+
+static void triangle_triangle_rigid_motion_same_distance(void **state)
+{
+    (void)state;
+    uint64_t seed = 2;
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        mote_pose pose = {random_rotation(&seed), mote_scale(pair_point(&seed), 3)};
+        double before = sqrt(mote_triangle_triangle(s, t, NULL, NULL));
+        for (int k = 0; k < 3; k++) {
+            s[k] = mote_pose_apply(&pose, s[k]);
+            t[k] = mote_pose_apply(&pose, t[k]);
+        }
+        double after = sqrt(mote_triangle_triangle(s, t, NULL, NULL));
+        assert_true(fabs(before - after) <= 1e-14 * (3 + pair_extent(s, t, before)));
+    }
+}
+
+static void scale_triangle(const mote_vec3 t[3], double scale, mote_vec3 scaled[3])
+{
+    for (int k = 0; k < 3; k++)
+        scaled[k] = mote_scale(t[k], scale);
+}
+
+static void triangle_triangle_power_of_two_scale_same_bits(void **state)
+{
+    (void)state;
+    uint64_t seed = 3;
+    const int exponents[] = {-120, -40, -7, 1, 13, 40, 120};
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3], a[3], b[3], p, q, x, y;
+        pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        double squared = mote_triangle_triangle(s, t, &p, &q);
+        double scale = ldexp(1, exponents[(size_t)i % COUNT(exponents)]);
+        scale_triangle(s, scale, a);
+        scale_triangle(t, scale, b);
+        assert_true(mote_triangle_triangle(a, b, &x, &y) == squared * scale * scale);
+        p = mote_scale(p, scale);
+        q = mote_scale(q, scale);
+        assert_memory_equal(&p, &x, sizeof(p));
+        assert_memory_equal(&q, &y, sizeof(q));
+        double point = mote_point_triangle(s[0], t, NULL);
+        assert_true(mote_point_triangle(a[0], b, NULL) == point * scale * scale);
+        double segment = mote_segment_segment(s, t, NULL, NULL);
+        assert_true(mote_segment_segment(a, b, NULL, NULL) == segment * scale * scale);
+    }
+}
+
+static void triangle_triangle_common_offset_costs_nothing(void **state)
+{
+    (void)state;
+    uint64_t seed = 4;
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_make(PAIR_BESIDE, s, t, &seed);
+        for (int k = 0; k < 3; k++) { /* coordinates that are exact at the offset */
+            s[k] = mote_scale(
+                mote_vec3_make(rint(s[k].x * 999), rint(s[k].y * 999), s[k].z > 0), 1);
+            t[k] = mote_scale(mote_vec3_make(rint(t[k].x * 999), rint(t[k].y * 999), 5), 1);
+        }
+        double near = mote_triangle_triangle(s, t, NULL, NULL);
+        pair_move(s, mote_vec3_make(0x1p40, -0x1p41, 0x1p39));
+        pair_move(t, mote_vec3_make(0x1p40, -0x1p41, 0x1p39));
+        assert_true(mote_triangle_triangle(s, t, NULL, NULL) == near);
+    }
+}
+
+/* Where an edge goes through a face, the point is rounded at the offset, the distance is not.
+ */
+static void triangle_triangle_offset_of_intersecting_pairs_is_a_contact(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    int contacts = 0;
+    for (int i = 0; i < 20000; i++) {
+        mote_vec3 s[3], t[3];
+        pair_make(PAIR_GENERAL, s, t, &seed);
+        for (int k = 0; k < 3; k++) {
+            s[k] = mote_vec3_make(rint(s[k].x * 999), rint(s[k].y * 999), rint(s[k].z * 999));
+            t[k] = mote_vec3_make(rint(t[k].x * 999), rint(t[k].y * 999), rint(t[k].z * 999));
+        }
+        const double near = mote_triangle_triangle(s, t, NULL, NULL);
+        pair_move(s, mote_vec3_make(0x1p50, -0x1p51, 0x1p49));
+        pair_move(t, mote_vec3_make(0x1p50, -0x1p51, 0x1p49));
+        const double far = mote_triangle_triangle(s, t, NULL, NULL);
+        assert_true(far == near);
+        contacts += near == 0;
+    }
+    assert_in_range(contacts, 2000, 10000);
+}
+
+static void triangle_triangle_below_agrees_with_the_bound(void **state)
+{
+    (void)state;
+    uint64_t seed = 5;
+    int cut = 0;
+    for (int i = 0; i < 40000; i++) {
+        mote_vec3 s[3], t[3], p = {7, 7, 7}, q = {8, 8, 8}, x, y;
+        pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        double exact = mote_triangle_triangle(s, t, &x, &y);
+        double bound = exact * 2 * pair_uniform(&seed);
+        double squared = mote_triangle_triangle_below(s, t, bound, &p, &q);
+        if (exact < bound) {
+            assert_true(squared == exact);
+            assert_memory_equal(&p, &x, sizeof(p));
+            assert_memory_equal(&q, &y, sizeof(q));
+        } else if (exact > 0) {
+            assert_true(squared >= bound && squared <= exact);
+            assert_true(p.x == 7 && q.x == 8);
+            cut += squared < exact;
+        }
+    }
+    assert_true(cut > 1000);
+}
+
+static void point_triangle_random_points_match_reference(void **state)
+{
+    (void)state;
+    uint64_t seed = 6;
+    for (int i = 0; i < 50000; i++) {
+        mote_vec3 s[3], t[3], closest;
+        pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        wide3 wide_s[3] = {wide_from(s[0]), wide_from(s[1]), wide_from(s[2])};
+        double truth = wide_sqrt(reference_point_triangle(wide_from(t[0]), wide_s));
+        double extent = pair_extent(s, s, truth);
+        double squared = mote_point_triangle(t[0], s, &closest);
+        assert_true(fabs(sqrt(squared) - truth) <= TOLERANCE * extent);
+        extent = fmax(extent, mote_length(s[0]));
+        assert_true(fabs(mote_length(mote_sub(t[0], closest)) - truth) <= TOLERANCE * extent);
+        assert_true(wide_sqrt(reference_point_triangle(wide_from(closest), wide_s)) <=
+                    TOLERANCE * extent);
+    }
+}
+
+static void segment_segment_random_pairs_match_reference(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    for (int i = 0; i < 50000; i++) {
+        mote_vec3 s[3], t[3], p, q;
+        pair_make((pair_sort)(i % PAIR_SORTS), s, t, &seed);
+        double truth = wide_sqrt(reference_segment_segment(wide_from(s[0]), wide_from(s[1]),
+                                                           wide_from(t[0]), wide_from(t[1])));
+        s[2] = s[0];
+        t[2] = t[0];
+        double squared = mote_segment_segment(s, t, &p, &q);
+        assert_true(fabs(sqrt(squared) - truth) <= TOLERANCE * pair_extent(s, t, truth));
+        check_points(s, t, squared, p, q);
+    }
+}
+
+static void segment_segment_one_point_distance_of_points(void **state)
+{
+    (void)state;
+    mote_vec3 a[2] = {{1, 2, 3}, {1, 2, 3}}, b[2] = {{1, 2, 5}, {1, 2, 5}}, p, q;
+    assert_true(mote_segment_segment(a, b, &p, &q) == 4);
+    assert_memory_equal(&p, a, sizeof(p));
+    assert_memory_equal(&q, b, sizeof(q));
+    assert_true(mote_segment_segment(a, a, &p, &q) == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(triangle_triangle_closed_forms_exact),
+        cmocka_unit_test(triangle_triangle_random_pairs_match_reference),
+        cmocka_unit_test(triangle_triangle_rigid_motion_same_distance),
+        cmocka_unit_test(triangle_triangle_power_of_two_scale_same_bits),
+        cmocka_unit_test(triangle_triangle_common_offset_costs_nothing),
+        cmocka_unit_test(triangle_triangle_offset_of_intersecting_pairs_is_a_contact),
+        cmocka_unit_test(triangle_triangle_below_agrees_with_the_bound),
+        cmocka_unit_test(point_triangle_random_points_match_reference),
+        cmocka_unit_test(segment_segment_random_pairs_match_reference),
+        cmocka_unit_test(segment_segment_one_point_distance_of_points),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,151 @@
+/* What the triangle distance leaves undone when a bound is given, and where two triangles count
+   as touching: pairs that are made so that the answer is known. */
+#include "core/body/triangle.h"
+
+#include "tests/support/triangle_pairs.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+/* A random rotation about the origin: its columns. */
+static void random_axes(uint64_t *seed, mote_vec3 axes[3])
+{
+    mote_vec3 a = pair_point(seed), b = pair_point(seed);
+    axes[0] = mote_scale(a, 1 / mote_length(a));
+    b = mote_add_scaled(b, -mote_dot(axes[0], b), axes[0]);
+    axes[1] = mote_scale(b, 1 / mote_length(b));
+    axes[2] = mote_cross(axes[0], axes[1]);
+}
+
+static void turn(const mote_vec3 axes[3], const mote_vec3 from[3], mote_vec3 to[3])
+{
+    for (int k = 0; k < 3; ++k)
+        to[k] =
+            mote_add_scaled(mote_add_scaled(mote_scale(axes[0], from[k].x), from[k].y, axes[1]),
+                            from[k].z, axes[2]);
+}
+
+/* The bound itself comes back where a plane or the line of centres proves the pair to be far,
+   and the points are left alone. */
+static void check_cut(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared)
+{
+    mote_vec3 p = {7, 7, 7}, q = {8, 8, 8};
+    assert_true(mote_triangle_triangle_below(s, t, bound_squared, &p, &q) == bound_squared);
+    assert_true(mote_triangle_triangle_below(t, s, bound_squared, &q, &p) == bound_squared);
+    assert_true(p.x == 7 && q.x == 8);
+}
+
+/* Apart by 2 to 4 along z: the plane of the lower one shows it, up to a tenth of a percent. */
+static void below_of_pairs_beyond_a_plane_is_the_bound(void **state)
+{
+    (void)state;
+    uint64_t seed = 31;
+    for (int i = 0; i < 2000; ++i) {
+        mote_vec3 s[3], t[3], axes[3];
+        double gap = HUGE_VAL;
+        random_axes(&seed, axes);
+        for (int k = 0; k < 3; ++k) {
+            const mote_vec3 a = pair_point(&seed), b = pair_point(&seed);
+            s[k] = mote_vec3_make(9 * a.x, 9 * a.y, 0);
+            t[k] = mote_vec3_make(9 * b.x, 9 * b.y, 3 + b.z);
+            gap = fmin(gap, t[k].z);
+        }
+        turn(axes, s, s);
+        turn(axes, t, t);
+        if (mote_length(mote_cross(mote_sub(s[1], s[0]), mote_sub(s[2], s[0]))) > 0.1)
+            check_cut(s, t, 0.997 * gap * gap);
+    }
+}
+
+/* Two triangles upright on the line through both, each cut by the other's plane: the one around
+   x = 0, the other around x = 10. */
+static void below_of_pairs_far_along_their_centres_is_the_bound(void **state)
+{
+    (void)state;
+    uint64_t seed = 32;
+    for (int i = 0; i < 2000; ++i) {
+        const mote_vec3 flat[3] = {{-1, -1, 0}, {-1, 1, 0}, {1, 0, 0}};
+        const mote_vec3 upright[3] = {{11, 0, -1}, {11, 0, 1}, {9, 0, 0}};
+        mote_vec3 s[3], t[3], axes[3];
+        random_axes(&seed, axes);
+        turn(axes, flat, s);
+        turn(axes, upright, t);
+        check_cut(s, t, 63); /* 8 apart, and 8 along the centres */
+        assert_true(fabs(mote_triangle_triangle_below(s, t, 65, NULL, NULL) - 64) <= 1e-12);
+    }
+}
+
+/* Two points of triangles face each other across a gap of a few roundings: no proof that is
+   itself only rounding may take the distance for the bound. */
+static void below_of_pairs_apart_by_rounding_is_the_distance(void **state)
+{
+    (void)state;
+    uint64_t seed = 33;
+    int apart = 0;
+    for (int i = 0; i < 40000; ++i) {
+        const double gap = ldexp(1 + pair_uniform(&seed), -51 + i % 5);
+        const mote_vec3 left[3] = {{0, 0, 0}, {-1, 0.3, 0.1}, {-1, -0.3, 0.2}};
+        const mote_vec3 right[3] = {{gap, 0, 0}, {1, 0.1, 0.3}, {1, 0.2, -0.3}};
+        mote_vec3 s[3], t[3], axes[3];
+        random_axes(&seed, axes);
+        turn(axes, left, s);
+        turn(axes, right, t);
+        const double exact = mote_triangle_triangle(s, t, NULL, NULL);
+        const double bound = exact * (1 + 0.2 * pair_uniform(&seed));
+        if (exact > 0 && bound > exact) {
+            assert_true(mote_triangle_triangle_below(s, t, bound, NULL, NULL) == exact);
+            ++apart;
+        }
+    }
+    assert_true(apart > 10000);
+}
+
+/* The longest edge is 5: touching is below 4.5e-16 x 5 = 2.2e-15. */
+static void pairs_apart_by_more_than_rounding_do_not_touch(void **state)
+{
+    (void)state;
+    const mote_vec3 s[3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    for (int k = 1; k <= 40; ++k) {
+        const double gap = 1e-16 * k;
+        const mote_vec3 t[3] = {{1, 1, gap}, {1, 1, 3}, {2, 1, 3}};
+        mote_vec3 p, q;
+        const double squared = mote_triangle_triangle(s, t, &p, &q);
+        if (gap < 2.2e-15)
+            assert_true(squared == 0 && p.z == q.z && p.z >= 0 && p.z <= gap);
+        if (gap > 2.6e-15) { /* coordinates round by up to 2.2e-16 */
+            assert_true(squared > 0 && fabs(sqrt(squared) - gap) <= 1e-15);
+            assert_true(fabs(q.z - p.z - gap) <= 1e-15);
+        }
+    }
+}
+
+/* A triangle that is a segment and goes through a face, at every slope. */
+static void segment_through_a_face_touches_at_any_slope(void **state)
+{
+    (void)state;
+    const mote_vec3 s[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    for (int k = 1; k <= 16; ++k) {
+        const double half = 0.125 * k; /* 0.5: the normal's dot with the edge is 1 */
+        const mote_vec3 t[3] = {
+            {0.25, 0.25, -half}, {0.25, 0.25, half}, {0.25, 0.25, half / 2}};
+        mote_vec3 p, q;
+        assert_true(mote_triangle_triangle(s, t, &p, &q) == 0);
+        assert_true(p.x == 0.25 && p.y == 0.25 && p.z == 0);
+        assert_true(mote_triangle_triangle(t, s, NULL, NULL) == 0);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(below_of_pairs_beyond_a_plane_is_the_bound),
+        cmocka_unit_test(below_of_pairs_far_along_their_centres_is_the_bound),
+        cmocka_unit_test(below_of_pairs_apart_by_rounding_is_the_distance),
+        cmocka_unit_test(pairs_apart_by_more_than_rounding_do_not_touch),
+        cmocka_unit_test(segment_through_a_face_touches_at_any_slope),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

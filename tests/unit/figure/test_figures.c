@@ -1,0 +1,464 @@
+/* mote figures: what a small stored run gives, what is missing, names that would be commands.
+ */
+#include "harness/figure/figure.h"
+#include "harness/figure/figure_scene.h"
+#include "harness/base/hash.h"
+#include "harness/base/record.h"
+#include "tests/support/plain_file.h"
+#include "tests/support/program.h"
+#include "tests/support/stored_cells.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <math.h>
+#include <sys/stat.h>
+
+static char base[] = "/tmp/mote-test-figures-XXXXXX";
+static char text[1 << 18];
+
+/* A scenario whose name is a command to gnuplot and to a shell, were it ever run. */
+#define HOSTILE "'; system(\"touch HACKED\") `touch HACKED` $(touch HACKED)"
+
+static void path_of(const char *name, char path[256])
+{
+    (void)snprintf(path, 256, "%s/%s", base, name);
+}
+
+/* mote COMMAND BASE/DIRECTORY; what it said is in text. */
+static int run(const char *command, const char *directory)
+{
+    char line[512], said[256];
+    path_of("said", said);
+    (void)snprintf(line, sizeof line, "%s %s/%s", command, base, directory);
+    const int status = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    return status;
+}
+
+static bool exists(const char *name)
+{
+    char path[256];
+    struct stat info;
+    path_of(name, path);
+    return stat(path, &info) == 0 && info.st_size > 0;
+}
+
+/* Makes one small run: two scenarios, some n, two replicates. */
+static int make_run(void **state)
+{
+    (void)state;
+    return mkdtemp(base) &&
+                   run("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "
+                       "particle-paper:refine=no|near --method fcl-aabb --out",
+                       "run") == 0 &&
+                   run("figures", "run") == 0
+               ? 0
+               : -1;
+}
+
+static int remove_run(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+static json_t *read_list(const char *directory, const char *key)
+{
+    char folder[256];
+    json_t *object = NULL;
+    path_of(directory, folder);
+    assert_int_equal(mote_record_read_json(folder, "figures/figures.json", &object), MOTE_OK);
+    json_t *list = json_incref(json_object_get(object, key));
+    json_decref(object);
+    return list;
+}
+
+static void figures_of_a_run_are_there_in_every_format(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"fig1",      "front-tt",  "errors-tt",
+                                        "shares-tt", "ratios-tt", "error-time-tt"};
+    static const char *const formats[] = {"svg", "png", "pdf"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        for (size_t f = 0; f < 3; ++f) {
+            char name[128];
+            (void)snprintf(name, sizeof name, "run/figures/%s.%s", names[i], formats[f]);
+            if (!exists(name))
+                fail_msg("%s: not there, or empty", name);
+        }
+    }
+    json_t *list = read_list("run", "figures");
+    assert_int_equal(json_array_size(list), sizeof names / sizeof names[0]);
+    json_decref(list);
+}
+
+static void figures_that_cannot_be_drawn_are_named(void **state)
+{
+    (void)state;
+    assert_int_equal(run("figures", "run"), 0);
+    static const int numbers[] = {2, 3, 6, 7, 10, 11, 13, 14, 15};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+        char line[64];
+        (void)snprintf(line, sizeof line, "figure %d (", numbers[i]);
+        if (!strstr(text, line))
+            fail_msg("%s is not named in: %s", line, text);
+    }
+    assert_null(strstr(text, "figure 1 ("));
+    json_t *missing = read_list("run", "missing");
+    assert_int_equal(json_array_size(missing), 11); /* of figures 2 and 15, both */
+    json_decref(missing);
+}
+
+/* What make ingredients measures, on a few frames: a line an ingredient with its shares and its
+   time over the whole's, and the front over n, launch and track. */
+static void figures_of_ingredients_have_the_rows_of_each(void **state)
+{
+    (void)state;
+    char path[256];
+    assert_int_equal(
+        run("run jump --frames 1-12 --replicates 1 --method particle:n=0 --method "
+            "particle:n=8,track=0|8,refine=1|4 --method particle:n=8,leap=off --method "
+            "particle:n=8,launch=1|8 --method particle:n=8,reseed=off,forces=off|on --out",
+            "parts"),
+        0);
+    assert_int_equal(run("figures", "parts"), 0);
+    assert_true(exists("parts/figures/ingredients.svg"));
+    assert_true(exists("parts/figures/tracked-jump.png"));
+    path_of("parts/figures/ingredients.dat", path);
+    program_read(path, text, sizeof text);
+    const char *block = strstr(text, "\"jump\"\n0 0 ");
+    assert_non_null(block); /* the whole is exact there */
+    assert_non_null(strstr(block, " 1 1 1 \n1 "));
+    int lines = 0;
+    for (const char *p = strchr(block, '\n') + 1; *p; p = strchr(p, '\n') + 1) {
+        double v[6];
+        assert_int_equal(
+            sscanf(p, "%lf %lf %lf %lf %lf %lf", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5]), 6);
+        assert_true(v[1] >= 0 && v[1] <= 100 && v[3] > 0);
+        ++lines;
+    }
+    assert_int_equal(lines, 8);
+    path_of("parts/figures/tracked-jump.dat", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, "\"launch\"\n"));
+    assert_null(strstr(text, "\"n\"\n\n")); /* no empty line of points */
+}
+
+/* The footer's run is the manifest's, its data the hash of the file that is drawn. */
+static void footers_name_run_and_data(void **state)
+{
+    (void)state;
+    char folder[256], path[256], expected[128];
+    json_t *manifest = NULL;
+    path_of("run", folder);
+    assert_int_equal(mote_record_read_json(folder, "manifest.json", &manifest), MOTE_OK);
+    const char *program = json_string_value(json_object_get(manifest, "program"));
+    path_of("run/figures/shares-tt.dat", path);
+    program_read(path, text, sizeof text);
+    (void)snprintf(expected, sizeof expected, "data %016llx",
+                   (unsigned long long)mote_hash_text(text));
+    path_of("run/figures/shares-tt.svg", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, expected));
+    (void)snprintf(expected, sizeof expected, "-%.8s, commit", program);
+    assert_non_null(strstr(text, expected));
+    json_decref(manifest);
+}
+
+/* The published FNV-1a of "" and "foobar". */
+static void hash_is_fnv_1a(void **state)
+{
+    (void)state;
+    assert_true(mote_hash_text("") == 0xcbf29ce484222325u);
+    assert_true(mote_hash_text("foobar") == 0x85944171f73967e8u);
+}
+
+static void drawing_again_gives_the_same_bytes(void **state)
+{
+    (void)state;
+    static char again[1 << 20], before[1 << 20];
+    static const char *const names[] = {"fig1.svg", "front-tt.svg", "errors-tt.svg",
+                                        "figures.json"};
+    char path[256];
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        (void)snprintf(path, sizeof path, "%s/run/figures/%s", base, names[i]);
+        program_read(path, before, sizeof before);
+        if (i == 0)
+            assert_int_equal(run("figures", "run"), 0);
+        program_read(path, again, sizeof again);
+        assert_true(strlen(again) > 100);
+        assert_string_equal(before, again);
+    }
+}
+
+/* Changes what begins with `from` to `to` in a file of the copy. */
+static void rewrite(const char *path, const char *from, const char *to)
+{
+    program_read(path, text, sizeof text);
+    char *at = strstr(text, from);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    if (at)
+        (void)fprintf(out, "%.*s%s%s", (int)(at - text), text, to, at + strlen(from));
+    else
+        (void)fputs(text, out);
+    (void)fclose(out);
+}
+
+/* Copies the run; calls change with each cell's JSON file. */
+static void copy_run(const char *to, void (*change)(const char *path))
+{
+    char command[600], folder[256];
+    (void)snprintf(command, sizeof command, "cp -r %s/run %s/%s && rm -r %s/%s/figures", base,
+                   base, to, base, to);
+    assert_int_equal(system(command), 0);
+    (void)snprintf(folder, sizeof folder, "%s/%s/cells", base, to);
+    DIR *cells = opendir(folder);
+    assert_non_null(cells);
+    for (const struct dirent *entry = readdir(cells); entry; entry = readdir(cells)) {
+        char path[600];
+        (void)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+        if (strstr(entry->d_name, ".json"))
+            change(path);
+    }
+    (void)closedir(cells);
+}
+
+static void rename_scenario(const char *path)
+{
+    rewrite(path, "\"scenario\": \"tt\"",
+            "\"scenario\": \"'; system(\\\"touch HACKED\\\") `touch HACKED` $(touch HACKED)\"");
+}
+
+static void scenario_that_is_a_command_is_drawn_and_never_run(void **state)
+{
+    (void)state;
+    copy_run("hostile", rename_scenario);
+    assert_int_equal(run("figures", "hostile"), 0);
+    assert_false(exists("hostile/figures/HACKED"));
+    assert_int_equal(access("HACKED", F_OK), -1);
+    json_t *list = read_list("hostile", "figures");
+    assert_int_equal(json_array_size(list), 5);
+    for (size_t i = 0; i < json_array_size(list); ++i) {
+        const json_t *entry = json_array_get(list, i);
+        const char *name = json_string_value(json_object_get(entry, "name"));
+        char path[512];
+        assert_int_equal(strspn(name, "abcdefghijklmnopqrstuvwxyzACDEHKT0123456789-_"),
+                         strlen(name));
+        assert_string_equal(json_string_value(json_object_get(entry, "scenario")), HOSTILE);
+        (void)snprintf(path, sizeof path, "%s/hostile/figures/%s.svg", base, name);
+        program_read(path, text, sizeof text);
+        if (!strstr(text, HOSTILE))
+            fail_msg("%s does not show the scenario's name", path);
+    }
+    json_decref(list);
+}
+
+static int damaged;
+
+static void damage_some(const char *path)
+{
+    if (damaged++ % 4 == 0)
+        rewrite(path, "\"scenario\"", "\"scen");
+}
+
+static void damaged_cells_are_named_and_the_rest_is_drawn(void **state)
+{
+    (void)state;
+    copy_run("damaged", damage_some);
+    assert_int_equal(run("figures", "damaged"), 0);
+    assert_non_null(strstr(text, "left out"));
+    assert_true(exists("damaged/figures/shares-tt.svg"));
+}
+
+static void take_frames_away(const char *path)
+{
+    rewrite(path, "\"frames\": [\n  1,\n  60\n",
+            "\"frames\": [\n  -9223372036854775807,\n  9223372036854775807\n");
+}
+
+/* The frames that a cell names choose the rows that a figure shows: of the most of them. */
+static void cells_that_name_no_frames_are_drawn(void **state)
+{
+    (void)state;
+    copy_run("frames", take_frames_away);
+    assert_int_equal(run("figures", "frames"), 0);
+    assert_true(exists("frames/figures/shares-tt.svg"));
+}
+
+#define FRAMES 400
+
+/* Replicate r of a method in a folder of base: a row for every step-th frame, of ns each. */
+static void write_replicate(const char *name, const char *method, int r, int step, int ns)
+{
+    char folder[256];
+    mote_text rows = {0};
+    path_of(name, folder);
+    for (int k = 1; k <= FRAMES; k += step)
+        mote_text_add(&rows, "%d,0,0,%d,0.5,0,0,0,7\n", k, ns);
+    const stored_cell cell = {.method = method, .replicate = r, .rows = rows.data};
+    assert_true(stored_cell_write(folder, &cell));
+    free(rows.data);
+}
+
+/* Processes are paired by their numbers, and one may have more frames than the first. */
+static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **state)
+{
+    (void)state;
+    char folder[256];
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("pairs", "certified", 1, FRAMES - 1, 1000);
+    write_replicate("pairs", "certified", 2, 1, 1000);
+    write_replicate("pairs", "certified", 80, 1, 1000);
+    write_replicate("pairs", "fcl-aabb", 2, 1, 4000);
+    write_replicate("pairs", "fcl-aabb", 80, 1, 4000);
+    write_replicate("pairs", "fcl-aabb", 81, 1, 9000);
+    path_of("pairs", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    size_t lines = 0;
+    for (const char *at = figure.data.data; (at = strchr(at, '\n')) && at[1]; ++lines) {
+        double middle, ratio[3];
+        assert_int_equal(
+            sscanf(++at, "%lf %lf %lf %lf", &middle, &ratio[0], &ratio[1], &ratio[2]), 4);
+        for (int i = 0; i < 3; ++i)
+            assert_true(fabs(ratio[i] - 4) < 1e-9);
+    }
+    assert_int_equal(lines, 48);
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
+static void ratios_of_processes_without_a_pair_are_missing(void **state)
+{
+    (void)state;
+    char folder[256];
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("lone", "certified", 1, 1, 1000);
+    write_replicate("lone", "fcl-aabb", 2, 1, 4000);
+    path_of("lone", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_non_null(strstr(figure.missing.data, "a method of ours and one of FCL's"));
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
+/* All frames up to the one that is shown are asked again: none may be beyond the scenario. */
+static void scene_of_a_cell_with_a_frame_that_is_not_there_is_refused(void **state)
+{
+    (void)state;
+    static const uint32_t frames[] = {60, 2001, UINT32_MAX};
+    char folder[256];
+    mote_summary summary;
+    path_of("run", folder);
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
+        mote_figure_scene scene;
+        summary.rows[0].first->frame[59] = frames[i];
+        const mote_status status = mote_figure_scene_open(&summary.rows[0], &scene);
+        mote_figure_scene_close(&scene);
+        assert_int_equal(status, i == 0 ? MOTE_OK : MOTE_EINVAL);
+    }
+    assert_non_null(strstr(mote_error_text(), "tt: other frames than those measured"));
+    mote_summary_free(&summary);
+}
+
+static void remove_csv(const char *path)
+{
+    char csv[600];
+    (void)snprintf(csv, sizeof csv, "%.*scsv", (int)strlen(path) - 4, path);
+    assert_int_equal(unlink(csv), 0);
+}
+
+static void run_of_which_nothing_can_be_drawn_is_bad_input(void **state)
+{
+    (void)state;
+    copy_run("bare", remove_csv);
+    assert_int_equal(run("figures", "bare"), 4);
+    assert_non_null(strstr(text, "left out"));
+    assert_int_equal(run("figures", "nowhere"), 4);
+    assert_non_null(strstr(text, "nowhere: No such file"));
+    assert_int_equal(run("figures", "said"), 4);
+    char path[256];
+    path_of("empty", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    assert_int_equal(run("figures", "empty"), 4);
+    assert_non_null(strstr(text, "nothing to draw"));
+}
+
+static void claims_alone_are_drawn(void **state)
+{
+    (void)state;
+    char path[256];
+    path_of("claims", path);
+    assert_int_equal(mkdir(path, 0777), 0);
+    path_of("claims/claims.json", path);
+    assert_true(plain_file_put(
+        path, "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
+              "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
+              "\"values\": [{\"name\": \"n = 3\"}]}]"));
+    assert_int_equal(run("figures", "claims"), 0);
+    path_of("claims/figures/claims.svg", path);
+    program_read(path, text, sizeof text);
+    assert_non_null(strstr(text, "two is enough"));
+    assert_non_null(strstr(text, "n = 3: 2 [1.5, 2.5] L"));
+    assert_non_null(strstr(text, "within limits"));
+}
+
+static void quoted_text_has_no_quote_nor_line_end_inside(void **state)
+{
+    (void)state;
+    mote_text made = {0};
+    mote_gnuplot_quote(&made, "a\"b\nc\\");
+    assert_string_equal(made.data, "\"a\xe2\x80\x9d"
+                                   "b c\\\"");
+    free(made.data);
+}
+
+static void numbers_have_commas(void **state)
+{
+    (void)state;
+    char number[MOTE_FIGURE_NUMBER];
+    assert_string_equal(mote_figure_number(7, number), "7");
+    assert_string_equal(mote_figure_number(11920, number), "11,920");
+    assert_string_equal(mote_figure_number(1234567, number), "1,234,567");
+    /* Cut where there is no room, never beyond it. */
+    assert_true(strlen(mote_figure_number(1e300, number)) < sizeof number);
+    assert_int_equal(strncmp(number, "1,000,000", 5), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(figures_of_a_run_are_there_in_every_format),
+        cmocka_unit_test(figures_that_cannot_be_drawn_are_named),
+        cmocka_unit_test(figures_of_ingredients_have_the_rows_of_each),
+        cmocka_unit_test(footers_name_run_and_data),
+        cmocka_unit_test(hash_is_fnv_1a),
+        cmocka_unit_test(drawing_again_gives_the_same_bytes),
+        cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
+        cmocka_unit_test(cells_that_name_no_frames_are_drawn),
+        cmocka_unit_test(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused),
+        cmocka_unit_test(ratios_of_processes_without_a_pair_are_missing),
+        cmocka_unit_test(ratios_of_processes_that_are_missing_or_cut_are_of_pairs),
+        cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
+        cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
+        cmocka_unit_test(claims_alone_are_drawn),
+        cmocka_unit_test(quoted_text_has_no_quote_nor_line_end_inside),
+        cmocka_unit_test(numbers_have_commas),
+    };
+    return cmocka_run_group_tests(tests, make_run, remove_run);
+}

@@ -1,0 +1,197 @@
+/* Several bodies in the closed loop: what is booked, what is kept, what is refused. */
+#include "harness/loop/bodies_simulate.h"
+
+#include "harness/base/file.h"
+#include "tests/support/program.h"
+#include "tests/support/solids.h"
+
+#define FOLDER "test_bodies_simulate_files"
+#define FILE_NAME FOLDER "/b.json"
+#define SAID FOLDER "/said"
+
+static void write_file(const char *bodies)
+{
+    char *text =
+        mote_format("{\"purpose\": \"a test\", \"frames\": 120, \"ask\": \"distance\",\n"
+                    " \"bodies\": {%s}}\n",
+                    bodies);
+    assert_non_null(text);
+    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    free(text);
+}
+
+/* Pairs of a step: "0-1!" is a contact of bodies 0 and 1, "0-1" a near pair without. */
+static size_t pairs_of(const char *text, mote_bodies_pair pairs[8])
+{
+    size_t count = 0;
+    for (const char *c = text; *c; c += *c == ' ') {
+        const bool contact = c[3] == '!';
+        pairs[count++] = (mote_bodies_pair){
+            .body = {(uint32_t)(c[0] - '0'), (uint32_t)(c[2] - '0')},
+            .answer = {.has_contact = true, .contact = contact, .distance = contact ? 0 : 1}};
+        c += contact ? 4 : 3;
+    }
+    return count;
+}
+
+/* As deep as the number of the second body says. */
+static mote_status depth_by_body(void *context, const uint32_t body[2], double above,
+                                 double *depth)
+{
+    (void)context;
+    *depth = fmax(above, 0.5 * body[1]);
+    return MOTE_OK;
+}
+
+static void mote_bodies_book_step_runs_of_several_pairs_are_kept_apart(void **state)
+{
+    (void)state;
+    static const char *const truth[] = {"0-1 2-3", "0-1! 2-3!", "0-1! 1-4! 2-3!", "0-1! 1-4",
+                                        "0-1 1-4!"};
+    static const char *const said[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
+    mote_bodies_book book = {.count = 0};
+    for (uint32_t k = 0; k < 5; ++k) {
+        mote_bodies_pair a[8], b[8];
+        const size_t m = pairs_of(truth[k], a), n = pairs_of(said[k], b);
+        assert_int_equal(mote_bodies_book_step(&book, k, a, m, b, n, depth_by_body, NULL),
+                         MOTE_OK);
+    }
+    mote_bodies_book_end(&book);
+    assert_int_equal(book.contact_steps, 7);
+    assert_int_equal(book.missed_steps, 4); /* 0-1 at 1, 1-4 and 2-3 at 2, 1-4 at 4 */
+    assert_int_equal(book.false_steps, 1);
+    assert_int_equal(book.approaches, 4);
+    assert_int_equal(book.passes, 2); /* 1-4, twice */
+    assert_int_equal(book.deep_passes, 2);
+    assert_int_equal(book.delay_sum, 1);
+    assert_int_equal(book.delay_max, 1);
+    assert_close(book.depth_max, 2, 0);
+    assert_close(book.depth_passes, 2, 0);
+    mote_bodies_book_free(&book);
+}
+
+#define LETTERS                                                                                \
+    "\"shapes\": [{\"letter\": \"V\", \"triangles\": 400, \"field\": {\"count\": 6, "          \
+    "\"support\": 0.5, \"displacement\": {\"random\": {\"seed\": 5, \"amplitude\": 0.03, "     \
+    "\"periods\": [40, 90]}}}}, {\"letter\": \"T\", \"triangles\": 400}]"
+
+static mote_bodies_simulation simulate(const char *method, double restitution,
+                                       mote_vec3 gravity)
+{
+    mote_bodies *bodies = NULL;
+    mote_bodies_choice choice;
+    mote_bodies_simulation result;
+    const mote_simulation_options options = {.density = 2,
+                                             .restitution = restitution,
+                                             .tolerance = 0.01,
+                                             .gravity = gravity,
+                                             .time_step = 1};
+    if (mote_bodies_load(FILE_NAME, &bodies) != MOTE_OK ||
+        mote_bodies_choice_read(method, &choice) != MOTE_OK ||
+        mote_bodies_simulate(bodies, &choice, &options, 119, &result) != MOTE_OK)
+        fail_msg("%s: %s", method, mote_error_text());
+    mote_bodies_destroy(bodies);
+    assert_int_equal(result.steps, 119);
+    assert_true(result.book.approaches > 0 && result.responses > 0 && result.bounces > 0);
+    return result;
+}
+
+static void mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"certified", "aabb-tree", "certified:threads=2"};
+    write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
+    mote_bodies_simulation r[3];
+    for (int m = 0; m < 3; ++m) {
+        r[m] = simulate(methods[m], 1, mote_vec3_make(0, 0, 0));
+        assert_int_equal(r[m].book.missed_steps, 0);
+        assert_int_equal(r[m].book.false_steps, 0);
+        assert_int_equal(r[m].book.passes, 0);
+        assert_true(r[m].energy_drift < 1e-12 && r[m].momentum_drift < 1e-13);
+    }
+    assert_int_equal(r[0].responses, r[2].responses);
+    assert_int_equal(r[0].book.contact_steps, r[2].book.contact_steps);
+}
+
+/* What impacts lose is booked, and what gravity gives. */
+static void mote_bodies_simulate_losses_and_gravity_are_booked(void **state)
+{
+    (void)state;
+    write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
+    const mote_bodies_simulation r = simulate("certified", 0.5, mote_vec3_make(0, -1e-3, 0));
+    assert_true(r.energy_drift < 1e-11 && r.momentum_drift < 1e-11);
+}
+
+/* Particles that see contacts late or never: what they miss is counted. */
+static void mote_bodies_simulate_one_particle_misses_contacts(void **state)
+{
+    (void)state;
+    write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
+    const mote_bodies_simulation r =
+        simulate("particle-paper:n=1,refine=no", 1, mote_vec3_make(0, 0, 0));
+    assert_true(r.book.missed_steps + r.book.false_steps > 0);
+    assert_true(r.book.missed_steps <= r.book.contact_steps);
+    assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-13);
+}
+
+static int run(const char *line, char said[4096])
+{
+    const int code = program_wait(program_start(line, SAID));
+    program_read(SAID, said, 4096);
+    return code;
+}
+
+static void check(const char *line, int code, const char *text)
+{
+    char said[4096];
+    const int ended = run(line, said);
+    if (ended != code || !strstr(said, text))
+        fail_msg("%s: exit %d: %s", line, ended, said);
+}
+
+static void mote_simulate_several_bodies_on_the_command_line(void **state)
+{
+    (void)state;
+    write_file("\"count\": 8, \"box\": 3, " LETTERS);
+    check("simulate " FILE_NAME " --method certified --steps 3 --json", 0,
+          "\"passes_through\": 0");
+    check("simulate " FILE_NAME " --method certified --steps 3 --json", 0, "\"bodies\": 8");
+    check("simulate " FILE_NAME " --method certified --steps 3", 0, "8 bodies, 3 steps");
+    check("simulate " FILE_NAME " --method brute-force", 4, "no form for several bodies");
+    check("simulate " FILE_NAME " --method particle", 4, "give n=");
+    check("simulate " FILE_NAME " --method certified --trace x.json", 2, "for two bodies");
+    check("simulate " FILE_NAME " --method certified --tolerance 0.2", 4, "contact tolerance");
+    check("simulate " FILE_NAME " --method certified --time-step 0", 4, "time step");
+    write_file("\"count\": 2, \"box\": 4, \"near\": 0.02, " LETTERS);
+    check("simulate " FILE_NAME " --method certified --tolerance 0.04", 4, "above near");
+    write_file("\"count\": 2, \"box\": 4, \"shapes\": [{\"file\": \"" MOTE_SOURCE_DIR
+               "/datasets/meshes/teapot.obj\"}]");
+    check("simulate " FILE_NAME " --method certified", 4, "shape 1 cannot respond");
+}
+
+/* Farther apart than scenarios want bodies to be, nearer than this contact. */
+static void mote_simulate_bodies_that_start_in_contact_are_refused(void **state)
+{
+    (void)state;
+    write_file("\"count\": 40, \"near_pairs\": 5, " LETTERS);
+    check("simulate " FILE_NAME " --method certified --tolerance 0.05", 4, "start in contact");
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_bodies_book_step_runs_of_several_pairs_are_kept_apart),
+        cmocka_unit_test(mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants),
+        cmocka_unit_test(mote_bodies_simulate_losses_and_gravity_are_booked),
+        cmocka_unit_test(mote_bodies_simulate_one_particle_misses_contacts),
+        cmocka_unit_test(mote_simulate_several_bodies_on_the_command_line),
+        cmocka_unit_test(mote_simulate_bodies_that_start_in_contact_are_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, NULL);
+}

@@ -1,0 +1,524 @@
+/* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
+#include "harness/run/bodies_engine.h"
+
+#include "harness/figure/figure.h"
+#include "harness/base/file.h"
+#include "tests/support/program.h"
+#include "tests/support/solids.h"
+
+#define FOLDER "test_bodies_files"
+#define FILE_NAME FOLDER "/b.json"
+#define SAID FOLDER "/said"
+
+#define FIELD                                                                                  \
+    "\"field\": {\"count\": 6, \"support\": 0.5, \"displacement\": {\"random\": {\"seed\": "   \
+    "5, "                                                                                      \
+    "\"amplitude\": 0.05, \"periods\": [40, 90]}}}"
+#define SHAPES                                                                                 \
+    "\"shapes\": [{\"letter\": \"W\", \"triangles\": 400, " FIELD                              \
+    "}, {\"letter\": \"T\", \"triangles\": 400}]"
+
+#define SHAPE "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]"
+
+/* %s: what the scenario and what its bodies have more. */
+static const char form[] =
+    "{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"distance\"%s,\n"
+    " \"bodies\": {%s}}\n";
+
+static void write_file(const char *more, const char *bodies)
+{
+    char *text = mote_format(form, more, bodies);
+    assert_non_null(text);
+    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    free(text);
+}
+
+static mote_bodies *load(const char *more, const char *bodies)
+{
+    mote_bodies *b = NULL;
+    write_file(more, bodies);
+    if (mote_bodies_load(FILE_NAME, &b) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return b;
+}
+
+static mote_bodies_frame frame_of(const mote_bodies *b)
+{
+    mote_bodies_frame frame;
+    assert_int_equal(mote_bodies_frame_create(b, &frame), MOTE_OK);
+    return frame;
+}
+
+static mote_bodies_engine *engine_of(const mote_bodies *b, const char *text)
+{
+    mote_bodies_choice choice;
+    mote_bodies_engine *engine = NULL;
+    if (mote_bodies_choice_read(text, &choice) != MOTE_OK ||
+        mote_bodies_engine_create(b, &choice, &engine) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return engine;
+}
+
+static void mote_bodies_load_near_pairs_are_as_wished(void **state)
+{
+    (void)state;
+    static const char *const wishes[] = {"0.1", "1", "4"};
+    for (int k = 0; k < 3; ++k) {
+        char *more = mote_format("\"count\": 40, \"near_pairs\": %s, " SHAPES, wishes[k]);
+        mote_bodies *b = load("", more);
+        free(more);
+        mote_bodies_frame frame = frame_of(b);
+        mote_bodies_engine *engine = engine_of(b, "aabb-tree");
+        double pairs = 0;
+        for (uint32_t f = 1; f <= b->frames; ++f) {
+            mote_bodies_step step;
+            mote_bodies_frame_set(b, f, &frame);
+            assert_int_equal(mote_bodies_engine_step(engine, frame.states, &step), MOTE_OK);
+            if (f == 1)
+                assert_int_equal(step.contacts, 0);
+            pairs += (double)step.pairs;
+        }
+        const double mean = pairs / b->frames / b->count;
+        assert_close(mean / strtod(wishes[k], NULL), 1, 0.3);
+        mote_bodies_engine_destroy(engine);
+        mote_bodies_frame_free(&frame);
+        mote_bodies_destroy(b);
+    }
+}
+
+static void mote_bodies_frame_set_long_paths_stay_in_the_box(void **state)
+{
+    (void)state;
+    mote_bodies *b = load("", "\"count\": 20, \"box\": [4, 3, 2], \"speed\": 0.3, " SHAPES);
+    mote_bodies_frame frame = frame_of(b);
+    mote_vec3 before[20];
+    for (uint32_t f = 1; f <= 400; ++f) {
+        mote_bodies_frame_set(b, f, &frame);
+        for (uint32_t i = 0; i < b->count; ++i) {
+            const mote_bodies_shape *shape = &b->shapes[b->shape_of[i]];
+            const mote_vec3 at = mote_pose_apply(&frame.states[i].pose, shape->motion.centre);
+            assert_true(fabs(at.x) <= b->room.x + 1e-12 && fabs(at.y) <= b->room.y + 1e-12 &&
+                        fabs(at.z) <= b->room.z + 1e-12);
+            for (uint32_t v = 0; v < shape->body.mesh->vertex_count && f % 100 == 0; ++v) {
+                const mote_vec3 p =
+                    mote_pose_apply(&frame.states[i].pose, shape->body.mesh->positions[v]);
+                assert_true(fabs(p.x) <= b->box.x + 1e-9 && fabs(p.z) <= b->box.z + 1e-9);
+            }
+            /* No leap: at most the speed, less where a wall is met. */
+            assert_true(f == 1 ||
+                        mote_distance_squared(at, before[i]) <= 0.091 * b->length * b->length);
+            before[i] = at;
+        }
+    }
+    mote_bodies_frame_free(&frame);
+    mote_bodies_destroy(b);
+}
+
+/* Two bodies of one shape deform apart, and turn with their pose. */
+static void mote_bodies_frame_set_each_body_has_its_own_weights(void **state)
+{
+    (void)state;
+    mote_bodies *b = load("", "\"count\": 6, \"box\": 4, " SHAPES);
+    mote_bodies_frame frame = frame_of(b);
+    mote_bodies_frame_set(b, 7, &frame);
+    const mote_weights *first = &frame.states[0].weights, *third = &frame.states[2].weights;
+    assert_int_equal(first->count, 6);
+    assert_int_equal(frame.states[1].weights.count, 0);
+    for (uint32_t j = 0; j < first->count; ++j) {
+        const mote_vec3 a =
+            mote_rotate_back(&frame.states[0].pose.rotation,
+                             mote_vec3_make(first->x[j], first->y[j], first->z[j]));
+        const mote_vec3 c =
+            mote_rotate_back(&frame.states[2].pose.rotation,
+                             mote_vec3_make(third->x[j], third->y[j], third->z[j]));
+        assert_true(mote_distance_squared(a, c) > 1e-8);
+    }
+    mote_bodies_frame_free(&frame);
+    mote_bodies_destroy(b);
+}
+
+static void mote_bodies_load_same_seed_same_bits(void **state)
+{
+    (void)state;
+    mote_bodies *b[3];
+    b[0] = load("", "\"count\": 20, \"near_pairs\": 1, \"seed\": 4, " SHAPES);
+    b[1] = load("", "\"count\": 20, \"near_pairs\": 1, \"seed\": 4, " SHAPES);
+    b[2] = load("", "\"count\": 20, \"near_pairs\": 1, \"seed\": 5, " SHAPES);
+    assert_memory_equal(b[0]->paths, b[1]->paths, 20 * sizeof *b[0]->paths);
+    assert_memory_equal(&b[0]->box, &b[1]->box, sizeof b[0]->box);
+    assert_memory_not_equal(b[0]->paths, b[2]->paths, 20 * sizeof *b[0]->paths);
+    for (int k = 0; k < 3; ++k)
+        mote_bodies_destroy(b[k]);
+}
+
+/* The answer for a pair of bodies, or NULL where it is not near for this engine. */
+static const mote_answer *find(const mote_bodies_engine *engine, const uint32_t body[2])
+{
+    size_t count;
+    const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engine, &count);
+    for (size_t k = 0; k < count; ++k) {
+        if (pairs[k].body[0] == body[0] && pairs[k].body[1] == body[1])
+            return &pairs[k].answer;
+    }
+    return NULL;
+}
+
+/* Every pair within `near` is known to all engines, with one distance and one contact. */
+static void check_agreement(const mote_bodies *b, mote_bodies_engine *const *engines, int count,
+                            size_t *near, size_t *contacts)
+{
+    for (int from = 0; from < count; ++from) {
+        size_t size;
+        const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engines[from], &size);
+        for (size_t k = 0; k < size; ++k) {
+            const mote_answer *a = &pairs[k].answer;
+            if (a->distance > b->near)
+                continue;
+            *near += from == 0;
+            *contacts += from == 0 && a->contact;
+            for (int to = 0; to < count; ++to) {
+                const mote_answer *other = find(engines[to], pairs[k].body);
+                assert_non_null(other);
+                assert_close(other->distance, a->distance, 1e-12 * b->length);
+                assert_int_equal(other->contact, a->contact);
+            }
+        }
+    }
+}
+
+static void mote_bodies_engine_step_exact_methods_agree(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"certified", "fcl-aabb:refit=every", "fcl-aabb",
+                                        "aabb-tree", "aabb-tree:refit=every"};
+    mote_bodies *b = load(", \"tolerance\": 0.01",
+                          "\"count\": 16, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    mote_bodies_engine *engines[5];
+    mote_bodies_frame frame = frame_of(b);
+    size_t near = 0, contacts = 0;
+    for (int m = 0; m < 5; ++m)
+        engines[m] = engine_of(b, texts[m]);
+    for (uint32_t f = 1; f <= 10; ++f) {
+        mote_bodies_frame_set(b, f, &frame);
+        for (int m = 0; m < 5; ++m) {
+            mote_bodies_step step;
+            if (mote_bodies_engine_step(engines[m], frame.states, &step) != MOTE_OK)
+                fail_msg("%s: %s", texts[m], mote_error_text());
+        }
+        check_agreement(b, engines, 5, &near, &contacts);
+    }
+    assert_true(near > contacts && contacts > 0);
+    for (int m = 0; m < 5; ++m)
+        mote_bodies_engine_destroy(engines[m]);
+    mote_bodies_frame_free(&frame);
+    mote_bodies_destroy(b);
+}
+
+static void mote_bodies_engine_step_contact_question_agrees(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {"certified", "fcl-aabb", "aabb-tree"};
+    write_file("", "");
+    char *text = mote_format("{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"contact\", "
+                             "\"tolerance\": 0.02, \"bodies\": {\"count\": 20, "
+                             "\"near_pairs\": 2, \"speed\": 0.03, " SHAPES "}}");
+    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    free(text);
+    mote_bodies *b = NULL;
+    assert_int_equal(mote_bodies_load(FILE_NAME, &b), MOTE_OK);
+    mote_bodies_engine *engines[3];
+    mote_bodies_frame frame = frame_of(b);
+    size_t contacts = 0;
+    for (int m = 0; m < 3; ++m)
+        engines[m] = engine_of(b, texts[m]);
+    for (uint32_t f = 1; f <= 20; ++f) {
+        mote_bodies_frame_set(b, f, &frame);
+        mote_bodies_step step[3];
+        for (int m = 0; m < 3; ++m)
+            assert_int_equal(mote_bodies_engine_step(engines[m], frame.states, &step[m]),
+                             MOTE_OK);
+        size_t count;
+        const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engines[0], &count);
+        for (size_t k = 0; k < count; ++k) {
+            for (int m = 1; m < 3; ++m)
+                assert_int_equal(find(engines[m], pairs[k].body)->contact,
+                                 pairs[k].answer.contact);
+        }
+        contacts += step[0].contacts;
+    }
+    assert_true(contacts > 0);
+    for (int m = 0; m < 3; ++m)
+        mote_bodies_engine_destroy(engines[m]);
+    mote_bodies_frame_free(&frame);
+    mote_bodies_destroy(b);
+}
+
+/* `mote LINE`, its exit status; what it says is in *said. */
+static int run(const char *line, char said[4096])
+{
+    const int code = program_wait(program_start(line, SAID));
+    program_read(SAID, said, 4096);
+    return code;
+}
+
+static char *whole_file(const char *pattern)
+{
+    char *command = mote_format("cat %s > %s/found 2>/dev/null", pattern, FOLDER), *text = NULL;
+    size_t size;
+    assert_non_null(command);
+    assert_int_equal(system(command), 0);
+    free(command);
+    assert_int_equal(mote_file_read(FOLDER "/found", 1 << 24, &text, &size), MOTE_OK);
+    assert_true(size > 200);
+    return text;
+}
+
+/* The records of every pair and step, digit for digit. */
+static void mote_run_threads_and_frames_ahead_give_the_same_records(void **state)
+{
+    (void)state;
+    static const char *const ways[] = {"certified",         "certified:threads=2",
+                                       "certified:ahead=1", "certified:threads=3,ahead=4",
+                                       "particle:n=4",      "particle:threads=3,n=4,ahead=2"};
+    char *texts[6], said[4096];
+    write_file("", "\"count\": 20, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    for (int k = 0; k < 6; ++k) {
+        char *line = mote_format("run " FILE_NAME " --frames 3-10 --replicates 1 --out " FOLDER
+                                 "/run%d --method %s",
+                                 k, ways[k]);
+        if (run(line, said) != 0)
+            fail_msg("%s: %s", ways[k], said);
+        free(line);
+        char *pattern = mote_format(FOLDER "/run%d/bodies/*.pairs.csv", k);
+        texts[k] = whole_file(pattern);
+        free(pattern);
+    }
+    for (int k = 0; k < 6; ++k)
+        assert_string_equal(texts[k], texts[k < 4 ? 0 : 4]);
+    for (int k = 0; k < 6; ++k)
+        free(texts[k]);
+}
+
+static void mote_run_writes_steps_and_a_summary(void **state)
+{
+    (void)state;
+    char said[4096];
+    write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    assert_int_equal(run("run " FILE_NAME " --frames 1-6 --replicates 2 --out " FOLDER
+                         "/both --method certified --method aabb-tree",
+                         said),
+                     0);
+    assert_non_null(strstr(said, "aabb-tree"));
+    char *text = whole_file(FOLDER "/both/bodies/*.steps.csv");
+    assert_non_null(strstr(text, "frame,near_pairs,new_pairs,contacts,motion_ns,bounds_ns"));
+    size_t lines = 0;
+    for (const char *c = text; *c; ++c)
+        lines += *c == '\n';
+    assert_int_equal(lines, 4 * 7);
+    free(text);
+    text = whole_file(FOLDER "/both/bodies.json");
+    assert_non_null(strstr(text, "\"missed\": 0"));
+    assert_null(strstr(text, "\"missed\": 1"));
+    assert_non_null(strstr(text, "\"reference\": \"aabb-tree\""));
+    assert_null(strstr(text, "\"status\": \"crashed\""));
+    free(text);
+}
+
+/* What is refused: the bodies, a part of the message. */
+typedef struct refusal {
+    const char *more, *bodies, *text;
+} refusal;
+
+static void mote_bodies_load_bad_input_names_the_place(void **state)
+{
+    (void)state;
+    static const refusal cases[] = {
+        {"", "\"count\": 0, \"box\": 4, " SHAPE, "bodies.count"},
+        {"", "\"count\": -5, \"box\": 4, " SHAPE, "bodies.count"},
+        {"", "\"count\": 1000001, \"box\": 4, " SHAPE, "1000000"},
+        {"", "\"count\": 1e30, \"box\": 4, " SHAPE, "bodies.count"},
+        {"", "\"count\": \"many\", \"box\": 4, " SHAPE, "bodies.count"},
+        {"", "\"box\": 4, " SHAPE, "bodies.count"},
+        {"", "\"count\": 5, \"box\": 0.5, " SHAPE, "smaller than a body"},
+        {"", "\"count\": 5, \"box\": [4, 4, 0.2], " SHAPE, "smaller than a body"},
+        {"", "\"count\": 5, \"box\": 0, " SHAPE, "bodies.box"},
+        {"", "\"count\": 200, \"box\": 1.5, " SHAPE, "of the 200 bodies without overlap"},
+        {"", "\"count\": 5, \"near_pairs\": 4, " SHAPE, "near pairs each"},
+        {"", "\"count\": 5, \"near_pairs\": 0, " SHAPE, "bodies.near_pairs"},
+        {"", "\"count\": 5, \"near_pairs\": 1, \"box\": 4, " SHAPE, "not both"},
+        {"", "\"count\": 5, " SHAPE, "not neither"},
+        {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, 0], [0.05, 0, 0]], " SHAPE,
+         "bodies 1 and 2 are"},
+        {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, 0], [1.9, 0, 0]], " SHAPE,
+         "body 2 does not turn within the box"},
+        {"", "\"count\": 3, \"box\": 4, \"places\": [[0, 0, 0], [1, 0, 0]], " SHAPE,
+         "bodies.places"},
+        {"", "\"count\": 2, \"near_pairs\": 0.1, \"places\": [[0, 0, 0], [1, 0, 0]], " SHAPE,
+         "places go with a box"},
+        {"", "\"count\": 5, \"box\": 4, \"shapes\": []", "bodies.shapes"},
+        {"", "\"count\": 5, \"box\": 4", "bodies.shapes"},
+        {"", "\"count\": 5, \"box\": 4, \"shapes\": [{\"letter\": \"W\"}]", "triangles"},
+        {"", "\"count\": 5, \"box\": 4, \"motion\": 1, " SHAPE, "motion"},
+        {"", "\"count\": 5, \"box\": 4, \"seed\": -1, " SHAPE, "bodies.seed"},
+        {"", "\"count\": 5, \"box\": 4, \"speed\": -1, " SHAPE, "bodies.speed"},
+        {", \"tolerance\": 0.2", "\"count\": 5, \"box\": 4, " SHAPE, "below the tolerance"},
+        {"", "\"count\": 5, \"box\": [4, 4], " SHAPE, "array of 3"},
+        {"", "\"count\": 5, \"box\": \"big\", " SHAPE, "array of 3"},
+        {"", "\"count\": 5, \"box\": [0.2, 4, 4], " SHAPE, "smaller than a body"},
+        {"", "\"count\": 5, \"box\": [4, 0.2, 4], " SHAPE, "smaller than a body"},
+        {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, 0], [0, -1.9, 0]], " SHAPE,
+         "body 2 does not turn within the box"},
+        {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, 1.9], [0, 0, 0]], " SHAPE,
+         "body 1 does not turn within the box"},
+        {"", "\"count\": 2, \"box\": 4, \"places\": [[0, 0, \"x\"], [0, 0, 0]], " SHAPE,
+         "bodies.places[0][2]"},
+        {"", "\"count\": 5, \"box\": 4, \"near\": -1, " SHAPE, "bodies.near"},
+        {"", "\"count\": 5, \"box\": 4, \"shapes\": [3]", "bodies.shapes[0]: is not an object"},
+        {"",
+         "\"count\": 5, \"box\": 4, \"shapes\": [{\"letter\": \"T\", \"triangles\": 400, "
+         "\"mass\": 1}]",
+         "bodies.shapes[0].mass: unknown key"},
+        {", \"pace\": 2", "\"count\": 5, \"box\": 4, " SHAPE, "pace"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        mote_bodies *b = NULL;
+        write_file(cases[k].more, cases[k].bodies);
+        if (mote_bodies_load(FILE_NAME, &b) != MOTE_EINVAL)
+            fail_msg("%s: not refused", cases[k].bodies);
+        assert_null(b);
+        if (!strstr(mote_error_text(), cases[k].text) ||
+            !strstr(mote_error_text(), FILE_NAME ":"))
+            fail_msg("%s: %s", cases[k].bodies, mote_error_text());
+    }
+}
+
+static void mote_bodies_choice_read_keys_are_taken_apart(void **state)
+{
+    (void)state;
+    mote_bodies_choice c;
+    assert_int_equal(mote_bodies_choice_read("particle:threads=3,n=7,ahead=2,levels=1", &c),
+                     MOTE_EINVAL);
+    assert_int_equal(mote_bodies_choice_read("particle-paper:threads=3,n=7,ahead=2", &c),
+                     MOTE_OK);
+    assert_int_equal(c.threads, 3);
+    assert_int_equal(c.ahead, 2);
+    assert_string_equal(c.method.text, "particle-paper:n=7");
+    assert_string_equal(c.text, "particle-paper:threads=3,n=7,ahead=2");
+    assert_int_equal(mote_bodies_choice_read("fcl-aabb:refit=every", &c), MOTE_OK);
+    assert_int_equal(c.refit, MOTE_REFIT_EVERY);
+    assert_int_equal(c.threads, 1);
+    static const char *const bad[][2] = {
+        {"obb", "unknown method"},
+        {"brute-force", "no form for several bodies"},
+        {"fcl-obbrss", "no form for several bodies"},
+        {"certified:threads=0", "threads is a whole number"},
+        {"certified:threads=257", "threads is a whole number"},
+        {"certified:ahead=65", "ahead is a whole number"},
+        {"certified:ahead=-1", "ahead is a whole number"},
+        {"certified:refit=near", "have refit="},
+        {"certified:ahead=2,refit=every", "have refit="},
+        {"certified:ahead=2,slack=0.1", "takes only threads= and ahead="},
+        {"certified:slack=0.1", "takes only threads= and ahead="},
+        {"fcl-aabb:refit=some", "near or every"},
+        {"fcl-aabb:threads=2", "threads= is for"},
+        {"fcl-aabb:queue=64", "takes only refit= and ahead="},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
+        if (mote_bodies_choice_read(bad[k][0], &c) == MOTE_OK)
+            fail_msg("%s: not refused", bad[k][0]);
+        if (!strstr(mote_error_text(), bad[k][1]))
+            fail_msg("%s: %s", bad[k][0], mote_error_text());
+    }
+}
+
+static void mote_run_bad_requests_have_their_exit_codes(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *line, *text;
+        int code;
+    } cases[] = {
+        {"run " FILE_NAME " --method brute-force", "no form for several bodies", 4},
+        {"run " FILE_NAME " --method nothing", "unknown method", 4},
+        {"run " FILE_NAME " --frames 30-41 --method certified", "which has 1-40", 4},
+        {"run " FILE_NAME " ww --method certified", "give them apart", 2},
+        {"run " FILE_NAME " --stride 2", "--stride: not for several bodies", 2},
+        {"run " FILE_NAME " --particles 2-4", "--particles: not for several bodies", 2},
+        {"check " FILE_NAME, "several bodies, where two are needed", 4},
+        {"export " FILE_NAME " --frame 1 --out " FOLDER "/x", "several bodies", 4},
+        {"run " FOLDER "/none.json --method certified", "none.json", 4},
+        {"run " FILE_NAME " --method particle --replicates 1 --out " FOLDER "/auto",
+         "unsupported", 0},
+    };
+    write_file("", "\"count\": 6, \"near_pairs\": 1, " SHAPES);
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char said[4096];
+        const int code = run(cases[k].line, said);
+        if (code != cases[k].code || !strstr(said, cases[k].text))
+            fail_msg("%s: exit %d: %s", cases[k].line, code, said);
+    }
+}
+
+/* Two rows of bodies.json, one of them of a cell that failed. */
+static const char stored[] =
+    "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": "
+    "1000,"
+    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": 2500000, \"rss_peak_bytes\": 9000000,"
+    "\"ratio\": 260.4, \"reference\": \"fcl-aabb:refit=every\"}, {\"method\": \"aabb-tree\", "
+    "\"status\": \"timeout\", \"bodies\": 1000,"
+    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": null, \"rss_peak_bytes\": 1, \"ratio\": "
+    "null}]}\n";
+
+static void mote_figure_bodies_stored_rows_become_lines(void **state)
+{
+    (void)state;
+    const mote_figure_run run = {.directory = FOLDER "/stored"};
+    mote_figure figure = {0};
+    assert_int_equal(mote_directory_make(FOLDER "/stored"), MOTE_OK);
+    (void)remove(FOLDER "/stored/bodies.json");
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_non_null(strstr(figure.missing.data, "make bodies"));
+    free(figure.missing.data);
+    figure = (mote_figure){0};
+    assert_int_equal(mote_file_write(FOLDER "/stored/bodies.json", stored, sizeof stored - 1),
+                     MOTE_OK);
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_null(figure.missing.data);
+    size_t blocks = 0, empty = 0;
+    for (const char *at = figure.data.data; (at = strstr(at, "\"\n")) != NULL; ++at)
+        ++blocks;
+    for (const char *at = figure.data.data; (at = strstr(at, "NaN NaN NaN\n")) != NULL; ++at)
+        ++empty;
+    assert_int_equal(blocks, 18);
+    assert_int_equal(empty, 17);
+    assert_non_null(strstr(figure.data.data, "\"certified\"\n1000 2500 9\n"));
+    assert_non_null(strstr(figure.caption.data, "one 260th of the time"));
+    free(figure.data.data);
+    free(figure.caption.data);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_bodies_load_near_pairs_are_as_wished),
+        cmocka_unit_test(mote_bodies_frame_set_long_paths_stay_in_the_box),
+        cmocka_unit_test(mote_bodies_frame_set_each_body_has_its_own_weights),
+        cmocka_unit_test(mote_bodies_load_same_seed_same_bits),
+        cmocka_unit_test(mote_bodies_engine_step_exact_methods_agree),
+        cmocka_unit_test(mote_bodies_engine_step_contact_question_agrees),
+        cmocka_unit_test(mote_run_threads_and_frames_ahead_give_the_same_records),
+        cmocka_unit_test(mote_run_writes_steps_and_a_summary),
+        cmocka_unit_test(mote_bodies_load_bad_input_names_the_place),
+        cmocka_unit_test(mote_bodies_choice_read_keys_are_taken_apart),
+        cmocka_unit_test(mote_run_bad_requests_have_their_exit_codes),
+        cmocka_unit_test(mote_figure_bodies_stored_rows_become_lines),
+    };
+    return cmocka_run_group_tests(tests, make_folder, NULL);
+}

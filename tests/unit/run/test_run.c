@@ -1,0 +1,588 @@
+#include "harness/run/cell_process.h"
+#include "harness/base/record.h"
+#include "tests/support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#define COLUMNS                                                                                \
+    "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error,contact,contact_truth,"     \
+    "ax,ay,az,bx,by,bz,steps,moves,positions,box_tests,triangle_tests,allocations"
+
+/* A new directory for each test. */
+static char base[] = "/tmp/mote-test-run-XXXXXX";
+static int directories;
+static char directory[64], said[64], text[1 << 16];
+
+static int make_base(void **state)
+{
+    (void)state;
+    return mkdtemp(base) ? 0 : -1;
+}
+
+static int remove_base(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+/* Names a directory that is not there. */
+static int bare_directory(void **state)
+{
+    (void)state;
+    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories);
+    (void)snprintf(said, sizeof said, "%s/said-%d", base, directories);
+    ++directories;
+    return 0;
+}
+
+/* Makes a directory that shares the truth with all others: it is computed once. */
+static int next_directory(void **state)
+{
+    char truth[64], link[96];
+    (void)bare_directory(state);
+    (void)snprintf(truth, sizeof truth, "%s/truth", base);
+    (void)snprintf(link, sizeof link, "%s/truth", directory);
+    (void)mkdir(truth, 0777);
+    return mkdir(directory, 0777) || symlink(truth, link);
+}
+
+/* mote run ARGUMENTS --out directory */
+static int run(const char *arguments)
+{
+    char line[1024];
+    (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
+    int status = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    return status;
+}
+
+static int count_cells(const char *ending)
+{
+    char path[96];
+    (void)snprintf(path, sizeof path, "%s/cells", directory);
+    DIR *folder = opendir(path);
+    int count = 0;
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
+         entry = readdir(folder)) {
+        size_t length = strlen(entry->d_name), end = strlen(ending);
+        count += length > end && strcmp(entry->d_name + length - end, ending) == 0;
+    }
+    if (folder)
+        (void)closedir(folder);
+    return count;
+}
+
+static json_t *read_json(const char *name)
+{
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json(directory, name, &object), MOTE_OK);
+    return object;
+}
+
+#define TWO_METHODS "--method particle-paper:n=2 --method fcl-aabb"
+
+static void run_of_two_methods_leaves_a_cell_each_replicate(void **state)
+{
+    (void)state;
+    assert_int_equal(run("tt --frames 3-12 --replicates 2 " TWO_METHODS), 0);
+    assert_int_equal(count_cells(".json"), 4);
+    assert_int_equal(count_cells(".csv"), 4);
+    assert_int_equal(count_cells(".part"), 0);
+    json_t *manifest = read_json("manifest.json");
+    static const char *const keys[] = {"commit", "dirty",     "compiler",
+                                       "flags",  "libraries", "processor",
+                                       "kernel", "seed",      "sessions"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i)
+        assert_non_null(json_object_get(manifest, keys[i]));
+    json_decref(manifest);
+}
+
+/* The path of some CSV file of the run. */
+static void find_csv(char *path, size_t size)
+{
+    char folder_path[96];
+    (void)snprintf(folder_path, sizeof folder_path, "%s/cells", directory);
+    DIR *folder = opendir(folder_path);
+    assert_non_null(folder);
+    path[0] = '\0';
+    for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
+        if (strstr(entry->d_name, ".csv"))
+            (void)snprintf(path, size, "%s/%s", folder_path, entry->d_name);
+    }
+    (void)closedir(folder);
+    assert_true(path[0] != '\0');
+}
+
+static int count_fields(const char *line)
+{
+    int count = 1;
+    for (; *line && *line != '\n'; ++line)
+        count += *line == ',' ? 1 : 0;
+    return count;
+}
+
+static void run_writes_rows_with_the_columns_of_the_contract(void **state)
+{
+    (void)state;
+    assert_int_equal(run("mv --frames 3-12 --replicates 1 --stride 1 --method fcl-aabb"), 0);
+    char path[512];
+    find_csv(path, sizeof path);
+    program_read(path, text, sizeof text);
+    assert_memory_equal(text, COLUMNS, strlen(COLUMNS));
+    int fields = count_fields(text), rows = 0;
+    for (const char *line = strchr(text, '\n') + 1; *line; line = strchr(line, '\n') + 1) {
+        assert_int_equal(count_fields(line), fields);
+        assert_int_equal(atoi(line), 3 + rows);
+        ++rows;
+    }
+    assert_int_equal(rows, 10);
+    assert_null(strstr(text, "nan"));
+    assert_null(strstr(text, "inf"));
+}
+
+static void run_summary_has_a_row_a_configuration(void **state)
+{
+    (void)state;
+    assert_int_equal(run("mv --frames 3-12 --replicates 2 --stride 1 " TWO_METHODS), 0);
+    json_t *summary = read_json("summary.json");
+    assert_int_equal(json_integer_value(json_object_get(summary, "schema")), 1);
+    const json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_size(rows), 2);
+    const json_t *aabb = json_array_get(rows, 0), *particle = json_array_get(rows, 1);
+    assert_string_equal(json_string_value(json_object_get(aabb, "method")), "fcl-aabb");
+    assert_int_equal(json_integer_value(json_object_get(aabb, "frames")), 10);
+    assert_int_equal(json_integer_value(json_object_get(aabb, "replicates")), 2);
+    const json_t *error = json_object_get(aabb, "error");
+    assert_true(json_number_value(json_object_get(error, "max")) <= 1e-12);
+    assert_true(json_number_value(json_object_get(error, "exact_rate")) >= 1);
+    const json_t *ratio = json_object_get(particle, "ratio");
+    assert_string_equal(json_string_value(json_object_get(ratio, "to")), "fcl-aabb");
+    assert_true(json_number_value(json_object_get(ratio, "value")) > 1);
+    const json_t *total = json_object_get(particle, "total_ns");
+    double low = json_number_value(json_object_get(total, "ci_low"));
+    double median = json_number_value(json_object_get(total, "median"));
+    double high = json_number_value(json_object_get(total, "ci_high"));
+    assert_true(0 < low && low <= high && median > 0);
+    json_decref(summary);
+}
+
+static time_t newest_cell(void)
+{
+    char path[512];
+    struct stat info;
+    find_csv(path, sizeof path);
+    assert_int_equal(stat(path, &info), 0);
+    return info.st_mtime;
+}
+
+static void run_again_measures_nothing_again(void **state)
+{
+    (void)state;
+    assert_int_equal(run("tt --frames 1-4 --replicates 1 --method fcl-aabb"), 0);
+    time_t before = newest_cell();
+    struct timespec pause = {1, 100000000};
+    (void)nanosleep(&pause, NULL);
+    assert_int_equal(run("tt --frames 1-4 --replicates 1 --method fcl-aabb"), 0);
+    assert_non_null(strstr(text, "1 of them done"));
+    assert_int_equal(newest_cell(), before);
+    assert_int_equal(run("tt --frames 1-5 --replicates 1 --method fcl-aabb"), 0);
+    assert_int_equal(count_cells(".json"), 2);
+}
+
+static void run_with_a_sweep_makes_every_combination(void **state)
+{
+    (void)state;
+    assert_int_equal(run("tt --frames 1-4 --replicates 1 --particles 1,3-4 --method "
+                         "particle-paper:law=log|inverse,start=random|fps"),
+                     0);
+    assert_int_equal(count_cells(".json"), 12);
+}
+
+static void run_with_jobs_marks_times_as_not_comparable(void **state)
+{
+    (void)state;
+    assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 --jobs 3 " TWO_METHODS),
+                     0);
+    assert_non_null(strstr(text, "times not comparable: 3 cells at once"));
+    assert_int_equal(count_cells(".json"), 6);
+    json_t *summary = read_json("summary.json");
+    assert_true(json_is_null(json_object_get(summary, "noise_floor")));
+    const json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_size(rows), 2);
+    for (size_t i = 0; i < 2; ++i) {
+        const json_t *row = json_array_get(rows, i);
+        assert_true(json_is_false(json_object_get(row, "times_comparable")));
+        assert_true(json_is_null(json_object_get(row, "ratio")));
+        assert_true(json_is_number(json_object_get(json_object_get(row, "error"), "max")));
+    }
+    json_decref(summary);
+    /* Measured one at a time, they are other cells. */
+    assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 " TWO_METHODS), 0);
+    assert_int_equal(count_cells(".json"), 12);
+    summary = read_json("summary.json");
+    rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_size(rows), 4);
+    size_t ratios = 0;
+    for (size_t i = 0; i < 4; ++i)
+        ratios += json_is_object(json_object_get(json_array_get(rows, i), "ratio")) ? 1 : 0;
+    assert_int_equal(ratios, 2);
+    json_decref(summary);
+}
+
+/* The widest interval of the summary, half of it as a share of the median, and the replicates.
+ */
+static double widest_interval(json_int_t *replicates)
+{
+    json_t *summary = read_json("summary.json");
+    double widest = 0;
+    *replicates = 0;
+    for (size_t i = 0; i < json_array_size(json_object_get(summary, "rows")); ++i) {
+        const json_t *row = json_array_get(json_object_get(summary, "rows"), i);
+        const json_t *total = json_object_get(row, "total_ns");
+        double half = (json_number_value(json_object_get(total, "ci_high")) -
+                       json_number_value(json_object_get(total, "ci_low"))) /
+                      2 / json_number_value(json_object_get(total, "median"));
+        json_int_t count = json_integer_value(json_object_get(row, "replicates"));
+        widest = half > widest ? half : widest;
+        *replicates = count > *replicates ? count : *replicates;
+    }
+    json_decref(summary);
+    return widest;
+}
+
+#define UNTIL "tt --frames 1-50 --replicates 1 --method aabb-tree --method particle-paper:n=2 "
+
+static void run_until_an_interval_is_narrow_adds_replicates(void **state)
+{
+    (void)state;
+    json_int_t replicates;
+    assert_int_equal(run(UNTIL "--until-ci 100% --budget 60"), 0);
+    double widest = widest_interval(&replicates);
+    assert_true(replicates >= 2 && widest <= 1);
+    assert_non_null(strstr(text, "the widest interval is"));
+    /* Nothing is narrow enough: one more round or none, for a budget of 0. */
+    assert_int_equal(run(UNTIL "--until-ci 0.001% --budget 0"), 0);
+    assert_non_null(strstr(text, "the budget ends"));
+}
+
+static void refused(const char *arguments, int status, const char *part)
+{
+    assert_int_equal(run(arguments), status);
+    assert_memory_equal(text + (strstr(text, "mote: ") ? strstr(text, "mote: ") - text : 0),
+                        "mote: ", 6);
+    if (!strstr(text, part))
+        fail_msg("%s: %s does not name %s", arguments, text, part);
+    struct stat info;
+    assert_int_not_equal(stat(directory, &info), 0);
+}
+
+static void run_with_bad_input_says_what_and_writes_nothing(void **state)
+{
+    (void)state;
+    refused("no-such-scenario", 4, "no-such-scenario");
+    refused("/no/such/file.json", 4, "/no/such/file.json");
+    refused("tt --method no-such-method", 4, "no-such-method");
+    refused("tt --method particle-paper:no-such-key=1", 4, "no-such-key");
+    refused("tt --method particle-paper:n=0", 4, "n");
+    refused("tt --method particle-paper:n=100000", 4, "100000");
+    refused("tt --particles 0 --method particle-paper", 4, "0");
+    refused("tt --particles 1,,2 --method particle-paper", 4, "1,2,4-8");
+    refused("tt --frames 9-3", 4, "9-3");
+    refused("tt --frames 1-100000", 4, "100000");
+}
+
+static void run_with_bad_usage_says_what_is_expected(void **state)
+{
+    (void)state;
+    refused("", 2, "no scenario");
+    refused("tt --no-such-option", 2, "--no-such-option");
+    refused("tt --replicates 0", 2, "--replicates 0");
+    refused("tt --shard 3/2", 2, "--shard 3/2");
+    refused("tt --cache cold", 2, "hot|evict");
+    refused("tt --stride 0", 2, "--stride 0");
+    refused("tt --jobs 0", 2, "--jobs 0");
+    refused("tt --jobs 257", 2, "1 to 256");
+    refused("tt --until-ci 2", 2, "percentage");
+    refused("tt --until-ci 2% --jobs 2", 2, "--until-ci");
+}
+
+static void run_into_an_impossible_directory_is_bad_input(void **state)
+{
+    (void)state;
+    int status = program_wait(
+        program_start("run tt --frames 1-2 --method fcl-aabb --out /dev/null/run", said));
+    program_read(said, text, sizeof text);
+    assert_int_equal(status, 4);
+    assert_non_null(strstr(text, "/dev/null"));
+}
+
+static void run_into_a_locked_directory_is_refused(void **state)
+{
+    (void)state;
+    char path[96];
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
+    (void)snprintf(path, sizeof path, "%s/.lock", directory);
+    int lock = open(path, O_RDWR);
+    assert_true(lock >= 0);
+    assert_int_equal(flock(lock, LOCK_EX | LOCK_NB), 0);
+    assert_int_equal(run("tt --frames 1-3 --replicates 1 --method fcl-aabb"), 4);
+    assert_non_null(strstr(text, "another run"));
+    (void)close(lock);
+    assert_int_equal(count_cells(".json"), 1);
+}
+
+static void run_out_of_time_is_a_recorded_row(void **state)
+{
+    (void)state;
+    assert_int_equal(run("tt --replicates 1 --timeout 0.001 --method brute-force"), 5);
+    json_t *summary = read_json("summary.json");
+    const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_string_equal(json_string_value(json_object_get(row, "status")), "timeout");
+    json_decref(summary);
+    assert_int_equal(count_cells(".csv"), 0);
+}
+
+static void run_killed_at_any_time_goes_on_without_loss(void **state)
+{
+    (void)state;
+    const char *arguments = "tt --frames 1-200 --replicates 4 " TWO_METHODS;
+    char line[512];
+    (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
+    for (long k = 1; k <= 8; ++k) {
+        pid_t pid = program_start(line, said);
+        assert_true(pid > 0); /* kill would take -1 for every process */
+        struct timespec pause = {0, k * 61000000};
+        (void)nanosleep(&pause, NULL);
+        (void)kill(pid, SIGKILL);
+        (void)waitpid(pid, NULL, 0);
+    }
+    /* A child of the last run lives on for as long as the kernel takes to end it. */
+    struct timespec pause = {0, 200000000};
+    (void)nanosleep(&pause, NULL);
+    assert_int_equal(run(arguments), 0);
+    assert_int_equal(count_cells(".json"), 8);
+    assert_int_equal(count_cells(".csv"), 8);
+    assert_int_equal(count_cells(".part"), 0);
+}
+
+/* Puts the members of an object, written with ', into the only cell of the run. */
+static void change_cell(const char *members)
+{
+    char path[512], plain[256], name[256];
+    find_csv(path, sizeof path);
+    (void)snprintf(name, sizeof name, "cells%s", strrchr(path, '/'));
+    (void)snprintf(name + strlen(name) - 3, 6, "json");
+    (void)snprintf(plain, sizeof plain, "%s", members);
+    for (char *c = plain; *c; ++c)
+        *c = *c == '\'' ? '"' : *c;
+    json_t *cell = read_json(name), *change = json_loads(plain, 0, NULL);
+    assert_non_null(change);
+    assert_int_equal(json_object_update(cell, change), 0);
+    json_decref(change);
+    assert_int_equal(mote_record_json(directory, name, cell), MOTE_OK);
+}
+
+/* What a stored cell says of itself decides whether it is measured again. */
+static void run_of_a_changed_cell_goes_by_its_status_and_stride(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *members;
+        int status;
+        const char *says;
+    } cases[] = {{"{}", 0, "1 of them done"},
+                 {"{'status': null}", 0, "0 of them done"},
+                 {"{'stride': 0}", 0, "0 of them done"},
+                 {"{'stride': 1e9}", 0, "0 of them done"},
+                 {"{'stride': 5000000000}", 0, "0 of them done"},
+                 {"{'status': 'timeout'}", 5, "1 of 1 cells failed"},
+                 {"{'status': 'crashed'}", 5, "1 of them done"}};
+    static const char line[] = "tt --frames 1-2 --replicates 1 --method fcl-aabb";
+    assert_int_equal(run(line), 0);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        change_cell(cases[i].members);
+        const int status = run(line);
+        if (status != cases[i].status || !strstr(text, cases[i].says))
+            fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", cases[i].members, status,
+                     cases[i].status, cases[i].says, text);
+    }
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb --force"), 0);
+    assert_non_null(strstr(text, "0 of them done"));
+}
+
+static void run_sweeps_what_an_interrupted_write_left(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"summary.json.part", "cells/a.json.part",
+                                        "truth/b.csv.part"};
+    char line[512], path[128];
+    (void)snprintf(line, sizeof line, "mkdir -p %s/cells", directory);
+    assert_int_equal(system(line), 0);
+    for (int i = 0; i < 3; ++i) {
+        (void)snprintf(line, sizeof line, "echo part > %s/%s; echo kept > %s/cells/notes",
+                       directory, names[i], directory);
+        assert_int_equal(system(line), 0);
+    }
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
+    struct stat info;
+    for (int i = 0; i < 3; ++i) {
+        (void)snprintf(path, sizeof path, "%s/%s", directory, names[i]);
+        assert_int_not_equal(stat(path, &info), 0);
+    }
+    (void)snprintf(path, sizeof path, "%s/cells/notes", directory);
+    assert_int_equal(stat(path, &info), 0);
+}
+
+static void run_whose_lock_cannot_be_opened_says_so(void **state)
+{
+    (void)state;
+    char line[128];
+    (void)snprintf(line, sizeof line, "mkdir %s/.lock", directory);
+    assert_int_equal(system(line), 0);
+    assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 5);
+    assert_non_null(strstr(text, ".lock: Is a directory; name a directory that can be writ"));
+}
+
+/* Replicates are added to the reference whatever its interval, and to nothing that failed. */
+static void run_until_an_interval_is_narrow_needs_cells_that_end(void **state)
+{
+    (void)state;
+    assert_int_equal(
+        run("tt --replicates 1 --timeout 0.001 --method brute-force --until-ci 50%"), 5);
+    assert_non_null(strstr(text, "after 1 replicates the widest interval is +-0 %"));
+    static const char line[] = "tt --frames 1-6 --stride 1 --replicates 2 --method fcl-aabb "
+                               "--method certified --until-ci 0.001% --budget 0";
+    assert_int_equal(run(line), 0);
+    assert_non_null(strstr(text, "after 2 replicates the widest interval is"));
+    assert_non_null(strstr(text, "wider than asked for: the budget ends"));
+    char forced[256];
+    (void)snprintf(forced, sizeof forced, "%s --force", line);
+    assert_int_equal(run(forced), 0);
+    assert_non_null(strstr(text, "plan: 4 cells, 0 of them done"));
+}
+
+static mote_traits no_traits(const double *values)
+{
+    (void)values;
+    mote_traits traits = {0};
+    return traits;
+}
+
+static mote_status create_nothing(const mote_setup *setup, void **made)
+{
+    (void)setup;
+    *made = NULL;
+    return MOTE_OK;
+}
+
+static void destroy_nothing(void *made)
+{
+    (void)made;
+}
+
+static mote_status die(void *made, const mote_frame *frame, mote_answer *answer)
+{
+    (void)made;
+    (void)frame;
+    (void)answer;
+    (void)signal(SIGSEGV, SIG_DFL);
+    (void)raise(SIGSEGV);
+    return MOTE_OK;
+}
+
+static mote_status refuse(void *made, const mote_frame *frame, mote_answer *answer)
+{
+    (void)made;
+    (void)frame;
+    (void)answer;
+    return mote_fail(MOTE_ENUMERIC, "the reason");
+}
+
+/* Measures two frames of tt with a query of ours; returns how the cell ended. */
+static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *, mote_answer *),
+                                char *reason, size_t size)
+{
+    const mote_method method = {.name = "of-a-test",
+                                .traits = no_traits,
+                                .create = create_nothing,
+                                .destroy = destroy_nothing,
+                                .query = query};
+    mote_method_choice choice = {.method = &method, .text = "of-a-test"};
+    mote_subject subject = {0};
+    char cells[96];
+    (void)snprintf(cells, sizeof cells, "%s/cells", directory);
+    assert_int_equal(mote_directory_make(cells), MOTE_OK);
+    assert_int_equal(mote_scenario_load("tt", &subject.scenario), MOTE_OK);
+    assert_int_equal(mote_truth_load_or_compute(subject.scenario, directory, &subject.truth),
+                     MOTE_OK);
+    mote_cell cell = {.subject = &subject,
+                      .choice = &choice,
+                      .replicate = 1,
+                      .first = 1,
+                      .last = 2,
+                      .stride = 1};
+    mote_cell_name(&cell, 1);
+    mote_process_options options = {.directory = directory, .core = -1, .timeout = 60};
+    mote_cell_end end;
+    assert_int_equal(mote_cell_measure(&cell, &options, &end), MOTE_OK);
+    (void)snprintf(reason, size, "%s", end.reason);
+    mote_truth_destroy(subject.truth);
+    mote_scenario_destroy(subject.scenario);
+    return end.status;
+}
+
+static void cell_of_a_crashing_method_is_recorded_as_crashed(void **state)
+{
+    (void)state;
+    char reason[400];
+    assert_int_equal(measure(die, reason, sizeof reason), MOTE_CELL_CRASHED);
+    assert_non_null(strstr(reason, "signal 11"));
+    assert_int_equal(count_cells(".json"), 1);
+    assert_int_equal(count_cells(".csv"), 0);
+}
+
+static void cell_of_a_failing_method_keeps_frame_and_reason(void **state)
+{
+    (void)state;
+    char reason[400];
+    assert_int_equal(measure(refuse, reason, sizeof reason), MOTE_CELL_CRASHED);
+    assert_string_equal(reason, "frame 1: the reason");
+}
+
+#define TEST(name) cmocka_unit_test_setup(name, next_directory)
+#define TEST_BARE(name) cmocka_unit_test_setup(name, bare_directory)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(run_of_two_methods_leaves_a_cell_each_replicate),
+        TEST(run_writes_rows_with_the_columns_of_the_contract),
+        TEST(run_summary_has_a_row_a_configuration),
+        TEST(run_again_measures_nothing_again),
+        TEST(run_with_a_sweep_makes_every_combination),
+        TEST(run_with_jobs_marks_times_as_not_comparable),
+        TEST(run_until_an_interval_is_narrow_adds_replicates),
+        TEST_BARE(run_with_bad_input_says_what_and_writes_nothing),
+        TEST_BARE(run_with_bad_usage_says_what_is_expected),
+        TEST_BARE(run_into_an_impossible_directory_is_bad_input),
+        TEST(run_into_a_locked_directory_is_refused),
+        TEST(run_out_of_time_is_a_recorded_row),
+        TEST(run_killed_at_any_time_goes_on_without_loss),
+        TEST(run_of_a_changed_cell_goes_by_its_status_and_stride),
+        TEST(run_sweeps_what_an_interrupted_write_left),
+        TEST(run_whose_lock_cannot_be_opened_says_so),
+        TEST(run_until_an_interval_is_narrow_needs_cells_that_end),
+        TEST(cell_of_a_crashing_method_is_recorded_as_crashed),
+        TEST(cell_of_a_failing_method_keeps_frame_and_reason),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

@@ -1,0 +1,265 @@
+/* Shards of a run, and runs merged. */
+#include "harness/base/record.h"
+#include "tests/support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <stdbool.h>
+
+#define METHODS                                                                                \
+    "--replicates 2 --method fcl-aabb --method particle-paper:n=2 --method certified"
+#define CONFIGURATIONS 3
+#define SCENARIOS 3
+#define CELLS (SCENARIOS * CONFIGURATIONS * 2)
+
+static char base[] = "/tmp/mote-test-shard-XXXXXX";
+static char names[SCENARIOS][96], said[64], text[1 << 16];
+
+/* Three scenarios of a few frames, so that the truth takes no time. */
+static int make_base(void **state)
+{
+    (void)state;
+    if (!mkdtemp(base))
+        return -1;
+    (void)snprintf(said, sizeof said, "%s/said", base);
+    for (int i = 0; i < SCENARIOS; ++i) {
+        (void)snprintf(names[i], sizeof names[i], "%s/scenario-%d.json", base, i);
+        FILE *out = fopen(names[i], "w");
+        if (!out)
+            return -1;
+        (void)fprintf(out,
+                      "{\"purpose\": \"a test\", \"like\": \"tt\", \"frames\": %d,"
+                      " \"warmup\": null, \"active\": null}\n",
+                      4 + i);
+        (void)fclose(out);
+    }
+    return 0;
+}
+
+static int remove_base(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+static int set_task(const char *task, const char *count)
+{
+    return (task ? setenv("SLURM_ARRAY_TASK_ID", task, 1) : unsetenv("SLURM_ARRAY_TASK_ID")) ||
+           (count ? setenv("SLURM_ARRAY_TASK_COUNT", count, 1)
+                  : unsetenv("SLURM_ARRAY_TASK_COUNT"));
+}
+
+static int clear_task(void **state)
+{
+    (void)state;
+    return set_task(NULL, NULL);
+}
+
+static int program(const char *line)
+{
+    int status = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    return status;
+}
+
+/* mote run of all scenarios into base/NAME */
+static int run(const char *options, const char *name)
+{
+    char line[1024];
+    (void)snprintf(line, sizeof line, "run %s %s %s %s " METHODS " --out %s/%s", names[0],
+                   names[1], names[2], options, base, name);
+    return program(line);
+}
+
+/* A cell's file in base/NAME; index from 0 in no order; NULL behind the last. */
+static json_t *read_cell(const char *name, int index)
+{
+    char path[512];
+    json_t *cell = NULL;
+    (void)snprintf(path, sizeof path, "%s/%s/cells", base, name);
+    DIR *folder = opendir(path);
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry && !cell;
+         entry = readdir(folder)) {
+        if (strstr(entry->d_name, ".json") && index-- == 0)
+            assert_int_equal(mote_record_read_json(path, entry->d_name, &cell), MOTE_OK);
+    }
+    if (folder)
+        (void)closedir(folder);
+    return cell;
+}
+
+static int count_cells(const char *name)
+{
+    int count = 0;
+    for (json_t *cell; (cell = read_cell(name, count)) != NULL; ++count)
+        json_decref(cell);
+    return count;
+}
+
+static const char *member(const json_t *object, const char *key)
+{
+    const char *value = json_string_value(json_object_get(object, key));
+    return value ? value : "";
+}
+
+static void shards_keep_the_methods_of_a_scenario_together(void **state)
+{
+    (void)state;
+    assert_int_equal(run("--shard 1/2", "first"), 0);
+    assert_int_equal(run("--shard 2/2", "second"), 0);
+    const int first = count_cells("first"), second = count_cells("second");
+    assert_int_equal(first, 2 * CELLS / SCENARIOS);
+    assert_int_equal(second, CELLS / SCENARIOS);
+    for (int i = 0; i < first; ++i) {
+        json_t *cell = read_cell("first", i);
+        for (int k = 0; k < second; ++k) {
+            json_t *other = read_cell("second", k);
+            assert_string_not_equal(member(cell, "scenario"), member(other, "scenario"));
+            json_decref(other);
+        }
+        json_decref(cell);
+    }
+}
+
+static void shard_without_a_scenario_is_an_empty_run(void **state)
+{
+    (void)state;
+    assert_int_equal(run("--shard 4/4", "none"), 0);
+    assert_int_equal(count_cells("none"), 0);
+}
+
+static void shard_of_an_array_task_is_its_default(void **state)
+{
+    (void)state;
+    assert_int_equal(set_task("3", "3"), 0);
+    assert_int_equal(run("", "task"), 0);
+    assert_non_null(strstr(text, "shard 3/3"));
+    assert_int_equal(count_cells("task"), CELLS / SCENARIOS);
+    json_t *cell = read_cell("task", 0);
+    assert_string_equal(member(cell, "scenario"), "scenario-2");
+    json_decref(cell);
+    assert_int_equal(run("--shard 1/3 --dry-run", "task"), 0);
+    assert_non_null(strstr(text, "scenario-0"));
+    assert_null(strstr(text, "scenario-2"));
+}
+
+static void array_task_that_is_no_shard_is_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[][2] = {{"0", "4"},   {"5", "4"},  {"-1", "4"}, {"1", "0"},
+                                         {"one", "4"}, {"1", "4x"}, {"", "4"},   {"2", NULL},
+                                         {NULL, "4"},  {"1.5", "4"}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        assert_int_equal(set_task(bad[i][0], bad[i][1]), 0);
+        assert_int_equal(run("", "refused"), 2);
+        assert_non_null(strstr(text, "SLURM_ARRAY_TASK_ID"));
+        assert_non_null(strstr(text, "--array=1-N"));
+        assert_int_equal(count_cells("refused"), 0);
+    }
+    assert_int_equal(run("--shard 1/1 --dry-run", "refused"), 0);
+}
+
+static json_t *read_rows(const char *name)
+{
+    char path[512];
+    json_t *summary = NULL;
+    (void)snprintf(path, sizeof path, "%s/%s", base, name);
+    assert_int_equal(mote_record_read_json(path, "summary.json", &summary), MOTE_OK);
+    json_t *rows = json_incref(json_object_get(summary, "rows"));
+    json_decref(summary);
+    return rows;
+}
+
+static void merge_of_shards_is_the_whole_run(void **state)
+{
+    (void)state;
+    char line[512];
+    assert_int_equal(run("", "whole"), 0);
+    (void)snprintf(line, sizeof line, "merge %s/merged %s/first %s/second %s/first", base, base,
+                   base, base);
+    assert_int_equal(program(line), 0);
+    assert_int_equal(count_cells("whole"), CELLS);
+    assert_int_equal(count_cells("merged"), CELLS);
+    json_t *whole = read_rows("whole"), *merged = read_rows("merged");
+    assert_int_equal(json_array_size(whole), SCENARIOS * CONFIGURATIONS);
+    assert_int_equal(json_array_size(merged), SCENARIOS * CONFIGURATIONS);
+    static const char *const same[] = {"scenario", "fingerprint", "method",     "parameters",
+                                       "error",    "contacts",    "replicates", "counters"};
+    for (size_t i = 0; i < json_array_size(whole); ++i) {
+        const json_t *a = json_array_get(whole, i), *b = json_array_get(merged, i);
+        for (size_t k = 0; k < sizeof same / sizeof same[0]; ++k)
+            assert_true(json_equal(json_object_get(a, same[k]), json_object_get(b, same[k])));
+        assert_true(json_is_object(json_object_get(b, "ratio")));
+    }
+    json_decref(whole);
+    json_decref(merged);
+    json_t *manifest = NULL; /* a session each shard, though one was merged twice */
+    (void)snprintf(line, sizeof line, "%s/merged", base);
+    assert_int_equal(mote_record_read_json(line, "manifest.json", &manifest), MOTE_OK);
+    assert_int_equal(json_array_size(json_object_get(manifest, "sessions")), 2);
+    json_decref(manifest);
+    (void)snprintf(line, sizeof line, "merge %s/merged %s/no-such-run", base, base);
+    assert_int_equal(program(line), 4);
+}
+
+/* Rewrites the machine of those cells of base/NAME whose replicate and method are these; method
+   "": of all. */
+static void move_cells(const char *name, const char *method, int replicate, const char *machine)
+{
+    char path[512], file[256];
+    (void)snprintf(path, sizeof path, "%s/%s", base, name);
+    for (int i = 0, count = count_cells(name); i < count; ++i) {
+        json_t *cell = read_cell(name, i);
+        bool wanted = json_integer_value(json_object_get(cell, "replicate")) == replicate &&
+                      (method[0] == '\0' || strcmp(member(cell, "method"), method) == 0);
+        (void)snprintf(file, sizeof file, "cells/%s.json", member(cell, "id"));
+        (void)json_object_set_new(cell, "machine", json_string(machine));
+        if (wanted)
+            assert_int_equal(mote_record_json(path, file, json_incref(cell)), MOTE_OK);
+        json_decref(cell);
+    }
+}
+
+/* Replicate 2 was measured elsewhere, and of it the reference on a third machine. */
+static void merge_compares_only_within_one_machine(void **state)
+{
+    (void)state;
+    char line[512];
+    assert_int_equal(run("--shard 3/3", "here"), 0);
+    move_cells("here", "", 2, "there, slow");
+    move_cells("here", "fcl-aabb", 2, "elsewhere, slower");
+    (void)snprintf(line, sizeof line, "merge %s/machines %s/here", base, base);
+    assert_int_equal(program(line), 0);
+    assert_non_null(strstr(text, ", on there, slow"));
+    json_t *rows = read_rows("machines");
+    assert_int_equal(json_array_size(rows), 2 * CONFIGURATIONS);
+    int compared = 0;
+    for (size_t i = 0; i < json_array_size(rows); ++i) {
+        const json_t *row = json_array_get(rows, i);
+        assert_int_equal(json_integer_value(json_object_get(row, "replicates")), 1);
+        bool has_ratio = json_is_object(json_object_get(row, "ratio"));
+        assert_true(has_ratio == (strcmp(member(row, "machine"), "there, slow") != 0));
+        compared += has_ratio;
+    }
+    assert_int_equal(compared, CONFIGURATIONS + 1);
+    json_decref(rows);
+}
+
+#define TEST(name) cmocka_unit_test_teardown(name, clear_task)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(shards_keep_the_methods_of_a_scenario_together),
+        TEST(shard_without_a_scenario_is_an_empty_run),
+        TEST(shard_of_an_array_task_is_its_default),
+        TEST(array_task_that_is_no_shard_is_refused),
+        TEST(merge_of_shards_is_the_whole_run),
+        TEST(merge_compares_only_within_one_machine),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

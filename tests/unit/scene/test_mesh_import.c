@@ -1,0 +1,337 @@
+#include "harness/base/file.h"
+#include "harness/scene/mesh_import.h"
+#include "harness/scene/mesh_soup.h"
+#include "tests/support/plain_file.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+#include <cmocka.h>
+
+#define FOLDER "test_mesh_import_files"
+
+/* A tetrahedron in several formats. */
+static const char obj_text[] =
+    "\xef\xbb\xbf# a comment\r\nv 0 0 0\r\nv 1 0 0 # x\r\nv 0 1 0\r\n"
+    "v 0 0 0.1\r\nv 9 9 9\r\nvn 0 0 1\r\n"
+    "f 1/1/1 3/1/1 2/1/1\r\nf 1 2 4\r\nf -5//1 -2//1 -3//1\r\n"
+    "f 2 3 4\r\n";
+static const char off_text[] = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n"
+                               "3 0 3 2\n3 1 2 3\n";
+static const char ply_text[] =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+static const char stl_text[] =
+    "solid t\n"
+    "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\n"
+    "endfacet\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 0.1\n"
+    "endloop\nendfacet\nfacet normal -1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0.1\n"
+    "vertex 0 1 0\nendloop\nendfacet\nfacet normal 1 1 1\nouter loop\nvertex 1 0 0\n"
+    "vertex 0 1 0\nvertex 0 0 0.1\nendloop\nendfacet\nendsolid t\n";
+
+static const char gltf_text[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scene\": 0, \"scenes\": [{\"nodes\": [0]}]"
+    ", \"nodes\": [{\"mesh\": 0}], \"meshes\": [{\"primitives\": [{\"attributes\": {\""
+    "POSITION\": 0}, \"indices\": 1}]}], \"accessors\": [{\"bufferView\": 0, \"compon"
+    "entType\": 5126, \"count\": 4, \"type\": \"VEC3\", \"min\": [0, 0, 0], \"max\": "
+    "[1, 1, 0.1]}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": 12, \"type"
+    "\": \"SCALAR\"}], \"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLen"
+    "gth\": 48}, {\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 24}], \"buffers\""
+    ": [{\"byteLength\": 72, \"uri\": \"data:application/octet-stream;base64,AAAAAAAA"
+    "AAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAADNzMw9AAACAAEAAAABAAMAAAADAAIA"
+    "AQACAAMA\"}]}";
+
+static mote_status import_text(const char *name, const void *text, size_t size,
+                               mote_mesh **mesh, mote_import *import)
+{
+    char *path = mote_format("%s/%s", FOLDER, name);
+    assert_non_null(path);
+    assert_true(plain_file_write(path, text, size));
+    mote_status status = mote_mesh_import(path, mesh, import);
+    assert_int_equal(unlink(path), 0);
+    free(path);
+    return status;
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    return rmdir(FOLDER);
+}
+
+static void check_tetrahedron(const char *name, const char *text, bool single)
+{
+    mote_mesh *mesh;
+    mote_import import;
+    if (import_text(name, text, strlen(text), &mesh, &import) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(mesh->triangle_count, 4);
+    assert_int_equal(mesh->open_edge_count, 0);
+    assert_int_equal(mote_mesh_euler(mesh), 2);
+    assert_int_equal(import.single_precision, single);
+    /* 0.1 is another number in 32 bits. */
+    assert_true(mesh->high.z == (single ? (double)0.1f : 0.1));
+    mote_mesh_destroy(mesh);
+}
+
+static void mote_mesh_import_formats_give_the_same_tetrahedron(void **state)
+{
+    (void)state;
+    check_tetrahedron("t.obj", obj_text, false);
+    check_tetrahedron("t.off", off_text, false);
+    check_tetrahedron("t.ply", ply_text, true);
+    check_tetrahedron("t.stl", stl_text, true);
+    check_tetrahedron("t.gltf", gltf_text, true);
+}
+
+/* Everything that the format allows around the numbers. */
+static void mote_mesh_import_off_with_extras_is_read(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "\xef\xbb\xbf# made by hand\r\nSTCNOFF 6 2\r\n\r\n0 0 0 1 0 0 0.5 0.5 0.5 1 0 0\r\n"
+        "1 0 0 0 # second\r\n1 1 0\r\n \t0 1 0\r\n9 9 9\r\n0 0 1\r\n# faces\r\n4 0 1 2 3 255 0 "
+        "0\r\n"
+        "3 5 1 0 0.5 0.5 0.5\r\nrest";
+    mote_mesh *mesh;
+    mote_import import;
+    if (import_text("t.off", text, strlen(text), &mesh, &import) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mesh->vertex_count, 5);
+    assert_int_equal(mesh->triangle_count, 3);
+    assert_int_equal(import.unused, 1);
+    assert_true(mesh->high.x == 1 && mesh->high.y == 1 && mesh->high.z == 1);
+    mote_mesh_destroy(mesh);
+}
+
+/* 80 bytes that say solid, a count, and 50 bytes a triangle. */
+static void mote_mesh_import_binary_stl_beginning_with_solid_is_read(void **state)
+{
+    (void)state;
+    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1f}};
+    static const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    unsigned char data[84 + 4 * 50] = "solid but binary";
+    data[80] = 4;
+    for (int f = 0; f < 4; ++f) {
+        for (int k = 0; k < 3; ++k)
+            memcpy(data + 84 + 50 * f + 12 + 12 * k, corners[faces[f][k]], 12);
+    }
+    mote_mesh *mesh;
+    mote_import import;
+    assert_int_equal(import_text("b.stl", data, sizeof data, &mesh, &import), MOTE_OK);
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(import.welded, 8);
+    assert_int_equal(import.unused, 0);
+    mote_mesh_destroy(mesh);
+}
+
+static void mote_soup_weld_equal_places_become_one(void **state)
+{
+    (void)state;
+    mote_soup soup = {0};
+    static const double places[][3] = {{0, 0, 0},    {1, 0, 0}, {0, 1, 0},
+                                       {-0.0, 0, 0}, {1, 0, 0}, {5, 5, 5}};
+    for (int i = 0; i < 6; ++i)
+        assert_int_equal(mote_soup_add_vertex(&soup, places[i][0], places[i][1], places[i][2]),
+                         MOTE_OK);
+    assert_int_equal(mote_soup_add_triangle(&soup, 0, 1, 2), MOTE_OK);
+    assert_int_equal(mote_soup_add_triangle(&soup, 2, 4, 3), MOTE_OK);
+    assert_int_equal(mote_soup_add_triangle(&soup, 0, 3, 2), MOTE_OK); /* collapses */
+    assert_int_equal(mote_soup_weld(&soup), MOTE_OK);
+    assert_int_equal(soup.vertex_count, 3);
+    assert_int_equal(soup.triangle_count, 2);
+    assert_int_equal(soup.welded, 2);
+    assert_int_equal(soup.collapsed, 1);
+    assert_int_equal(soup.unused, 1);
+    assert_int_equal(soup.indices[3], 2);
+    assert_int_equal(soup.indices[4], 1);
+    assert_int_equal(soup.indices[5], 0);
+    mote_soup_free(&soup);
+}
+
+typedef struct bad_text {
+    const char *name, *text, *says;
+} bad_text;
+
+static const bad_text bad_texts[] = {
+    {"b.obj", "", "no face"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4: face with vertex 4"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", ":4: face with vertex -4"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", ":4: face with vertex 0"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n", ":4: face"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2\n", ":4: a face with a vertex twice"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", ":4: a face of 2 vertices"},
+    {"b.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", ":2: a vertex without three numbers"},
+    {"b.obj", "v 0 0 0\nv 1,5 0 0\n", ":2: a vertex without three numbers"},
+    {"b.obj", "v 0 0 nan\n", ":1: a coordinate is not a finite double"},
+    {"b.obj", "v 0 0 1e400\n", ":1: a coordinate is not a finite double"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
+     "edge"},
+    {"b.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "b.obj"},
+    {"b.off", "", "an empty file"},
+    {"b.off", "4OFF\n1 0 0\n0 0 0 0\n", ":1: no word OFF"},
+    {"b.off", "OFF BINARY\n3 1 0\n", ":1: binary"},
+    {"b.off", "OFF\n1\n", ":2: no counts"},
+    {"b.off", "OFF\n-1 1 0\n", ":2: no counts"},
+    {"b.off", "OFF\n999999999 999999999 0\n0 0 0\n", "declares 999999999 vertices"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n", ":5: a coordinate"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\ninf 1 0\n3 0 1 2\n", ":5: a coordinate"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n1,5 1 0\n3 0 1 2\n", ":5: a vertex without three"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n", ":6: face with vertex 99 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":6: face with vertex 3 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":6: face with vertex -1 of 3"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 4294967298\n", ":6: face with vertex"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n", ":6: a face with a vertex twice"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", ":6: a face of 3 corners with 2"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ":6: a face of 2 vertices"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", ":5: ends after 0 of 1 faces"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", ":4: ends after 2 of 3 vertices"},
+    {"b.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no face"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 2\n", ":4: a face with a vertex twice"},
+    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 1\n", ":4: a face with a vertex twice"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", ":6: a face without its number"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\nx 0 1 2\n", ":6: a face without its number"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3.5 0 1 2\n", ":6: a face without its number"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2.5\n", ":6: a face of 3 corners"},
+    {"b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4 0 1 1 2\n", ":6: a face with a vertex twice"},
+    {"b.ply", "ply\nformat ascii 1.0\nelement vertex 3\nend_headers\n", "without a line end"},
+    {"b.stl", "solid t\nendsolid t\nmore\n", ":4: ends without a line endsolid"},
+    {"b.stl", "solid t\nouter loop\nvertex 0 0 0\nvertex 0 1\n", ":4: a vertex without three"},
+    {"b", "v 0 0 0\n", "b: "},
+    {"b.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "without a line end_header"},
+    {"b.ply", "ply\nformat ascii 1.0\nelement vertex 77777777\nend_header\n",
+     "declares 77777777"},
+    {"b.stl", "solid t\nendsolid t\n", "b.stl"},
+    {"b.xyz", "what is this?", "b.xyz"},
+};
+
+static double seconds_now(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void mote_mesh_import_bad_file_names_the_place(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof bad_texts / sizeof bad_texts[0]; ++i) {
+        const bad_text *bad = &bad_texts[i];
+        mote_mesh *mesh = NULL;
+        const double start = seconds_now();
+        mote_status status = import_text(bad->name, bad->text, strlen(bad->text), &mesh, NULL);
+        assert_true(seconds_now() - start < 5);
+        assert_null(mesh);
+        if (status == MOTE_OK || !strstr(mote_error_text(), bad->says) ||
+            !strstr(mote_error_text(), bad->name))
+            fail_msg("case %zu: status %d, \"%s\" lacks \"%s\"", i, (int)status,
+                     mote_error_text(), bad->says);
+    }
+}
+
+static void mote_mesh_import_not_a_file_is_refused(void **state)
+{
+    (void)state;
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_import("no/such.obj", &mesh, NULL), MOTE_EIO);
+    assert_int_equal(mote_mesh_import(FOLDER, &mesh, NULL), MOTE_EINVAL);
+    assert_int_equal(mote_mesh_import("/dev/zero", &mesh, NULL), MOTE_EINVAL);
+    assert_int_equal(mkfifo(FOLDER "/p.obj", 0600), 0);
+    assert_int_equal(mote_mesh_import(FOLDER "/p.obj", &mesh, NULL), MOTE_EINVAL);
+    assert_int_equal(unlink(FOLDER "/p.obj"), 0);
+    assert_null(mesh);
+}
+
+static uint32_t draw(uint32_t *seed, uint32_t below)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (uint32_t)(((uint64_t)*seed * below) >> 32);
+}
+
+/* Copies text with a few bytes changed, cut or repeated, or numbers made absurd. */
+static size_t mutate(const char *text, uint32_t *seed, char *out)
+{
+    static const char *const absurd[] = {"-1",         "99999999",   "nan", "1e400",
+                                         "0x7fffffff", "4294967295", ",",   "\r",
+                                         "1e-320",     "-2147483648"};
+    size_t size = strlen(text);
+    memcpy(out, text, size);
+    for (uint32_t changes = 1 + draw(seed, 4); changes > 0; --changes) {
+        const size_t at = draw(seed, (uint32_t)size);
+        const char *word = absurd[draw(seed, sizeof absurd / sizeof absurd[0])];
+        switch (draw(seed, 4)) {
+        case 0:
+            out[at] = (char)draw(seed, 256);
+            break;
+        case 1:
+            size = at + 1;
+            break;
+        default:
+            memmove(out + at + strlen(word), out + at, size - at);
+            memcpy(out + at, word, strlen(word));
+            size += strlen(word);
+            break;
+        }
+    }
+    return size;
+}
+
+/* Whatever comes of them, it comes soon, as a valid mesh or as an error. */
+static void mote_mesh_import_mutated_files_are_read_or_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *text;
+    } kinds[] = {
+        {"m.obj", obj_text}, {"m.off", off_text}, {"m.ply", ply_text}, {"m.stl", stl_text}};
+    uint32_t seed = 1, read = 0;
+    for (int i = 0; i < 1000; ++i) {
+        char text[2048];
+        const size_t kind = i % 8 < 4 ? 0 : (size_t)(i % 4);
+        const size_t size = mutate(kinds[kind].text, &seed, text);
+        mote_mesh *mesh = NULL;
+        const double start = seconds_now();
+        if (import_text(kinds[kind].name, text, size, &mesh, NULL) == MOTE_OK) {
+            assert_true(isfinite(mesh->diagonal) && mesh->diagonal > 0);
+            assert_true(mesh->triangle_count <= 16);
+            mote_mesh_destroy(mesh);
+            ++read;
+        } else {
+            assert_null(mesh);
+            assert_null(strchr(mote_error_text(), '\n'));
+        }
+        assert_true(seconds_now() - start < 5);
+    }
+    assert_in_range(read, 1, 999);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mote_mesh_import_formats_give_the_same_tetrahedron),
+        cmocka_unit_test(mote_mesh_import_off_with_extras_is_read),
+        cmocka_unit_test(mote_mesh_import_binary_stl_beginning_with_solid_is_read),
+        cmocka_unit_test(mote_soup_weld_equal_places_become_one),
+        cmocka_unit_test(mote_mesh_import_bad_file_names_the_place),
+        cmocka_unit_test(mote_mesh_import_not_a_file_is_refused),
+        cmocka_unit_test(mote_mesh_import_mutated_files_are_read_or_refused),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,297 @@
+/* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
+#include "harness/study/claims.h"
+
+#include "harness/figure/figure.h"
+#include "tests/support/program.h"
+#include "tests/support/stored_cells.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+static mote_confidence interval(double low, double high)
+{
+    const mote_confidence made = {low, high};
+    return made;
+}
+
+static void add(mote_claim *claim, double value, mote_confidence range, mote_bound bound,
+                double holds, double limits)
+{
+    assert_int_equal(mote_claim_add(claim, value, range, "L", "figure %d", 1), MOTE_OK);
+    mote_claim_require(claim, bound, holds, limits);
+}
+
+static void judge_by_the_worse_end_of_the_interval(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    add(&claim, 0.08, interval(0.07, 0.09), MOTE_AT_MOST, 0.1, 0.2);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
+    claim.values[0].interval.high = 0.11;
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
+    claim.values[0].interval.high = 0.21;
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_require(&claim, MOTE_AT_LEAST, 0.07, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
+    mote_claim_require(&claim, MOTE_AT_LEAST, 0.075, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void judge_needs_every_threshold_of_a_level(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
+    add(&claim, 1, none, MOTE_AT_MOST, 2, 2);
+    add(&claim, 3, none, MOTE_AT_MOST, 2, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
+    add(&claim, 3, none, MOTE_AT_MOST, MOTE_NONE, 2);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void judge_without_a_figure_or_a_threshold_does_not_hold(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {.id = "x"};
+    const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    add(&claim, 1, none, MOTE_BOUND_NONE, MOTE_NONE, MOTE_NONE);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    add(&claim, MOTE_NONE, none, MOTE_AT_LEAST, 0, 0);
+    assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
+    mote_claim_free(&claim);
+}
+
+static void json_holds_the_headline_and_every_figure(void **unused)
+{
+    (void)unused;
+    mote_claim claim = {
+        .id = "x", .section = "3", .claim = "c", .measured = "m", .curve = NULL};
+    add(&claim, 0.5, interval(0.25, 0.75), MOTE_AT_MOST, 1, MOTE_NONE);
+    add(&claim, 7, interval(MOTE_NONE, MOTE_NONE), MOTE_BOUND_NONE, MOTE_NONE, MOTE_NONE);
+    json_t *json = mote_claim_json(&claim);
+    assert_non_null(json);
+    assert_string_equal(json_string_value(json_object_get(json, "verdict")), "holds");
+    assert_true(json_real_value(json_object_get(json, "value")) == 0.5);
+    assert_true(json_real_value(json_array_get(json_object_get(json, "interval"), 1)) == 0.75);
+    assert_int_equal(json_array_size(json_object_get(json, "values")), 2);
+    const json_t *threshold = json_object_get(json, "threshold");
+    assert_true(json_real_value(json_object_get(threshold, "holds")) == 1);
+    assert_true(json_is_null(json_object_get(threshold, "limits")));
+    json_decref(json);
+    mote_claim_free(&claim);
+}
+
+/* Values from published tables of Clopper and Pearson's intervals. */
+static void share_interval_matches_tables(void **unused)
+{
+    (void)unused;
+    const mote_confidence none = mote_statistics_share_interval(0, 10);
+    const mote_confidence half = mote_statistics_share_interval(5, 10);
+    const mote_confidence all = mote_statistics_share_interval(10, 10);
+    assert_true(none.low == 0 && fabs(none.high - 0.3085) < 1e-4);
+    assert_true(fabs(half.low - 0.1871) < 1e-4 && fabs(half.high - 0.8129) < 1e-4);
+    assert_true(fabs(all.low - 0.6915) < 1e-4 && all.high == 1);
+    const mote_confidence nothing = mote_statistics_share_interval(0, 0);
+    assert_true(nothing.low != nothing.low);
+}
+
+static void estimate_of_ratios_is_their_geometric_mean(void **unused)
+{
+    (void)unused;
+    const double values[] = {1, 4, 16};
+    const mote_estimate e = mote_estimate_ratio(values, 3);
+    assert_true(fabs(e.value - 4) < 1e-12);
+    assert_true(fabs(e.interval.low * e.interval.high - 16) < 1e-9 && e.interval.low > 0);
+}
+
+/* A small variant of a scene, and queries that allocate nothing once they are warm. */
+static void queries_from_frame_50_on_allocate_nothing(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-claims-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    mote_study study;
+    assert_int_equal(mote_study_open(folder, true, &study), MOTE_OK);
+    const mote_variant variant = {"ww", "small", 'V', 2000, false};
+    const mote_subject *subject = NULL;
+    if (mote_study_variant(&study, &variant, &subject) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(subject->scenario->body[0].mesh->triangle_count, 2000);
+    static const char *const methods[] = {
+        "particle-paper:n=5", "particle-paper:n=8,refine=always,move=surface",
+        "particle-paper:n=40,far_cache=0.5", "particle-paper:n=5,precision=single"};
+    for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m) {
+        mote_cell_result result;
+        const mote_tour tour = {.first = 900, .last = 1300, .seed = m + 1};
+        assert_int_equal(mote_study_measure(subject, methods[m], tour, &result), MOTE_OK);
+        assert_int_equal(result.row_count, 401);
+        for (size_t i = 50; i < result.row_count; ++i)
+            assert_int_equal(result.rows[i].allocations, 0);
+        mote_cell_result_free(&result);
+    }
+    mote_study_close(&study);
+    assert_int_equal(program_remove(folder), 0);
+}
+
+/* The claims table of a file that is not quite what mote writes: nothing is made up. */
+static void figure_of_odd_claims_shows_what_is_there(void **unused)
+{
+    (void)unused;
+    static const struct {
+        const char *claims;
+        const char *shows[2]; /* parts of the data */
+    } cases[] = {
+        {"[{}]", {"0 0 \"\"\n", "2 0 \": not measured\"\n"}},
+        {"[5, {\"id\": \"b\", \"verdict\": \"holds\"}]", {"0 2 \"b\"\n", "2 1 2 \"holds\"\n"}},
+        {"[{\"id\": \"dynamics\", \"claim\": \"x\"}]",
+         {"1 0 \"dynamics: x\"\n", "2 1 \": not measured\"\n"}},
+        {"[{\"value\": 2, \"unit\": \"L\"}]", {"\": 2 L\"", "0 1 0 \"\""}},
+        {"[{\"value\": 2.5, \"interval\": [1, 3.5]}]", {"\": 2.5 [1, 3.5] \""}},
+        {"[{\"value\": 2.5, \"interval\": [1.5, 3]}]", {"\": 2.5 [1.5, 3] \""}},
+        {"[{\"value\": 2.5, \"interval\": [1]}]", {"\": 2.5 \""}},
+        {"[{\"value\": 2.5, \"interval\": [null, 3]}]", {"\": 2.5 \""}},
+        {"[{\"value\": 2.5, \"interval\": [1, \"3\"]}]", {"\": 2.5 \""}},
+        {"[{\"value\": \"2.5\"}]", {"\": not measured\""}},
+        {"[{\"verdict\": \"holds within limits\"}]", {"0 1 1 \"within limits\""}},
+        {"[{\"verdict\": \"does not hold\"}]", {"0 1 0 \"does not hold\""}},
+        {"[{\"claim\": "
+         "\"of_one_word_that_is_longer_than_a_line_of_the_table_can_be,_is_cut\"}]",
+         {"1 0 \"of_one_word_that_is_longer_than_a_line_of_the_table_\"\n",
+          "1 1 \"can_be,_is_cut\"\n"}},
+        {"[{\"claim\": \"a b c d e f g h i j k l m n o p q r s t u v w x y z a b c d e f g h i "
+         "j "
+         "k l m n o p q r s t u v w x y z a b c d e f g h i j k l m n o p q r s t u v w x y z "
+         "a "
+         "b c d e f g h i j k l m n o p q r s t u v w x y z a b c d e f g h i j k l m n o p q "
+         "r "
+         "s t u v w x y z a b c d e f g h i j k l m n o p q r s t u v w x y z THE END\"}]",
+         {"1 5 \"", "2 6 \": not measured\""}}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        json_t *claims = json_loads(cases[i].claims, 0, NULL);
+        assert_non_null(claims);
+        const mote_figure_run run = {"out", NULL, claims};
+        mote_figure figure = {{0}, {0}, {0}};
+        assert_int_equal(mote_figure_claims(&run, NULL, &figure), MOTE_OK);
+        for (int k = 0; k < 2 && cases[i].shows[k]; ++k) {
+            if (!strstr(figure.data.data, cases[i].shows[k]))
+                fail_msg("%s shows no %s but\n%s", cases[i].claims, cases[i].shows[k],
+                         figure.data.data);
+        }
+        assert_null(strstr(figure.data.data, "THE END")); /* six lines at most */
+        free(figure.data.data);
+        free(figure.caption.data);
+        json_decref(claims);
+    }
+}
+
+/* Figures of studies that were not made say what makes them. */
+static void figures_without_a_study_name_what_measures_it(void **unused)
+{
+    (void)unused;
+    const mote_figure_run run = {"/tmp/no/such/run", NULL, NULL};
+    static const struct {
+        mote_figure_writer *write;
+        const char *missing;
+    } cases[] = {{mote_figure_claims, "claims.json; `make claims OUT=/tmp/no/such/run`"},
+                 {mote_figure_extremes, "figures/extremes.dat; `make extremes OUT=/tmp/no/"}};
+    for (size_t i = 0; i < 2; ++i) {
+        mote_figure figure = {{0}, {0}, {0}};
+        assert_int_equal(cases[i].write(&run, NULL, &figure), MOTE_OK);
+        assert_non_null(strstr(figure.missing.data, cases[i].missing));
+        assert_int_equal(figure.data.size, 0);
+        free(figure.missing.data);
+    }
+}
+
+static void figure_of_extremes_is_their_data(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-claims-XXXXXX", path[64], line[160];
+    assert_non_null(mkdtemp(folder));
+    (void)snprintf(path, sizeof path, "%s/figures", folder);
+    assert_int_equal(mote_directory_make(path), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/figures/extremes.dat", folder);
+    assert_int_equal(mote_file_write(path, "1 2\n", 4), MOTE_OK);
+    const mote_figure_run run = {folder, NULL, NULL};
+    mote_figure figure = {{0}, {0}, {0}};
+    assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_OK);
+    assert_string_equal(figure.data.data, "1 2\n");
+    free(figure.data.data);
+    free(figure.caption.data);
+    /* What is there and cannot be read is an error. */
+    (void)snprintf(line, sizeof line, "rm %s && mkdir %s", path, path);
+    assert_int_equal(system(line), 0);
+    figure = (mote_figure){{0}, {0}, {0}};
+    assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "extremes.dat"));
+    free(figure.caption.data);
+    assert_int_equal(program_remove(folder), 0);
+}
+
+/* Cells are files: one may have fewer frames than the others, or none that count. */
+static void slowest_frame_of_cut_cells_is_of_what_is_there(void **unused)
+{
+    (void)unused;
+    char folder[] = "/tmp/mote-test-claims-XXXXXX";
+    const stored_cell cells[] = {
+        {.scenario = "ww",
+         .rows = "1,0,0,9e6,1,0,0,0,7\n2,0,0,3e6,1,0,0,0,7\n"
+                 "3,0,0,4e6,1,0,0,0,7\n4,0,0,9e6,1,0,0,0,7\n"},
+        {.scenario = "ww",
+         .replicate = 2,
+         .rows = "1,0,0,9e6,1,0,0,0,7\n2,0,0,7e6,1,0,0,0,7\n"},
+        {.scenario = "tt", .id = "tt", .rows = "1,0,0,1,1,0,0,0,7\n4,0,0,1,1,0,0,0,7\n"}};
+    mote_study study = {.summarised = true};
+    mote_claim claim = {0};
+    assert_non_null(mkdtemp(folder));
+    for (size_t i = 0; i < 3; ++i) {
+        stored_cell cell = cells[i];
+        cell.method = "particle-paper";
+        cell.parameters = i < 2 ? "{\"n\": 5}" : "{\"n\": 3}";
+        assert_true(stored_cell_write(folder, &cell));
+    }
+    assert_int_equal(mote_summary_make(folder, &study.summary), MOTE_OK);
+    assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);
+    assert_int_equal(claim.count, 4);
+    assert_true(claim.values[1].value == 5); /* of 3 and 7; then 4 alone */
+    assert_true(isnan(claim.values[3].value));
+    assert_false(mote_claim_met(&claim.values[3], claim.values[3].limits));
+    mote_claim_free(&claim);
+    mote_summary_free(&study.summary);
+    assert_int_equal(program_remove(folder), 0);
+}
+
+static void command_with_an_unknown_word_is_a_usage_error(void **unused)
+{
+    (void)unused;
+    assert_int_equal(program_wait(program_start("claims something", "/dev/null")), 2);
+    assert_int_equal(program_wait(program_start("claims --fast", "/dev/null")), 2);
+    assert_int_equal(program_wait(program_start("claims --out /dev/null/x", "/dev/null")), 4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(judge_by_the_worse_end_of_the_interval),
+        cmocka_unit_test(judge_needs_every_threshold_of_a_level),
+        cmocka_unit_test(judge_without_a_figure_or_a_threshold_does_not_hold),
+        cmocka_unit_test(json_holds_the_headline_and_every_figure),
+        cmocka_unit_test(share_interval_matches_tables),
+        cmocka_unit_test(estimate_of_ratios_is_their_geometric_mean),
+        cmocka_unit_test(queries_from_frame_50_on_allocate_nothing),
+        cmocka_unit_test(figure_of_odd_claims_shows_what_is_there),
+        cmocka_unit_test(figures_without_a_study_name_what_measures_it),
+        cmocka_unit_test(figure_of_extremes_is_their_data),
+        cmocka_unit_test(slowest_frame_of_cut_cells_is_of_what_is_there),
+        cmocka_unit_test(command_with_an_unknown_word_is_a_usage_error),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,400 @@
+/* The studies with planted measurements: their verdicts, tables and files follow from what was
+   measured, and whatever fails beneath them is handed up with its text. */
+#include "harness/study/claims.h"
+#include "harness/command/command.h"
+#include "harness/base/options.h"
+#include "harness/base/record.h"
+#include "harness/study/study_bodies.h"
+#include "harness/study/study_dynamics.h"
+#include "harness/study/study_extremes.h"
+#include "tests/support/planted.h"
+#include "tests/support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static char base[] = "/tmp/mote-studies-XXXXXX";
+
+typedef mote_status (*experiment)(mote_study *study, mote_claim *claim);
+#define EXPERIMENT(name) {#name, mote_claim_##name},
+static const struct {
+    const char *name;
+    experiment measure;
+} experiments[] = {MOTE_CLAIMS(EXPERIMENT) MOTE_REQUIREMENTS(EXPERIMENT)};
+enum { EXPERIMENTS = sizeof experiments / sizeof experiments[0] };
+
+static mote_status measure(size_t k, mote_claim_verdict *verdict)
+{
+    mote_study study;
+    mote_claim claim = {0};
+    mote_status status = mote_study_open(base, true, &study);
+    planted.calls = planted.first_figure = 0;
+    if (status == MOTE_OK)
+        status = experiments[k].measure(&study, &claim);
+    *verdict = mote_claim_judge(&claim);
+    mote_claim_free(&claim);
+    mote_study_close(&study);
+    return status;
+}
+
+static mote_claim_verdict verdict_of(const char *name)
+{
+    mote_claim_verdict verdict = MOTE_CLAIM_DOES_NOT_HOLD;
+    for (size_t k = 0; k < EXPERIMENTS; ++k) {
+        if (strcmp(experiments[k].name, name) != 0)
+            continue;
+        if (measure(k, &verdict) != MOTE_OK)
+            fail_msg("%s: %s", name, mote_error_text());
+        return verdict;
+    }
+    fail_msg("no experiment %s", name);
+    return verdict;
+}
+
+static void claims_on_accuracy_follow_the_error(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"contact_point", "convex_parts", "few_particles",
+                                        "exact_shares"};
+    plant_good();
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        assert_int_equal(verdict_of(names[i]), MOTE_CLAIM_HOLDS);
+    planted.error = 0.3;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i)
+        assert_int_equal(verdict_of(names[i]), MOTE_CLAIM_DOES_NOT_HOLD);
+    planted.error = 0.07; /* between a twentieth and a tenth */
+    assert_int_equal(verdict_of("few_particles"), MOTE_CLAIM_LIMITS);
+}
+
+static void claims_on_contacts_follow_what_was_seen(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"passing_through", "no_missed_contact"};
+    plant_good();
+    for (size_t i = 0; i < 2; ++i)
+        assert_int_equal(verdict_of(names[i]), MOTE_CLAIM_HOLDS);
+    planted.contact_seen = false;
+    for (size_t i = 0; i < 2; ++i)
+        assert_int_equal(verdict_of(names[i]), MOTE_CLAIM_DOES_NOT_HOLD);
+    plant_good();
+    planted.passes = 60;
+    assert_int_equal(verdict_of("closed_loop"), MOTE_CLAIM_DOES_NOT_HOLD);
+}
+
+static void claims_on_times_follow_the_times(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_int_equal(verdict_of("times"), MOTE_CLAIM_HOLDS);
+    assert_int_equal(verdict_of("hierarchy_memory"), MOTE_CLAIM_HOLDS);
+    assert_int_equal(verdict_of("faster_than_fcl"), MOTE_CLAIM_HOLDS);
+    planted.ours_ns = 5e5; /* 0.5 ms: below the paper's, not below a twentieth */
+    assert_int_equal(verdict_of("times"), MOTE_CLAIM_LIMITS);
+    planted.ours_ns = 1e8;
+    assert_int_equal(verdict_of("times"), MOTE_CLAIM_DOES_NOT_HOLD);
+}
+
+static void claim_on_complexity_follows_the_exponent(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_int_equal(verdict_of("complexity"), MOTE_CLAIM_HOLDS);
+    planted.exponent = 0.5;
+    assert_int_equal(verdict_of("complexity"), MOTE_CLAIM_DOES_NOT_HOLD);
+}
+
+static void claims_of_a_run_that_lacks_a_row_say_which(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"times", "hierarchy_memory", "hierarchy_update",
+                                        "faster_than_fcl"};
+    mote_claim_verdict verdict;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        for (size_t k = 0; k < EXPERIMENTS; ++k) {
+            if (strcmp(experiments[k].name, names[i]) != 0)
+                continue;
+            plant_good();
+            for (planted.rows = 0; measure(k, &verdict) != MOTE_OK; ++planted.rows) {
+                assert_non_null(strstr(mote_error_text(), "no result of "));
+                assert_true(planted.rows < PLANTED_ROWS);
+            }
+            assert_true(planted.rows > 0);
+            plant_good();
+            planted.body_failed = true;
+            assert_int_equal(measure(k, &verdict), MOTE_EIO);
+            assert_non_null(strstr(mote_error_text(), "1 cells of ww failed"));
+        }
+    }
+}
+
+static void hand_up(size_t k, long n, long all)
+{
+    mote_claim_verdict verdict;
+    planted.failing = n;
+    const mote_status status = measure(k, &verdict);
+    planted.failing = 0;
+    if (status == MOTE_OK || !strstr(mote_error_text(), "planted in "))
+        fail_msg("%s: call %ld of %ld failed: %s: %s", experiments[k].name, n, all,
+                 mote_status_text(status), mote_error_text());
+}
+
+/* The n-th call beneath an experiment fails: for the first ones, the last ones, that which adds
+   its first figure, and some between (there are thousands of the same kind). */
+static void claims_hand_up_what_fails_beneath(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < EXPERIMENTS; ++k) {
+        mote_claim_verdict verdict;
+        plant_good();
+        if (measure(k, &verdict) != MOTE_OK)
+            fail_msg("%s: %s", experiments[k].name, mote_error_text());
+        const long all = planted.calls, first_figure = planted.first_figure;
+        assert_true(all > 1 && first_figure > 0);
+        const long near = mote_heap_read().counted ? 6 : 1; /* fewer with sanitizers */
+        for (long n = 1; n <= all; n += n <= near || n > all - near ? 1 : (all + 2) / 3)
+            hand_up(k, n, all);
+        hand_up(k, first_figure, all);
+    }
+}
+
+static size_t size_of(const char *name, const char *key)
+{
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json(base, name, &object), MOTE_OK);
+    const size_t size = json_array_size(key ? json_object_get(object, key) : object);
+    json_decref(object);
+    return size;
+}
+
+static void claims_measure_writes_all_and_tells_whether_requirements_are_met(void **state)
+{
+    (void)state;
+    for (int good = 1; good >= 0; --good) {
+        mote_study study;
+        bool met = !good;
+        plant_good();
+        planted.error = good ? 0 : 0.3;
+        assert_int_equal(mote_study_open(base, true, &study), MOTE_OK);
+        if (mote_claims_measure(&study, &met) != MOTE_OK)
+            fail_msg("%s", mote_error_text());
+        mote_study_close(&study);
+        assert_true(met == good);
+        assert_int_equal(size_of("claims.json", NULL), 14);
+        assert_int_equal(size_of("requirements.json", NULL), 5);
+    }
+}
+
+static bool text_has(const char *name, const char *part)
+{
+    char path[256], *text = NULL;
+    size_t size;
+    (void)snprintf(path, sizeof path, "%s/%s", base, name);
+    assert_int_equal(mote_file_read(path, 1 << 26, &text, &size), MOTE_OK);
+    const bool has = strstr(text, part) != NULL;
+    free(text);
+    return has;
+}
+
+static bool extremes_met(void)
+{
+    bool met = false;
+    if (mote_study_extremes(base, true, &met) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return met;
+}
+
+static void extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_true(extremes_met());
+    assert_true(text_has("extremes.md", "## Wrong: 0"));
+    planted.others_verdict = MOTE_EXTREME_REFUSED;
+    assert_true(extremes_met());
+    assert_true(text_has("extremes.csv", "planted, as refused"));
+    planted.ours_verdict = MOTE_EXTREME_WRONG;
+    assert_false(extremes_met());
+    assert_true(text_has("extremes.md", "| certified | "));
+    plant_good();
+    planted.others_verdict = MOTE_EXTREME_CRASHED;
+    assert_false(extremes_met());
+    planted.ours_verdict = MOTE_EXTREME_NONE; /* a method without the parameter has no cell */
+    assert_false(extremes_met());
+    assert_false(text_has("extremes.csv", ",certified,"));
+    assert_true(size_of("extremes.json", "scenes") > 20);
+}
+
+static bool dynamics_met(bool keep)
+{
+    bool met = false;
+    const mote_dynamics_size size = {.quick = true};
+    if (mote_study_dynamics(base, &size, 1, 0x1234, keep, &met) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return met;
+}
+
+static void
+dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_true(dynamics_met(false));
+    const long simulated = planted.simulated;
+    assert_true(simulated > 10);
+    assert_true(dynamics_met(false));
+    assert_int_equal(planted.simulated, simulated); /* not again */
+    planted.others_pass = true;
+    assert_true(dynamics_met(true)); /* the rows that are there */
+    char rows[96];
+    (void)snprintf(rows, sizeof rows, "%s/rows", base);
+    assert_int_equal(program_remove(rows), 0);
+    assert_false(dynamics_met(false));
+    assert_true(size_of("dynamics.json", "failures") > 0);
+}
+
+static bool bodies_met(void)
+{
+    bool met = false;
+    if (mote_study_bodies(base, true, &met) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return met;
+}
+
+static void bodies_are_met_where_every_requirement_is(void **state)
+{
+    (void)state;
+    plant_good();
+    assert_true(bodies_met());
+    assert_int_equal(size_of("bodies.json", "requirements"), 4);
+    assert_int_equal(size_of("bodies.json", "gains"), 27);
+    planted.ratio = 19;
+    assert_false(bodies_met());
+    plant_good();
+    planted.ratio = (double)NAN;
+    assert_false(bodies_met());
+    plant_good();
+    planted.body_missed = true;
+    assert_false(bodies_met());
+    plant_good();
+    planted.body_failed = true;
+    assert_false(bodies_met());
+    assert_true(text_has("bodies.csv", ",crashed\n"));
+}
+
+static const char *profile_of(const char *name)
+{
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json(base, name, &object), MOTE_OK);
+    const char *profile = json_string_value(json_object_get(object, "profile"));
+    const bool full = profile && strcmp(profile, "full") == 0;
+    json_decref(object);
+    return full ? "full" : "quick";
+}
+
+/* Every way of not being met is told apart in what is written. */
+static void bodies_say_which_requirement_is_not_met(void **state)
+{
+    (void)state;
+    plant_good();
+    planted.bodies_failed = true; /* and there is no gain to tell */
+    assert_false(bodies_met());
+    assert_int_equal(size_of("bodies.json", "gains"), 0);
+    assert_true(text_has("bodies.csv", ",,,,,,,,,,,,,,,,,,,crashed\n"));
+    plant_good();
+    planted.body_alone = true;
+    assert_false(bodies_met());
+    static const int64_t bytes[] = {0, (int64_t)1 << 30};
+    for (int k = 0; k < 2; ++k) {
+        plant_good();
+        planted.body_bytes = bytes[k];
+        assert_false(bodies_met());
+    }
+    assert_string_equal(profile_of("bodies.json"), "quick");
+}
+
+/* The exit code says whether the requirements are met, the profile what was measured. */
+static void commands_of_studies_exit_as_the_requirements_are_met(void **state)
+{
+    (void)state;
+    char name[] = "study", out[] = "--out", quick[] = "--quick";
+    char *whole[] = {name, out, base, NULL}, *part[] = {name, quick, out, base, NULL};
+    plant_good();
+    assert_int_equal(mote_command_bodies(3, whole), MOTE_EXIT_DONE);
+    assert_string_equal(profile_of("bodies.json"), "full");
+    assert_int_equal(mote_command_extremes(4, part), MOTE_EXIT_DONE);
+    assert_string_equal(profile_of("extremes.json"), "quick");
+    planted.body_missed = true;
+    planted.ours_verdict = MOTE_EXTREME_WRONG;
+    assert_int_equal(mote_command_bodies(4, part), MOTE_EXIT_CHECK_FAILED);
+    assert_int_equal(mote_command_extremes(4, part), MOTE_EXIT_CHECK_FAILED);
+    plant_good();
+    for (int k = 0; k < 2; ++k) {
+        planted.failing = planted.calls + 1;
+        assert_int_equal(k ? mote_command_bodies(4, part) : mote_command_extremes(4, part),
+                         MOTE_EXIT_BAD_INPUT);
+        assert_non_null(strstr(mote_error_text(), "planted in "));
+    }
+}
+
+static void studies_hand_up_what_fails_beneath(void **state)
+{
+    (void)state;
+    for (int bodies = 0; bodies < 2; ++bodies) {
+        bool met;
+        plant_good();
+        assert_int_equal(bodies ? mote_study_bodies(base, true, &met)
+                                : mote_study_extremes(base, true, &met),
+                         MOTE_OK);
+        const long all = planted.calls;
+        for (long n = 1; n <= all; n += n < 10 || n > all - 8 ? 1 : (all + 7) / 8) {
+            planted.calls = 0;
+            planted.failing = n;
+            const mote_status status = bodies ? mote_study_bodies(base, true, &met)
+                                              : mote_study_extremes(base, true, &met);
+            planted.failing = 0;
+            if (status != MOTE_EIO || !strstr(mote_error_text(), "planted in "))
+                fail_msg("call %ld of %ld failed: %s", n, all, mote_error_text());
+        }
+    }
+}
+
+static int make_base(void **state)
+{
+    (void)state;
+    planted.folder = mkdtemp(base);
+    return planted.folder ? 0 : -1;
+}
+
+static int remove_base(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(claims_on_accuracy_follow_the_error),
+        cmocka_unit_test(claims_on_contacts_follow_what_was_seen),
+        cmocka_unit_test(claims_on_times_follow_the_times),
+        cmocka_unit_test(claim_on_complexity_follows_the_exponent),
+        cmocka_unit_test(claims_of_a_run_that_lacks_a_row_say_which),
+        cmocka_unit_test(claims_hand_up_what_fails_beneath),
+        cmocka_unit_test(claims_measure_writes_all_and_tells_whether_requirements_are_met),
+        cmocka_unit_test(extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number),
+        cmocka_unit_test(
+            dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass),
+        cmocka_unit_test(bodies_are_met_where_every_requirement_is),
+        cmocka_unit_test(bodies_say_which_requirement_is_not_met),
+        cmocka_unit_test(commands_of_studies_exit_as_the_requirements_are_met),
+        cmocka_unit_test(studies_hand_up_what_fails_beneath),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

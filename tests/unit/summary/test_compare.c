@@ -1,0 +1,369 @@
+/* Comparisons of summaries that the test writes itself; what lies beside them is in
+   test_compare_beside.c. */
+#include "tests/support/plain_file.h"
+#include "tests/support/two_runs.h"
+
+#include <math.h>
+
+static void compare_of_unchanged_runs_is_same(void **state)
+{
+    (void)state;
+    mote_comparison c = compare_with(&usual);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SAME);
+    assert_false(c.worse || c.undecided || c.changes[0].better);
+    assert_true(fabs(c.changes[0].ratio - 1) < 0.01);
+    assert_true(fabs(c.floor - 0.02) < 1e-12);
+    mote_comparison_free(&c);
+}
+
+static void compare_with_ten_percent_more_time_is_slower(void **state)
+{
+    (void)state;
+    figures slow = usual;
+    slow.ratio /= 1.1;
+    mote_comparison c = compare_with(&slow);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SLOWER);
+    assert_true(c.worse);
+    assert_true(fabs(c.changes[0].ratio - 1.1) < 0.01);
+    assert_string_equal(c.changes[0].what.data, "cost per count changed");
+    mote_comparison_free(&c);
+}
+
+static void compare_with_noise_is_undecided(void **state)
+{
+    (void)state;
+    figures noisy = usual;
+    noisy.jitter = 0.1;
+    mote_comparison c = compare_with(&noisy);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_UNDECIDED);
+    assert_true(c.undecided && !c.worse);
+    mote_comparison_free(&c);
+}
+
+static void compare_with_one_more_count_is_worse(void **state)
+{
+    (void)state;
+    figures more = usual;
+    more.box_tests += 1;
+    mote_comparison c = compare_with(&more);
+    assert_true(c.worse);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SAME);
+    assert_non_null(strstr(c.changes[0].what.data, "box_tests"));
+    mote_comparison_free(&c);
+}
+
+static void compare_with_fewer_counts_is_better(void **state)
+{
+    (void)state;
+    figures less = usual;
+    less.box_tests -= 1;
+    mote_comparison c = compare_with(&less);
+    assert_true(c.changes[0].better && !c.worse);
+    mote_comparison_free(&c);
+}
+
+static void compare_with_more_bytes_errors_or_misses_is_worse(void **state)
+{
+    (void)state;
+    figures heap = usual, error = usual, missed = usual, rounding = usual;
+    heap.heap *= 1.02;
+    error.p99 *= 1.1;
+    missed.missed += 1;
+    rounding.heap *= 1.005;
+    const figures *const all[] = {&heap, &error, &missed};
+    for (size_t i = 0; i < 3; ++i) {
+        mote_comparison c = compare_with(all[i]);
+        assert_true(c.worse);
+        mote_comparison_free(&c);
+    }
+    mote_comparison c = compare_with(&rounding);
+    assert_false(c.worse);
+    mote_comparison_free(&c);
+}
+
+/* A significant change that such runs cannot tell from noise four times in five is none. */
+static void compare_below_the_smallest_change_is_undecided(void **state)
+{
+    (void)state;
+    figures slow = usual;
+    slow.ratio /= 1.1;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &slow, -1);
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(old_run, "summary.json", &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_set_new(row, "smallest_change", json_real(0.15)), 0);
+    put(old_run, "summary.json", summary);
+    mote_comparison c;
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_UNDECIDED);
+    assert_true(c.undecided && !c.worse);
+    mote_comparison_free(&c);
+}
+
+/* Where cells ran at the same time nothing is said of times. */
+static void compare_of_times_measured_with_jobs_is_refused(void **state)
+{
+    (void)state;
+    figures slow = usual;
+    slow.ratio /= 2;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &slow, -1);
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(new_run, "summary.json", &summary), MOTE_OK);
+    json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_int_equal(json_object_set_new(row, "times_comparable", json_false()), 0);
+    put(new_run, "summary.json", summary);
+    mote_comparison c;
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_false(c.worse);
+    assert_true(isnan(c.changes[0].ratio));
+    assert_non_null(strstr(c.changes[0].what.data, "not comparable"));
+    mote_comparison_free(&c);
+}
+
+static int exit_status(const figures *fresh, const char *options)
+{
+    char line[256];
+    write_run(old_run, &usual, 1);
+    write_run(new_run, fresh, -1);
+    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
+    return program_wait(program_start(line, said));
+}
+
+static void compare_command_tells_by_its_exit_status(void **state)
+{
+    (void)state;
+    figures slow = usual, noisy = usual;
+    slow.ratio /= 1.1;
+    noisy.jitter = 0.1;
+    assert_int_equal(exit_status(&usual, ""), 0);
+    assert_int_equal(exit_status(&slow, ""), 1);
+    assert_int_equal(exit_status(&slow, "--floor 0.2"), 0);
+    assert_int_equal(exit_status(&noisy, "--format json"), 3);
+    char text[4096];
+    program_read(said, text, sizeof text);
+    json_t *object = json_loads(text, 0, NULL);
+    assert_non_null(object);
+    assert_string_equal(json_string_value(json_object_get(object, "verdict")), "undecided");
+    json_decref(object);
+}
+
+static void compare_of_what_is_no_run_is_bad_input(void **state)
+{
+    (void)state;
+    assert_int_equal(program_wait(program_start("compare /no/such/run /no/such/run", said)), 4);
+    assert_int_equal(program_wait(program_start("compare one", said)), 2);
+}
+
+#define PROCESS(replicate, ratio, ns)                                                          \
+    "{'replicate': " #replicate ", 'ratio': " #ratio ", 'median_ns': " #ns                     \
+    ", 'counters': {'box_tests': 5000}}"
+#define NO_RATIO                                                                               \
+    "{'processes': [" PROCESS(1, null, 100) ", " PROCESS(2, null, 101) ", " PROCESS(           \
+        3, null, 100.5) "]}"
+#define NO_RATIO_SLOWER                                                                        \
+    "{'processes': [" PROCESS(1, null, 150) ", " PROCESS(2, null, 151.5) ", " PROCESS(         \
+        3, null, 150.8) "]}"
+#define TWO_COUNTS(first)                                                                      \
+    "{'processes': [{'replicate': 1, 'counters': {'box_tests': " #first ", 'steps': 3}}]}"
+#define QUIET(a, b, c, d, e)                                                                   \
+    "{'quiet': {'ratio': [" #a ", " #b ", " #c ", " #d ", " #e "], 'total_ns': [9, 9, 9, "     \
+    "9, 9]}}"
+
+static void compare_of_changed_rows_says_what_is_worse_better_or_unknown(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *old_members, *new_members;
+        int status;
+        const char *says;
+    } cases[] = {
+        {"{'status': 'crashed'}", "{}", 0, "better : status crashed to ok"},
+        {"{}", "{'status': 'timeout'}", 1, "WORSE : status ok to timeout"},
+        {"{'status': 'crashed'}", "{'status': 'timeout'}", 0, "status crashed to timeout"},
+        {"{'status': 'crashed'}", "{'status': 'crashed'}", 0, "same or better"},
+        {"{'status': null}", "{}", 0, "better : status  to ok"},
+        {"{'label': 'fcl-aabb'}", "{'label': 'fcl-aabb'}", 0, "what times are compared with"},
+        {"{'label': 'fcl-aabb'}", "{}", 0, " p "},
+        {"{'ratio': null, 'label': null}", "{}", 0, "ww//hot"},
+        {"{'times_comparable': false}", "{}", 0, "times not comparable: measured with --jobs"},
+        {"{'missed': 0}", "{'missed': 1}", 1, "WORSE : missed 0 to 1\n"},
+        {"{'missed': null}", "{'missed': null}", 0, "same or better"},
+        {"{'replicates_failed': 0}", "{'replicates_failed': 1}", 1, "failed replicates 0 to 1"},
+        {"{}", "{'replicates_failed': 2}", 1, "WORSE : failed replicates 0 to 2"},
+        {"{'replicates_failed': 2}", "{'replicates_failed': 1}", 0, "failed replicates 2 to 1"},
+        {"{'replicates_failed': 1}", "{'replicates_failed': 1}", 0, "same or better"},
+        {"{'missed': 1}", "{'missed': null}", 1, "WORSE : missed 1 to nan"},
+        {"{'missed': null}", "{'missed': 1}", 1, "missed nan to 1"},
+        {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-13}}", 0, "same or better"},
+        {"{'error': {'p99': 1e-14}}", "{'error': {'p99': 1e-11}}", 1, "p99 1e-14 to 1e-11"},
+        {"{'processes': []}", "{}", 0, " - "},
+        {NO_RATIO, NO_RATIO, 0, " 1.000 ["},
+        {NO_RATIO, NO_RATIO_SLOWER, 1, " 1.500 ["},
+        {"{}", NO_RATIO, 0, "better : cost per count changed"},
+        {TWO_COUNTS(1), TWO_COUNTS(2), 1, "WORSE : box_tests 1 to 2 (+1e+02 %)\n"},
+        {NO_RATIO_SLOWER, NO_RATIO, 0, "better : cost per count changed"},
+        {"{'processes': [" PROCESS(1, null, 0) "]}", NO_RATIO, 0, " - "},
+        {NO_RATIO, "{'processes': [" PROCESS(1, null, 0) ", " PROCESS(9, 1, 1) "]}", 3,
+         " : no time to compare"},
+        {"{}", "{'processes': []}", 3,
+         "no time to compare; no replicate in common: counts are not compared"},
+        {"{}", "{'processes': [], 'heap_live_bytes': 1e5}", 3, " : no time to compare"},
+        {"{}", "{'processes': [], 'missed': 9}", 1, "WORSE : no time to compare"},
+        {QUIET(10, 10.1, 10, 10.1, 10), "{'processes': []}", 3, "no time to compare"},
+        {"{'status': null}", "{'status': null}", 3, "no status"},
+        {"{'status': null}", "{'status': 'crashed'}", 3, "status  to crashed"},
+        {QUIET(10, 10.1, 10, 10.1, 10), QUIET(5, 5.05, 5, 5.05, 5), 1, " 2.000 ["},
+        {QUIET(10, 10.1, 10, 10.1, null), QUIET(5, 5.05, 5, 5.05, 5), 1, " p "},
+        {QUIET(10, 10.1, 10, 10.1, 10),
+         "{'heap_live_bytes': 2e6, 'quiet': {'ratio': [5, 5.05, 5, 5.05, 5]}}", 1,
+         "heap 1e+06 to 2e+06 (+1e+02 %); cost per count changed"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        change_row(old_run, "summary.json", cases[i].old_members);
+        change_row(new_run, "summary.json", cases[i].new_members);
+        expect("", cases[i].status, cases[i].says);
+    }
+}
+
+/* Gives a run the rows of another one, too, with other frames; they are put first. */
+static void add_row(const char *directory, const char *members)
+{
+    json_t *summary = NULL;
+    assert_int_equal(mote_record_read_json(directory, "summary.json", &summary), MOTE_OK);
+    json_t *rows = json_object_get(summary, "rows");
+    assert_int_equal(json_array_insert_new(rows, 0, json_deep_copy(json_array_get(rows, 0))),
+                     0);
+    put(directory, "summary.json", summary);
+    change_row(directory, "summary.json", members);
+}
+
+static void compare_of_rows_without_a_partner_is_undecided(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(new_run, "{'frames': 50}");
+    expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\nsame or better");
+    add_row(old_run, "{'seed': 7}");
+    expect("", 3, "without a partner: 1 rows of BASE, 1 of NEW\nundecided");
+    expect("--format json", 3, "\"only_base\": 1");
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    expect("", 1, "WORSE : instructions 1000 to 1100 (+10 %)");
+    /* Rows of instructions that are of nothing that is compared, or know nothing. */
+    static const char *const members[] = {"{'scenario': 'tt'}", "{'method': 'certified'}",
+                                          "{'parameters': {'n': 6}}", "{'per_frame': null}"};
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        change_row(i % 2 ? old_run : new_run, "instructions.json", members[i]);
+        expect("", 3, "undecided");
+    }
+    remove_beside();
+}
+
+/* Of one configuration on three machines, that of the same machine is compared, or else the
+   first. */
+static void compare_prefers_the_row_of_the_same_machine(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(new_run, "summary.json", "{'machine': 'third', 'missed': 4}");
+    add_row(new_run, "{'machine': 'second', 'missed': 5}");
+    add_row(new_run, "{'machine': 'first', 'missed': 6}");
+    change_row(old_run, "summary.json", "{'machine': 'second'}");
+    expect("", 1, "missed 2 to 5");
+    change_row(old_run, "summary.json", "{'machine': 'none of them'}");
+    expect("", 1, "missed 2 to 6");
+}
+
+/* Two rows of the base with one partner: no row of the new run is without one. */
+static void compare_of_several_machines_with_one_counts_rows_without_a_partner(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(old_run, "{'machine': 'second'}");
+    add_row(old_run, "{'machine': 'third'}");
+    expect("--format json", 0, "\"only_new\": 0");
+    add_row(new_run, "{'frames': 50}");
+    expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\n");
+}
+
+/* On another machine only ratios are compared; a floor that is wider still stays. */
+static void compare_on_another_machine_without_ratios_knows_no_time(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(old_run, "summary.json", NO_RATIO);
+    change_row(new_run, "summary.json", NO_RATIO_SLOWER);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "two", 1000);
+    expect("", 0, "the processors differ: times only as ratios to fcl-aabb");
+    expect("", 0, "an effect counts from 50.0 % on");
+    expect("--floor 0.75", 0, "an effect counts from 75.0 % on");
+    expect("--format=json", 0, "\"ratio\": null");
+    expect("--format=json", 0, "\"other_machine\": true");
+    remove_beside();
+}
+
+/* One row that is worse is enough. */
+static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
+{
+    (void)state;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    add_row(old_run, "{'frames': 50}");
+    add_row(new_run, "{'frames': 50, 'missed': 3}");
+    expect("", 1, "p corrected over 2 rows");
+    expect("--format json", 1, "\"verdict\": \"worse\"");
+}
+
+static void compare_of_what_has_no_rows_is_bad_input(void **state)
+{
+    (void)state;
+    static const char *const summaries[] = {"{\"schema\": 1}\n", "{\"rows\": 5}\n", "[]\n"};
+    for (size_t i = 0; i < sizeof summaries / sizeof summaries[0]; ++i) {
+        for (int which = 0; which < 2; ++which) {
+            char path[96];
+            write_run(old_run, &usual, 1);
+            write_run(new_run, &usual, -1);
+            (void)snprintf(path, sizeof path, "%s/summary.json", which ? new_run : old_run);
+            assert_true(plain_file_put(path, summaries[i]));
+            expect("", 4, "no rows; name a run, or its summary.json");
+        }
+    }
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    change_row(new_run, "summary.json", "{'seed': 9}");
+    expect("", 4, "the two runs have no configuration in common");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(compare_of_unchanged_runs_is_same),
+        cmocka_unit_test(compare_with_ten_percent_more_time_is_slower),
+        cmocka_unit_test(compare_with_noise_is_undecided),
+        cmocka_unit_test(compare_with_one_more_count_is_worse),
+        cmocka_unit_test(compare_with_fewer_counts_is_better),
+        cmocka_unit_test(compare_with_more_bytes_errors_or_misses_is_worse),
+        cmocka_unit_test(compare_below_the_smallest_change_is_undecided),
+        cmocka_unit_test(compare_of_times_measured_with_jobs_is_refused),
+        cmocka_unit_test(compare_command_tells_by_its_exit_status),
+        cmocka_unit_test(compare_of_what_is_no_run_is_bad_input),
+        cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
+        cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
+        cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
+        cmocka_unit_test(compare_prefers_the_row_of_the_same_machine),
+        cmocka_unit_test(compare_of_several_machines_with_one_counts_rows_without_a_partner),
+        cmocka_unit_test(compare_of_rows_without_a_partner_is_undecided),
+        cmocka_unit_test(compare_of_changed_rows_says_what_is_worse_better_or_unknown),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

@@ -1,0 +1,175 @@
+/* Comparisons with what lies beside a summary: instructions, and a manifest that tells the
+   processor and the compiler. */
+#include "tests/support/two_runs.h"
+
+static mote_comparison compare_beside(const figures *fresh, const char *processor,
+                                      double instructions)
+{
+    mote_comparison c;
+    write_run(old_run, &usual, 1);
+    write_run(new_run, fresh, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, processor, instructions);
+    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    remove_beside();
+    return c;
+}
+
+static void compare_with_more_instructions_is_worse(void **state)
+{
+    (void)state;
+    mote_comparison c = compare_beside(&usual, "one", 1005);
+    assert_false(c.worse); /* within 1 % */
+    mote_comparison_free(&c);
+    c = compare_beside(&usual, "one", 1020);
+    assert_true(c.worse && c.instructions);
+    assert_non_null(strstr(c.changes[0].what.data, "instructions 1000 to 1020 (+2 %)"));
+    mote_comparison_free(&c);
+    c = compare_beside(&usual, "one", 900);
+    assert_true(!c.worse && c.changes[0].better);
+    mote_comparison_free(&c);
+}
+
+static void compare_explains_a_slower_time(void **state)
+{
+    (void)state;
+    figures slow = usual, counted = usual;
+    slow.ratio /= 1.2;
+    counted.ratio /= 1.2;
+    counted.box_tests *= 1.2;
+    mote_comparison c = compare_beside(&slow, "one", 1000);
+    assert_non_null(strstr(c.changes[0].what.data, "at the same instructions"));
+    mote_comparison_free(&c);
+    c = compare_beside(&slow, "one", 1200);
+    assert_non_null(strstr(c.changes[0].what.data, "counts are the same: more or fewer"));
+    mote_comparison_free(&c);
+    c = compare_beside(&counted, "one", 1200);
+    assert_non_null(strstr(c.changes[0].what.data, "the time changed with the counts"));
+    mote_comparison_free(&c);
+}
+
+static void compare_on_another_processor_is_wide_for_times_and_exact_for_counts(void **state)
+{
+    (void)state;
+    figures slow = usual, very_slow = usual, more = usual;
+    slow.ratio /= 1.3;
+    very_slow.ratio /= 1.8;
+    more.box_tests += 1;
+    mote_comparison c = compare_beside(&slow, "two", 1300);
+    assert_true(c.other_machine && !c.worse);
+    assert_non_null(strstr(c.changes[0].what.data, "another processor"));
+    mote_comparison_free(&c);
+    c = compare_beside(&very_slow, "two", 1000);
+    assert_true(c.worse);
+    assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SLOWER);
+    mote_comparison_free(&c);
+    c = compare_beside(&more, "two", 1000);
+    assert_true(c.worse);
+    mote_comparison_free(&c);
+}
+
+static void
+compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **state)
+{
+    (void)state;
+    char path[96];
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    put(new_run, "manifest.json",
+        json_pack("{s:s, s:s}", "processor", "one", "compiler", "Clang 14"));
+    expect("", 0, "instructions (another processor or compiler) 1000 to 1100");
+    /* What is not known does not differ. */
+    (void)snprintf(path, sizeof path, "%s/manifest.json", new_run);
+    assert_int_equal(unlink(path), 0);
+    expect("", 1, "WORSE : instructions 1000 to 1100");
+    (void)snprintf(path, sizeof path, "%s/instructions.json", new_run);
+    assert_int_equal(unlink(path), 0);
+    expect("--format json", 0, "\"instructions_compared\": false");
+    write_beside(new_run, "one", 1100);
+    remove_beside();
+}
+
+/* What only one run has counted, or over other frames, is not compared, and not passed over. */
+static void compare_of_instructions_of_other_frames_is_undecided(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *old_members, *new_members;
+        int status;
+        const char *says;
+    } cases[] = {{"{'frames': [1, 9]}", "{'frames': [1, 9]}", 1, "instructions 1000 to 1100"},
+                 {"{'frames': [1, 9]}", "{'frames': [2, 9]}", 3, "not counted over the same"},
+                 {"{'frames': [1, 9]}", "{}", 3, "not counted over the same"},
+                 {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
+                 {"{}", "{'per_frame': null}", 3, "not counted over the same"},
+                 {"{'per_frame': null}", "{}", 0, "same or better"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        change_row(old_run, "instructions.json", cases[i].old_members);
+        change_row(new_run, "instructions.json", cases[i].new_members);
+        expect("", cases[i].status, cases[i].says);
+    }
+    remove_beside();
+}
+
+/* What is there and damaged is not taken for what is not there: nothing would be compared. */
+static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"instructions.json", "manifest.json"};
+    for (size_t i = 0; i < 4; ++i) {
+        char path[96];
+        write_run(old_run, &usual, 1);
+        write_run(new_run, &usual, -1);
+        write_beside(old_run, "one", 1000);
+        write_beside(new_run, "one", 1100);
+        (void)snprintf(path, sizeof path, "%s/%s", i % 2 ? new_run : old_run, names[i / 2]);
+        assert_int_equal(truncate(path, 20), 0);
+        expect("", 4, names[i / 2]);
+    }
+    remove_beside();
+}
+
+/* A run may be named by its summary. */
+static void compare_of_summaries_by_name_is_that_of_their_runs(void **state)
+{
+    (void)state;
+    char line[256], text[4096], here[64];
+    write_run(old_run, &usual, 1);
+    write_run(new_run, &usual, -1);
+    write_beside(old_run, "one", 1000);
+    write_beside(new_run, "one", 1100);
+    (void)snprintf(line, sizeof line, "compare %s/summary.json %s/summary.json", old_run,
+                   new_run);
+    assert_int_equal(program_wait(program_start(line, said)), 1);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "instructions 1000 to 1100"));
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(old_run), 0);
+    (void)snprintf(line, sizeof line, "compare summary.json %s", new_run);
+    assert_int_equal(program_wait(program_start(line, said)), 1);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "instructions 1000 to 1100"));
+    assert_int_equal(chdir(here), 0);
+    remove_beside();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(compare_with_more_instructions_is_worse),
+        cmocka_unit_test(compare_explains_a_slower_time),
+        cmocka_unit_test(compare_on_another_processor_is_wide_for_times_and_exact_for_counts),
+        cmocka_unit_test(
+            compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
+        cmocka_unit_test(compare_of_instructions_of_other_frames_is_undecided),
+        cmocka_unit_test(compare_of_damaged_files_beside_the_summary_is_bad_input),
+        cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

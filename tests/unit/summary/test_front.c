@@ -1,0 +1,275 @@
+/* Fronts of time against error: known answers, and a run that the test writes itself. */
+#include "harness/summary/front.h"
+#include "harness/base/record.h"
+#include "tests/support/program.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void near(double a, double b, double share)
+{
+    if (!(fabs(a - b) <= share * fabs(b)))
+        fail_msg("%.17g is not %.17g", a, b);
+}
+
+static void front_time_between_two_points_is_interpolated(void **state)
+{
+    (void)state;
+    /* A line of slope -1/2 in logarithms: 1 ms at 1e-4, 0.1 ms at 1e-2; half-way 10^-0.5. */
+    const double times[] = {1e6, 1e5}, errors[] = {1e-4, 1e-2};
+    near(mote_front_time(times, errors, 2, 1e-4), 1e6, 1e-12);
+    near(mote_front_time(times, errors, 2, 1e-2), 1e5, 1e-12);
+    near(mote_front_time(times, errors, 2, 1e-3), pow(10, 5.5), 1e-12);
+    near(mote_front_time(times, errors, 2, 1), 1e5, 1e-12);
+    assert_true(isnan(mote_front_time(times, errors, 2, 1e-5)));
+    assert_true(isnan(mote_front_time(times, errors, 0, 1)));
+}
+
+static void front_time_of_an_exact_point_is_not_interpolated(void **state)
+{
+    (void)state;
+    const double times[] = {1e6, 1e3}, errors[] = {0, 1e-2};
+    near(mote_front_time(times, errors, 2, 1e-3), 1e6, 1e-12);
+    near(mote_front_time(times, errors, 2, 1e-2), 1e3, 1e-12);
+}
+
+static void front_time_leaves_out_points_that_are_dominated(void **state)
+{
+    (void)state;
+    /* The second is slower and worse than the first; the third is the next on the front. */
+    const double times[] = {100, 200, 50}, errors[] = {1e-4, 1e-3, 1e-2};
+    near(mote_front_time(times, errors, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
+}
+
+static void front_time_of_points_in_any_order_takes_the_next(void **state)
+{
+    (void)state;
+    /* Worse ones last and slower ones between: from 100 at 1e-4 to 50 at 1e-2. */
+    const double times[] = {100, 10, 50, 500}, errors[] = {1e-4, 1e-1, 1e-2, 1e-2};
+    near(mote_front_time(times, errors, 4, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
+    const double turned[] = {100, 50, 10}, wrong[] = {1e-4, 1e-2, 1e-1};
+    near(mote_front_time(turned, wrong, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
+}
+
+static void front_title_leaves_out_n_wherever_it_stands(void **state)
+{
+    (void)state;
+    static const char *const labels[][2] = {{"p:n=5", "p"},
+                                            {"p:n=5,refine=no", "p:refine=no"},
+                                            {"p:law=log,n=5", "p:law=log"},
+                                            {"p:law=log,n=5,refine=no", "p:law=log,refine=no"},
+                                            {"p:law=log", "p:law=log"}};
+    for (size_t i = 0; i < sizeof labels / sizeof labels[0]; ++i) {
+        char label[64], title[64];
+        (void)snprintf(label, sizeof label, "%s", labels[i][0]);
+        const mote_summary_row row = {.label = label};
+        mote_front_title(&row, title, sizeof title);
+        assert_string_equal(title, labels[i][1]);
+    }
+}
+
+static double first_of(void *context, const size_t *drawn, size_t count)
+{
+    const double *values = context;
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i)
+        sum += log(values[drawn[i]]);
+    return exp(sum / (double)count);
+}
+
+static void process_interval_of_few_processes_is_students(void **state)
+{
+    (void)state;
+    double values[] = {1, 2, 4, 8, 16};
+    mote_confidence interval;
+    assert_int_equal(mote_statistics_process_interval(first_of, values, 5, 1, &interval),
+                     MOTE_OK);
+    /* Logarithms 0..4 times log 2: mean 2, deviation sqrt(2.5); t(4, 0.975) = 2.776445. */
+    double half = 2.776445105 * sqrt(2.5) / sqrt(5) * log(2);
+    near(interval.low, exp(2 * log(2) - half), 1e-6);
+    near(interval.high, exp(2 * log(2) + half), 1e-6);
+}
+
+static void process_interval_of_many_processes_is_near_the_normal_one(void **state)
+{
+    (void)state;
+    double values[100];
+    for (size_t i = 0; i < 100; ++i)
+        values[i] = exp((double)i / 100);
+    mote_confidence interval;
+    assert_int_equal(mote_statistics_process_interval(first_of, values, 100, 1, &interval),
+                     MOTE_OK);
+    /* Mean 0.495, deviation 0.2887 / sqrt(100) of the mean: 1.96 of them to each side. */
+    assert_true(fabs(log(interval.low) - (0.495 - 1.96 * 0.02887)) < 0.01);
+    assert_true(fabs(log(interval.high) - (0.495 + 1.96 * 0.02887)) < 0.01);
+}
+
+static char base[] = "/tmp/mote-test-front-XXXXXX";
+static const char *scenario = "s";
+
+/* A cell of 20 frames that all take `ns` and are wrong by `error`. */
+static void write_cell(const char *method, const char *label, double n, int replicate,
+                       double ns, double error)
+{
+    char id[64], name[96];
+    mote_text text = {0};
+    (void)snprintf(id, sizeof id, "%s-%d", label, replicate);
+    json_t *parameters = json_object();
+    if (n > 0)
+        (void)json_object_set_new(parameters, "n", json_integer((json_int_t)n));
+    json_t *cell = json_pack(
+        "{s:i, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:[i,i], s:i, s:i, s:s, s:[i,i], s:[i,i], "
+        "s:[i,i]}",
+        "schema", 1, "id", id, "status", "ok", "scenario", scenario, "fingerprint",
+        "0123456789abcdef", "method", method, "parameters", parameters, "replicate", replicate,
+        "frames", 1, 20, "stride", 1, "seed", 0, "cache", "hot", "triangles", 10, 10,
+        "vertices", 7, 7, "active", 1, 20);
+    mote_text_add(&text,
+                  "frame,deform_ns,update_ns,query_ns,truth,error,contact,contact_truth\n");
+    for (int k = 1; k <= 20; ++k)
+        mote_text_add(&text, "%d,0,0,%.0f,1,%.17g,0,0\n", k, ns * (1 + 0.01 * replicate),
+                      error);
+    (void)snprintf(name, sizeof name, "cells/%s.csv", id);
+    assert_int_equal(mote_record_text(base, name, &text), MOTE_OK);
+    (void)snprintf(name, sizeof name, "cells/%s.json", id);
+    assert_int_equal(mote_record_json(base, name, cell), MOTE_OK);
+}
+
+static int write_run(void **state)
+{
+    char path[96];
+    (void)state;
+    if (!mkdtemp(base))
+        return -1;
+    (void)snprintf(path, sizeof path, "%s/cells", base);
+    if (mote_directory_make(path) != MOTE_OK)
+        return -1;
+    for (int r = 1; r <= 5; ++r) {
+        write_cell("fcl-aabb", "a", 0, r, 1e6, 0);
+        write_cell("fcl-obb", "b", 0, r, 2e6, 0);
+        write_cell("ours", "c", 5, r, 1e4, 0.9e-2);
+        write_cell("ours", "d", 16, r, 1e5, 0.9e-4);
+        write_cell("other", "e", 5, r, 3e4, 0.9e-1);
+    }
+    return 0;
+}
+
+static int remove_run(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+static const mote_front *find_front(const mote_fronts *fronts, const char *title)
+{
+    for (size_t i = 0; i < fronts->count; ++i) {
+        if (strcmp(fronts->items[i].title, title) == 0)
+            return &fronts->items[i];
+    }
+    fail_msg("no family %s", title);
+    return NULL;
+}
+
+static void fronts_of_a_run_say_how_much_faster_at_each_error(void **state)
+{
+    (void)state;
+    mote_summary summary;
+    mote_fronts fronts;
+    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 4);
+    const mote_front *ours = find_front(&fronts, "ours");
+    assert_true(isnan(ours->speed[0].faster)); /* never exact */
+    /* At 1e-4 and 1e-3 on the line from 10 times at 0.9e-4 to 100 times at 0.9e-2. */
+    near(ours->speed[1].faster, 10 * pow(1 / 0.9, 0.5), 1e-3);
+    near(ours->speed[2].faster, 10 * pow(10 / 0.9, 0.5), 1e-3);
+    near(ours->speed[3].faster, 100, 1e-3);
+    near(ours->speed[4].faster, 100, 1e-3);
+    assert_true(ours->speed[3].interval.low <= 100.1 && ours->speed[3].interval.high >= 99.9);
+    /* FCL's best is FCL AABB; OBB is half as fast. */
+    near(find_front(&fronts, "fcl-aabb")->speed[0].faster, 1, 1e-9);
+    near(find_front(&fronts, "fcl-obb")->speed[0].faster, 0.5, 1e-3);
+    assert_true(isnan(find_front(&fronts, "other")->speed[3].faster));
+    mote_fronts_free(&fronts);
+    mote_summary_free(&summary);
+}
+
+static void fronts_of_a_run_say_who_dominates_whom(void **state)
+{
+    (void)state;
+    mote_summary summary;
+    mote_fronts fronts;
+    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    for (size_t i = 0; i < summary.count; ++i) {
+        const char *method = summary.rows[i].first->method;
+        size_t by = fronts.dominator[i];
+        if (strcmp(method, "fcl-obb") == 0)
+            assert_string_equal(summary.rows[by].first->method, "fcl-aabb");
+        else if (strcmp(method, "other") == 0)
+            assert_string_equal(summary.rows[by].first->method, "ours");
+        else
+            assert_true(by == SIZE_MAX);
+    }
+    assert_int_equal(mote_fronts_write(&fronts, base), MOTE_OK);
+    mote_fronts_free(&fronts);
+    mote_summary_free(&summary);
+    char path[96], *text = NULL;
+    size_t size = 0, lines = 0;
+    (void)snprintf(path, sizeof path, "%s/speed.csv", base);
+    assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+    for (const char *c = text; *c; ++c)
+        lines += *c == '\n' ? 1 : 0;
+    free(text);
+    assert_int_equal(lines, 1 + 4 * MOTE_FRONT_LEVELS);
+}
+
+/* The parameters of a method that this build does not have stand in its label as JSON. */
+static void fronts_of_odd_names_are_fields_of_their_csv(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"fronts.csv", "speed.csv"};
+    static const char *const lines[] = {
+        "\n\"s \"\"1\"\", 2\",hot,\"gone:law=\"\"log\"\"\",\"gone:law=\"\"log\"\"\",,0.125,10",
+        "\n\"s \"\"1\"\", 2\",hot,\"gone:law=\"\"log\"\"\",1e-09,,,,\n"};
+    scenario = "s \"1\", 2";
+    write_cell("gone:law=\"log\"", "f", 0, 1, 1e3, 0.125);
+    scenario = "s";
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_write(&summary, base), MOTE_OK);
+    mote_summary_free(&summary);
+    for (size_t i = 0; i < 2; ++i) {
+        char path[96], *text = NULL;
+        size_t size = 0;
+        (void)snprintf(path, sizeof path, "%s/%s", base, names[i]);
+        assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+        if (!strstr(text, lines[i]))
+            fail_msg("no line %s in\n%s", lines[i], text);
+        free(text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(front_time_between_two_points_is_interpolated),
+        cmocka_unit_test(front_time_of_an_exact_point_is_not_interpolated),
+        cmocka_unit_test(front_time_leaves_out_points_that_are_dominated),
+        cmocka_unit_test(front_time_of_points_in_any_order_takes_the_next),
+        cmocka_unit_test(front_title_leaves_out_n_wherever_it_stands),
+        cmocka_unit_test(process_interval_of_few_processes_is_students),
+        cmocka_unit_test(process_interval_of_many_processes_is_near_the_normal_one),
+        cmocka_unit_test(fronts_of_a_run_say_how_much_faster_at_each_error),
+        cmocka_unit_test(fronts_of_a_run_say_who_dominates_whom),
+        cmocka_unit_test(fronts_of_odd_names_are_fields_of_their_csv),
+    };
+    return cmocka_run_group_tests(tests, write_run, remove_run);
+}

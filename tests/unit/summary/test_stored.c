@@ -1,0 +1,509 @@
+/* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
+   summary and a merge say of the rest follows from it. */
+#include "harness/figure/figure.h"
+#include "harness/summary/merge.h"
+#include "harness/base/record.h"
+#include "harness/summary/summary.h"
+#include "tests/support/stored_run.h"
+
+#include <math.h>
+
+static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state)
+{
+    (void)state;
+    static const char json[] = "cells/fcl-aabb-1.json: a field of a cell is missing or wrong";
+    static const struct {
+        const char *key, *value; /* NULL: without it */
+    } changes[] = {{"id", NULL},
+                   {"id", "7"},
+                   {"status", NULL},
+                   {"status", "\"great\""},
+                   {"status", "3"},
+                   {"replicate", "0"},
+                   {"replicate", NULL},
+                   {"stride", "0"},
+                   {"stride", "\"1\""},
+                   {"jobs", "0"},
+                   {"jobs", "\"2\""},
+                   {"active", "[1]"},
+                   {"active", "\"1-4\""},
+                   {"method", "[]"},
+                   {"scenario", NULL},
+                   {"parameters", NULL},
+                   {"fingerprint", "1"},
+                   {"frames", NULL},
+                   {"seed", NULL},
+                   {"triangles", NULL},
+                   {"vertices", NULL},
+                   {"cache", NULL},
+                   {"replicate", "1001"},
+                   {"seed", "1.5"},
+                   {"seed", "-1"},
+                   {"seed", "4611686018427387904"},
+                   {"fixed_seed", "1"},
+                   {"heap_live_bytes", "1.5"},
+                   {"heap_peak_bytes", "-1"},
+                   {"rss_peak_bytes", "5.4e128"},
+                   {"deform_bytes", "4611686018427387904"}};
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
+        json_t *cell = NULL;
+        write_cell((stored_cell){.rows = ROWS});
+        assert_int_equal(mote_record_read_json(directory, "cells/fcl-aabb-1.json", &cell),
+                         MOTE_OK);
+        if (changes[i].value)
+            (void)json_object_set_new(cell, changes[i].key,
+                                      json_loads(changes[i].value, JSON_DECODE_ANY, NULL));
+        else
+            (void)json_object_del(cell, changes[i].key);
+        char *dump = json_dumps(cell, 0);
+        assert_non_null(dump);
+        write_plain("cells/fcl-aabb-1.json", dump);
+        free(dump);
+        json_decref(cell);
+        refused(changes[i].key, json);
+    }
+    write_cell((stored_cell){.rows = ROWS});
+    write_plain("cells/.hidden.json", "no cell");
+    write_plain("cells/.json", "no cell");
+    write_plain("cells/notes.txt", "no cell");
+    assert_int_equal(mote("summarize"), 0);
+    (void)snprintf(text, sizeof text, "cp %s/cells/fcl-aabb-1.json %s/cells/fcl.json",
+                   directory, directory);
+    assert_int_equal(system(text), 0);
+    refused("name", "cells/fcl.json: its id is fcl-aabb-1; a cell is named by its id");
+    (void)snprintf(text, sizeof text, "mv %s/cells/fcl.json %s/cells/fcl-aabb-12.json",
+                   directory, directory);
+    assert_int_equal(system(text), 0);
+    refused("name", "cells/fcl-aabb-12.json: its id is fcl-aabb-1; a cell is named by its id");
+}
+
+/* Up to 2^62 - 1, where doubles are 512 apart: neither the draws nor the groups are another
+   run's. */
+static void stored_read_keeps_every_bit_of_a_seed(void **state)
+{
+    (void)state;
+    static const struct {
+        int replicate;
+        uint64_t seed, draws;
+        const char *more;
+    } cells[] = {{1, 0, 0, ""},
+                 {2, 0, 1, ""},
+                 {3, 5, 5, ", \"fixed_seed\": true"},
+                 {4, MOTE_SEED_MAX, MOTE_SEED_MAX + 3, ""},
+                 {5, MOTE_SEED_MAX - 1, MOTE_SEED_MAX + 3, ""}};
+    enum { CELLS = sizeof cells / sizeof cells[0] };
+    for (int i = 0; i < CELLS; ++i)
+        write_cell((stored_cell){.replicate = cells[i].replicate,
+                                 .seed = cells[i].seed,
+                                 .more = cells[i].more,
+                                 .rows = ROWS});
+    mote_stored stored;
+    assert_int_equal(mote_stored_read(directory, NULL, &stored), MOTE_OK);
+    assert_int_equal(stored.count, CELLS);
+    for (int i = 0; i < CELLS; ++i) {
+        const mote_stored_cell *cell = &stored.cells[i];
+        const int k = (int)cell->replicate - 1;
+        assert_true(cell->seed == cells[k].seed);
+        assert_true(cell->replicate_seed == cells[k].draws);
+        for (int j = 0; j < i; ++j)
+            assert_int_equal(strcmp(stored.cells[j].group, cell->group) == 0,
+                             stored.cells[j].seed == cell->seed);
+    }
+    mote_stored_free(&stored);
+}
+
+#define TEN_COLUMNS "a,b,c,d,e,f,g,h,i,j,"
+
+static void stored_read_of_a_damaged_csv_names_the_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *csv, *says;
+    } changes[] = {
+        {"", "fcl-aabb-1.csv:1: not the header"},
+        {"frame", "fcl-aabb-1.csv:1: not the header"},
+        {"frame,truth\n1,2\n", "fcl-aabb-1.csv:1: not the header"},
+        {TEN_COLUMNS TEN_COLUMNS TEN_COLUMNS TEN_COLUMNS TEN_COLUMNS TEN_COLUMNS TEN_COLUMNS
+             STORED_COLUMNS,
+         "fcl-aabb-1.csv:1: not the header"},
+        {STORED_COLUMNS "1,1,2,3,0,0,0,0\n",
+         "fcl-aabb-1.csv:2: not a frame's row; expected 9 fields"},
+        {STORED_COLUMNS "1,1,2,3,0,0,0,0,7,8\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS ROWS "5,1,2,3,0,0,0,0,\n\n", "fcl-aabb-1.csv:7: not a frame's row"},
+        {STORED_COLUMNS "1,one,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "1,nan,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "1,1,1e999,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "1,1 2,3,4,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "0,1,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "-1,1,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "5e9,1,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS ",1,2,3,0,0,0,0,7\n", "fcl-aabb-1.csv:2: not a frame's row"},
+        {STORED_COLUMNS "2,1,2,3,0,0,0,0,7\n2,1,2,3,0,0,0,0,7\n",
+         "fcl-aabb-1.csv:3: not a frame's row"}};
+    write_cell((stored_cell){.rows = ROWS});
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
+        write_plain("cells/fcl-aabb-1.csv", changes[i].csv);
+        refused(changes[i].csv, changes[i].says);
+    }
+    static const char rows[] = ROWS;
+    static const struct {
+        const char *more;
+        int bytes;                                       /* of the rows that are left */
+    } cuts[] = {{", \"rows\": 4", (int)sizeof rows - 2}, /* without its last line feed */
+                {", \"rows\": 4", 0},
+                {", \"rows\": 5", (int)sizeof rows - 1},
+                {", \"rows\": \"4\"", (int)sizeof rows - 1}};
+    for (size_t i = 0; i < sizeof cuts / sizeof cuts[0]; ++i) {
+        char left[sizeof rows];
+        (void)snprintf(left, sizeof left, "%.*s", cuts[i].bytes, rows);
+        write_cell((stored_cell){.rows = left, .more = cuts[i].more});
+        refused(left, "cells/fcl-aabb-1.csv: ");
+        assert_non_null(strstr(mote_error_text(), " whole rows, not the "));
+    }
+    write_cell((stored_cell){.rows = rows, .more = ", \"rows\": 4"});
+    assert_int_equal(mote("summarize"), 0);
+    write_cell((stored_cell){.rows = ROWS});
+    write_plain("cells/fcl-aabb-1.csv", changes[sizeof changes / sizeof changes[0] - 1].csv);
+    assert_int_equal(mote("summarize"), 4);
+    assert_memory_equal(text, "mote: ", 6);
+    assert_non_null(strstr(text, "fcl-aabb-1.csv:3: not a frame's row"));
+}
+
+/* What a method cannot answer is empty, and is no answer in the summary. */
+static void summary_of_empty_fields_has_no_figures_of_them(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.rows = "1,,,,,,,,\n2,,,5,0.5,,,0,\n3,,,7,0,,1,1,\n"
+                                     "4,,,9,0.5,,,,2\n",
+                             .more = ", \"heap_live_bytes\": null, \"rss_peak_bytes\": 96, "
+                                     "\"fixed_seed\": true, \"reason\": \"none\""});
+    assert_int_equal(mote("summarize --format json"), 0);
+    json_t *summary = json_loads(text, 0, NULL);
+    const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
+    assert_true(json_is_null(json_object_get(json_object_get(row, "error"), "median")));
+    assert_true(json_is_null(json_object_get(row, "heap_live_bytes")));
+    assert_int_equal(json_integer_value(json_object_get(row, "rss_peak_bytes")), 96);
+    assert_string_equal(json_string_value(json_object_get(row, "reason")), "none");
+    const json_t *total = json_object_get(row, "total_ns");
+    assert_true(json_number_value(json_object_get(total, "median")) == 6);
+    assert_true(json_number_value(json_object_get(row, "contacts")) == 1);
+    assert_true(json_number_value(json_object_get(row, "missed")) == 0);
+    const json_t *steps = json_object_get(json_object_get(row, "counters"), "steps");
+    assert_true(json_number_value(json_object_get(steps, "max")) == 2);
+    json_decref(summary);
+}
+
+/* A number that no clock has is not told to other tools. */
+static void summary_clock_of_a_core_is_told_where_it_can_be_one(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *more, *says; /* says: NULL: nothing of it */
+    } cells[] = {{", \"clock_mhz\": [2400.5, 2400.5]", "\"mhz_per_cpu\": 2400"},
+                 {", \"clock_mhz\": [1e300, 1e300]", NULL},
+                 {", \"clock_mhz\": [-1, -1]", NULL},
+                 {", \"clock_mhz\": \"fast\"", NULL}};
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+        write_cell((stored_cell){.rows = ROWS, .more = cells[i].more});
+        assert_int_equal(mote("summarize --format gbench"), 0);
+        assert_non_null(strstr(text, cells[i].says ? cells[i].says : "\"context\""));
+        assert_true(cells[i].says || !strstr(text, "mhz_per_cpu"));
+    }
+}
+
+/* Cells of other programs are left out, where the manifest names one. */
+static void stored_read_keeps_the_cells_of_the_manifests_program(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *manifest;
+        size_t count, left_out;
+    } cases[] = {{"{\"program\": \"one\"}", 1, 2},
+                 {"{\"program\": \"three\"}", 0, 3},
+                 {"{\"program\": 5}", 3, 0},
+                 {"{\"program\": \"a name that is longer than any hash of a program\"}", 3, 0},
+                 {"no JSON", 3, 0}};
+    write_cell((stored_cell){.rows = ROWS, .more = ", \"program\": \"one\""});
+    write_cell((stored_cell){.rows = ROWS, .replicate = 2, .more = ", \"program\": \"two\""});
+    write_cell((stored_cell){.rows = ROWS, .replicate = 3});
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        mote_stored stored;
+        write_plain("manifest.json", cases[i].manifest);
+        assert_int_equal(mote_stored_read(directory, NULL, &stored), MOTE_OK);
+        assert_int_equal(stored.count, cases[i].count);
+        assert_int_equal(stored.left_out, cases[i].left_out);
+        mote_stored_free(&stored);
+    }
+}
+
+static const mote_summary_row *find_row(const mote_summary *summary, const char *label)
+{
+    for (size_t i = 0; i < summary->count; ++i) {
+        if (strcmp(summary->rows[i].label, label) == 0)
+            return &summary->rows[i];
+    }
+    fail_msg("no row %s", label);
+    return NULL;
+}
+
+/* Replicate r of a method: frame k takes scale * k + r ns; frames as digits, 'x' after one for
+   no time at all. */
+static void write_times(const char *method, int replicate, const char *frames, double scale)
+{
+    char rows[256] = "";
+    size_t used = 0;
+    for (const char *f = frames; *f; ++f) {
+        const bool none = f[1] == 'x';
+        used += (size_t)snprintf(rows + used, sizeof rows - used, "%c,0,0,%g,0.5,0,0,0,7\n", *f,
+                                 none ? 0 : scale * (*f - '0') + replicate);
+        f += none ? 1 : 0;
+    }
+    write_cell((stored_cell){.method = method, .replicate = replicate, .rows = rows});
+}
+
+static void write_crash(const char *method, int replicate)
+{
+    write_cell((stored_cell){.method = method, .replicate = replicate, .status = "crashed"});
+}
+
+/* Groups of 12 replicates: 1-3, 4-5, 6-8, 9-10, 11-12. */
+static void summary_quiet_times_are_the_fastest_of_each_frame_in_a_group(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 12; ++r) {
+        const char *frames = r >= 6 && r <= 8 ? "23x45" : "2345";
+        if (r == 9 || r == 10)
+            write_crash("certified", r);
+        else
+            write_times("certified", r, r == 4 ? "234" : frames, 100); /* 4: cut short */
+        if (r > 10)
+            write_crash("fcl-aabb", r);
+        else
+            write_times("fcl-aabb", r, "134", 1000);
+    }
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    const mote_summary_row *row = find_row(&summary, "certified");
+    assert_int_equal(row->replicates, 12);
+    assert_int_equal(row->finished, 10);
+    about(row->quiet.total[0], 351); /* median over 4 frames of 100 k + 1 */
+    about(row->quiet.total[1], 355);
+    about(row->quiet.total[2], (206.0 + 406) / 2);
+    assert_true(isnan(row->quiet.total[3])); /* none of its replicates ran */
+    about(row->quiet.total[4], 361);
+    about(row->quiet.ratio[0], (3001.0 / 301 + 4001.0 / 401) / 2); /* frames 3 and 4 */
+    about(row->quiet.ratio[1], (3004.0 / 305 + 4004.0 / 405) / 2);
+    about(row->quiet.ratio[2], 4006.0 / 406); /* frame 3 took no time */
+    assert_true(isnan(row->quiet.ratio[3]) && isnan(row->quiet.ratio[4]));
+    /* The halves that the noise floor is of: replicates 1-6 and 7-12. */
+    about(summary.noise_floor, (4001.0 / 401) / (4007.0 / 407) - 1);
+    mote_summary_free(&summary);
+}
+
+/* Frames that only one of two has, and times of 0, are in no ratio. */
+static void summary_ratio_is_of_common_frames_with_a_time(void **state)
+{
+    (void)state;
+    write_times("certified", 1, "12x4", 10);
+    write_times("certified", 2, "1", 10);
+    write_times("certified", 3, "6", 10); /* of no frame of the reference */
+    write_times("aabb-tree", 1, "1x2x", 10);
+    write_times("brute-force", 1, "6", 10);
+    write_times("fcl-aabb", 1, "234", 100);
+    write_crash("fcl-aabb", 2);
+    write_times("fcl-aabb", 3, "345", 100);
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    about(find_row(&summary, "certified")->ratio.value, 401.0 / 41);
+    assert_true(isnan(find_row(&summary, "certified")->processes[1].ratio));
+    assert_true(isnan(find_row(&summary, "aabb-tree")->ratio.value));
+    assert_true(isnan(find_row(&summary, "brute-force")->ratio.value));
+    assert_true(isnan(find_row(&summary, "aabb-tree")->smallest_change));
+    mote_summary_free(&summary);
+}
+
+/* Labels: parameters of a method that is gone, of one that never had them, and numbers. */
+static void summary_label_names_what_is_not_default(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.rows = ROWS,
+                             .method = "particle-paper",
+                             .parameters = "{\"n\": 5, \"law\": \"log\", \"new\": true}"});
+    write_cell((stored_cell){
+        .rows = ROWS, .method = "bygone", .parameters = "{\"n\": \"few\", \"speed\": [1]}"});
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    about(find_row(&summary, "particle-paper:n=5,new=true")->n, 5);
+    assert_true(isnan(find_row(&summary, "bygone:n=\"few\",speed=[1]")->n));
+    mote_summary_free(&summary);
+}
+
+/* A parameter of another kind than the method's is shown as it is. */
+static void summary_label_of_a_parameter_of_another_kind_is_its_json(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.rows = ROWS, .parameters = "{\"queue\": true, \"seed\": null}"});
+    write_cell((stored_cell){.rows = ROWS, .id = "two", .parameters = "{\"queue\": 64.5}"});
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    (void)find_row(&summary, "fcl-aabb:queue=true,seed=null");
+    (void)find_row(&summary, "fcl-aabb:queue=64.5"); /* a choice is stored by its name */
+    assert_int_equal(summary.count, 2);
+    mote_summary_free(&summary);
+}
+
+/* What ratios are taken to: fcl-aabb as it is by default, else the first, on the same frames,
+   caches and machine. */
+static void summary_reference_is_of_the_same_frames_and_caches(void **state)
+{
+    (void)state;
+    static const stored_cell cells[] = {
+        {.method = "certified", .id = "a"},
+        {.method = "certified", .id = "b", .fingerprint = "g"},
+        {.method = "certified", .id = "c", .cache = "evict"},
+        {.method = "certified", .id = "d", .more = ", \"machine\": \"other\""},
+        {.method = "certified", .id = "e", .more = ", \"jobs\": 2"},
+        {.method = "certified", .id = "f", .scenario = "t"},
+        {.method = "fcl-aabb", .id = "g", .parameters = "{\"queue\": \"64\"}"},
+        {.method = "fcl-aabb", .id = "h", .parameters = "{\"queue\": \"128\"}"},
+        {.method = "fcl-aabb", .id = "i", .parameters = "{\"queue\": \"2\"}"},
+        {.method = "fcl-aabb",
+         .id = "j",
+         .cache = "evict",
+         .parameters = "{\"queue\": \"128\"}"},
+        {.method = "fcl-aabb",
+         .id = "k",
+         .cache = "evict",
+         .parameters = "{\"queue\": \"64\"}"}};
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+        stored_cell cell = cells[i];
+        cell.rows = ROWS;
+        write_cell(cell);
+    }
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(summary.count, 11);
+    for (size_t i = 0; i < summary.count; ++i) {
+        const mote_summary_row *row = &summary.rows[i];
+        const char *id = row->first->id;
+        const char *to = strchr("aghi", id[0]) ? "i" : strchr("cjk", id[0]) ? "j" : "";
+        const char *is = row->ratio.to == SIZE_MAX ? "" : summary.rows[row->ratio.to].first->id;
+        if (strcmp(is, to) != 0)
+            fail_msg("the ratio of %s is to \"%s\", not \"%s\"", id, is, to);
+    }
+    mote_summary_free(&summary);
+}
+
+/* A cell that ended well without a frame, and contacts of which one side is not known. */
+static void summary_of_a_cell_without_frames_or_vertices_has_no_figures(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.rows = "", .method = "certified"});
+    write_cell((stored_cell){.rows = "1,0,0,5,0,0,1,,7\n2,0,0,5,0,0,,1,7\n"});
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    const mote_summary_row *none = find_row(&summary, "certified");
+    assert_int_equal(none->finished, 0);
+    assert_true(isnan(none->total.median) && isnan(none->contacts) && isnan(none->missed));
+    const mote_summary_row *row = find_row(&summary, "fcl-aabb");
+    about(row->contacts, 1);
+    assert_true(isnan(row->missed) && isnan(row->false_contacts));
+    mote_summary_free(&summary);
+    assert_int_equal(mote("summarize"), 0);
+}
+
+/* 69 that agree and a last one that does not: its error widens the interval. */
+static void figure_quantile_of_many_replicates_takes_them_all(void **state)
+{
+    (void)state;
+    for (int k = 1; k <= 70; ++k)
+        write_cell((stored_cell){.replicate = k,
+                                 .rows = k < 70 ? "1,1,2,3,0.5,0.001,0,0,7\n"
+                                                : "1,1,2,3,0.5,0.25,0,0,7\n"});
+    mote_summary summary;
+    mote_text figure = {0};
+    double value, low, high;
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(summary.rows[0].replicates, 70);
+    assert_int_equal(mote_figure_quantile(&summary.rows[0], 0.5, 0.001, &figure), MOTE_OK);
+    assert_int_equal(sscanf(figure.data, "%lf %lf %lf", &value, &low, &high), 3);
+    assert_true(value == 0.001 && low <= value);
+    assert_true(high > 0.01); /* a mean of 0.0046, and 2 standard errors of 0.0036 */
+    free(figure.data);
+    mote_summary_free(&summary);
+}
+
+/* mote merge DIRECTORY/out DIRECTORY/in: its exit status, and what it must say. */
+static void merge(int status, const char *says)
+{
+    char line[256];
+    (void)snprintf(line, sizeof line, "merge %s/out %s/in", directory, directory);
+    const int ended = program_wait(program_start(line, said));
+    program_read(said, text, sizeof text);
+    if (ended != status || !strstr(text, says))
+        fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says, text);
+}
+
+static void write_in(stored_cell cell)
+{
+    char in[96];
+    (void)snprintf(in, sizeof in, "%s/in", directory);
+    assert_true(stored_cell_write(in, &cell));
+}
+
+static size_t sessions_of(const char *name)
+{
+    json_t *manifest = NULL;
+    assert_int_equal(mote_record_read_json(directory, name, &manifest), MOTE_OK);
+    const size_t count = json_array_size(json_object_get(manifest, "sessions"));
+    json_decref(manifest);
+    return count;
+}
+
+#define BY_ONE "\"program\": \"one\""
+
+static void merge_copies_what_is_not_there_and_adds_sessions(void **state)
+{
+    (void)state;
+    assert_int_equal(mote_directory_make(directory), MOTE_OK);
+    merge(4, "in/cells: No such file");
+    write_in((stored_cell){.rows = ROWS, .more = ", " BY_ONE});
+    merge(4, "in/manifest.json: No such file");
+    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [1, 2]}\n");
+    merge(0, "out: 1 cells copied, 0 were there");
+    /* One that crashed has no frames to copy, and a session is added once. */
+    write_in((stored_cell){.replicate = 2, .status = "crashed", .more = ", " BY_ONE});
+    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [2, 3]}\n");
+    for (int again = 0; again < 2; ++again) {
+        merge(0, again ? "0 cells copied, 2 were" : "1 cells copied, 1 w");
+        assert_int_equal(sessions_of("out/manifest.json"), 3);
+    }
+    write_plain("in/manifest.json", "{\"program\": \"two\", \"sessions\": [4]}\n");
+    merge(4, "in: measured by another build than ");
+    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [4]}\n");
+    write_plain("out/manifest.json", "{" BY_ONE "}\n");
+    merge(4, "out/manifest.json: no list of sessions");
+    write_plain("out/manifest.json", "no JSON\n");
+    merge(4, "out/manifest.json:1:");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file),
+        TEST(stored_read_keeps_every_bit_of_a_seed),
+        TEST(stored_read_of_a_damaged_csv_names_the_line),
+        TEST(summary_clock_of_a_core_is_told_where_it_can_be_one),
+        TEST(stored_read_keeps_the_cells_of_the_manifests_program),
+        TEST(summary_of_empty_fields_has_no_figures_of_them),
+        TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group),
+        TEST(summary_ratio_is_of_common_frames_with_a_time),
+        TEST(summary_label_names_what_is_not_default),
+        TEST(summary_label_of_a_parameter_of_another_kind_is_its_json),
+        TEST(summary_reference_is_of_the_same_frames_and_caches),
+        TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures),
+        TEST(figure_quantile_of_many_replicates_takes_them_all),
+        TEST(merge_copies_what_is_not_there_and_adds_sessions),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

@@ -1,0 +1,436 @@
+/* Which cells are put into one row, and which rows are compared with each other. */
+#include "harness/figure/figure.h"
+#include "harness/summary/front.h"
+#include "harness/summary/summary.h"
+#include "harness/summary/table.h"
+#include "tests/support/program.h"
+#include "tests/support/stored_cells.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+static char base[] = "/tmp/mote-test-summary-XXXXXX";
+static char directory[64];
+static int directories;
+static mote_summary summary;
+
+static int make_base(void **state)
+{
+    (void)state;
+    return mkdtemp(base) ? 0 : -1;
+}
+
+static int remove_base(void **state)
+{
+    (void)state;
+    return program_remove(base);
+}
+
+static int next_directory(void **state)
+{
+    (void)state;
+    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories++);
+    return 0;
+}
+
+static int free_summary(void **state)
+{
+    (void)state;
+    mote_summary_free(&summary);
+    return 0;
+}
+
+/* Of some frames that all take `ns`, and are wrong by `error` L. */
+static void write_frames(stored_cell cell, int first, int last, double ns, double error)
+{
+    char rows[512];
+    size_t used = 0;
+    for (int k = first; k <= last; ++k)
+        used += (size_t)snprintf(rows + used, sizeof rows - used, "%d,0,0,%g,0.5,%g,0,0,7\n", k,
+                                 ns, error);
+    cell.rows = rows;
+    assert_true(stored_cell_write(directory, &cell));
+}
+
+static void write_cell(stored_cell cell, double ns, double error)
+{
+    write_frames(cell, 1, 4, ns, error);
+}
+
+static void make_summary(void)
+{
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+}
+
+static void free_figure(mote_figure *figure)
+{
+    free(figure->data.data);
+    free(figure->caption.data);
+    free(figure->missing.data);
+}
+
+/* A scenario's file may change between two runs into one directory. */
+static void summary_of_other_questions_keeps_their_cells_apart(void **state)
+{
+    (void)state;
+    static const char *const asked[] = {", \"ask\": \"contact\", \"tolerance\": 0.0",
+                                        ", \"ask\": \"distance\", \"tolerance\": 0.0",
+                                        ", \"ask\": \"distance\", \"tolerance\": 0.5"};
+    for (int i = 0; i < 3; ++i) {
+        char ours[16], fcl[16];
+        (void)snprintf(ours, sizeof ours, "a%d", i);
+        (void)snprintf(fcl, sizeof fcl, "b%d", i);
+        write_cell((stored_cell){.id = ours, .method = "certified", .more = asked[i]}, 10, 0);
+        write_cell((stored_cell){.id = fcl, .more = asked[i]}, 100 * (i + 1), 0);
+    }
+    make_summary();
+    assert_int_equal(summary.count, 6);
+    for (size_t i = 0; i < summary.count; ++i) {
+        const mote_summary_row *row = &summary.rows[i];
+        assert_int_equal(row->replicates, 1);
+        assert_true(row->ratio.to != SIZE_MAX);
+        assert_int_equal(row->first->id[1], summary.rows[row->ratio.to].first->id[1]);
+    }
+}
+
+/* What was measured on another machine, or on other frames of that name, is faster by what
+   these are. */
+static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
+{
+    (void)state;
+    static const stored_cell scenes[] = {{.more = ", \"machine\": \"slow\""},
+                                         {.more = ", \"machine\": \"fast\""},
+                                         {.fingerprint = "g"}};
+    static const double scale[] = {100, 1, 1e4};
+    for (int i = 0; i < 3; ++i) {
+        char id[16];
+        stored_cell cell = scenes[i];
+        for (cell.replicate = 1; cell.replicate <= 2; ++cell.replicate) {
+            cell.id = id;
+            (void)snprintf(id, sizeof id, "a%d-%d", i, cell.replicate);
+            cell.method = "certified";
+            write_cell(cell, 10 * scale[i], 0);
+            (void)snprintf(id, sizeof id, "b%d-%d", i, cell.replicate);
+            cell.method = "fcl-aabb";
+            write_cell(cell, 20 * scale[i], 0);
+        }
+    }
+    make_summary();
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 6);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        const bool ours = strcmp(fronts.items[i].title, "certified") == 0;
+        assert_true(fabs(fronts.items[i].speed[0].faster - (ours ? 2 : 1)) < 1e-9);
+    }
+    for (size_t i = 0; i < summary.count; ++i) {
+        const char *id = summary.rows[i].first->id;
+        const size_t by = fronts.dominator[i];
+        assert_true((by == SIZE_MAX) == (id[0] == 'a'));
+        assert_true(by == SIZE_MAX || summary.rows[by].first->id[1] == id[1]);
+    }
+    mote_fronts_free(&fronts);
+}
+
+/* Without an interval nothing is sure. */
+static void fronts_of_one_replicate_have_no_dominator(void **state)
+{
+    (void)state;
+    write_cell((stored_cell){.method = "certified"}, 10, 0);
+    write_cell((stored_cell){.replicate = 1}, 11, 0);
+    make_summary();
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_true(fronts.dominator[0] == SIZE_MAX && fronts.dominator[1] == SIZE_MAX);
+    mote_fronts_free(&fronts);
+}
+
+static const mote_summary_row *row_of(const char *id)
+{
+    for (size_t i = 0; i < summary.count; ++i) {
+        if (strcmp(summary.rows[i].first->id, id) == 0)
+            return &summary.rows[i];
+    }
+    fail_msg("no row of %s", id);
+    return NULL;
+}
+
+static void refers_to(const char *id, const mote_ratio *ratio, const char *to, double value)
+{
+    const char *is = ratio->to == SIZE_MAX ? "" : summary.rows[ratio->to].first->id;
+    if (strcmp(is, to) != 0 || !(fabs(ratio->value - value) <= 1e-9 * value))
+        fail_msg("%s: %g times to %s, not %g to %s", id, ratio->value, is, value, to);
+}
+
+/* FCL is fast around a touch (frames 3-4), where a second leg of the run measured all again. */
+static void summary_ratios_are_of_rows_on_the_same_frames(void **state)
+{
+    (void)state;
+    static const char touch[] = "[3, 4]", obb[] = "fcl-obb";
+    write_frames((stored_cell){.id = "a", .method = "certified", .frames = touch}, 3, 4, 10, 0);
+    write_frames((stored_cell){.id = "b", .frames = touch}, 3, 4, 200, 0);
+    write_frames((stored_cell){.id = "c", .frames = touch, .method = obb}, 3, 4, 20, 0);
+    write_frames((stored_cell){.id = "d", .method = "certified"}, 1, 4, 10, 0);
+    write_frames((stored_cell){.id = "e"}, 1, 4, 100, 0);
+    write_frames((stored_cell){.id = "f", .frames = "[1, 2]"}, 1, 2, 1, 0);
+    write_frames((stored_cell){.id = "g", .frames = "[1, 1]", .method = obb}, 1, 1, 500, 0);
+    write_frames((stored_cell){.id = "h", .frames = "[9, 9]", .method = "certified"}, 9, 9, 5,
+                 0);
+    make_summary();
+    refers_to("a", &row_of("a")->ratio, "b", 20);
+    refers_to("a", &row_of("a")->ratio_best, "c", 2);
+    refers_to("d", &row_of("d")->ratio, "e", 10);
+    refers_to("d", &row_of("d")->ratio_best, "e", 10);
+    refers_to("f", &row_of("f")->ratio_best, "f", 1);
+    refers_to("g", &row_of("g")->ratio, "e", 0.2);
+    refers_to("g", &row_of("g")->ratio_best, "f", 1.0 / 500);
+    assert_true(isnan(row_of("h")->ratio.value)); /* nobody has its frame */
+    assert_true(row_of("h")->ratio_best.to == SIZE_MAX);
+    FILE *out = fopen("/dev/null", "w");
+    assert_non_null(out);
+    mote_table_print(&summary, out);
+    (void)fclose(out);
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 8);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        const char *id = summary.rows[fronts.items[i].first].first->id;
+        if (id[0] == 'd')
+            assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
+    }
+    mote_fronts_free(&fronts);
+}
+
+/* Two processes in five are lost: then the 99th percentile over all frames is far off, though
+   that of most processes is not. */
+static void fronts_are_of_the_figures_of_the_rows(void **state)
+{
+    (void)state;
+    static const char *const numbers[] = {"{\"n\": 8}", "{\"n\": 16}"};
+    for (int r = 1; r <= 5; ++r) {
+        char id[16];
+        write_cell((stored_cell){.replicate = r}, 100, 0);
+        for (int k = 0; k < 2; ++k) {
+            (void)snprintf(id, sizeof id, "%d-%d", k, r);
+            write_cell(
+                (stored_cell){
+                    .id = id, .method = "ours", .parameters = numbers[k], .replicate = r},
+                k ? 50 : 10, r > 3 && !k ? 0.09 : 0);
+        }
+    }
+    make_summary();
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 2);
+    const mote_front *ours = &fronts.items[1];
+    assert_true(fabs(summary.rows[ours->first].error.p99 - 0.09) < 1e-9);
+    for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
+        const mote_front_speed *speed = &ours->speed[k];
+        const double times = k + 1 < MOTE_FRONT_LEVELS ? 2 : 10;
+        assert_true(fabs(speed->faster - times) < 1e-9);
+        assert_true(fabs(speed->time_ns - 100 / times) < 1e-9);
+        assert_true(speed->interval.low <= times && speed->interval.high >= times);
+    }
+    mote_fronts_free(&fronts);
+}
+
+/* Where the reference has crashed there is no ratio; the time must not stand for it. */
+static void summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 4; ++r) {
+        write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 + r % 2, 0);
+        if (r != 2)
+            write_cell((stored_cell){.replicate = r}, 10000, 0);
+    }
+    const stored_cell crash = {.replicate = 2, .status = "crashed"};
+    assert_true(stored_cell_write(directory, &crash));
+    make_summary();
+    assert_int_equal(summary.count, 2);
+    assert_true(summary.rows[0].smallest_change < 0.01);
+    assert_true(summary.noise_floor < 0.01);
+}
+
+/* --until-ci gives the reference more replicates than others: these must not make it faster. */
+static void summary_quiet_ratio_is_of_replicates_of_one_number(void **state)
+{
+    (void)state;
+    for (int r = 1; r <= 40; ++r) {
+        if (r <= 10)
+            write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 - r, 0);
+        write_cell((stored_cell){.replicate = r}, 10000 - 10 * r, 0);
+    }
+    make_summary();
+    for (int k = 0; k < MOTE_QUIET_GROUPS; ++k)
+        assert_true(fabs(summary.rows[0].quiet.ratio[k] - 10) < 1e-9);
+}
+
+static void summary_status_is_the_worst_where_no_replicate_ended_well(void **state)
+{
+    (void)state;
+    static const char *const ends[] = {"unsupported", "crashed", "timeout"};
+    for (int r = 1; r <= 3; ++r) {
+        const stored_cell cell = {.replicate = r, .status = ends[r - 1]};
+        assert_true(stored_cell_write(directory, &cell));
+    }
+    make_summary();
+    assert_int_equal(summary.rows[0].status, MOTE_CELL_CRASHED);
+    assert_int_equal(summary.rows[0].first->replicate, 2); /* whose reason is told */
+}
+
+/* Process by process, though the reference lacks the first, and the first was cut short. */
+static void figure_ratios_are_of_replicates_of_one_number(void **state)
+{
+    (void)state;
+    write_frames((stored_cell){.method = "certified", .replicate = 1}, 1, 1, 10, 0);
+    for (int r = 2; r <= 4; ++r) {
+        write_cell((stored_cell){.method = "certified", .replicate = r}, 10 * r, 0);
+        write_cell((stored_cell){.replicate = r}, 100 * r, 0);
+    }
+    make_summary();
+    const mote_figure_run run = {.summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    assert_int_equal(figure.missing.size, 0);
+    const char *line = strchr(figure.data.data, '\n');
+    assert_non_null(line);
+    double frame, ratio, low, high;
+    assert_int_equal(sscanf(line, "%lf %lf %lf %lf", &frame, &ratio, &low, &high), 4);
+    assert_true(fabs(ratio - 10) < 1e-9 && fabs(low - 10) < 1e-9 && fabs(high - 10) < 1e-9);
+    free_figure(&figure);
+}
+
+/* Of two runs of 1,000 bodies the ratio of one is to another method than the caption names. */
+static void figure_bodies_caption_is_of_what_is_drawn(void **state)
+{
+    (void)state;
+    static const char row[] =
+        "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, "
+        "\"near_pairs_wanted\": %d, \"step_mean_ns\": 5000, \"step_ns\": "
+        "4000, \"rss_peak_bytes\": 1, \"ratio\": %d, \"reference\": \"%s\"}";
+    char rows[2][256], text[640], path[96];
+    (void)snprintf(rows[0], sizeof rows[0], row, 1, 40, "fcl-aabb:refit=every");
+    (void)snprintf(rows[1], sizeof rows[1], row, 4, 30, "aabb-tree");
+    (void)snprintf(text, sizeof text, "{\"rows\": [%s, %s]}\n", rows[0], rows[1]);
+    assert_int_equal(mote_directory_make(directory), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/bodies.json", directory);
+    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+    const mote_figure_run run = {.directory = directory, .summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_bodies(&run, "", &figure), MOTE_OK);
+    assert_non_null(strstr(figure.data.data, "1000 5 "));
+    assert_non_null(strstr(figure.caption.data, "Points: means"));
+    assert_non_null(strstr(figure.caption.data, "one 40th"));
+    assert_null(strstr(figure.caption.data, "one 30th"));
+    free_figure(&figure);
+}
+
+/* A run of some of the frames has no figure of the others. */
+static void figure_queries_tells_of_which_frames_it_is(void **state)
+{
+    (void)state;
+    static const char paper[] = "particle-paper", five[] = "{\"n\": 5}";
+    write_frames(
+        (stored_cell){
+            .scenario = "ww", .method = paper, .parameters = five, .frames = "[950, 953]"},
+        950, 953, 2e6, 0);
+    make_summary();
+    const mote_figure_run run = {.summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_queries(&run, "ww", &figure), MOTE_OK);
+    assert_non_null(strstr(figure.caption.data,
+                           " particles, n = 5: active interval (950-953 only) "
+                           "2 ms on average, 2 ms at most."));
+    assert_null(strstr(figure.caption.data, "nan"));
+    free_figure(&figure);
+}
+
+/* The interval of two processes is wider above than below. */
+static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
+{
+    (void)state;
+    char line[256], said[96], text[4096], expected[64];
+    (void)snprintf(said, sizeof said, "%s-said", directory);
+    (void)snprintf(line, sizeof line,
+                   "run tt --frames 200-205 --replicates 2 --method certified "
+                   "--until-ci 0.001%% --budget 0 --out %s",
+                   directory);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    program_read(said, text, sizeof text);
+    make_summary();
+    const mote_time *time = &summary.rows[0].total;
+    const double width = fmax(time->high - time->median, time->median - time->low);
+    (void)snprintf(expected, sizeof expected,
+                   "after 2 replicates the widest interval is +-%.2g %%",
+                   100 * width / time->median);
+    if (!strstr(text, expected))
+        fail_msg("no \"%s\" in\n%s", expected, text);
+}
+
+/* mote COMMAND DIRECTORY MORE, and what is then in a file of the directory, or what it said. */
+static const char *after(const char *command, const char *more, const char *file)
+{
+    static char text[1 << 20];
+    char line[160], said[96];
+    (void)snprintf(line, sizeof line, "%s %s %s", command, directory, more);
+    (void)snprintf(said, sizeof said, "%s/said", directory);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    (void)snprintf(line, sizeof line, "%s/%s", directory, file);
+    program_read(line, text, sizeof text);
+    return text;
+}
+
+/* Times of cells that ran at once, and rows that lack replicates, must not look like others. */
+static void pages_and_tables_tell_which_times_and_rows_are_not_whole(void **state)
+{
+    (void)state;
+    static const char beside[] = "times not comparable: 2 cells at once",
+                      badly[] = "1 of 3 replicates ended badly";
+    write_cell((stored_cell){.method = "certified", .more = ", \"jobs\": 2"}, 10, 0);
+    write_cell((stored_cell){.replicate = 1}, 100, 0);
+    write_cell((stored_cell){.replicate = 3}, 100, 0);
+    const stored_cell crash = {.replicate = 2, .status = "crashed"};
+    assert_true(stored_cell_write(directory, &crash));
+    make_summary();
+    static const struct {
+        const char *command, *more, *file;
+    } outputs[] = {
+        {"summarize", "", "said"}, {"report", "", "report.html"}, {"report", "", "report.md"}};
+    for (size_t i = 0; i < 3; ++i) {
+        const char *text = after(outputs[i].command, outputs[i].more, outputs[i].file);
+        if (!strstr(text, beside) || !strstr(text, badly))
+            fail_msg("%s does not say both", outputs[i].file);
+    }
+    assert_non_null(strstr(after("report", "", "report.html"),
+                           "Fastest without a wrong answer in any frame: <code>fcl-aabb<"));
+    const char *csv = after("summarize", "--format csv", "said");
+    assert_non_null(strstr(csv, ",replicates_failed,jobs\n"));
+    assert_non_null(strstr(csv, ",0,2\n"));
+    assert_non_null(strstr(csv, ",1,1\n"));
+}
+
+int main(void)
+{
+#define TEST(name) cmocka_unit_test_setup_teardown(name, next_directory, free_summary)
+    const struct CMUnitTest tests[] = {
+        TEST(summary_of_other_questions_keeps_their_cells_apart),
+        TEST(summary_ratios_are_of_rows_on_the_same_frames),
+        TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole),
+        TEST(fronts_are_of_the_figures_of_the_rows),
+        TEST(run_until_ci_tells_the_wider_side_of_the_interval),
+        TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
+        TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
+        TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
+        TEST(figure_ratios_are_of_replicates_of_one_number),
+        TEST(figure_queries_tells_of_which_frames_it_is),
+        TEST(figure_bodies_caption_is_of_what_is_drawn),
+        TEST(fronts_of_one_replicate_have_no_dominator),
+        TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
+    };
+    return cmocka_run_group_tests(tests, make_base, remove_base);
+}

@@ -1,0 +1,289 @@
+/* Who may include whom, read from the include lines of the sources. */
+#define _DEFAULT_SOURCE /* DT_DIR */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct rule {
+    const char *folder;
+    const char *may[4]; /* folders that it may include */
+} rule;
+
+static const rule rules[] = {
+    {"core", {"core"}},
+    {"baselines", {"core", "baselines"}},
+    {"datasets", {"core", "datasets"}},
+    {"harness", {"core", "baselines", "datasets", "harness"}},
+};
+#define FOLDERS (sizeof rules / sizeof rules[0])
+
+/* The rooms of a folder, bottom up: each may include itself and those before it. */
+typedef struct house {
+    const char *folder;
+    const char *rooms[16];
+} house;
+
+static const house houses[] = {
+    {"core", {"base", "body", "method", "particle", "certificate", "motion"}},
+    {"harness",
+     {"base", "scene", "run", "loop", "summary", "figure", "study", "report", "command"}},
+};
+#define HOUSES (sizeof houses / sizeof houses[0])
+
+/* A folder with more files than this is too long to find one's way in. */
+#define FILES_MAX 40
+
+/* A library's headers and how the names of the only files begin that may include them. */
+typedef struct library {
+    const char *begins; /* of the included name */
+    const char *files[2];
+} library;
+
+static const library libraries[] = {
+    {"gsl/gsl_linalg", {"core/base/linear_algebra.c"}},
+    {"gsl/gsl_eigen", {"core/base/linear_algebra.c"}},
+    {"gsl/gsl_statistics", {"harness/base/statistics.c"}},
+    {"gsl/gsl_sort", {"harness/base/statistics.c"}},
+    {"gsl/gsl_cdf", {"harness/base/statistics.c"}},
+    {"meshoptimizer", {"core/body/parts"}},
+    {"bullet/", {"core/body/parts"}},
+    {"fcl/", {"baselines/fcl_"}},
+    {"embree", {"baselines/embree_"}},
+    {"assimp/", {"harness/scene/mesh_assimp.c"}},
+};
+
+/* An include line: both names are from the root; of another library: what stands in the line.
+ */
+typedef struct include {
+    char file[400];
+    char included[160];
+} include;
+
+static include includes[8192];
+static size_t include_count;
+
+static bool begins_with(const char *text, const char *start)
+{
+    return strncmp(text, start, strlen(start)) == 0;
+}
+
+static bool is_source(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot && (strcmp(dot, ".c") == 0 || strcmp(dot, ".h") == 0 ||
+                   strcmp(dot, ".cpp") == 0 || strcmp(dot, ".hpp") == 0);
+}
+
+static void read_includes(const char *file)
+{
+    char path[1024], line[1024];
+    (void)snprintf(path, sizeof path, "%s/%s", MOTE_SOURCE_DIR, file);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    while (fgets(line, sizeof line, in)) {
+        assert_true(include_count < sizeof includes / sizeof includes[0]);
+        include *next = &includes[include_count];
+        if (sscanf(line, " # include %*[\"<]%159[^\">]", next->included) == 1) {
+            (void)snprintf(next->file, sizeof next->file, "%s", file);
+            ++include_count;
+        }
+    }
+    (void)fclose(in);
+}
+
+/* Reads the sources below a folder; a folder of too many files is an error. */
+static void read_folder(const char *folder)
+{
+    char path[1024];
+    (void)snprintf(path, sizeof path, "%s/%s", MOTE_SOURCE_DIR, folder);
+    DIR *entries = opendir(path);
+    assert_non_null(entries);
+    int files = 0;
+    for (const struct dirent *entry = readdir(entries); entry; entry = readdir(entries)) {
+        char name[400];
+        if (entry->d_name[0] == '.')
+            continue;
+        (void)snprintf(name, sizeof name, "%s/%s", folder, entry->d_name);
+        if (is_source(name)) {
+            ++files;
+            read_includes(name);
+        } else if (entry->d_type == DT_DIR) {
+            read_folder(name);
+        }
+    }
+    (void)closedir(entries);
+    if (files > FILES_MAX)
+        fail_msg("%s holds %d sources; make rooms of at most %d", folder, files, FILES_MAX);
+}
+
+static int read_sources(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < FOLDERS; ++i)
+        read_folder(rules[i].folder);
+    read_folder("tests");
+    return include_count == 0;
+}
+
+/* Whether a name lies in a folder, given without a slash. */
+static bool lies_in(const char *name, const char *folder)
+{
+    return begins_with(name, folder) && name[strlen(folder)] == '/';
+}
+
+static void check_folders(const rule *r, const include *line)
+{
+    for (size_t i = 0; i < FOLDERS; ++i) {
+        if (!lies_in(line->included, rules[i].folder))
+            continue;
+        bool allowed = false;
+        for (size_t k = 0; k < 4 && r->may[k]; ++k)
+            allowed = allowed || strcmp(r->may[k], rules[i].folder) == 0;
+        if (!allowed)
+            fail_msg("%s includes %s: %s may not include %s", line->file, line->included,
+                     r->folder, rules[i].folder);
+    }
+    if (lies_in(line->included, "tests"))
+        fail_msg("%s includes %s: only tests may", line->file, line->included);
+}
+
+static void folders_include_only_what_they_may(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < include_count; ++i) {
+        for (size_t k = 0; k < FOLDERS; ++k) {
+            if (lies_in(includes[i].file, rules[k].folder))
+                check_folders(&rules[k], &includes[i]);
+        }
+    }
+}
+
+/* Ties that are still to be cut; none may be added. */
+static const char *const ties[] = {
+    "core/body/mesh_ring",
+    "core/body/mesh",
+    "core/body/field_kinds",
+    "core/body/field",
+    "core/certificate/certificate",
+    "core/particle/tracker",
+    "harness/run/run",
+    "harness/run/bodies_record",
+    "harness/run/bodies_measure",
+    "harness/summary/summary",
+    "harness/summary/front",
+};
+
+static bool is_tie(const char *file)
+{
+    for (size_t i = 0; i < sizeof ties / sizeof ties[0]; ++i) {
+        if (begins_with(file, ties[i]))
+            return true;
+    }
+    return false;
+}
+
+/* The place of a file's room in its house, counted from below, or -1. */
+static int floor_of(const house *h, const char *file)
+{
+    if (!lies_in(file, h->folder))
+        return -1;
+    for (int i = 0; h->rooms[i]; ++i) {
+        if (lies_in(file + strlen(h->folder) + 1, h->rooms[i]))
+            return i;
+    }
+    return -1;
+}
+
+static void rooms_include_only_rooms_below_them(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < include_count; ++i) {
+        for (size_t k = 0; k < HOUSES; ++k) {
+            if (!lies_in(includes[i].file, houses[k].folder))
+                continue;
+            const int own = floor_of(&houses[k], includes[i].file);
+            if (own < 0)
+                fail_msg("%s lies in no room of %s", includes[i].file, houses[k].folder);
+            if (floor_of(&houses[k], includes[i].included) > own && !is_tie(includes[i].file))
+                fail_msg("%s includes %s, of a room above it", includes[i].file,
+                         includes[i].included);
+        }
+    }
+}
+
+/* A module is a header and its source: their common name without the ending. */
+static size_t module_length(const char *file)
+{
+    return (size_t)(strrchr(file, '.') - file);
+}
+
+static bool same_module(const char *a, const char *b)
+{
+    return strrchr(b, '.') && module_length(a) == module_length(b) &&
+           strncmp(a, b, module_length(a)) == 0;
+}
+
+static bool visited[sizeof includes / sizeof includes[0]];
+
+/* Whether target's module is reached from a file's module by includes. */
+static bool reaches(const char *file, const char *target)
+{
+    for (size_t i = 0; i < include_count; ++i) {
+        if (visited[i] || !same_module(file, includes[i].file) ||
+            same_module(file, includes[i].included) || !strrchr(includes[i].included, '.'))
+            continue;
+        visited[i] = true;
+        if (same_module(target, includes[i].included) || reaches(includes[i].included, target))
+            return true;
+    }
+    return false;
+}
+
+static void no_module_includes_itself_in_a_circle(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < include_count; ++i) {
+        const include *line = &includes[i];
+        if (lies_in(line->file, "tests") || same_module(line->file, line->included) ||
+            !strchr(line->included, '/') || is_tie(line->file))
+            continue;
+        memset(visited, 0, sizeof visited);
+        if (reaches(line->included, line->file))
+            fail_msg("%s includes %s, which comes back to it", line->file, line->included);
+    }
+}
+
+static void libraries_are_included_by_their_own_files(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < include_count; ++i) {
+        for (size_t k = 0; k < sizeof libraries / sizeof libraries[0]; ++k) {
+            const library *l = &libraries[k];
+            if (!begins_with(includes[i].included, l->begins) ||
+                lies_in(includes[i].file, "tests"))
+                continue;
+            if (!begins_with(includes[i].file, l->files[0]) &&
+                !(l->files[1] && begins_with(includes[i].file, l->files[1])))
+                fail_msg("%s includes %s, which is left to %s", includes[i].file,
+                         includes[i].included, l->files[0]);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(folders_include_only_what_they_may),
+        cmocka_unit_test(rooms_include_only_rooms_below_them),
+        cmocka_unit_test(no_module_includes_itself_in_a_circle),
+        cmocka_unit_test(libraries_are_included_by_their_own_files),
+    };
+    return cmocka_run_group_tests(tests, read_sources, NULL);
+}
