@@ -43,7 +43,7 @@ static void scenarios_of_every_form_when_a_call_fails_say_so(void **state)
     (void)state;
     static const fault_line list[] = {
         LINE(check, " rich.json", 0),
-        LINE(export, " rich.json --frame 3 --out out --method embree-contact", 0),
+        LINE(export, " rich.json --frame 3 --out out --method fcl-kdop18", 0),
         LINE(export, " stretch.json --frame 2 --out out", 0),
         LINE(export, " pair:c.obj:c.obj --frame 2 --out out", 0),
         LINE(check, " nothing", 4),

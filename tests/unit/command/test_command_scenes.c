@@ -199,8 +199,8 @@ static const good_line good_lines[] = {
     {"distance a.obj t.stl --json", {"\"coordinates\": \"float\""}},
     {"distance t.stl a.obj --json", {"\"coordinates\": \"float\""}},
     {"distance a.obj two.obj --json", {"\"coordinates\": \"double\"", "\"contact\": false"}},
-    {"distance a.obj two.obj --method embree-contact", {"embree-contact: no contact"}},
-    {"distance a.obj t.stl --method embree-contact", {"embree-contact: contact"}},
+    {"distance a.obj two.obj --method fcl-kdop18", {"fcl-kdop18: no contact"}},
+    {"distance a.obj t.stl --method fcl-kdop18", {"fcl-kdop18: contact"}},
     {"distance a.obj two.obj --method fcl-aabb:update=none",
      {"fcl-aabb:update=none: unsupported: update=none needs"}},
     {"distance a.obj two.obj --method fcl-aabb:update=none --json",
@@ -237,7 +237,7 @@ static void command_export_tells_what_a_method_cannot_answer(void **state)
     (void)state;
     char output[1024], *text;
     size_t size;
-    assert_int_equal(run("export s.json --frame 3 --out e --method embree-contact --method "
+    assert_int_equal(run("export s.json --frame 3 --out e --method fcl-kdop18 --method "
                          "fcl-aabb:update=none",
                          output, sizeof output),
                      0);

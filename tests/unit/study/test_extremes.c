@@ -306,13 +306,15 @@ static void methods_of_ours_far_from_the_origin_are_right(void **state)
 {
     (void)state;
     static const char *const methods[] = {"certified", "aabb-tree", "brute-force",
-                                          "particle:n=8", "embree-contact"};
+                                          "particle:n=8"};
     static const int powers[] = {4, 8, 10, 12};
     for (size_t i = 0; i < sizeof powers / sizeof powers[0]; ++i) {
         mote_extreme e;
         make("offset", powers[i], true, &e);
         for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m)
             expect_verdict(&e, methods[m], MOTE_EXTREME_RIGHT);
+        if (mote_method_find("embree-contact")) /* left out where its library is missing */
+            expect_verdict(&e, "embree-contact", MOTE_EXTREME_RIGHT);
         mote_extreme_free(&e);
     }
 }
