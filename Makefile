@@ -29,12 +29,13 @@
 #   make test-stranger                              a method, field, scenario from README.md alone
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
 #   make test-exports                               exports read by jq, pandas, scipy
-#   make install [PREFIX=/usr/local] [DESTDIR=]      program, library, headers, manual
+#   make test-bare                                   bench and test as on a fresh Debian 12
+#   make install [prefix=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make mutation [FILES=GLOB] [COUNT=120] [OUT=DIR] small errors, planted one by one: does a test fail?
 #   make coverage [OUT=DIR]                         branches that tests take: core 98 %, harness 90 %
 #   make lint [DEEP='core|harness'], check-static    clang-tidy, its analyzer on DEEP (core); cppcheck
 #   make check-threads, valgrind                     ThreadSanitizer over what has threads; a smoke run
-#   make deps, make build, make clean
+#   make deps, make build, make build-tests, make clean
 
 PROFILE ?= paper
 OUT ?= results/$(PROFILE)
@@ -44,25 +45,57 @@ JOBS ?= $(shell nproc)
 BUILD = build
 MOTE = $(BUILD)/mote
 
+# $(call configure,PRESET): silent, unless it fails.
+configure = mkdir -p $(BUILD) && { cmake --preset $(1) > $(BUILD)/configure.log 2>&1 || \
+    { cat $(BUILD)/configure.log; exit 1; }; }
+# $(call compile,FOLDER[,TARGET...]): everything where no target is named. The jobs are ours to count,
+# and make names no folders.
+compile = MAKEFLAGS=--no-print-directory cmake --build $(1) -j $(JOBS) $(if $(2),--target $(2))
+# A word for the shell, whatever it holds.
+quoted = '$(subst ','\'',$(1))'
+
 # Sanitizers stop at the first error, and FCL's own never-freed statics are not ours to report.
 SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 
 .DEFAULT_GOAL := build
-.PHONY: deps build bench test figures perf-check perf-accept test-perf test-kill test-statistics oracle tune ingredients ablation certify soak reliability extremes dynamics claims format lint clean
+.NOTPARALLEL: # JOBS is for what runs inside a target
+.PHONY: deps build build-tests bench test figures perf-check perf-accept test-perf test-kill \
+    test-statistics oracle tune ingredients ablation certify soak reliability extremes dynamics claims \
+    format lint clean
 
+# packages.txt lists what building and running mote needs, cmake/packages-NAME.txt what deps-NAME adds.
 deps:
 	@cmake/deps.sh packages.txt
 
-build: deps
-	@cmake --preset release > $(BUILD).log || { cat $(BUILD).log; exit 1; }
-	@rm -f $(BUILD).log
-	@cmake --build $(BUILD) -j $(JOBS)
+deps-%:
+	@cmake/deps.sh packages.txt cmake/packages-$*.txt
 
-test: build
-	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
-	cmake --preset asan
-	cmake --build build-asan -j $(JOBS)
-	cd build-asan && $(SANITIZER) ctest --output-on-failure -j $(JOBS)
+# The program alone. CMake leaves out the tests where their libraries are missing (deps-test).
+build: deps
+	@$(call configure,release)
+	@$(call compile,$(BUILD),mote)
+
+build-tests: deps-test
+	@$(call configure,release)
+	@$(call compile,$(BUILD))
+
+test: build-tests
+	cd $(BUILD) && ctest --no-tests=error --output-on-failure -j $(JOBS)
+	@$(call configure,asan)
+	@$(call compile,build-asan)
+	cd build-asan && $(SANITIZER) ctest --no-tests=error --output-on-failure -j $(JOBS)
+
+# A program of tests/ by itself, and the one that it calls.
+program-%: deps-test
+	@$(call configure,release)
+	@$(call compile,$(BUILD),mote $*)
+
+# As on a machine where nobody has installed anything: see tests/scripts/bare.sh.
+.PHONY: test-bare
+test-bare:
+	@cmake/deps.sh cmake/packages-bare.txt
+	@tests/scripts/bare.sh 'make bench PROFILE=quick' 'tests/scripts/all_methods.sh build/mote' \
+	    'make test'
 
 bench: build page
 	@harness/scripts/bench.sh $(MOTE) $(PROFILE) $(OUT)
@@ -71,7 +104,7 @@ bench: build page
 sweep: build
 	@harness/scripts/bench.sh $(MOTE) sweep $(call out,sweep)
 
-oracle: build
+oracle: program-oracle
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
@@ -85,7 +118,7 @@ ingredients: build
 ablation: build
 	@harness/scripts/ablation.sh $(MOTE) $(PROFILE) $(call out,ablation)
 
-certify: build
+certify: program-certify
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
@@ -94,11 +127,11 @@ certify: build
 # into results/reference and README.md; ONLY="kills fuzz" runs some of the studies.
 PLANT ?=
 RECORD ?=
-reliability: build build-fuzz
-	@cmake --build $(BUILD) -j $(JOBS) --target kills > /dev/null
-	@cmake --preset asan > /dev/null && cmake --build build-asan -j $(JOBS) \
-	    --target test_faults test_allocations > /dev/null
-	@cmake --preset tsan > /dev/null && cmake --build build-tsan -j $(JOBS) --target answers > /dev/null
+reliability: build-tests program-kills build-fuzz
+	@$(call configure,asan)
+	@$(call compile,build-asan,test_faults test_allocations) > /dev/null
+	@$(call configure,tsan)
+	@$(call compile,build-tsan,answers) > /dev/null
 	@mkdir -p results
 	@JOBS=$(JOBS) ONLY="$(ONLY)" tests/scripts/reliability.sh $(BUILD) build-asan build-fuzz build-tsan \
 	    $(if $(filter quick,$(PROFILE)),quick,full) \
@@ -107,15 +140,15 @@ reliability: build build-fuzz
 
 RUNS ?= 56
 .PHONY: determinism
-determinism: build
+determinism: build deps-test
 	@tests/scripts/determinism.sh $(BUILD) $(RUNS) $(JOBS)
 
 # As many targets at a time as there are cores.
 SECONDS ?= 60
 .PHONY: fuzz build-fuzz
-build-fuzz: deps
-	@cmake --preset fuzz > /dev/null && cmake --build build-fuzz -j $(JOBS) \
-	    --target fuzz_scenario fuzz_mesh fuzz_options fuzz_cell fuzz_summary > /dev/null
+build-fuzz: deps-test deps-fuzz
+	@$(call configure,fuzz)
+	@$(call compile,build-fuzz,fuzz_scenario fuzz_mesh fuzz_options fuzz_cell fuzz_summary) > /dev/null
 
 fuzz: build-fuzz
 	@tests/scripts/fuzz.sh build-fuzz $(SECONDS) $(JOBS) \
@@ -125,7 +158,7 @@ fuzz: build-fuzz
 # Cases that fail are shrunk and kept in OUT/cases.
 HOURS ?= 0.1
 SEED ?= 1
-soak: build
+soak: program-soak
 	@mkdir -p results
 	@$(BUILD)/tests/soak --hours $(HOURS) --seed $(SEED) \
 	    --out $(call out,soak)
@@ -143,23 +176,20 @@ dynamics: build
 	@$(MOTE) dynamics --out $(call out,dynamics) \
 	    --jobs $(JOBS) $(if $(filter quick,$(PROFILE)),--quick)
 
-perf-check: build
+perf-check: build deps-valgrind
 	@harness/scripts/perf.sh check $(MOTE) results/perf-check
 
-test-perf: build
-	@cmake --build $(BUILD) -j $(JOBS) --target perf_planted
+test-perf: program-perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf
 
-test-kill: build
-	@cmake --build $(BUILD) -j $(JOBS) --target kills
+test-kill: program-kills
 	@rm -rf results/test-kill
 	@$(BUILD)/tests/kills results/test-kill
 
-test-statistics: build
-	@cmake --build $(BUILD) -j $(JOBS) --target interval_coverage
+test-statistics: program-interval_coverage
 	@$(BUILD)/tests/interval_coverage
 
-perf-accept: build
+perf-accept: build deps-valgrind
 	@[ -n "$(WHY)" ] || { echo 'perf-accept: say why: make perf-accept WHY="..."' >&2; exit 2; }
 	@harness/scripts/perf.sh accept $(MOTE) results/perf-check "$(WHY)"
 
@@ -174,21 +204,18 @@ report: build page
 	@$(MOTE) report $(OUT)
 
 # The replay of reports: bundled where npm is, left out where it is not.
-.PHONY: page page-deps test-page
+.PHONY: page test-page
 page:
 	@plots/page/build.sh $(BUILD)/page
 
-page-deps:
-	@cmake/deps.sh packages-page.txt
-
-test-page: build page-deps
+test-page: build deps-page
 	@plots/page/build.sh $(BUILD)/page
 	@node tests/scripts/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
 
 SOURCES = $(wildcard $(foreach folder,core baselines datasets harness tests cmake,\
     $(foreach kind,c h cpp hpp,$(folder)/*.$(kind) $(folder)/*/*.$(kind) $(folder)/*/*/*.$(kind))))
 
-format: deps
+format: deps-lint
 	@clang-format --dry-run -Werror $(SOURCES)
 
 # clang-tidy stumbles over flags that only gcc knows; assertions tell its analyzer what holds. The
@@ -197,7 +224,8 @@ DEEP ?= core
 REST = $(filter-out $(subst |, ,$(DEEP)),core baselines harness datasets)
 TIDY = run-clang-tidy -quiet -j $(JOBS) -p $(BUILD)/lint -extra-arg=-UNDEBUG \
     -extra-arg=-include -extra-arg=$(CURDIR)/cmake/lint.h
-lint: format build
+lint: format
+	@$(call configure,release)
 	@mkdir -p $(BUILD)/lint
 	@sed 's/-fno-loop-unroll-and-jam//' $(BUILD)/compile_commands.json \
 	    > $(BUILD)/lint/compile_commands.json
@@ -208,7 +236,7 @@ lint: format build
 
 # Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
 .PHONY: check-static check-threads valgrind
-check-static: deps
+check-static: deps-lint
 	@cppcheck --quiet --enable=warning,performance,portability --inline-suppr --std=c17 \
 	    -j $(JOBS) --error-exitcode=1 -I. --suppressions-list=cmake/cppcheck.txt \
 	    core harness datasets baselines
@@ -216,9 +244,9 @@ check-static: deps
 # Fails below 98 % of core's branches or 90 % of harness's; OUT/coverage.html has them line by line.
 # TESTS='test_mesh|test_lazy' runs these alone; RECORD=1: into README.md.
 .PHONY: coverage
-coverage: deps
-	@cmake --preset coverage > /dev/null
-	@cmake --build build-coverage -j $(JOBS) > /dev/null
+coverage: deps-test deps-coverage
+	@$(call configure,coverage)
+	@$(call compile,build-coverage) > /dev/null
 	@tests/scripts/coverage.sh build-coverage $(JOBS) \
 	    $(call out,coverage) '$(TESTS)'
 	@$(if $(RECORD),tests/scripts/record.sh --coverage $(call out,coverage)/coverage.tsv)
@@ -228,7 +256,7 @@ coverage: deps
 COUNT ?= 120
 FILES ?= *
 .PHONY: mutation
-mutation: build
+mutation: build-tests
 	@/usr/bin/python3 tests/scripts/mutate.py $(BUILD) \
 	    $(call out,mutation) \
 	    --files '$(FILES)' --count $(COUNT) --seed $(SEED) --jobs $(JOBS)
@@ -237,9 +265,9 @@ mutation: build
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.
 THREADED = test_threads test_scene test_bodies
-check-threads: deps
-	@cmake --preset tsan > /dev/null
-	@cmake --build build-tsan -j $(JOBS) --target $(THREADED) answers > /dev/null
+check-threads: deps-test
+	@$(call configure,tsan)
+	@$(call compile,build-tsan,$(THREADED) answers) > /dev/null
 	@fixed=; setarch -R true 2> /dev/null && fixed="setarch -R"; \
 	for t in $(THREADED) "answers --threads 8 --check $(CURDIR)/tests/answers.txt"; do \
 	    echo "== $$t"; \
@@ -247,7 +275,7 @@ check-threads: deps
 
 # A smoke run: a mesh read in a child, a query on two files, every change of the metamorphic study.
 VALGRIND = valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite
-valgrind: build
+valgrind: program-metamorphic deps-valgrind
 	@$(VALGRIND) $(MOTE) mesh datasets/meshes/box.obj > /dev/null
 	@$(VALGRIND) $(MOTE) distance datasets/meshes/box.obj datasets/meshes/flat-t.obj \
 	    --method certified --method particle:n=8 --method particle-paper:n=5 > /dev/null
@@ -259,22 +287,22 @@ clean:
 .PHONY: test-library test-stranger test-cluster test-exports install
 
 test-library: deps
-	@cmake/deps.sh tests/packages-library.txt || echo "going on with the compilers at hand"
+	@cmake/deps.sh cmake/packages-library.txt || echo "going on with the compilers at hand"
 	@tests/scripts/core_only.sh
 
 test-stranger: deps
 	@tests/scripts/stranger.sh
 
-test-cluster: build
-	@cmake/deps.sh tests/packages-cluster.txt
+test-cluster: build deps-cluster
 	@tests/scripts/cluster.sh $(MOTE)
 
-test-exports: build
-	@cmake/deps.sh tests/packages-exports.txt
-	@cmake --build $(BUILD) -j $(JOBS) --target mann_whitney
+test-exports: program-mann_whitney deps-exports
 	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) $(BUILD)/tests/mann_whitney results/schema
 
+# Under either name.
 PREFIX ?= /usr/local
+prefix ?= $(PREFIX)
 
 install: build
-	cmake --install $(BUILD) --prefix $(PREFIX)
+	@$(call compile,$(BUILD),mote_static mote_shared manual)
+	cmake --install $(BUILD) --prefix $(call quoted,$(prefix))

@@ -1,10 +1,11 @@
 #!/bin/sh
-# deps.sh FILE: installs the Debian packages that FILE lists and that are missing, when it may
+# deps.sh FILE...: installs the Debian packages that the files list and that are missing, when it may
 # (root, or sudo without a password); else prints the one command to run and exits 1. A line is
 # PACKAGE, or PACKAGE PROGRAM: then the package is not needed where the program is found.
 set -eu
+lists=$(cat "$@")
 missing=
-while read -r package program || [ -n "$package" ]; do
+while read -r package program; do
     [ -n "$package" ] || continue
     if [ -n "$program" ] && command -v "$program" >/dev/null; then
         continue
@@ -14,7 +15,9 @@ while read -r package program || [ -n "$package" ]; do
     ii*) ;;
     *) missing="$missing $package" ;;
     esac
-done <"$1"
+done <<LISTS
+$lists
+LISTS
 [ -n "$missing" ] || exit 0
 if [ "$(id -u)" = 0 ]; then
     run=
@@ -25,7 +28,22 @@ else
     echo "    sudo apt-get update && sudo apt-get install -y --no-install-recommends$missing" >&2
     exit 1
 fi
-export DEBIAN_FRONTEND=noninteractive
-$run apt-get update -q
+errors=$(mktemp)
+trap 'rm -f "$errors"' EXIT
+
+# apt ARGUMENT...: apt-get, waiting for whoever uses it now. By itself it waits for the lock of dpkg
+# only; for the lock of its lists and archives it is called again, for ten minutes.
+apt() {
+    tries=60
+    until $run env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 "$@" \
+        2>"$errors"; do
+        cat "$errors" >&2
+        tries=$((tries - 1))
+        [ $tries -gt 0 ] && grep -q 'Could not get lock' "$errors" || return 1
+        sleep 10
+    done
+    cat "$errors" >&2
+}
+apt update
 # shellcheck disable=SC2086
-$run env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+apt install -y --no-install-recommends $missing

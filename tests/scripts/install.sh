@@ -1,7 +1,7 @@
 #!/bin/bash
-# install.sh BUILD: installs a build into a folder of its own, moves it, and uses it as a stranger
-# would: the README's program by pkg-config and by find_package, with the shared and with the static
-# library, every header alone from C and C++, the manual and the completion.
+# install.sh BUILD: installs a build into a folder of its own as `make install` does, moves it, and
+# uses it as a stranger would: the README's program by pkg-config and by find_package, with the shared
+# and with the static library, every header alone from C and C++, the manual and the completion.
 set -euo pipefail
 build=$(realpath "$1")
 tests=$(realpath "$(dirname "$0")")
@@ -10,9 +10,22 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "install.sh: $*" >&2; exit 1; }
 
+# The last line that `make install VARIABLE=VALUE...` runs; what comes before it has been built.
+install_line() {
+    env -u MAKEFLAGS -u MAKELEVEL make -s -n -C "$tests/../.." install BUILD="$build" "$@" | tail -n 1
+}
+# A prefix is one word, whatever it holds, under either name.
+odd="$work/it's in \$HOME"
+for variable in prefix PREFIX; do
+    sh -e -c "$(install_line "$variable=${odd//\$/\$\$}")" > log
+    [ -x "$odd/bin/mote" ] || fail "make install $variable=: nothing in $odd"
+    rm -r "$odd"
+done
+grep -q "'/usr/local'" <<< "$(install_line)" || fail "make install: not into /usr/local"
+
 # Staged below DESTDIR, then moved elsewhere: nothing may hold the prefix.
-DESTDIR=$work/stage cmake --install "$build" --prefix /opt/mote > log
-[ "$(ls stage)" = opt ] || fail "files outside of DESTDIR/PREFIX"
+DESTDIR=$work/stage sh -e -c "$(install_line prefix=/opt/mote)" > log
+[ "$(ls stage)" = opt ] || fail "files outside of DESTDIR/prefix"
 mv stage/opt/mote moved
 root=$work/moved
 library=$root/$(basename "$(dirname "$(find "$root" -name libmote.a)")")

@@ -1,0 +1,85 @@
+#!/bin/sh
+# deps.sh: how cmake/deps.sh installs what is missing, with programs that stand for dpkg-query, apt-get
+# and what it waits with: nothing is installed.
+# shellcheck disable=SC2015 # fail does not return
+set -eu
+deps=$(realpath "$(dirname "$0")/../../cmake/deps.sh")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() {
+    echo "deps.sh: $*" >&2
+    cat calls said >&2
+    exit 1
+}
+
+mkdir bin
+PATH=$work/bin:$PATH
+program() { # NAME, its text from standard input
+    { echo '#!/bin/sh' && cat; } >"bin/$1"
+    chmod +x "bin/$1"
+}
+program dpkg-query <<'END'
+for package; do :; done
+case $package in here*) echo 'ii ' ;; removed) echo 'rc ' ;; *) exit 1 ;; esac
+END
+program id <<'END'
+cat user
+END
+program sudo <<'END'
+exit 1
+END
+program sleep <<'END'
+echo "sleep $*" >>calls
+END
+# The first calls fail as often as the file `locked` says.
+program apt-get <<'END'
+echo "$*" >>calls
+read -r locked <locked
+[ "$locked" -gt 0 ] || exit 0
+echo $((locked - 1)) >locked
+cat why >&2
+exit 100
+END
+try() { # LOCKED WHY LIST...
+    echo "$1" >locked
+    echo "$2" >why
+    shift 2
+    : >calls
+    status=0
+    "$deps" "$@" >said 2>&1 || status=$?
+}
+printf 'here1\nmissing1\nremoved\n\nsold sh\n' >one.txt
+printf 'here2\nmissing2 no-such-program' >two.txt # and no newline
+echo here3 >whole.txt
+echo 0 >user
+
+try 0 '' one.txt two.txt whole.txt
+[ $status = 0 ] || fail "status $status"
+waits='-q -o DPkg::Lock::Timeout=600'
+printf '%s\n' "$waits update" \
+    "$waits install -y --no-install-recommends missing1 removed missing2" >expected
+cmp -s calls expected || fail "another call of apt-get than expected"
+
+try 0 '' whole.txt
+[ $status = 0 ] && [ ! -s calls ] || fail "nothing is missing, and apt-get is called"
+
+# apt does not wait for the lock of its lists by itself.
+try 2 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)' one.txt
+[ $status = 0 ] || fail "locked twice: status $status"
+[ "$(grep -c '^sleep' calls)" = 2 ] && [ "$(grep -c 'update$' calls)" = 3 ] || fail "locked twice"
+try 1000 'E: Could not get lock /var/lib/apt/lists/lock' one.txt
+[ $status != 0 ] && [ "$(grep -c 'update$' calls)" = 60 ] || fail "locked for good: status $status"
+
+try 1 'E: Unable to locate package missing1' one.txt
+[ $status != 0 ] && [ "$(wc -l <calls)" = 1 ] || fail "another error was not the end"
+grep -q 'Unable to locate' said || fail "the error is not shown"
+
+echo 1000 >user
+try 0 '' one.txt
+[ $status = 1 ] && [ ! -s calls ] || fail "without root: status $status"
+grep -q 'sudo apt-get .* install .* missing1 removed$' said || fail "the command to run is not shown"
+
+try 0 '' no-such-list.txt
+[ $status != 0 ] || fail "a list that is not there is no error"
+echo "packages that are missing are installed, and apt's locks are waited for"
