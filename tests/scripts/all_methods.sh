@@ -1,0 +1,20 @@
+#!/bin/sh
+# all_methods.sh MOTE: whether the program has every method that the sources define. The build leaves
+# out a baseline whose library is not there, which is right for a user, and wrong on a machine that
+# has what packages.txt lists.
+set -eu
+mote=$(realpath "$1")
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# A method's name is its identifier with hyphens.
+grep -rhE '^MOTE_METHOD\(' core baselines | sed 's/^MOTE_METHOD(\([a-z0-9_]*\)).*/\1/' | tr _ - |
+    sort >"$work/defined"
+"$mote" list methods | sed -n 's/^\([a-z0-9-]*\): .*/\1/p' | sort >"$work/listed"
+[ -s "$work/defined" ] || { echo "all_methods.sh: no method is defined" >&2; exit 1; }
+if grep -vxFf "$work/listed" "$work/defined" >"$work/missing"; then
+    echo "all_methods.sh: left out, since packages.txt does not name their library:" \
+        "$(paste -sd ' ' "$work/missing")" >&2
+    exit 1
+fi
+echo "all $(wc -l <"$work/defined") methods are in the program"

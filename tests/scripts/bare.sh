@@ -1,0 +1,141 @@
+#!/usr/bin/env bash
+# bare.sh COMMAND...: runs each command in a fresh clone of HEAD on a bare Debian 12, which holds
+# nothing but git, make and this machine's apt configuration. Ends with the status of the first
+# command that fails. Needs root (or sudo without a password), mmdebstrap and 10 GB of disk.
+#
+# The bare root is kept as a tarball in ${XDG_CACHE_HOME:-~/.cache}/mote and made again when a list
+# of packages, the apt configuration or this script changes. Each run unpacks it into a folder of its
+# own there and removes that at its end, also when it is interrupted; what a killed run left behind
+# is removed by the next one. Everything is mounted in a namespace that ends with the run, and the
+# root has a /dev of its own: nothing that happens to the root can reach this machine's.
+set -euo pipefail
+shopt -s nullglob
+
+# From the caller's environment: warnings are errors in CI; apt may need a proxy.
+passed=(CI TERM http_proxy https_proxy ftp_proxy no_proxy HTTP_PROXY HTTPS_PROXY FTP_PROXY NO_PROXY)
+fail() {
+    echo "bare.sh: $*" >&2
+    exit 1
+}
+
+# Inside the namespace: mounts what a running system has, then runs the commands.
+inside() { # ROOT COMMAND...
+    local root=$1 name start environment=(HOME=/root
+        PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin)
+    shift
+    for name in "${passed[@]}"; do
+        [ -z "${!name:-}" ] || environment+=("$name=${!name}")
+    done
+    mount -t proc proc "$root/proc"
+    mount -t sysfs -o ro sysfs "$root/sys"
+    mount -t tmpfs -o mode=1777 tmpfs "$root/tmp"
+    mount -t tmpfs -o mode=755 tmpfs "$root/dev"
+    cp -a /dev/{null,zero,full,random,urandom,tty} "$root/dev"
+    mkdir "$root"/dev/{pts,shm}
+    mount -t devpts -o newinstance,ptmxmode=666 devpts "$root/dev/pts"
+    chmod 1777 "$root/dev/shm"
+    ln -s pts/ptmx "$root/dev/ptmx"
+    ln -s /proc/self/fd "$root/dev/fd"
+    for name in stdin:0 stdout:1 stderr:2; do
+        ln -s "/proc/self/fd/${name#*:}" "$root/dev/${name%:*}"
+    done
+    for name in "$@"; do
+        echo "== bare: $name"
+        start=$SECONDS
+        chroot "$root" env -i "${environment[@]}" sh -c "cd /root/mote && $name"
+        echo "== bare: $name took $((SECONDS - start)) s"
+    done
+}
+if [ "${1:-}" = --inside ]; then
+    shift
+    inside "$@"
+    exit
+fi
+
+[ $# -gt 0 ] || { echo "usage: bare.sh COMMAND..." >&2; exit 2; }
+if [ "$(id -u)" != 0 ]; then
+    sudo -n true 2> /dev/null || fail "a root is made by root: run this as root"
+    exec sudo -n --preserve-env="$(IFS=, && echo "${passed[*]}")" "$0" "$@"
+fi
+self=$(realpath "$0")
+source=$(git -C "$(dirname "$self")" rev-parse --show-toplevel)
+[ -z "$(git -C "$source" status --porcelain)" ] ||
+    echo "bare.sh: HEAD is tested, without the changes that are not committed" >&2
+
+# Runs a command with mounts and processes of its own: all end with it, and it ends with us. It is a
+# background job so that a signal is acted on at once, and a group of its own so that Ctrl-C is not
+# ignored in it, as it would be in a plain background job.
+child=
+apart() {
+    set -m
+    unshare --mount --propagation private --pid --fork --kill-child --mount-proc "$@" < /dev/null &
+    child=$!
+    set +m
+    local status=0
+    wait "$child" || status=$?
+    child=
+    return $status
+}
+
+# What is mounted below a folder is no part of it; nothing should be.
+remove() { # FOLDER
+    if grep -qF " ${1// /\\040}/" /proc/self/mountinfo; then
+        fail "something is mounted below $1, which is left as it is"
+    fi
+    rm -rf --one-file-system "$1"
+}
+
+# Who uses a folder holds its lock, and so do all processes in it.
+finish() {
+    trap '' INT TERM HUP
+    [ -z "$child" ] || kill -KILL -- "-$child"
+    exec 8>&- 9>&-
+    if [ -n "$work" ]; then
+        flock -w 60 "$work" true || fail "processes in $work do not end"
+        remove "$work"
+    fi
+}
+work=
+trap finish EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM HUP
+
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/mote
+mkdir -p "$cache"
+cache=$(realpath "$cache")
+exec 8> "$cache/lock"
+flock 8
+for old in "$cache"/run.*; do
+    ! flock -n "$old" true || remove "$old"
+done
+work=$(mktemp -d "$cache/run.XXXXXX")
+exec 9< "$work"
+flock 9
+
+# Keys that the configuration names lie elsewhere as often as not.
+keys=$({ find -L /etc/apt -type f \( -name '*.list' -o -name '*.sources' -o -name '*.conf' \) \
+    -exec cat {} + | grep -oE '/[^] ,;"]+\.(gpg|asc|pem|crt)' || true; } | sort -u)
+# shellcheck disable=SC2016 # the hook expands it
+copy_apt='cp -rLT /etc/apt "$1/etc/apt"
+for key in $keys; do
+    [ ! -f "$key" ] || cp -L --parents "$key" "$1"
+done'
+key=$(cd "$source" && find -L /etc/apt packages.txt cmake/packages-*.txt "$self" -type f \
+    -exec cat {} + | sha256sum | cut -c 1-16)
+root=$cache/root-$key.tar
+if [ ! -e "$root" ]; then
+    echo "bare.sh: making $root"
+    export keys TMPDIR=$work
+    apart mmdebstrap --quiet --mode=root --variant=minbase --include=git,make,ca-certificates \
+        --format=tar --setup-hook="$copy_apt" bookworm "$work/root.tar" -
+    rm -f "$cache"/root-*.tar
+    mv "$work/root.tar" "$root"
+fi
+exec 7< "$root" 8>&-
+
+mkdir "$work/root"
+tar -xp --numeric-owner -C "$work/root" <&7
+exec 7<&-
+cp -L /etc/resolv.conf /etc/hosts "$work/root/etc"
+git clone --quiet --no-hardlinks "$source" "$work/root/root/mote"
+apart "$self" --inside "$work/root" "$@"
