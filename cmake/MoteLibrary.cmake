@@ -64,15 +64,15 @@ set_target_properties(mote_shared PROPERTIES OUTPUT_NAME mote VERSION ${PROJECT_
   SOVERSION ${MOTE_SOVERSION} C_VISIBILITY_PRESET default CXX_VISIBILITY_PRESET default
   LINK_DEPENDS "${CMAKE_BINARY_DIR}/libmote.map")
 
-# What a program that is linked with the static library needs besides.
+# What a program that is linked with the static library needs besides. pkg-config asks gsl's own file.
 set(MOTE_PRIVATE_LIBRARIES m)
+set(MOTE_PRIVATE_FLAGS -lm)
 set(MOTE_PRIVATE_REQUIRES "")
 if(NOT MOTE_CORE_ONLY)
   set(MOTE_PRIVATE_LIBRARIES gsl gslcblas HACD meshoptimizer stdc++ m)
+  set(MOTE_PRIVATE_FLAGS "-lHACD -lmeshoptimizer -lstdc++ -lm")
   set(MOTE_PRIVATE_REQUIRES gsl)
 endif()
-list(TRANSFORM MOTE_PRIVATE_LIBRARIES PREPEND -l OUTPUT_VARIABLE MOTE_PRIVATE_FLAGS)
-list(JOIN MOTE_PRIVATE_FLAGS " " MOTE_PRIVATE_FLAGS)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/mote)
 configure_package_config_file(cmake/moteConfig.cmake.in ${CMAKE_BINARY_DIR}/moteConfig.cmake

@@ -1,7 +1,7 @@
 #!/bin/bash
 # core_only.sh: builds the library alone with each C compiler at hand, in C only, installs it, and
-# links the README's program and tests/studies/core_only.c with it. No other library may be asked for, and
-# every compiler's answers must be the same bits.
+# links the README's program and tests/studies/core_only.c with it, by hand, and by pkg-config for
+# cc -static. No other library may be asked for, and every compiler's answers must be the same bits.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
@@ -33,7 +33,12 @@ check()
         "$compiler" -std=c17 -Wall -Wextra -Werror -I"$root/include" "$source" \
             -L"$library" -lmote -lm -Wl,-rpath,"$library" -o shared
         grep -q 'NEEDED *libmote' <<< "$(objdump -p shared)" || fail "$compiler: not shared"
-        for way in static shared; do
+        # Nothing of it is shared, the C library included.
+        # shellcheck disable=SC2046 # a list of words
+        "$compiler" -std=c17 -static "$source" $(PKG_CONFIG_PATH="$library/pkgconfig" pkg-config \
+            --static --cflags --libs mote) -o whole
+        ! grep NEEDED <<< "$(objdump -p whole)" || fail "$compiler: cc -static links what is shared"
+        for way in static shared whole; do
             ./$way > "$program-$compiler-$way" || { cat "$program-$compiler-$way"; fail "$compiler $way"; }
             [ -e "$program-first" ] || cp "$program-$compiler-$way" "$program-first"
             cmp "$program-first" "$program-$compiler-$way" || fail "$compiler $way: other answers"
