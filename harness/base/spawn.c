@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,6 +16,7 @@ static _Noreturn void run(const char *const argv[], const char *directory, int o
         _exit(STATUS_NOT_RUN);
     if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
+    (void)setenv("LC_ALL", "C.UTF-8", 1);
     /* execvp does not write to its arguments: POSIX keeps the type for old callers. */
     union {
         const char *const *given;

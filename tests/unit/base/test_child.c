@@ -199,6 +199,26 @@ static void spawn_of_programs_that_fail_says_how(void **state)
     assert_string_equal(said, "\n/");
 }
 
+/* In the C locale gnuplot would warn once a figure. */
+static void spawn_in_any_locale_is_in_utf_8(void **state)
+{
+    (void)state;
+    const char *user = getenv("LC_ALL");
+    char *kept = user ? mote_format("%s", user) : NULL;
+    assert_int_equal(setenv("LC_ALL", "C", 1), 0);
+    char said[256];
+    assert_int_equal(mote_spawn((const char *const[]){"sh", "-c",
+                                                      "gnuplot -e 'set encoding utf8' 2>&1 && "
+                                                      "locale charmap",
+                                                      NULL},
+                                NULL, said, sizeof said),
+                     MOTE_OK);
+    assert_string_equal(said, "UTF-8");
+    assert_string_equal(getenv("LC_ALL"), "C");
+    assert_int_equal(kept ? setenv("LC_ALL", kept, 1) : unsetenv("LC_ALL"), 0);
+    free(kept);
+}
+
 typedef struct attempts {
     bool landlock, privileges, wrote, opened, made, removed, renamed;
 } attempts;
@@ -335,6 +355,7 @@ int main(void)
         cmocka_unit_test(run_of_children_whose_last_words_make_no_sense_is_an_error),
         cmocka_unit_test(run_of_a_child_when_asked_to_stop_ends_it),
         cmocka_unit_test(spawn_of_programs_that_fail_says_how),
+        cmocka_unit_test(spawn_in_any_locale_is_in_utf_8),
         cmocka_unit_test(run_of_a_confined_child_changes_no_file),
         cmocka_unit_test(reach_check_of_files_outside_is_an_error_until_allowed),
     };
