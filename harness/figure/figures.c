@@ -18,7 +18,8 @@ typedef enum figure_scope {
     SCOPE_RUN   /* of the run as a whole */
 } figure_scope;
 
-/* Drawn by plots/NAME.gp as figures/NAME, or NAME-SCENARIO for every one. */
+/* Drawn by plots/NAME.gp as figures/NAME, or NAME-SCENARIO for every one. The test of figures
+   compares this table with results/README.md. */
 typedef struct figure_kind {
     int number;
     const char *name, *title;
@@ -26,30 +27,44 @@ typedef struct figure_kind {
     const char *scenario;
     mote_figure_writer *write;
     const char *formats;
+    const char *command; /* measures what the figure needs; OUT=DIR names the run's directory */
 } figure_kind;
 
 #define PAPER "svg png pdf"
 
+#define QUICK "make bench PROFILE=quick"
+#define BENCH "make bench"
+#define SWEEP "make sweep"
+#define INGREDIENTS "make ingredients"
+#define BODIES "make bodies"
+
 static const figure_kind kinds[] = {
-    {1, "fig1", "Particles on two letters T", SCOPE_ONE, "tt", mote_figure_particles, PAPER},
-    {2, "fig2", "M against V, deforming", SCOPE_ONE, "mv", mote_figure_deformed, PAPER},
-    {2, "animation", "M against V, moving", SCOPE_ONE, "mv", mote_figure_animation, "gif"},
-    {3, "fig3", "Time of each query", SCOPE_ONE, "ww", mote_figure_queries, PAPER},
-    {4, "front", "Speed against error", SCOPE_EACH, NULL, mote_figure_front, PAPER},
-    {5, "errors", "Error over particles", SCOPE_EACH, NULL, mote_figure_errors, PAPER},
-    {6, "size-time", "Time over triangles", SCOPE_RUN, NULL, mote_figure_size_time, PAPER},
-    {7, "size-bytes", "Memory over triangles", SCOPE_RUN, NULL, mote_figure_size_bytes, PAPER},
-    {8, "shares", "Where the time goes", SCOPE_EACH, NULL, mote_figure_shares, PAPER},
-    {9, "ratios", "Against the best FCL", SCOPE_EACH, NULL, mote_figure_ratios, PAPER},
-    {10, "extremes", "Numerical extremes", SCOPE_RUN, NULL, mote_figure_extremes, PAPER},
-    {11, "claims", "The paper's claims", SCOPE_RUN, NULL, mote_figure_claims, PAPER},
-    {12, "error-time", "Error in time", SCOPE_EACH, NULL, mote_figure_history, PAPER},
+    {1, "fig1", "Particles on two letters T", SCOPE_ONE, "tt", mote_figure_particles, PAPER,
+     QUICK},
+    {2, "fig2", "M against V, deforming", SCOPE_ONE, "mv", mote_figure_deformed, PAPER, BENCH},
+    {2, "animation", "M against V, moving", SCOPE_ONE, "mv", mote_figure_animation, "gif",
+     BENCH},
+    {3, "fig3", "Time of each query", SCOPE_ONE, "ww", mote_figure_queries, PAPER, QUICK},
+    {4, "front", "Speed against error", SCOPE_EACH, NULL, mote_figure_front, PAPER, QUICK},
+    {5, "errors", "Error over particles", SCOPE_EACH, NULL, mote_figure_errors, PAPER, QUICK},
+    {6, "size-time", "Time over triangles", SCOPE_RUN, NULL, mote_figure_size_time, PAPER,
+     SWEEP},
+    {7, "size-bytes", "Memory over triangles", SCOPE_RUN, NULL, mote_figure_size_bytes, PAPER,
+     SWEEP},
+    {8, "shares", "Where the time goes", SCOPE_EACH, NULL, mote_figure_shares, PAPER, QUICK},
+    {9, "ratios", "Against the best FCL", SCOPE_EACH, NULL, mote_figure_ratios, PAPER, QUICK},
+    {10, "extremes", "Numerical extremes", SCOPE_RUN, NULL, mote_figure_extremes, PAPER,
+     "make extremes OUT=DIR"},
+    {11, "claims", "The paper's claims", SCOPE_RUN, NULL, mote_figure_claims, PAPER,
+     "make claims OUT=DIR"},
+    {12, "error-time", "Error in time", SCOPE_EACH, NULL, mote_figure_history, PAPER, QUICK},
     {13, "ingredients", "Ingredients of the tracked particles", SCOPE_RUN, NULL,
-     mote_figure_ingredients, PAPER},
+     mote_figure_ingredients, PAPER, INGREDIENTS},
     {14, "tracked", "Tracked particles, speed against error", SCOPE_EACH, NULL,
-     mote_figure_tracked, PAPER},
-    {15, "bodies", "Several bodies", SCOPE_RUN, NULL, mote_figure_bodies, PAPER},
-    {15, "letters", "100 letters in a box", SCOPE_RUN, NULL, mote_figure_letters, "gif"},
+     mote_figure_tracked, PAPER, INGREDIENTS},
+    {15, "bodies", "Several bodies", SCOPE_RUN, NULL, mote_figure_bodies, PAPER, BODIES},
+    {15, "letters", "100 letters in a box", SCOPE_RUN, NULL, mote_figure_letters, "gif",
+     BODIES},
 };
 
 /* What is needed while a run's figures are drawn. */
@@ -58,7 +73,8 @@ typedef struct drawing {
     char identity[160]; /* of the run, as in the footer */
     char *folder;       /* DIRECTORY/figures */
     json_t *index;      /* figures.json's figures */
-    json_t *missing;    /* and what is missing, a line each */
+    json_t *missing;    /* what is missing, a line each */
+    json_t *not_drawn;  /* the figures that another command measures */
     size_t drawn, failed;
 } drawing;
 
@@ -185,6 +201,24 @@ static mote_status draw_data(drawing *d, const figure_kind *kind, const char *sc
     return status;
 }
 
+/* The command of a figure, for this run. */
+static char *command_text(const drawing *d, const figure_kind *kind)
+{
+    const char *place = strstr(kind->command, "DIR");
+    if (!place)
+        return mote_format("%s", kind->command);
+    return mote_format("%.*s%s", (int)(place - kind->command), kind->command, d->run.directory);
+}
+
+static void add_not_drawn(drawing *d, const figure_kind *kind)
+{
+    char *command = command_text(d, kind);
+    (void)json_array_append_new(d->not_drawn,
+                                json_pack("{s:i, s:s, s:s}", "number", kind->number, "name",
+                                          kind->name, "command", command ? command : ""));
+    free(command);
+}
+
 static void say_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
                         bool some)
 {
@@ -194,6 +228,8 @@ static void say_missing(drawing *d, const figure_kind *kind, const mote_figure *
     (void)fprintf(stderr, "mote: %s: %s\n", d->run.directory, text ? text : kind->name);
     (void)json_array_append_new(d->missing, json_string(text ? text : kind->name));
     free(text);
+    if (!some)
+        add_not_drawn(d, kind);
 }
 
 /* One figure; *done: it was drawn. quiet: nothing is said when its rows are missing. */
@@ -211,6 +247,8 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
         status = mote_fail(MOTE_ENOMEM, "no memory for figure %d", kind->number);
     if (status == MOTE_OK && figure.missing.size > 0 && (some || !quiet))
         say_missing(d, kind, &figure, some);
+    if (status == MOTE_OK && some && figure.missing.size > 0)
+        mote_text_add(&figure.caption, " Not in it: %s.", figure.missing.data);
     if (status == MOTE_OK && some)
         status = draw_data(d, kind, scenario, &figure);
     if (status == MOTE_EIO) { /* gnuplot's: the others are drawn all the same */
@@ -270,6 +308,7 @@ static mote_status draw_all(drawing *d)
                                    : mote_fail(MOTE_ENOMEM, "no memory for a name");
     d->index = json_array();
     d->missing = json_array();
+    d->not_drawn = json_array();
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0] && status == MOTE_OK; ++k) {
         status = draw_kind(d, &kinds[k]);
         if (kinds[k].write == mote_figure_animation || kinds[k].write == mote_figure_letters)
@@ -279,11 +318,12 @@ static mote_status draw_all(drawing *d)
     if (status != MOTE_OK) {
         json_decref(d->index);
         json_decref(d->missing);
+        json_decref(d->not_drawn);
         return status;
     }
-    return mote_record_json(
-        d->run.directory, "figures/figures.json",
-        json_pack("{s:o, s:o}", "figures", d->index, "missing", d->missing));
+    return mote_record_json(d->run.directory, "figures/figures.json",
+                            json_pack("{s:o, s:o, s:o}", "figures", d->index, "missing",
+                                      d->missing, "not_drawn", d->not_drawn));
 }
 
 static bool is_file(const char *directory, const char *name)

@@ -9,7 +9,8 @@
 
 /* Draws what can be drawn of the run in a directory: SVG, PNG and PDF (the animation: GIF) in
    directory/figures, and figures.json: "figures", a list of {number, name, scenario, title,
-   caption, run, data, files}, and "missing", lines. Prints the files' names to stdout, and a
+   caption, run, data, files}, "missing", lines, and "not_drawn", {number, name, command}: the
+   command that measures what such a figure needs. Prints the files' names to stdout, and a
    line for what is missing (cells that cannot be read, figures whose rows the run has not, and
    why) to stderr. *drawn is the number of figures. MOTE_EIO when gnuplot is missing or refuses.
  */
