@@ -88,7 +88,10 @@ remove() { # FOLDER
 # Who uses a folder holds its lock, and so do all processes in it.
 finish() {
     trap '' INT TERM HUP
-    [ -z "$child" ] || kill -KILL -- "-$child"
+    if [ -n "$child" ]; then
+        kill -KILL -- "-$child"
+        wait "$child" 2> /dev/null || true
+    fi
     exec 8>&- 9>&-
     if [ -n "$work" ]; then
         flock -w 60 "$work" true || fail "processes in $work do not end"
