@@ -5,15 +5,12 @@
 #define MOTE_TESTS_FAILING_H
 
 #include "core/base/status.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 /* Calls until one fails; below 0: none does. */
 static const long never = -1;

@@ -257,9 +257,8 @@ bool fault_lines_install(void)
            fault_lines_write("bin/mote", "a program\n");
 }
 
-int fault_lines_close(void **state)
+int fault_lines_close(void)
 {
-    (void)state;
     remove_tree(base);
     printf("%d calls of %d command lines failed, were interrupted or did a part\n", faults,
            lines);

@@ -24,7 +24,7 @@ typedef struct fault_line {
 /* Makes a new directory the working one, with meshes (a.obj), scenarios (s.json, b.json) and
    programs that stand for gnuplot, valgrind and git. */
 bool fault_lines_open(void);
-int fault_lines_close(void **state); /* a test group's end */
+int fault_lines_close(void); /* a test group's end */
 
 /* The program is one installed there from now on, bin/mote: share/mote has the plots of the
    sources, and empty folders for page, datasets and datasets/scenarios. */

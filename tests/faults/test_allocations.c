@@ -14,6 +14,7 @@
 #include "core/particle/start.h"
 #include "tests/support/crowd.h"
 #include "tests/faults/failing.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
 #include <gsl/gsl_eigen.h>
@@ -131,9 +132,8 @@ static mote_status make_fields(void *context)
     return status;
 }
 
-static void fields_when_an_allocation_fails_say_so(void **state)
+TEST(fields_when_an_allocation_fails_say_so)
 {
-    (void)state;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     fail_each_allocation(make_fields, mesh, "fields");
     mote_mesh_destroy(mesh);
@@ -149,9 +149,8 @@ static mote_status make_places(void *context)
     return status;
 }
 
-static void start_when_an_allocation_fails_says_so(void **state)
+TEST(start_when_an_allocation_fails_says_so)
 {
-    (void)state;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     fail_each_allocation(make_places, mesh, "mote_start_vertices");
     mote_mesh_destroy(mesh);
@@ -163,9 +162,8 @@ static mote_status weigh(void *context)
     return mote_mass_of_mesh(context, 1, &mass);
 }
 
-static void mass_when_an_allocation_fails_says_so(void **state)
+TEST(mass_when_an_allocation_fails_says_so)
 {
-    (void)state;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     fail_each_allocation(weigh, mesh, "mote_mass_of_mesh");
     mote_mesh_destroy(mesh);
@@ -186,9 +184,8 @@ static mote_status make_levels(void *context)
     return status;
 }
 
-static void levels_when_an_allocation_fails_say_so(void **state)
+TEST(levels_when_an_allocation_fails_say_so)
 {
-    (void)state;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     fail_each_allocation(make_levels, mesh, "levels");
     mote_mesh_destroy(mesh);
@@ -207,15 +204,13 @@ static mote_status make_queue_and_pool(void *context)
     return status;
 }
 
-static void queue_and_pool_when_an_allocation_fails_say_so(void **state)
+TEST(queue_and_pool_when_an_allocation_fails_say_so)
 {
-    (void)state;
     fail_each_allocation(make_queue_and_pool, NULL, "queue and pool");
 }
 
-static void pool_when_a_thread_cannot_be_started_says_which(void **state)
+TEST(pool_when_a_thread_cannot_be_started_says_which)
 {
-    (void)state;
     for (long n = 0; n < 3; ++n) {
         mote_pool *pool = NULL;
         char expected[80];
@@ -244,9 +239,8 @@ static mote_status make_scene(void *context)
     return status;
 }
 
-static void scene_when_an_allocation_fails_says_so(void **state)
+TEST(scene_when_an_allocation_fails_says_so)
 {
-    (void)state;
     static crowd c;
     crowd_init(&c, 3, 400, 2);
     fail_each_allocation(make_scene, &c, "scene");
@@ -254,9 +248,8 @@ static void scene_when_an_allocation_fails_says_so(void **state)
 }
 
 /* A query that finds no memory for more pairs goes on from the states of the last one. */
-static void scene_query_out_of_memory_keeps_all_states(void **state)
+TEST(scene_query_out_of_memory_keeps_all_states)
 {
-    (void)state;
     static const uint32_t one[1][2] = {{0, 1}};
     static uint32_t many[CROWD_MAX * (CROWD_MAX - 1) / 2][2];
     static crowd c;
@@ -305,9 +298,8 @@ static mote_status make_method(void *context)
 }
 
 /* With their own number of particles, which takes the convex parts of two meshes. */
-static void methods_when_an_allocation_fails_say_so(void **state)
+TEST(methods_when_an_allocation_fails_say_so)
 {
-    (void)state;
     static const struct {
         const char *name, *keys;
     } cases[] = {{"particle", ""},
@@ -351,17 +343,15 @@ static mote_status make_parts(void *context)
     return status;
 }
 
-static void parts_when_an_allocation_fails_say_so(void **state)
+TEST(parts_when_an_allocation_fails_say_so)
 {
-    (void)state;
     mote_mesh *mesh = solid_to_mesh(solid_join(solid_torus(5, 4), solid_tetrahedron(), 5));
     fail_each_allocation(make_parts, mesh, "mote_parts_create");
     mote_mesh_destroy(mesh);
 }
 
-static void parts_when_hacd_fails_say_so(void **state)
+TEST(parts_when_hacd_fails_say_so)
 {
-    (void)state;
     static const char *const texts[] = {
         [HACD_FAILS] = "HACD could not decompose the mesh into convex parts",
         [HACD_THROWS] = "convex parts: planted",
@@ -377,9 +367,8 @@ static void parts_when_hacd_fails_say_so(void **state)
     mote_mesh_destroy(mesh);
 }
 
-static void linear_algebra_when_gsl_fails_says_so(void **state)
+TEST(linear_algebra_when_gsl_fails_says_so)
 {
-    (void)state;
     const double matrix[4] = {2, 0, 0, 1};
     mote_cholesky *factor = NULL;
     double condition = -1;
@@ -401,9 +390,8 @@ static void linear_algebra_when_gsl_fails_says_so(void **state)
 
 /* Tables of positions that cannot grow: each position is right, and none is remembered but
    those that there is room for. */
-static void lazy_without_memory_answers_the_same(void **state)
+TEST(lazy_without_memory_answers_the_same)
 {
-    (void)state;
     uint64_t seed = 4;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 14, &seed);
@@ -435,9 +423,8 @@ static void lazy_without_memory_answers_the_same(void **state)
 }
 
 /* Fetching what there is no room for fetches what there is room for. */
-static void lazy_fetch_without_memory_answers_the_same(void **state)
+TEST(lazy_fetch_without_memory_answers_the_same)
 {
-    (void)state;
     uint64_t seed = 4;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 14, &seed);
@@ -480,9 +467,8 @@ static mote_status make_lazy(void *context)
     return status;
 }
 
-static void lazy_init_when_an_allocation_fails_says_so(void **state)
+TEST(lazy_init_when_an_allocation_fails_says_so)
 {
-    (void)state;
     uint64_t seed = 4;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 2, &seed);
@@ -491,9 +477,8 @@ static void lazy_init_when_an_allocation_fails_says_so(void **state)
 }
 
 /* The largest table is asked for whatever is expected, and is not had. */
-static void lazy_init_of_the_largest_mesh_asks_for_two_to_the_31(void **state)
+TEST(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31)
 {
-    (void)state;
     const mote_mesh mesh = {.vertex_count = UINT32_MAX / 2};
     const mote_body body = {.mesh = &mesh};
     mote_lazy lazy;
@@ -503,28 +488,11 @@ static void lazy_init_of_the_largest_mesh_asks_for_two_to_the_31(void **state)
     assert_int_equal(allocations_left, never);
 }
 
-int main(void)
+static int say_count(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_when_an_allocation_fails_say_so),
-        cmocka_unit_test(start_when_an_allocation_fails_says_so),
-        cmocka_unit_test(mass_when_an_allocation_fails_says_so),
-        cmocka_unit_test(levels_when_an_allocation_fails_say_so),
-        cmocka_unit_test(queue_and_pool_when_an_allocation_fails_say_so),
-        cmocka_unit_test(pool_when_a_thread_cannot_be_started_says_which),
-        cmocka_unit_test(scene_when_an_allocation_fails_says_so),
-        cmocka_unit_test(scene_query_out_of_memory_keeps_all_states),
-        cmocka_unit_test(methods_when_an_allocation_fails_say_so),
-        cmocka_unit_test(parts_when_an_allocation_fails_say_so),
-        cmocka_unit_test(parts_when_hacd_fails_say_so),
-        cmocka_unit_test(linear_algebra_when_gsl_fails_says_so),
-        cmocka_unit_test(lazy_without_memory_answers_the_same),
-        cmocka_unit_test(lazy_fetch_without_memory_answers_the_same),
-        cmocka_unit_test(lazy_init_when_an_allocation_fails_says_so),
-        cmocka_unit_test(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31),
-    };
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     (void)printf("%ld calls failed\n", calls_failed);
     (void)fflush(stdout); /* LeakSanitizer ends without */
-    return failed;
+    return 0;
 }
+
+TEST_GROUP(NULL, say_count);

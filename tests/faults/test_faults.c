@@ -9,6 +9,7 @@
 #include "harness/summary/summary.h"
 #include "tests/faults/failing.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -82,9 +83,8 @@ static mote_status answer_again(void *context)
     return status;
 }
 
-static void method_when_an_allocation_fails_says_so(void **state)
+TEST(method_when_an_allocation_fails_says_so)
 {
-    (void)state;
     static const char *const names[] = {
         "certified",          "certified:seed=tracked",           "particle:n=8",
         "particle-paper:n=5", "particle-paper:n=8,far_cache=0.1", "aabb-tree",
@@ -112,9 +112,8 @@ static mote_status make_mesh(void *context)
     return status;
 }
 
-static void mesh_create_when_an_allocation_fails_says_so(void **state)
+TEST(mesh_create_when_an_allocation_fails_says_so)
 {
-    (void)state;
     mote_mesh *like = make_torus(5, 4, 1);
     fail_each_allocation(make_mesh, like, "mote_mesh_create");
     mote_mesh_destroy(like);
@@ -134,9 +133,8 @@ static mote_status load_scenario(void *context)
     return status;
 }
 
-static void scenario_load_when_an_allocation_fails_says_so(void **state)
+TEST(scenario_load_when_an_allocation_fails_says_so)
 {
-    (void)state;
     char path[] = MOTE_SOURCE_DIR "/tests/corpus/fuzz_scenario/sines.json";
     fail_each_allocation(load_scenario, path, "mote_scenario_load");
 }
@@ -159,9 +157,8 @@ static mote_status make_summary(void *context)
     return status;
 }
 
-static void summary_when_an_allocation_fails_says_so(void **state)
+TEST(summary_when_an_allocation_fails_says_so)
 {
-    (void)state;
     char *text = NULL;
     size_t size;
     assert_int_equal(
@@ -182,9 +179,8 @@ static bool exists(const char *path)
     return stat(path, &info) == 0;
 }
 
-static void file_read_of_more_than_the_limit_says_both(void **state)
+TEST(file_read_of_more_than_the_limit_says_both)
 {
-    (void)state;
     char path[128], *text = NULL;
     size_t size = 77;
     (void)snprintf(path, sizeof path, "%s/file", folder);
@@ -201,9 +197,8 @@ static void file_read_of_more_than_the_limit_says_both(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-static void directory_make_of_what_cannot_be_one_says_so(void **state)
+TEST(directory_make_of_what_cannot_be_one_says_so)
 {
-    (void)state;
     char path[128];
     assert_int_equal(mote_directory_make(""), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "name a directory that can be written to"));
@@ -213,9 +208,8 @@ static void directory_make_of_what_cannot_be_one_says_so(void **state)
         strstr(mote_error_text(), "cells/fuzz.csv: cannot be made: Not a directory"));
 }
 
-static void file_write_when_a_step_fails_leaves_the_file_whole(void **state)
+TEST(file_write_when_a_step_fails_leaves_the_file_whole)
 {
-    (void)state;
     char path[128], beside[160];
     (void)snprintf(path, sizeof path, "%s/file", folder);
     (void)snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid());
@@ -242,28 +236,6 @@ static void file_write_when_a_step_fails_leaves_the_file_whole(void **state)
     assert_int_equal(remove(path), 0);
 }
 
-static int make_folder(void **state)
-{
-    (void)state;
-    char path[128];
-    if (!mkdtemp(folder))
-        return -1;
-    (void)snprintf(path, sizeof path, "%s/cells", folder);
-    return mkdir(path, 0700);
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char path[128];
-    static const char *const names[] = {"cells/fuzz.json", "cells/fuzz.csv", "cells", ""};
-    for (int k = 0; k < 4; ++k) {
-        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-        (void)remove(path);
-    }
-    return 0;
-}
-
 /* make reliability PLANT=1: what AddressSanitizer must find. */
 static void plant_leak(void)
 {
@@ -271,6 +243,32 @@ static void plant_leak(void)
     if (lost)
         lost[0] = 1;
 }
+
+static int make_folder(void)
+{
+    char path[128];
+    if (getenv("MOTE_PLANT_LEAK"))
+        plant_leak();
+    if (!mkdtemp(folder))
+        return -1;
+    (void)snprintf(path, sizeof path, "%s/cells", folder);
+    return mkdir(path, 0700);
+}
+
+static int remove_folder(void)
+{
+    char path[128];
+    static const char *const names[] = {"cells/fuzz.json", "cells/fuzz.csv", "cells", ""};
+    for (int k = 0; k < 4; ++k) {
+        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        (void)remove(path);
+    }
+    printf("%ld calls failed\n", calls_failed);
+    (void)fflush(stdout); /* LeakSanitizer ends without */
+    return 0;
+}
+
+TEST_GROUP(make_folder, remove_folder);
 
 enum { TEXTS = 40 };
 
@@ -291,9 +289,8 @@ static mote_status parse_json(void *context)
 
 /* jansson's parser itself runs past a token's end where its text could not grow. Last: from
    here on its memory fails, too. */
-static void json_parse_when_an_allocation_fails_says_so(void **state)
+TEST(json_parse_when_an_allocation_fails_says_so)
 {
-    (void)state;
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz";
     char text[TEXTS * (TEXTS + 4)];
     size_t size = 0;
@@ -303,24 +300,4 @@ static void json_parse_when_an_allocation_fails_says_so(void **state)
     (void)snprintf(text + size, sizeof text - size, "]");
     mote_json_heed_memory();
     fail_each_allocation(parse_json, text, "mote_json_parse");
-}
-
-int main(void)
-{
-    if (getenv("MOTE_PLANT_LEAK"))
-        plant_leak();
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mesh_create_when_an_allocation_fails_says_so),
-        cmocka_unit_test(method_when_an_allocation_fails_says_so),
-        cmocka_unit_test(scenario_load_when_an_allocation_fails_says_so),
-        cmocka_unit_test(summary_when_an_allocation_fails_says_so),
-        cmocka_unit_test(file_read_of_more_than_the_limit_says_both),
-        cmocka_unit_test(directory_make_of_what_cannot_be_one_says_so),
-        cmocka_unit_test(file_write_when_a_step_fails_leaves_the_file_whole),
-        cmocka_unit_test(json_parse_when_an_allocation_fails_says_so),
-    };
-    const int failed = cmocka_run_group_tests(tests, make_folder, remove_folder);
-    printf("%ld calls failed\n", calls_failed);
-    (void)fflush(stdout); /* LeakSanitizer ends without */
-    return failed;
 }

@@ -1,14 +1,11 @@
 /* Every place where a command asks for memory, files or processes, failing once. */
 #include "tests/faults/fault_lines.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
-static void commands_of_one_file_when_a_call_fails_say_so(void **state)
+TEST(commands_of_one_file_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(list, " methods --json", 0),
         LINE(list, " scenarios", 0),
@@ -19,9 +16,8 @@ static void commands_of_one_file_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void commands_of_a_scenario_when_a_call_fails_say_so(void **state)
+TEST(commands_of_a_scenario_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(check, " s.json --out out", 0),
         LINE(check, " s.json --out run --json", 0),
@@ -33,9 +29,8 @@ static void commands_of_a_scenario_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void run_when_a_call_fails_says_so(void **state)
+TEST(run_when_a_call_fails_says_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(run, " s.json --method aabb-tree --replicates 1 --stride 1 --out out", 0),
         LINE(run, " b.json --method certified --replicates 1 --out out", 0),
@@ -43,9 +38,8 @@ static void run_when_a_call_fails_says_so(void **state)
     FAIL_EACH(list);
 }
 
-static void commands_of_a_stored_run_when_a_call_fails_say_so(void **state)
+TEST(commands_of_a_stored_run_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(summarize, " run", 0),
         LINE(summarize, " run --format json", 0),
@@ -64,9 +58,8 @@ static void commands_of_a_stored_run_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void pages_of_a_stored_run_when_a_call_fails_say_so(void **state)
+TEST(pages_of_a_stored_run_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(figures, " run", 0),
         LINE(report, " run", 0),
@@ -76,9 +69,8 @@ static void pages_of_a_stored_run_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     static const fault_line runs[] = {
         LINE(run,
              " s.json --method fcl-aabb --method particle-paper:n=2 --replicates 2 --stride 1 "
@@ -90,14 +82,4 @@ static int make_files(void **state)
     return fault_lines_open() && fault_lines_run(runs, 3) ? 0 : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(commands_of_one_file_when_a_call_fails_say_so),
-        cmocka_unit_test(commands_of_a_scenario_when_a_call_fails_say_so),
-        cmocka_unit_test(run_when_a_call_fails_says_so),
-        cmocka_unit_test(commands_of_a_stored_run_when_a_call_fails_say_so),
-        cmocka_unit_test(pages_of_a_stored_run_when_a_call_fails_say_so),
-    };
-    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
-}
+TEST_GROUP(make_files, fault_lines_close);

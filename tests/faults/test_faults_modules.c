@@ -11,11 +11,9 @@
 #include "harness/base/record.h"
 #include "harness/study/study.h"
 #include "harness/run/truth.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <stdio.h>
 
@@ -148,9 +146,8 @@ static int ask_machine(int argc, char **argv)
     return busy >= 0 && clock >= 0 && mote_load_average() >= 0 ? 0 : 1;
 }
 
-static void modules_when_a_call_fails_say_so(void **state)
+TEST(modules_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {{"the truth", keep_truth, 0},
                                       {"the study's figure", draw_study, 0},
                                       {"a variant", vary_scene, 0},
@@ -162,22 +159,17 @@ static void modules_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     if (!fault_lines_open() || mote_scenario_load("s.json", &scenario) != MOTE_OK)
         return -1;
     return 0;
 }
 
-static int remove_files(void **state)
+static int remove_files(void)
 {
     mote_scenario_destroy(scenario);
-    return fault_lines_close(state);
+    return fault_lines_close();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(modules_when_a_call_fails_say_so)};
-    return cmocka_run_group_tests(tests, make_files, remove_files);
-}
+TEST_GROUP(make_files, remove_files);

@@ -8,11 +8,9 @@
 #include "harness/base/file.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <jansson.h>
 #include <math.h>
@@ -172,9 +170,8 @@ static void has(const char *const *wanted, size_t count)
 }
 #define HAS(list) has(list, sizeof(list) / sizeof(list)[0])
 
-static void tables_of_odd_cells_say_what_is_odd(void **state)
+TEST(tables_of_odd_cells_say_what_is_odd)
 {
-    (void)state;
     static const fault_line table = LINE(summarize, " odd", 0);
     static const char *const wanted[] = {
         "crashed: it | fell",
@@ -189,9 +186,8 @@ static void tables_of_odd_cells_say_what_is_odd(void **state)
     HAS(wanted);
 }
 
-static void formats_of_odd_cells_tell_rows_apart(void **state)
+TEST(formats_of_odd_cells_tell_rows_apart)
 {
-    (void)state;
     static const fault_line gbench = LINE(summarize, " odd --format gbench", 0),
                             gha = LINE(summarize, " odd --format gha", 0),
                             bencher = LINE(summarize, " odd --format bencher", 0),
@@ -220,9 +216,8 @@ static void formats_of_odd_cells_tell_rows_apart(void **state)
 }
 
 /* Each scenario's figures have a file's name that any program takes. */
-static void figures_of_odd_cells_are_those_that_can_be(void **state)
+TEST(figures_of_odd_cells_are_those_that_can_be)
 {
-    (void)state;
     static const fault_line figures[] = {LINE(figures, " odd", 0)};
     static const char *const wanted[] = {
         "\"name\": \"front-A_z_Z09-_______a_name_that_is_longer_than_the_file_of_a_figure_",
@@ -241,9 +236,8 @@ static void figures_of_odd_cells_are_those_that_can_be(void **state)
     FAIL_EACH(figures);
 }
 
-static void reports_of_odd_cells_say_what_is_odd(void **state)
+TEST(reports_of_odd_cells_say_what_is_odd)
 {
-    (void)state;
     static const fault_line report[] = {LINE(report, " odd", 0)};
     static const char *const html[] = {
         ", on m2, four cores",
@@ -271,9 +265,8 @@ static void reports_of_odd_cells_say_what_is_odd(void **state)
     FAIL_EACH(report);
 }
 
-static void reports_of_odd_claims_show_what_there_is(void **state)
+TEST(reports_of_odd_claims_show_what_there_is)
 {
-    (void)state;
     static const fault_line report[] = {LINE(report, " claims//", 0), LINE(report, " list", 0),
                                         LINE(report, " broken", 0), LINE(report, " wanted", 0)};
     static const char *const claims[] = {
@@ -312,22 +305,6 @@ static void reports_of_odd_claims_show_what_there_is(void **state)
     FAIL_EACH(report);
 }
 
-/* gnuplot that fails: each figure is told, the others are tried. */
-static void figures_that_gnuplot_does_not_draw_are_told(void **state)
-{
-    (void)state;
-    static const fault_line figures[] = {LINE(figures, " odd", 4)};
-    static const char *const wanted[] = {
-        "mote: odd: figure 4 (front) is not drawn; missing: gnuplot: ended with status 3\n",
-        "figures could not be drawn\n"};
-    assert_true(fault_lines_write("bin/gnuplot", "#!/bin/sh\nexit 3\n"));
-    assert_int_equal(chmod("bin/gnuplot", 0755), 0);
-    assert_false(fault_lines_run(figures, 1));
-    read_page("error");
-    HAS(wanted);
-    FAIL_EACH(figures);
-}
-
 /* The curve of a claim or a study, drawn by its own script. */
 static int plot(int argc, char **argv)
 {
@@ -335,9 +312,8 @@ static int plot(int argc, char **argv)
     return mote_figures_plot(argv[1], argv[2], argv[2]) == MOTE_OK ? 0 : mote_command_fail();
 }
 
-static void figures_plot_when_a_call_fails_says_so(void **state)
+TEST(figures_plot_when_a_call_fails_says_so)
 {
-    (void)state;
     static const fault_line curve[] = {{"plot odd front-s", plot, 0}};
     assert_true(fault_lines_run(curve, 1));
     FAIL_EACH(curve);
@@ -442,9 +418,8 @@ static size_t count_of(const char *wanted)
     return count;
 }
 
-static void figures_of_too_many_cells_take_the_first(void **state)
+TEST(figures_of_too_many_cells_take_the_first)
 {
-    (void)state;
     static const fault_line figures[] = {LINE(figures, " many", 0)};
     assert_true(write_many());
     assert_true(fault_lines_run(figures, 1));
@@ -460,9 +435,8 @@ static void figures_of_too_many_cells_take_the_first(void **state)
     assert_int_equal(count_of(" 1 1 1\n"), 6);
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     if (!fault_lines_open() || !fault_lines_install() ||
         mote_directory_make("odd/cells") != MOTE_OK ||
         !fault_lines_write("odd/manifest.json", MANIFEST) ||
@@ -475,17 +449,19 @@ static int make_files(void **state)
     return write_pages() ? 0 : -1;
 }
 
-int main(void)
+TEST_GROUP(make_files, fault_lines_close);
+
+/* gnuplot that fails: each figure is told, the others are tried. */
+TEST(figures_that_gnuplot_does_not_draw_are_told)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tables_of_odd_cells_say_what_is_odd),
-        cmocka_unit_test(formats_of_odd_cells_tell_rows_apart),
-        cmocka_unit_test(figures_of_odd_cells_are_those_that_can_be),
-        cmocka_unit_test(reports_of_odd_cells_say_what_is_odd),
-        cmocka_unit_test(reports_of_odd_claims_show_what_there_is),
-        cmocka_unit_test(figures_of_too_many_cells_take_the_first),
-        cmocka_unit_test(figures_plot_when_a_call_fails_says_so),
-        cmocka_unit_test(figures_that_gnuplot_does_not_draw_are_told),
-    };
-    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
+    static const fault_line figures[] = {LINE(figures, " odd", 4)};
+    static const char *const wanted[] = {
+        "mote: odd: figure 4 (front) is not drawn; missing: gnuplot: ended with status 3\n",
+        "figures could not be drawn\n"};
+    assert_true(fault_lines_write("bin/gnuplot", "#!/bin/sh\nexit 3\n"));
+    assert_int_equal(chmod("bin/gnuplot", 0755), 0);
+    assert_false(fault_lines_run(figures, 1));
+    read_page("error");
+    HAS(wanted);
+    FAIL_EACH(figures);
 }

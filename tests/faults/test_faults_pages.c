@@ -3,11 +3,9 @@
 #include "tests/faults/fault_lines.h"
 
 #include "harness/base/file.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,9 +85,8 @@ static bool exists(const char *path)
 }
 
 /* Several bodies: a diagram and a film, whose pictures are gone when it is drawn. */
-static void figures_of_several_bodies_when_a_call_fails_say_so(void **state)
+TEST(figures_of_several_bodies_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {LINE(figures, " several", 0)};
     assert_true(fault_lines_run(list, 1));
     assert_true(exists("several/figures/bodies.svg"));
@@ -98,9 +95,8 @@ static void figures_of_several_bodies_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void figures_when_a_call_fails_say_so(void **state)
+TEST(figures_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {LINE(figures, " run", 0), LINE(figures, " parts", 0)};
     assert_true(fault_lines_run(list, 2));
     static const char *const names[] = {"fig1",       "fig2",      "size-time",
@@ -116,17 +112,15 @@ static void figures_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void report_when_a_call_fails_says_so(void **state)
+TEST(report_when_a_call_fails_says_so)
 {
-    (void)state;
     static const fault_line list[] = {LINE(report, " run", 0), LINE(report, " claims", 0)};
     FAIL_EACH(list);
 }
 
 /* A pair has no file: its meshes are named by the command that measured it. */
-static void report_of_a_pair_replays_it(void **state)
+TEST(report_of_a_pair_replays_it)
 {
-    (void)state;
     static const fault_line lines[] = {
         LINE(letter, " V --triangles 400 -o v.obj", 0),
         LINE(run,
@@ -144,18 +138,16 @@ static void report_of_a_pair_replays_it(void **state)
     free(text);
 }
 
-static void comparisons_when_a_call_fails_say_so(void **state)
+TEST(comparisons_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {LINE(compare, " run claims", 4), LINE(tune, " run", 0),
                                       LINE(tune, " run --best-fcl ww", 0),
                                       LINE(summarize, " run", 0)};
     FAIL_EACH(list);
 }
 
-static void scenarios_of_other_forms_when_a_call_fails_say_so(void **state)
+TEST(scenarios_of_other_forms_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(check, " ww-2k --json", 0),
         LINE(check, " " INSTALLED "tt.json --out out", 1),
@@ -169,9 +161,8 @@ static void scenarios_of_other_forms_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void loops_when_a_call_fails_say_so(void **state)
+TEST(loops_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(simulate, " mv --method certified --steps 4 --film out.gif", 0),
         LINE(simulate, " mv --method certified --steps 4 --trace trace.json", 0),
@@ -212,9 +203,8 @@ static bool make_runs(void)
     return fault_lines_run(runs, sizeof runs / sizeof runs[0]);
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     if (!fault_lines_open() || !fault_lines_install())
         return -1;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
@@ -231,16 +221,4 @@ static int make_files(void **state)
                : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(comparisons_when_a_call_fails_say_so),
-        cmocka_unit_test(scenarios_of_other_forms_when_a_call_fails_say_so),
-        cmocka_unit_test(loops_when_a_call_fails_say_so),
-        cmocka_unit_test(figures_of_several_bodies_when_a_call_fails_say_so),
-        cmocka_unit_test(figures_when_a_call_fails_say_so),
-        cmocka_unit_test(report_of_a_pair_replays_it),
-        cmocka_unit_test(report_when_a_call_fails_says_so),
-    };
-    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
-}
+TEST_GROUP(make_files, fault_lines_close);

@@ -1,11 +1,9 @@
 /* Every place where a command of a scenario of an unusual form asks for memory, files or
    processes, failing once. */
 #include "tests/faults/fault_lines.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 /* A body that has all that bodies can have, and one that moves along keys. */
 #define RICH                                                                                   \
@@ -38,9 +36,8 @@
     "f 3 12 6\nf 2 7 9\nf 2 10 8\nf 2 8 7\nf 4 11 7\nf 4 7 8\nf 4 8 12\nf 5 9 11\nf 7 11 9\n"  \
     "f 6 12 10\nf 8 10 12\n"
 
-static void scenarios_of_every_form_when_a_call_fails_say_so(void **state)
+TEST(scenarios_of_every_form_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(check, " rich.json", 0),
         LINE(export, " rich.json --frame 3 --out out --method fcl-kdop18", 0),
@@ -51,9 +48,8 @@ static void scenarios_of_every_form_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static void several_bodies_when_a_call_fails_say_so(void **state)
+TEST(several_bodies_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {
         LINE(run, " keyed.json --method certified:threads=2,ahead=2 --replicates 1 --out out",
              0),
@@ -63,9 +59,8 @@ static void several_bodies_when_a_call_fails_say_so(void **state)
     FAIL_EACH(list);
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     return fault_lines_open() && fault_lines_write("c.obj", ROUND) &&
                    fault_lines_write("rich.json", RICH) &&
                    fault_lines_write("stretch.json", STRETCH) &&
@@ -74,11 +69,4 @@ static int make_files(void **state)
                : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenarios_of_every_form_when_a_call_fails_say_so),
-        cmocka_unit_test(several_bodies_when_a_call_fails_say_so),
-    };
-    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
-}
+TEST_GROUP(make_files, fault_lines_close);

@@ -2,11 +2,9 @@
 #include "harness/study/extreme.h"
 #include "harness/base/options.h"
 #include "tests/faults/fault_lines.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <string.h>
 #include <unistd.h>
@@ -25,9 +23,8 @@ static int measure_a_row(int argc, char **argv)
     return mote_command_dynamics(argc, argv);
 }
 
-static void study_of_the_closed_loop_when_a_call_fails_says_so(void **state)
+TEST(study_of_the_closed_loop_when_a_call_fails_says_so)
 {
-    (void)state;
     static const fault_line list[] = {{"dynamics" STUDY "rows", measure_a_row, 0}};
     FAIL_EACH(list);
 }
@@ -64,9 +61,8 @@ static int make_plain(int argc, char **argv)
     return mote_extreme_plain(&plain) == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
 }
 
-static void extremes_when_a_call_fails_say_so(void **state)
+TEST(extremes_when_a_call_fails_say_so)
 {
-    (void)state;
     static const fault_line list[] = {{"extreme", answer_extreme, 0}, {"plain", make_plain, 0}};
     FAIL_EACH(list);
 }
@@ -83,9 +79,8 @@ static mote_status make_recipe(void)
     return status;
 }
 
-static int make_files(void **state)
+static int make_files(void)
 {
-    (void)state;
     static const fault_line rows[] = {LINE(dynamics, STUDY "rows", 0)};
     const bool whole = fault_lines_open() && fault_lines_install() &&
                        fault_lines_write("share/mote/datasets/scenarios/tt.json", TT);
@@ -94,11 +89,4 @@ static int make_files(void **state)
                : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(study_of_the_closed_loop_when_a_call_fails_says_so),
-        cmocka_unit_test(extremes_when_a_call_fails_say_so),
-    };
-    return cmocka_run_group_tests(tests, make_files, fault_lines_close);
-}
+TEST_GROUP(make_files, fault_lines_close);

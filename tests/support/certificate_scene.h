@@ -1,9 +1,10 @@
-/* Certified queries of small scenes, and what every answer promises. Include after cmocka.h. */
+/* Certified queries of small scenes, and what every answer promises. */
 #ifndef MOTE_TESTS_CERTIFICATE_SCENE_H
 #define MOTE_TESTS_CERTIFICATE_SCENE_H
 
 #include "core/certificate/certificate.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
 static inline mote_certificate *certificate_of(const scene *s,
                                                const mote_certificate_options *options)

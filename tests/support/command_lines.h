@@ -3,9 +3,8 @@
 #define MOTE_TESTS_COMMAND_LINES_H
 
 #include "harness/base/file.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,8 +13,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-
-#include <cmocka.h>
 
 /* Runs `mote ARGUMENTS` in the folder; returns the exit status. streams: "2>&1" to get both,
    "2>&1 >/dev/null" to get the errors only. */

@@ -4,15 +4,12 @@
 #define MOTE_TESTS_SOLIDS_H
 
 #include "core/body/mesh.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 /* References are computed in long double; clang would warn of each step to it. */
 #pragma GCC diagnostic ignored "-Wdouble-promotion"

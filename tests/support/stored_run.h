@@ -6,12 +6,10 @@
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #include <math.h>
 #include <unistd.h>
@@ -20,21 +18,18 @@ static char base[] = "/tmp/mote-test-stored-XXXXXX";
 static char directory[64], said[64], text[1 << 16];
 static int directories;
 
-static inline int make_base(void **state)
+static inline int make_base(void)
 {
-    (void)state;
     return mkdtemp(base) ? 0 : -1;
 }
 
-static inline int remove_base(void **state)
+static inline int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
-static inline int next_directory(void **state)
+static inline int next_directory(void)
 {
-    (void)state;
     (void)snprintf(directory, sizeof directory, "%s/%d", base, directories);
     (void)snprintf(said, sizeof said, "%s/said-%d", base, directories);
     ++directories;
@@ -80,6 +75,7 @@ static inline void about(double value, double expected)
         fail_msg("%.17g, not %.17g", value, expected);
 }
 
-#define TEST(name) cmocka_unit_test_setup(name, next_directory)
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(next_directory, NULL);
 
 #endif

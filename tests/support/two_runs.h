@@ -5,21 +5,18 @@
 #include "harness/summary/compare.h"
 #include "harness/base/record.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #include <sys/stat.h>
 
 static char base[] = "/tmp/mote-test-compare-XXXXXX";
 static char old_run[64], new_run[64], said[64];
 
-static inline int make_base(void **state)
+static inline int make_base(void)
 {
-    (void)state;
     if (!mkdtemp(base))
         return -1;
     (void)snprintf(old_run, sizeof old_run, "%s/old", base);
@@ -28,11 +25,12 @@ static inline int make_base(void **state)
     return mkdir(old_run, 0777) || mkdir(new_run, 0777);
 }
 
-static inline int remove_base(void **state)
+static inline int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 /* Without the sync of mote_record_json; object is taken over. */
 static inline void put(const char *directory, const char *name, json_t *object)

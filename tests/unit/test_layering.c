@@ -1,9 +1,8 @@
 /* Who may include whom, read from the include lines of the sources. */
 #define _DEFAULT_SOURCE /* DT_DIR */
-#include <setjmp.h>
-#include <stdarg.h>
+#include "tests/support/test.h"
+
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <dirent.h>
 #include <stdbool.h>
@@ -123,14 +122,15 @@ static void read_folder(const char *folder)
         fail_msg("%s holds %d sources; make rooms of at most %d", folder, files, FILES_MAX);
 }
 
-static int read_sources(void **state)
+static int read_sources(void)
 {
-    (void)state;
     for (size_t i = 0; i < FOLDERS; ++i)
         read_folder(rules[i].folder);
     read_folder("tests");
     return include_count == 0;
 }
+
+TEST_GROUP(read_sources, NULL);
 
 /* Whether a name lies in a folder, given without a slash. */
 static bool lies_in(const char *name, const char *folder)
@@ -154,9 +154,8 @@ static void check_folders(const rule *r, const include *line)
         fail_msg("%s includes %s: only tests may", line->file, line->included);
 }
 
-static void folders_include_only_what_they_may(void **state)
+TEST(folders_include_only_what_they_may)
 {
-    (void)state;
     for (size_t i = 0; i < include_count; ++i) {
         for (size_t k = 0; k < FOLDERS; ++k) {
             if (lies_in(includes[i].file, rules[k].folder))
@@ -201,9 +200,8 @@ static int floor_of(const house *h, const char *file)
     return -1;
 }
 
-static void rooms_include_only_rooms_below_them(void **state)
+TEST(rooms_include_only_rooms_below_them)
 {
-    (void)state;
     for (size_t i = 0; i < include_count; ++i) {
         for (size_t k = 0; k < HOUSES; ++k) {
             if (!lies_in(includes[i].file, houses[k].folder))
@@ -246,9 +244,8 @@ static bool reaches(const char *file, const char *target)
     return false;
 }
 
-static void no_module_includes_itself_in_a_circle(void **state)
+TEST(no_module_includes_itself_in_a_circle)
 {
-    (void)state;
     for (size_t i = 0; i < include_count; ++i) {
         const include *line = &includes[i];
         if (lies_in(line->file, "tests") || same_module(line->file, line->included) ||
@@ -260,9 +257,8 @@ static void no_module_includes_itself_in_a_circle(void **state)
     }
 }
 
-static void libraries_are_included_by_their_own_files(void **state)
+TEST(libraries_are_included_by_their_own_files)
 {
-    (void)state;
     for (size_t i = 0; i < include_count; ++i) {
         for (size_t k = 0; k < sizeof libraries / sizeof libraries[0]; ++k) {
             const library *l = &libraries[k];
@@ -275,15 +271,4 @@ static void libraries_are_included_by_their_own_files(void **state)
                          includes[i].included, l->files[0]);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(folders_include_only_what_they_may),
-        cmocka_unit_test(rooms_include_only_rooms_below_them),
-        cmocka_unit_test(no_module_includes_itself_in_a_circle),
-        cmocka_unit_test(libraries_are_included_by_their_own_files),
-    };
-    return cmocka_run_group_tests(tests, read_sources, NULL);
 }

@@ -6,11 +6,10 @@
 #include "harness/base/file.h"
 #include "harness/scene/reach.h"
 #include "harness/base/spawn.h"
+#include "tests/support/test.h"
 
 #include <fcntl.h>
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -19,8 +18,6 @@
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 static char folder[] = "/tmp/mote-child-XXXXXX";
 
@@ -62,9 +59,8 @@ static mote_status say_rubbish(void *context, int output)
     _exit(0);
 }
 
-static void run_of_children_that_die_says_how(void **state)
+TEST(run_of_children_that_die_says_how)
 {
-    (void)state;
     char *text = NULL;
     size_t size;
     assert_int_equal(mote_child_run("it", crash, NULL, limits, &text, &size), MOTE_EIO);
@@ -77,9 +73,8 @@ static void run_of_children_that_die_says_how(void **state)
     assert_null(text);
 }
 
-static void run_of_children_that_say_rubbish_is_an_error(void **state)
+TEST(run_of_children_that_say_rubbish_is_an_error)
 {
-    (void)state;
     const size_t sizes[] = {1, 1027, 1028, 1029, 5000, 1 << 16};
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; ++k) {
         size_t wanted = sizes[k], size;
@@ -129,9 +124,8 @@ static mote_status say_nothing(void *context, int output)
     return MOTE_OK;
 }
 
-static void run_of_children_whose_last_words_make_no_sense_is_an_error(void **state)
+TEST(run_of_children_whose_last_words_make_no_sense_is_an_error)
 {
-    (void)state;
     char *text = NULL;
     size_t size;
     static const mote_child_work works[] = {say_endless_text, say_well_and_fail};
@@ -158,9 +152,8 @@ static mote_status wait_and_be_stopped(void *context, int output)
     return status == MOTE_EIO ? MOTE_OK : MOTE_EINVAL;
 }
 
-static void run_of_a_child_when_asked_to_stop_ends_it(void **state)
+TEST(run_of_a_child_when_asked_to_stop_ends_it)
 {
-    (void)state;
     char *text = NULL;
     size_t size = 0;
     assert_int_equal(mote_child_run("it", wait_and_be_stopped, NULL, limits, &text, &size),
@@ -171,9 +164,8 @@ static void run_of_a_child_when_asked_to_stop_ends_it(void **state)
     free(text);
 }
 
-static void spawn_of_programs_that_fail_says_how(void **state)
+TEST(spawn_of_programs_that_fail_says_how)
 {
-    (void)state;
     static const struct {
         const char *argv[4], *directory, *says;
     } cases[] = {
@@ -200,9 +192,8 @@ static void spawn_of_programs_that_fail_says_how(void **state)
 }
 
 /* In the C locale gnuplot would warn once a figure. */
-static void spawn_in_any_locale_is_in_utf_8(void **state)
+TEST(spawn_in_any_locale_is_in_utf_8)
 {
-    (void)state;
     const char *user = getenv("LC_ALL");
     char *kept = user ? mote_format("%s", user) : NULL;
     assert_int_equal(setenv("LC_ALL", "C", 1), 0);
@@ -250,9 +241,8 @@ static mote_status attempt(void *context, int output)
     return mote_child_put(output, &a, sizeof a);
 }
 
-static void run_of_a_confined_child_changes_no_file(void **state)
+TEST(run_of_a_confined_child_changes_no_file)
 {
-    (void)state;
     char path[64];
     (void)snprintf(path, sizeof path, "%s/kept", folder);
     assert_int_equal(mote_file_write(path, "kept", 4), MOTE_OK);
@@ -291,9 +281,8 @@ static mote_status check(const char *scenario, const char *file)
     return mote_reach_check(from, to);
 }
 
-static void reach_check_of_files_outside_is_an_error_until_allowed(void **state)
+TEST(reach_check_of_files_outside_is_an_error_until_allowed)
 {
-    (void)state;
     char inner[64], outside[64], link[64];
     (void)snprintf(inner, sizeof inner, "%s/inner", folder);
     (void)snprintf(outside, sizeof outside, "%s/outside.obj", folder);
@@ -327,15 +316,13 @@ static void reach_check_of_files_outside_is_an_error_until_allowed(void **state)
     assert_int_equal(mote_reach_check("/a.json", "/etc/passwd"), MOTE_OK);
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mkdtemp(folder) ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     char path[128];
     static const char *const names[] = {
         "kept",           "kept-other", "inner/a.json", "inner/mesh.obj",
@@ -347,17 +334,4 @@ static int remove_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(run_of_children_that_die_says_how),
-        cmocka_unit_test(run_of_children_that_say_rubbish_is_an_error),
-        cmocka_unit_test(run_of_children_whose_last_words_make_no_sense_is_an_error),
-        cmocka_unit_test(run_of_a_child_when_asked_to_stop_ends_it),
-        cmocka_unit_test(spawn_of_programs_that_fail_says_how),
-        cmocka_unit_test(spawn_in_any_locale_is_in_utf_8),
-        cmocka_unit_test(run_of_a_confined_child_changes_no_file),
-        cmocka_unit_test(reach_check_of_files_outside_is_an_error_until_allowed),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TEST_GROUP(make_folder, remove_folder);

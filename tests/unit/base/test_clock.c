@@ -5,11 +5,9 @@
 #include "harness/base/record.h"
 #include "tests/support/program.h"
 #include "tests/support/run_files.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <time.h>
 
@@ -22,9 +20,8 @@ enum { FRAMES = 40, CELLS = 6, TIMES = 3 /* columns: deform, update, query */ };
 static char base[] = "/tmp/mote-test-clock-XXXXXX";
 static char directory[64], said[64], text[1 << 14];
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     if (!mkdtemp(base))
         return -1;
     (void)snprintf(directory, sizeof directory, "%s/run", base);
@@ -32,11 +29,12 @@ static int make_base(void **state)
     return 0;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 static double steady_seconds(void)
 {
@@ -86,9 +84,8 @@ static double number(const json_t *object, const char *name)
     return json_number_value(member);
 }
 
-static void run_while_the_clock_is_set_has_steady_times(void **state)
+TEST(run_while_the_clock_is_set_has_steady_times)
 {
-    (void)state;
     double seconds, sum = 0;
     assert_int_equal(run(SWEEP, &seconds), 0);
     run_files finished = {0};
@@ -116,9 +113,8 @@ static void run_while_the_clock_is_set_has_steady_times(void **state)
 }
 
 /* The dates are those of the clock as it was set, and well formed. */
-static void run_while_the_clock_is_set_writes_the_dates_it_reads(void **state)
+TEST(run_while_the_clock_is_set_writes_the_dates_it_reads)
 {
-    (void)state;
     json_t *manifest = NULL;
     assert_int_equal(mote_record_read_json(directory, "manifest.json", &manifest), MOTE_OK);
     const json_t *sessions = json_object_get(manifest, "sessions");
@@ -137,13 +133,4 @@ static void run_while_the_clock_is_set_writes_the_dates_it_reads(void **state)
         assert_true(year != utc.tm_year + 1900);
     }
     json_decref(manifest);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(run_while_the_clock_is_set_has_steady_times),
-        cmocka_unit_test(run_while_the_clock_is_set_writes_the_dates_it_reads),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -4,11 +4,9 @@
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/run_files.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <sched.h>
 #include <signal.h>
@@ -44,19 +42,17 @@ static int use_directory(const char *name)
     return symlink(truth, link);
 }
 
-static int next_directory(void **state)
+static int next_directory(void)
 {
     char name[16];
-    (void)state;
     (void)snprintf(name, sizeof name, "%d", directories);
     (void)snprintf(said, sizeof said, "%s/said-%d", base, directories++);
     return use_directory(name);
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
     char disk[64];
-    (void)state;
     (void)snprintf(disk, sizeof disk, "%s/disk", base);
     (void)umount(disk); /* if it was mounted */
     return program_remove(base);
@@ -76,13 +72,15 @@ static int run(const char *what)
 }
 
 /* The truth is there: from now on a run measures at once. */
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
-    if (!mkdtemp(base) || next_directory(NULL) != 0)
+    if (!mkdtemp(base) || next_directory() != 0)
         return -1;
     return run("run tt --frames 1-2 --replicates 1 --method aabb-tree");
 }
+
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(next_directory, NULL);
 
 /* Waits until some cells are finished. */
 static void wait_for_cells(int count)
@@ -131,15 +129,13 @@ static void stopped_by(int signal_number)
     run_files_free(&finished);
 }
 
-static void run_after_sigterm_keeps_its_cells_and_goes_on(void **state)
+TEST(run_after_sigterm_keeps_its_cells_and_goes_on)
 {
-    (void)state;
     stopped_by(SIGTERM);
 }
 
-static void run_after_sigint_keeps_its_cells_and_goes_on(void **state)
+TEST(run_after_sigint_keeps_its_cells_and_goes_on)
 {
-    (void)state;
     stopped_by(SIGINT);
 }
 
@@ -193,9 +189,8 @@ static pid_t wait_for_child(pid_t pid)
     return child;
 }
 
-static void child_of_a_killed_run_dies_with_it(void **state)
+TEST(child_of_a_killed_run_dies_with_it)
 {
-    (void)state;
     pid_t pid = start(SLOW);
     wait_for_file("manifest.json"); /* git has answered what it asks: children measure now */
     pid_t child = wait_for_child(pid);
@@ -208,9 +203,8 @@ static void child_of_a_killed_run_dies_with_it(void **state)
     assert_true(is_dead(child));
 }
 
-static void run_beside_another_in_one_directory_is_refused(void **state)
+TEST(run_beside_another_in_one_directory_is_refused)
 {
-    (void)state;
     char other[64];
     pid_t pid = start(SLOW);
     wait_for_file("manifest.json");
@@ -223,9 +217,8 @@ static void run_beside_another_in_one_directory_is_refused(void **state)
 }
 
 /* Started at the same moment: one measures, and the other says why it does not. */
-static void runs_started_together_in_one_directory_are_as_one(void **state)
+TEST(runs_started_together_in_one_directory_are_as_one)
 {
-    (void)state;
     char other[64];
     (void)snprintf(other, sizeof other, "%s/said-together", base);
     const pid_t first = start(SWEEP), second = program_start(line, other);
@@ -246,9 +239,8 @@ static void runs_started_together_in_one_directory_are_as_one(void **state)
     run_files_free(&finished);
 }
 
-static void run_beyond_the_largest_file_allowed_fails_with_a_message(void **state)
+TEST(run_beyond_the_largest_file_allowed_fails_with_a_message)
 {
-    (void)state;
     const struct rlimit small = {20000, RLIM_INFINITY}, none = {RLIM_INFINITY, RLIM_INFINITY};
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
     int status = run(SWEEP);
@@ -294,9 +286,8 @@ static void remount(unsigned long flags, const char *options)
     assert_int_equal(mount("none", disk, "tmpfs", MS_REMOUNT | flags, options), 0);
 }
 
-static void run_on_a_full_then_read_only_disk_keeps_its_cells(void **state)
+TEST(run_on_a_full_then_read_only_disk_keeps_its_cells)
 {
-    (void)state;
     if (!mount_small_disk())
         skip();
     run_files finished = {0};
@@ -316,20 +307,4 @@ static void run_on_a_full_then_read_only_disk_keeps_its_cells(void **state)
     check(&finished);
     assert_int_equal(finished.count, SWEEP_CELLS);
     run_files_free(&finished);
-}
-
-#define TEST(name) cmocka_unit_test_setup(name, next_directory)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(run_after_sigterm_keeps_its_cells_and_goes_on),
-        TEST(run_after_sigint_keeps_its_cells_and_goes_on),
-        TEST(child_of_a_killed_run_dies_with_it),
-        TEST(run_beside_another_in_one_directory_is_refused),
-        TEST(runs_started_together_in_one_directory_are_as_one),
-        TEST(run_beyond_the_largest_file_allowed_fails_with_a_message),
-        TEST(run_on_a_full_then_read_only_disk_keeps_its_cells), /* last: it changes mounts */
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -1,9 +1,7 @@
 #include "harness/base/heap_count.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <errno.h>
 #include <stdint.h>
@@ -32,15 +30,13 @@ static void skip_if_not_counted(void)
 
 /* Everything else here, and what else looks at the heap, is left out where it is not counted.
  */
-static void heap_without_sanitizers_is_counted(void **state)
+TEST(heap_without_sanitizers_is_counted)
 {
-    (void)state;
     assert_int_equal(mote_heap_read().counted, !SANITIZED);
 }
 
-static void heap_after_malloc_and_free_is_what_it_was(void **state)
+TEST(heap_after_malloc_and_free_is_what_it_was)
 {
-    (void)state;
     skip_if_not_counted();
     mote_heap before = mote_heap_read();
     sink = malloc(100000);
@@ -53,9 +49,8 @@ static void heap_after_malloc_and_free_is_what_it_was(void **state)
     assert_int_equal(after.live_bytes, before.live_bytes);
 }
 
-static void heap_counts_every_allocating_function(void **state)
+TEST(heap_counts_every_allocating_function)
 {
-    (void)state;
     skip_if_not_counted();
     void *blocks[5] = {NULL};
     mote_heap before = mote_heap_read();
@@ -74,9 +69,8 @@ static void heap_counts_every_allocating_function(void **state)
     assert_int_equal(mote_heap_read().live_bytes, before.live_bytes);
 }
 
-static void heap_after_realloc_holds_the_new_size_only(void **state)
+TEST(heap_after_realloc_holds_the_new_size_only)
 {
-    (void)state;
     skip_if_not_counted();
     mote_heap before = mote_heap_read();
     sink = malloc(1000);
@@ -89,9 +83,8 @@ static void heap_after_realloc_holds_the_new_size_only(void **state)
 }
 
 /* What could not be had is not counted, and what was there stays counted. */
-static void heap_of_calls_that_fail_is_what_it_was(void **state)
+TEST(heap_of_calls_that_fail_is_what_it_was)
 {
-    (void)state;
     skip_if_not_counted();
     const size_t too_much = PTRDIFF_MAX;
     void *block = malloc(1000), *none = &block;
@@ -113,9 +106,8 @@ static void heap_of_calls_that_fail_is_what_it_was(void **state)
     free(block);
 }
 
-static void heap_peak_is_kept_until_reset(void **state)
+TEST(heap_peak_is_kept_until_reset)
 {
-    (void)state;
     skip_if_not_counted();
     mote_heap_reset_peak();
     mote_heap before = mote_heap_read();
@@ -124,17 +116,4 @@ static void heap_peak_is_kept_until_reset(void **state)
     assert_true(mote_heap_read().peak_bytes - before.live_bytes >= 300000);
     mote_heap_reset_peak();
     assert_int_equal(mote_heap_read().peak_bytes, mote_heap_read().live_bytes);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(heap_without_sanitizers_is_counted),
-        cmocka_unit_test(heap_after_malloc_and_free_is_what_it_was),
-        cmocka_unit_test(heap_counts_every_allocating_function),
-        cmocka_unit_test(heap_after_realloc_holds_the_new_size_only),
-        cmocka_unit_test(heap_of_calls_that_fail_is_what_it_was),
-        cmocka_unit_test(heap_peak_is_kept_until_reset),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

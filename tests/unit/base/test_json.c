@@ -3,11 +3,9 @@
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 #include "harness/base/json_read.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,9 +13,8 @@
 
 static char path[] = "/tmp/mote-test-json-XXXXXX";
 
-static int make_file(void **state)
+static int make_file(void)
 {
-    (void)state;
     const int file = mkstemp(path);
     FILE *out = file < 0 ? NULL : fdopen(file, "w");
     static const char text[] = "{\"number\": 2.5,\n\"far\": 1e300, \"whole\": 7,\n"
@@ -27,11 +24,12 @@ static int make_file(void **state)
     return out && fputs(text, out) >= 0 && fclose(out) == 0 ? 0 : -1;
 }
 
-static int remove_file(void **state)
+static int remove_file(void)
 {
-    (void)state;
     return remove(path);
 }
+
+TEST_GROUP(make_file, remove_file);
 
 /* Reads a member of the file in some way. */
 typedef mote_status (*reader)(const mote_json *node);
@@ -83,9 +81,8 @@ static mote_status as_string(const mote_json *node)
     return mote_json_string(node, &value);
 }
 
-static void json_of_another_kind_is_refused_by_line_and_place(void **state)
+TEST(json_of_another_kind_is_refused_by_line_and_place)
 {
-    (void)state;
     static const struct {
         const char *key;
         reader read;
@@ -136,9 +133,8 @@ static void json_of_another_kind_is_refused_by_line_and_place(void **state)
 }
 
 /* The line is told of valid texts; one that is cut off anywhere is not left either. */
-static void json_line_of_a_cut_text_is_within_it(void **state)
+TEST(json_line_of_a_cut_text_is_within_it)
 {
-    (void)state;
     static const char text[] =
         "{\"a\\\"\\\\\": [1, [2,\n{\"b\": 3}], 4],\n\"c\": {\"d\": \"]}\",\n"
         "\"e\": [[], {}, -5]}}\n";
@@ -168,9 +164,8 @@ static void json_line_of_a_cut_text_is_within_it(void **state)
 }
 
 /* What is printed is the same value, in lines of at most 96 characters but for long strings. */
-static void json_print_of_any_value_is_read_back(void **state)
+TEST(json_print_of_any_value_is_read_back)
 {
-    (void)state;
 #define TWENTY "12345678901234567890"
 #define HUNDRED TWENTY TWENTY TWENTY TWENTY TWENTY
     static const char *const texts[] = {
@@ -193,14 +188,4 @@ static void json_print_of_any_value_is_read_back(void **state)
         json_decref(value);
         free(printed.data);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(json_of_another_kind_is_refused_by_line_and_place),
-        cmocka_unit_test(json_line_of_a_cut_text_is_within_it),
-        cmocka_unit_test(json_print_of_any_value_is_read_back),
-    };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
 }

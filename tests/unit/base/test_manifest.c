@@ -3,13 +3,11 @@
 
 #include "harness/base/file.h"
 #include "harness/base/record.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_manifest_files"
 #define FILE_NAME FOLDER "/manifest.json"
@@ -27,9 +25,8 @@ static json_t *write_again(const char *before)
     return object;
 }
 
-static void mote_manifest_write_adds_its_session_to_those_before(void **state)
+TEST(mote_manifest_write_adds_its_session_to_those_before)
 {
-    (void)state;
     static const struct {
         const char *before;
         size_t sessions;
@@ -55,22 +52,14 @@ static void mote_manifest_write_adds_its_session_to_those_before(void **state)
     }
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     return unlink(FILE_NAME) || rmdir(FOLDER);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_manifest_write_adds_its_session_to_those_before),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TEST_GROUP(make_folder, remove_folder);

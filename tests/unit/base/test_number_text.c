@@ -3,18 +3,15 @@
 
 #include "harness/base/escape.h"
 #include "harness/report/markdown_html.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-static void shown_numbers_have_their_digits_and_unit(void **state)
+TEST(shown_numbers_have_their_digits_and_unit)
 {
-    (void)state;
     static const struct {
         mote_number_show show;
         double value;
@@ -52,9 +49,8 @@ static void expect(writing write, const char *value, const char *wanted)
     free(text.data);
 }
 
-static void escaped_text_ends_nothing_that_it_stands_in(void **state)
+TEST(escaped_text_ends_nothing_that_it_stands_in)
 {
-    (void)state;
     expect(mote_escape_html, NULL, "");
     expect(mote_escape_html, "a<b> & \"c'\n\t\x01", "a&lt;b&gt; &amp; &quot;c&#39;\n\t ");
     expect(mote_escape_markdown, NULL, "");
@@ -65,9 +61,8 @@ static void escaped_text_ends_nothing_that_it_stands_in(void **state)
     expect(mote_escape_drawing, "<a b=\"#c\">\n50%", "%3Ca b=%22%23c%22%3E 50%25");
 }
 
-static void markdown_that_is_not_whole_becomes_whole_html(void **state)
+TEST(markdown_that_is_not_whole_becomes_whole_html)
 {
-    (void)state;
     expect(mote_markdown_inline, "a `b` c", "a <code>b</code> c");
     expect(mote_markdown_inline, "a `b", "a <code>b</code>");
     expect(mote_markdown_html, "# title\n## one `x`\ntext",
@@ -79,14 +74,4 @@ static void markdown_that_is_not_whole_becomes_whole_html(void **state)
         "<details><summary>Reproduction</summary><pre><code>a\n\nb\n</code></pre></details>\n");
     expect(mote_markdown_nested, "# title\n\n## one\ntext", "### one\ntext\n");
     expect(mote_markdown_nested, "", "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shown_numbers_have_their_digits_and_unit),
-        cmocka_unit_test(escaped_text_ends_nothing_that_it_stands_in),
-        cmocka_unit_test(markdown_that_is_not_whole_becomes_whole_html),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,8 @@
 #include "harness/base/statistics.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 static void assert_near(double value, double expected, double tolerance)
 {
@@ -12,9 +10,8 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
 }
 
-static void quantile_of_four_values_is_linear_between_them(void **state)
+TEST(quantile_of_four_values_is_linear_between_them)
 {
-    (void)state;
     const double sorted[] = {1, 2, 3, 4};
     assert_near(mote_statistics_quantile(sorted, 4, 0), 1, 0);
     assert_near(mote_statistics_quantile(sorted, 4, 0.25), 1.75, 1e-15);
@@ -23,9 +20,8 @@ static void quantile_of_four_values_is_linear_between_them(void **state)
     assert_true(isnan(mote_statistics_quantile(sorted, 0, 0.5)));
 }
 
-static void median_of_even_count_is_the_middle_of_two(void **state)
+TEST(median_of_even_count_is_the_middle_of_two)
 {
-    (void)state;
     double values[] = {9, 1, 5, 3};
     assert_near(mote_statistics_median(values, 4), 4, 0);
     double three[] = {7, 1, 2};
@@ -33,9 +29,8 @@ static void median_of_even_count_is_the_middle_of_two(void **state)
     assert_true(isnan(mote_statistics_median(values, 0)));
 }
 
-static void t_interval_of_one_to_five_is_the_textbook_one(void **state)
+TEST(t_interval_of_one_to_five_is_the_textbook_one)
 {
-    (void)state;
     /* t(0.975, 4) = 2.776445 (any table), standard deviation sqrt(2.5). */
     const double values[] = {1, 2, 3, 4, 5};
     mote_confidence interval = mote_statistics_t_interval(values, 5);
@@ -44,17 +39,15 @@ static void t_interval_of_one_to_five_is_the_textbook_one(void **state)
     assert_near(interval.high, 3 + half, 1e-12);
 }
 
-static void t_interval_of_one_value_is_none(void **state)
+TEST(t_interval_of_one_value_is_none)
 {
-    (void)state;
     const double value = 3;
     mote_confidence interval = mote_statistics_t_interval(&value, 1);
     assert_true(isnan(interval.low) && isnan(interval.high));
 }
 
-static void median_interval_of_three_processes_is_t_on_logarithms(void **state)
+TEST(median_interval_of_three_processes_is_t_on_logarithms)
 {
-    (void)state;
     const double a[] = {10, 1, 100}, b[] = {100, 5, 5000}, c[] = {1000, 2, 1e6};
     const mote_replicate replicates[] = {{a, 3}, {b, 3}, {c, 3}};
     mote_confidence interval;
@@ -66,9 +59,8 @@ static void median_interval_of_three_processes_is_t_on_logarithms(void **state)
     assert_near(log10(interval.high), 2 + half, 1e-12);
 }
 
-static void median_interval_without_frames_is_none(void **state)
+TEST(median_interval_without_frames_is_none)
 {
-    (void)state;
     const double a[] = {1};
     const mote_replicate replicates[] = {{a, 1}, {a, 0}};
     mote_confidence interval;
@@ -89,9 +81,8 @@ static void fill(double values[REPLICATES][FRAMES], mote_replicate replicates[RE
     }
 }
 
-static void median_interval_of_many_processes_encloses_the_median(void **state)
+TEST(median_interval_of_many_processes_encloses_the_median)
 {
-    (void)state;
     double values[REPLICATES][FRAMES];
     mote_replicate replicates[REPLICATES];
     fill(values, replicates);
@@ -103,9 +94,8 @@ static void median_interval_of_many_processes_encloses_the_median(void **state)
     assert_true(interval.high > 106.5 && interval.high < 111.5);
 }
 
-static void median_interval_with_one_seed_is_the_same_twice(void **state)
+TEST(median_interval_with_one_seed_is_the_same_twice)
 {
-    (void)state;
     double values[REPLICATES][FRAMES];
     mote_replicate replicates[REPLICATES];
     fill(values, replicates);
@@ -115,19 +105,4 @@ static void median_interval_with_one_seed_is_the_same_twice(void **state)
     assert_int_equal(mote_statistics_median_interval(replicates, REPLICATES, true, 7, &second),
                      MOTE_OK);
     assert_memory_equal(&first, &second, sizeof first);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantile_of_four_values_is_linear_between_them),
-        cmocka_unit_test(median_of_even_count_is_the_middle_of_two),
-        cmocka_unit_test(t_interval_of_one_to_five_is_the_textbook_one),
-        cmocka_unit_test(t_interval_of_one_value_is_none),
-        cmocka_unit_test(median_interval_of_three_processes_is_t_on_logarithms),
-        cmocka_unit_test(median_interval_without_frames_is_none),
-        cmocka_unit_test(median_interval_of_many_processes_encloses_the_median),
-        cmocka_unit_test(median_interval_with_one_seed_is_the_same_twice),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

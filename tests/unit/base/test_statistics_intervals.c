@@ -1,12 +1,10 @@
 /* Intervals and tests of means, shares and figures of processes, against closed forms: of
    Student's t with one and two degrees of freedom, and of sums of binomial terms. */
 #include "harness/base/statistics.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 #define PI 3.14159265358979323846
@@ -49,17 +47,15 @@ static double at_least(size_t k, size_t n, double p)
     return sum;
 }
 
-static void mean_of_three_values_is_a_third_of_their_sum(void **state)
+TEST(mean_of_three_values_is_a_third_of_their_sum)
 {
-    (void)state;
     const double values[] = {1, 2, 6};
     assert_near(mote_statistics_mean(values, 3), 3, 1e-15);
     assert_true(isnan(mote_statistics_mean(values, 0)));
 }
 
-static void t_interval_of_two_and_three_values_is_the_closed_form(void **state)
+TEST(t_interval_of_two_and_three_values_is_the_closed_form)
 {
-    (void)state;
     const double values[] = {1, 2, 6};
     mote_confidence two = mote_statistics_t_interval(values, 2);
     assert_near(two.low, 1.5 - t_one(0.025) * 0.5, 1e-9);
@@ -69,9 +65,8 @@ static void t_interval_of_two_and_three_values_is_the_closed_form(void **state)
     assert_near(three.high, 3 + t_two(0.025) * sqrt(7.0 / 3), 1e-9);
 }
 
-static void share_interval_leaves_a_fortieth_on_each_side(void **state)
+TEST(share_interval_leaves_a_fortieth_on_each_side)
 {
-    (void)state;
     static const size_t of[][2] = {{1, 2}, {5, 10}, {1, 40}, {39, 40}, {30, 1000}};
     for (size_t i = 0; i < COUNT(of); ++i) {
         const size_t k = of[i][0], n = of[i][1];
@@ -81,9 +76,8 @@ static void share_interval_leaves_a_fortieth_on_each_side(void **state)
     }
 }
 
-static void share_interval_of_none_and_all_ends_at_0_and_1(void **state)
+TEST(share_interval_of_none_and_all_ends_at_0_and_1)
 {
-    (void)state;
     mote_confidence none = mote_statistics_share_interval(0, 10);
     assert_near(none.low, 0, 0);
     assert_near(none.high, 1 - pow(0.025, 0.1), 1e-9);
@@ -94,9 +88,8 @@ static void share_interval_of_none_and_all_ends_at_0_and_1(void **state)
     assert_true(isnan(untried.low) && isnan(untried.high));
 }
 
-static void t_test_of_two_and_three_values_is_the_closed_form(void **state)
+TEST(t_test_of_two_and_three_values_is_the_closed_form)
 {
-    (void)state;
     const double values[] = {1, 2, 6}, below[] = {-1, -2, -6};
     assert_near(mote_statistics_t_test(values, 2), p_one(3), 1e-9);
     assert_near(mote_statistics_t_test(values, 3), p_two(3 / sqrt(7.0 / 3)), 1e-9);
@@ -104,18 +97,16 @@ static void t_test_of_two_and_three_values_is_the_closed_form(void **state)
     assert_true(isnan(mote_statistics_t_test(values, 1)));
 }
 
-static void t_test_of_equal_values_is_certain(void **state)
+TEST(t_test_of_equal_values_is_certain)
 {
-    (void)state;
     const double zero[] = {0, 0}, above[] = {0.5, 0.5}, below[] = {-0.5, -0.5};
     assert_near(mote_statistics_t_test(zero, 2), 1, 0);
     assert_near(mote_statistics_t_test(above, 2), 0, 0);
     assert_near(mote_statistics_t_test(below, 2), 0, 0);
 }
 
-static void welch_of_equal_variances_is_students_test(void **state)
+TEST(welch_of_equal_variances_is_students_test)
 {
-    (void)state;
     /* Two values on each side, variances 2: two degrees of freedom, an error of sqrt 2. */
     const double a[] = {1, 3}, b[] = {6, 8};
     mote_difference d = mote_statistics_welch(a, 2, b, 2);
@@ -128,9 +119,8 @@ static void welch_of_equal_variances_is_students_test(void **state)
     assert_near(back.p, d.p, 1e-15);
 }
 
-static void welch_of_one_constant_side_has_the_freedom_of_the_other(void **state)
+TEST(welch_of_one_constant_side_has_the_freedom_of_the_other)
 {
-    (void)state;
     /* Five equal values add nothing: the freedom of three values is two, the error sqrt 7/3. */
     const double constant[] = {1, 1, 1, 1, 1}, values[] = {1, 2, 6};
     mote_difference d = mote_statistics_welch(constant, 5, values, 3);
@@ -140,9 +130,8 @@ static void welch_of_one_constant_side_has_the_freedom_of_the_other(void **state
     assert_near(back.p, d.p, 1e-12);
 }
 
-static void welch_without_spread_is_certain(void **state)
+TEST(welch_without_spread_is_certain)
 {
-    (void)state;
     const double one[] = {1, 1}, two[] = {2, 2};
     mote_difference same = mote_statistics_welch(one, 2, one, 2);
     mote_difference up = mote_statistics_welch(one, 2, two, 2);
@@ -155,9 +144,8 @@ static void welch_without_spread_is_certain(void **state)
     assert_near(down.interval.low, -1, 0);
 }
 
-static void welch_of_too_few_values_says_what_it_can(void **state)
+TEST(welch_of_too_few_values_says_what_it_can)
 {
-    (void)state;
     const double a[] = {1, 2}, b[] = {5, 7};
     assert_true(isnan(mote_statistics_welch(a, 0, b, 2).value));
     assert_true(isnan(mote_statistics_welch(a, 2, b, 0).value));
@@ -182,9 +170,8 @@ static void fill(const double *process, size_t count, double odd, double values[
     }
 }
 
-static void median_interval_of_two_processes_is_t_with_one_degree(void **state)
+TEST(median_interval_of_two_processes_is_t_with_one_degree)
 {
-    (void)state;
     const double a[] = {3, 1, 2}, b[] = {7, 6, 9};
     const mote_replicate replicates[] = {{a, 3}, {b, 3}};
     mote_confidence interval;
@@ -202,9 +189,8 @@ static void median_interval_of_two_processes_is_t_with_one_degree(void **state)
     assert_true(isnan(interval.low) && isnan(interval.high));
 }
 
-static void median_interval_where_frames_are_missing_is_t_of_medians(void **state)
+TEST(median_interval_where_frames_are_missing_is_t_of_medians)
 {
-    (void)state;
     double process[PROCESSES], values[PROCESSES][FRAMES];
     mote_replicate replicates[PROCESSES];
     for (size_t r = 0; r < PROCESSES; ++r)
@@ -224,9 +210,8 @@ static void median_interval_where_frames_are_missing_is_t_of_medians(void **stat
     }
 }
 
-static void median_interval_where_a_process_has_no_frame_is_none(void **state)
+TEST(median_interval_where_a_process_has_no_frame_is_none)
 {
-    (void)state;
     const double values[] = {1, 2, 3};
     for (size_t empty = 0; empty < 3; ++empty) {
         mote_replicate replicates[] = {{values, 3}, {values, 3}, {values, 3}};
@@ -240,9 +225,8 @@ static void median_interval_where_a_process_has_no_frame_is_none(void **state)
 
 /* A third of the processes takes four times as long. More than half of twelve drawn do with a
    probability of 6.6 %, fewer than half with 82 %: the ends are those of the two sorts. */
-static void median_interval_of_two_sorts_of_processes_spans_both(void **state)
+TEST(median_interval_of_two_sorts_of_processes_spans_both)
 {
-    (void)state;
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
         double process[PROCESSES], values[PROCESSES][FRAMES];
         mote_replicate replicates[PROCESSES];
@@ -260,9 +244,8 @@ static void median_interval_of_two_sorts_of_processes_spans_both(void **state)
 
 /* Eleven of twenty drawn of 1 .. 20 are at most 6 with a probability of 1.7 %, ten with 4.8 %.
  */
-static void median_interval_of_twenty_processes_cuts_a_fortieth(void **state)
+TEST(median_interval_of_twenty_processes_cuts_a_fortieth)
 {
-    (void)state;
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
         double process[MANY], values[MANY][FRAMES];
         mote_replicate replicates[MANY];
@@ -284,9 +267,8 @@ static void median_interval_of_twenty_processes_cuts_a_fortieth(void **state)
 
 /* Frames of a process differ by a known profile and nothing else: no process adds to it, and
    the interval has no width. */
-static void median_interval_of_processes_alike_is_a_point(void **state)
+TEST(median_interval_of_processes_alike_is_a_point)
 {
-    (void)state;
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
         double process[PROCESSES], values[PROCESSES][FRAMES];
         mote_replicate replicates[PROCESSES];
@@ -322,9 +304,8 @@ static double mean_figure(void *context, const size_t *drawn, size_t count)
     return sum / (double)count;
 }
 
-static void process_interval_of_few_is_t_on_logarithms(void **state)
+TEST(process_interval_of_few_is_t_on_logarithms)
 {
-    (void)state;
     const double of[] = {10, 100, 1000, -5, MOTE_NONE};
     mote_confidence interval;
     /* 10, 100, 1000: a standard deviation of one decade. Those below 0 have no figure. */
@@ -344,9 +325,8 @@ static void process_interval_of_few_is_t_on_logarithms(void **state)
     assert_true(isnan(interval.low) && isnan(interval.high));
 }
 
-static void process_interval_of_many_is_that_of_the_mean(void **state)
+TEST(process_interval_of_many_is_that_of_the_mean)
 {
-    (void)state;
     double of[MANY];
     for (size_t k = 0; k < MANY; ++k)
         of[k] = (double)(k + 1);
@@ -369,9 +349,8 @@ static void process_interval_of_many_is_that_of_the_mean(void **state)
 }
 
 /* A tenth process: the bootstrap; where no draw has a figure: none. */
-static void process_interval_from_ten_on_is_a_bootstrap(void **state)
+TEST(process_interval_from_ten_on_is_a_bootstrap)
 {
-    (void)state;
     double of[MOTE_BOOTSTRAP_REPLICATES];
     mote_confidence interval;
     for (size_t k = 0; k < COUNT(of); ++k)
@@ -393,9 +372,8 @@ static void process_interval_from_ten_on_is_a_bootstrap(void **state)
     assert_true(isnan(interval.low) && isnan(interval.high));
 }
 
-static void detectable_of_two_and_three_values_is_the_closed_form(void **state)
+TEST(detectable_of_two_and_three_values_is_the_closed_form)
 {
-    (void)state;
     const double logs[] = {0.1, 0.2, 0.6};
     const double sd = 0.1 / sqrt(2), sd_three = sqrt(0.07);
     assert_near(mote_statistics_detectable(logs, 2, 1), exp((t_one(0.0125) + t_one(0.2)) * sd),
@@ -422,9 +400,8 @@ static void check_power(const double *x, size_t count, double e)
     assert_true(interval.low < exponent && exponent < interval.high);
 }
 
-static void exponent_of_exact_powers_is_the_power(void **state)
+TEST(exponent_of_exact_powers_is_the_power)
 {
-    (void)state;
     const double up[] = {1, 2, 4, 8, 16, 32}, down[] = {9, 8, 7, 5, 3}, one[] = {3, 3, 3, 3, 4};
     const double second[] = {3, 4, 3, 3, 3};
     check_power(up, 6, 0.25);
@@ -441,9 +418,8 @@ static void exponent_of_exact_powers_is_the_power(void **state)
 
 /* Half of the values lie above, half below, all equally far: nothing is an outlier, and robust
    weights change the interval of least squares by a few percent only. */
-static void exponent_interval_without_outliers_is_that_of_least_squares(void **state)
+TEST(exponent_interval_without_outliers_is_that_of_least_squares)
 {
-    (void)state;
     enum { POINTS = 5 };
     static const double off[POINTS] = {1, -2, 2, -2, 1}; /* sum 0, and at right angles to x */
     double x[POINTS], y[POINTS], exponent;
@@ -460,9 +436,8 @@ static void exponent_interval_without_outliers_is_that_of_least_squares(void **s
 }
 
 /* Weights go to and fro between two fits for ever. */
-static void exponent_of_weights_that_do_not_settle_is_none(void **state)
+TEST(exponent_of_weights_that_do_not_settle_is_none)
 {
-    (void)state;
     static const double x[] = {1e3, 1e4, 1e5, 1e6}, y[] = {16, 9, 9, 16};
     double exponent = 1;
     mote_confidence interval = {1, 1};
@@ -476,9 +451,8 @@ static mote_verdict verdict(double ratio, double low, double high, double p)
     return mote_statistics_verdict(ratio, interval, p, 0.25); /* 0.8 .. 1.25 */
 }
 
-static void verdict_on_a_border_is_no_change(void **state)
+TEST(verdict_on_a_border_is_no_change)
 {
-    (void)state;
     assert_int_equal(verdict(1.25, 1.1, 1.4, 0.001), MOTE_VERDICT_UNDECIDED);
     assert_int_equal(verdict(1.26, 1.1, 1.4, 0.001), MOTE_VERDICT_SLOWER);
     assert_int_equal(verdict(1.26, 1.0, 1.4, 0.001), MOTE_VERDICT_UNDECIDED);
@@ -490,35 +464,4 @@ static void verdict_on_a_border_is_no_change(void **state)
     assert_int_equal(verdict(1, 0.8, 1.25, 0.5), MOTE_VERDICT_SAME);
     assert_int_equal(verdict(1, 0.79, 1.25, 0.5), MOTE_VERDICT_UNDECIDED);
     assert_int_equal(verdict(1, 0.8, 1.26, 0.5), MOTE_VERDICT_UNDECIDED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mean_of_three_values_is_a_third_of_their_sum),
-        cmocka_unit_test(t_interval_of_two_and_three_values_is_the_closed_form),
-        cmocka_unit_test(share_interval_leaves_a_fortieth_on_each_side),
-        cmocka_unit_test(share_interval_of_none_and_all_ends_at_0_and_1),
-        cmocka_unit_test(t_test_of_two_and_three_values_is_the_closed_form),
-        cmocka_unit_test(t_test_of_equal_values_is_certain),
-        cmocka_unit_test(welch_of_equal_variances_is_students_test),
-        cmocka_unit_test(welch_of_one_constant_side_has_the_freedom_of_the_other),
-        cmocka_unit_test(welch_without_spread_is_certain),
-        cmocka_unit_test(welch_of_too_few_values_says_what_it_can),
-        cmocka_unit_test(median_interval_of_two_processes_is_t_with_one_degree),
-        cmocka_unit_test(median_interval_where_frames_are_missing_is_t_of_medians),
-        cmocka_unit_test(median_interval_where_a_process_has_no_frame_is_none),
-        cmocka_unit_test(median_interval_of_two_sorts_of_processes_spans_both),
-        cmocka_unit_test(median_interval_of_twenty_processes_cuts_a_fortieth),
-        cmocka_unit_test(median_interval_of_processes_alike_is_a_point),
-        cmocka_unit_test(process_interval_of_few_is_t_on_logarithms),
-        cmocka_unit_test(process_interval_of_many_is_that_of_the_mean),
-        cmocka_unit_test(process_interval_from_ten_on_is_a_bootstrap),
-        cmocka_unit_test(detectable_of_two_and_three_values_is_the_closed_form),
-        cmocka_unit_test(exponent_of_exact_powers_is_the_power),
-        cmocka_unit_test(exponent_of_weights_that_do_not_settle_is_none),
-        cmocka_unit_test(exponent_interval_without_outliers_is_that_of_least_squares),
-        cmocka_unit_test(verdict_on_a_border_is_no_change),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

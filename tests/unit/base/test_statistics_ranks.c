@@ -1,12 +1,10 @@
 /* Tests by ranks and order statistics against every arrangement counted one by one, closed
    forms and the table of the sign test. */
 #include "harness/base/statistics.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -44,9 +42,8 @@ static double wilcoxon_counted(const double *differences, size_t n)
     return (double)as_far / (double)((size_t)1 << n);
 }
 
-static void wilcoxon_of_few_is_the_share_of_all_signs(void **state)
+TEST(wilcoxon_of_few_is_the_share_of_all_signs)
 {
-    (void)state;
     double differences[SIGNED], work[2 * SIGNED];
     for (size_t n = 1; n <= SIGNED; ++n) {
         for (size_t signs = 0; signs < (size_t)1 << n; signs += 1 + n / 4) {
@@ -58,9 +55,8 @@ static void wilcoxon_of_few_is_the_share_of_all_signs(void **state)
     }
 }
 
-static void wilcoxon_of_fifty_is_exact_and_of_more_is_normal(void **state)
+TEST(wilcoxon_of_fifty_is_exact_and_of_more_is_normal)
 {
-    (void)state;
     double differences[51], work[102];
     for (size_t i = 0; i < 51; ++i)
         differences[i] = (double)i + 1;
@@ -73,9 +69,8 @@ static void wilcoxon_of_fifty_is_exact_and_of_more_is_normal(void **state)
                 p_normal(51 * 52 / 4.0 - 425, 51 * 52 * 103 / 24.0), 1e-9);
 }
 
-static void wilcoxon_of_ties_takes_them_off_the_variance(void **state)
+TEST(wilcoxon_of_ties_takes_them_off_the_variance)
 {
-    (void)state;
     /* Sizes 1 1 2 3 3 3, ranks 1.5 1.5 3 5 5 5: ties take (6 + 24) / 48 off 91 / 4. */
     const double differences[] = {-1, 3, 0, 1, 2, -3, 3};
     double work[2 * COUNT(differences)];
@@ -111,9 +106,8 @@ static bool split(size_t chosen, double *a, double *b)
     return true;
 }
 
-static void mann_whitney_of_few_is_the_share_of_all_splits(void **state)
+TEST(mann_whitney_of_few_is_the_share_of_all_splits)
 {
-    (void)state;
     const double mean = LEFT * RIGHT / 2.0;
     double a[LEFT], b[RIGHT], c[LEFT], d[RIGHT], work[2 * (LEFT + RIGHT)];
     for (size_t chosen = 0; chosen < 1 << (LEFT + RIGHT); ++chosen) {
@@ -134,9 +128,8 @@ static void mann_whitney_of_few_is_the_share_of_all_splits(void **state)
     }
 }
 
-static void mann_whitney_of_fifty_is_exact_and_of_more_is_normal(void **state)
+TEST(mann_whitney_of_fifty_is_exact_and_of_more_is_normal)
 {
-    (void)state;
     double values[51], work[102];
     for (size_t i = 0; i < 51; ++i)
         values[i] = (double)i;
@@ -152,9 +145,8 @@ static void mann_whitney_of_fifty_is_exact_and_of_more_is_normal(void **state)
                 1e-12);
 }
 
-static void mann_whitney_of_ties_takes_them_off_the_variance(void **state)
+TEST(mann_whitney_of_ties_takes_them_off_the_variance)
 {
-    (void)state;
     /* 1 2 2 2 3 3 4 5: three alike and two alike take (24 + 6) / (8 x 7) off 9. */
     const double a[] = {2, 5, 3, 2}, b[] = {1, 2, 3, 4};
     double work[16];
@@ -163,9 +155,8 @@ static void mann_whitney_of_ties_takes_them_off_the_variance(void **state)
                 p_normal(u - 8, 16 / 12.0 * (9 - 30 / 56.0)), 1e-12);
 }
 
-static void mann_whitney_without_values_or_spread_tells_nothing(void **state)
+TEST(mann_whitney_without_values_or_spread_tells_nothing)
 {
-    (void)state;
     const double same[] = {7, 7, 7};
     double work[12];
     assert_near(mote_statistics_mann_whitney(same, 3, same, 3, work), 1, 0);
@@ -173,16 +164,14 @@ static void mann_whitney_without_values_or_spread_tells_nothing(void **state)
     assert_true(isnan(mote_statistics_mann_whitney(same, 3, same, 0, work)));
 }
 
-static void mad_of_values_around_ten_is_their_middle_distance(void **state)
+TEST(mad_of_values_around_ten_is_their_middle_distance)
 {
-    (void)state;
     double values[] = {10, 7, 11, 30, 10.5}; /* median 10.5: 0.5 3.5 0.5 19.5 0 */
     assert_near(mote_statistics_mad(values, COUNT(values)), 1.4826 * 0.5, 1e-12);
 }
 
-static void sign_interval_is_that_of_the_table(void **state)
+TEST(sign_interval_is_that_of_the_table)
 {
-    (void)state;
     /* The rank from either end, of a 95 % interval of the median, for 6 .. 25 values. */
     static const int ranks[] = {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 8};
     double sorted[25];
@@ -199,9 +188,8 @@ static void sign_interval_is_that_of_the_table(void **state)
     }
 }
 
-static void outliers_on_the_fences_are_none(void **state)
+TEST(outliers_on_the_fences_are_none)
 {
-    (void)state;
     /* Quartiles 3 and 7: fences -3 and 13. */
     const double inside[] = {-3, 2, 3, 4, 5, 6, 7, 8, 13};
     const double below[] = {-3.1, 2, 3, 4, 5, 6, 7, 8, 13};
@@ -211,9 +199,8 @@ static void outliers_on_the_fences_are_none(void **state)
     assert_int_equal(mote_statistics_outliers(above, COUNT(above)), 1);
 }
 
-static void holm_never_falls_below_a_smaller_one_nor_exceeds_one(void **state)
+TEST(holm_never_falls_below_a_smaller_one_nor_exceeds_one)
 {
-    (void)state;
     double p[] = {0.9, 0.02, 0.6, 0.02, 0.021}, work[5];
     mote_statistics_holm(p, 5, work);
     assert_near(p[1], 0.1, 1e-12);
@@ -221,22 +208,4 @@ static void holm_never_falls_below_a_smaller_one_nor_exceeds_one(void **state)
     assert_near(p[4], 0.1, 1e-12); /* 3 x 0.021 is less than 5 x 0.02 */
     assert_near(p[2], 1, 0);
     assert_near(p[0], 1, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wilcoxon_of_few_is_the_share_of_all_signs),
-        cmocka_unit_test(wilcoxon_of_fifty_is_exact_and_of_more_is_normal),
-        cmocka_unit_test(wilcoxon_of_ties_takes_them_off_the_variance),
-        cmocka_unit_test(mann_whitney_of_few_is_the_share_of_all_splits),
-        cmocka_unit_test(mann_whitney_of_fifty_is_exact_and_of_more_is_normal),
-        cmocka_unit_test(mann_whitney_of_ties_takes_them_off_the_variance),
-        cmocka_unit_test(mann_whitney_without_values_or_spread_tells_nothing),
-        cmocka_unit_test(mad_of_values_around_ten_is_their_middle_distance),
-        cmocka_unit_test(sign_interval_is_that_of_the_table),
-        cmocka_unit_test(outliers_on_the_fences_are_none),
-        cmocka_unit_test(holm_never_falls_below_a_smaller_one_nor_exceeds_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

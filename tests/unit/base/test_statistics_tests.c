@@ -1,11 +1,9 @@
 /* Tests of hypotheses, against published examples and closed forms. */
 #include "harness/base/statistics.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -15,16 +13,14 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
 }
 
-static void mad_of_one_to_nine_is_two_scaled(void **state)
+TEST(mad_of_one_to_nine_is_two_scaled)
 {
-    (void)state;
     double values[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
     assert_near(mote_statistics_mad(values, COUNT(values)), 1.4826 * 2, 1e-12);
 }
 
-static void sign_interval_of_ten_values_is_second_to_ninth(void **state)
+TEST(sign_interval_of_ten_values_is_second_to_ninth)
 {
-    (void)state;
     /* P(Bin(10, 1/2) <= 1) = 11 / 1024 <= 0.025 < P(<= 2): the table's 97.9 % interval. */
     const double sorted[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
     mote_confidence interval = mote_statistics_sign_interval(sorted, 10);
@@ -34,9 +30,8 @@ static void sign_interval_of_ten_values_is_second_to_ninth(void **state)
     assert_near(mote_statistics_sign_interval(sorted, 6).low, 1, 0);
 }
 
-static void wilcoxon_of_depression_scores_is_the_published_p(void **state)
+TEST(wilcoxon_of_depression_scores_is_the_published_p)
 {
-    (void)state;
     /* Hollander and Wolfe (1973), page 29: V = 40, one-sided exact p 0.01953. */
     const double x[] = {1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
     const double y[] = {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
@@ -46,9 +41,8 @@ static void wilcoxon_of_depression_scores_is_the_published_p(void **state)
     assert_near(mote_statistics_wilcoxon(differences, COUNT(x), work), 2 * 10 / 512.0, 1e-12);
 }
 
-static void wilcoxon_of_ties_is_the_normal_approximation(void **state)
+TEST(wilcoxon_of_ties_is_the_normal_approximation)
 {
-    (void)state;
     /* Sizes 1, 1, 1, 1, all positive: W = 10, mean 5, variance 7.5 - 60 / 48 = 6.25. */
     const double differences[] = {1, 1, 0, 1, 1};
     double work[10];
@@ -56,9 +50,8 @@ static void wilcoxon_of_ties_is_the_normal_approximation(void **state)
     assert_true(isnan(mote_statistics_wilcoxon(&differences[2], 1, work)));
 }
 
-static void mann_whitney_of_permeability_is_the_published_p(void **state)
+TEST(mann_whitney_of_permeability_is_the_published_p)
 {
-    (void)state;
     /* Hollander and Wolfe (1973), page 69: W = 35, one-sided exact p 0.1272. */
     const double a[] = {0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46};
     const double b[] = {1.15, 0.88, 0.90, 0.74, 1.21};
@@ -68,17 +61,15 @@ static void mann_whitney_of_permeability_is_the_published_p(void **state)
     assert_near(mote_statistics_mann_whitney(b, COUNT(b), a, COUNT(a), work), p, 1e-12);
 }
 
-static void mann_whitney_of_three_below_three_is_one_tenth(void **state)
+TEST(mann_whitney_of_three_below_three_is_one_tenth)
 {
-    (void)state;
     const double a[] = {1, 2, 3}, b[] = {4, 5, 6};
     double work[12];
     assert_near(mote_statistics_mann_whitney(a, 3, b, 3, work), 0.1, 1e-12);
 }
 
-static void holm_of_four_values_is_the_textbook_one(void **state)
+TEST(holm_of_four_values_is_the_textbook_one)
 {
-    (void)state;
     double p[] = {0.01, 0.04, 0.03, MOTE_NONE, 0.005}, work[5];
     mote_statistics_holm(p, 5, work);
     assert_near(p[0], 0.03, 1e-12);
@@ -88,17 +79,15 @@ static void holm_of_four_values_is_the_textbook_one(void **state)
     assert_near(p[4], 0.02, 1e-12);
 }
 
-static void outliers_beyond_the_fences_are_counted(void **state)
+TEST(outliers_beyond_the_fences_are_counted)
 {
-    (void)state;
     /* Quartiles 3 and 7: fences -3 and 13. */
     const double sorted[] = {-4, 2, 3, 4, 5, 6, 7, 8, 14};
     assert_int_equal(mote_statistics_outliers(sorted, COUNT(sorted)), 2);
 }
 
-static void welch_of_two_samples_is_the_closed_form(void **state)
+TEST(welch_of_two_samples_is_the_closed_form)
 {
-    (void)state;
     /* Variances 1 and 4, three values each: error sqrt(5 / 3), freedom (5/3)^2 / (1/18 + 8/9).
      */
     const double a[] = {1, 2, 3}, b[] = {8, 10, 12};
@@ -112,9 +101,8 @@ static void welch_of_two_samples_is_the_closed_form(void **state)
     assert_true(isnan(mote_statistics_welch(a, 1, b, 3).p));
 }
 
-static void exponent_of_a_power_with_an_outlier_is_the_power(void **state)
+TEST(exponent_of_a_power_with_an_outlier_is_the_power)
 {
-    (void)state;
     double x[12], y[12], exponent;
     mote_confidence interval;
     for (size_t i = 0; i < 12; ++i) {
@@ -135,9 +123,8 @@ static mote_verdict verdict(double ratio, double low, double high)
     return mote_statistics_verdict(ratio, interval, 0.01, 0.02);
 }
 
-static void verdict_needs_interval_and_effect(void **state)
+TEST(verdict_needs_interval_and_effect)
 {
-    (void)state;
     assert_int_equal(verdict(1.10, 1.05, 1.15), MOTE_VERDICT_SLOWER);
     assert_int_equal(verdict(0.90, 0.85, 0.95), MOTE_VERDICT_FASTER);
     assert_int_equal(verdict(1.01, 1.005, 1.015), MOTE_VERDICT_SAME);
@@ -147,22 +134,4 @@ static void verdict_needs_interval_and_effect(void **state)
     mote_confidence interval = {1.05, 1.15};
     assert_int_equal(mote_statistics_verdict(1.1, interval, 0.04, 0.02),
                      MOTE_VERDICT_UNDECIDED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mad_of_one_to_nine_is_two_scaled),
-        cmocka_unit_test(sign_interval_of_ten_values_is_second_to_ninth),
-        cmocka_unit_test(wilcoxon_of_depression_scores_is_the_published_p),
-        cmocka_unit_test(wilcoxon_of_ties_is_the_normal_approximation),
-        cmocka_unit_test(mann_whitney_of_permeability_is_the_published_p),
-        cmocka_unit_test(mann_whitney_of_three_below_three_is_one_tenth),
-        cmocka_unit_test(holm_of_four_values_is_the_textbook_one),
-        cmocka_unit_test(outliers_beyond_the_fences_are_counted),
-        cmocka_unit_test(welch_of_two_samples_is_the_closed_form),
-        cmocka_unit_test(exponent_of_a_power_with_an_outlier_is_the_power),
-        cmocka_unit_test(verdict_needs_interval_and_effect),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

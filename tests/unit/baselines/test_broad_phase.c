@@ -2,6 +2,7 @@
 #include "baselines/broad_phase.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #define BODIES 300
 
@@ -36,9 +37,8 @@ static void check_step(mote_broad_phase *broad, const mote_scene_box *boxes, dou
     assert_true(count > 50);
 }
 
-static void mote_broad_phase_pairs_moving_boxes_equal_all_pairs(void **state)
+TEST(mote_broad_phase_pairs_moving_boxes_equal_all_pairs)
 {
-    (void)state;
     uint64_t random = 3;
     static mote_scene_box boxes[BODIES];
     mote_broad_phase *broad = NULL;
@@ -59,9 +59,8 @@ static void mote_broad_phase_pairs_moving_boxes_equal_all_pairs(void **state)
     mote_broad_phase_destroy(broad);
 }
 
-static void mote_broad_phase_pairs_one_body_has_none(void **state)
+TEST(mote_broad_phase_pairs_one_body_has_none)
 {
-    (void)state;
     mote_broad_phase *broad = NULL;
     const mote_scene_box box = {{0, 0, 0}, {1, 1, 1}};
     const uint32_t(*pairs)[2];
@@ -74,9 +73,8 @@ static void mote_broad_phase_pairs_one_body_has_none(void **state)
     mote_broad_phase_destroy(broad);
 }
 
-static void mote_broad_phase_bad_input_is_refused(void **state)
+TEST(mote_broad_phase_bad_input_is_refused)
 {
-    (void)state;
     mote_broad_phase *broad = NULL;
     assert_int_equal(mote_broad_phase_create(0, &broad), MOTE_EINVAL);
     assert_null(broad);
@@ -92,14 +90,4 @@ static void mote_broad_phase_bad_input_is_refused(void **state)
     boxes[1].high.y = INFINITY;
     assert_int_equal(mote_broad_phase_pairs(broad, boxes, 0, &pairs, &count), MOTE_EINVAL);
     mote_broad_phase_destroy(broad);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_broad_phase_pairs_moving_boxes_equal_all_pairs),
-        cmocka_unit_test(mote_broad_phase_pairs_one_body_has_none),
-        cmocka_unit_test(mote_broad_phase_bad_input_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

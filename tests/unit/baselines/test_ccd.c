@@ -2,10 +2,7 @@
 #include "baselines/gjk.h"
 #include "datasets/letter.h"
 #include "tests/support/shapes.h"
-
-#include <stdarg.h>
-#include <setjmp.h>
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 /* An ellipsoid with half axes size * (1, 0.7, 0.5), of 2 * slices * (rings - 1) triangles. */
 static mote_mesh *make_ellipsoid(uint32_t slices, uint32_t rings, double size)
@@ -69,9 +66,8 @@ static void destroy(void *state)
     mote_method_find("ccd-convex")->destroy(state);
 }
 
-static void query_on_convex_bodies_equals_brute_force(void **unused)
+TEST(query_on_convex_bodies_equals_brute_force)
 {
-    (void)unused;
     static const char *options[] = {"", "support=scan"};
     for (int e = -40; e <= 40; e += 40) {
         scene s;
@@ -105,9 +101,8 @@ static void query_on_convex_bodies_equals_brute_force(void **unused)
     }
 }
 
-static void query_on_letters_is_near_and_misses_no_contact(void **unused)
+TEST(query_on_letters_is_near_and_misses_no_contact)
 {
-    (void)unused;
     mote_mesh *letter[2] = {NULL, NULL};
     assert_int_equal(mote_letter_create('T', 400, &letter[0]), MOTE_OK);
     assert_int_equal(mote_letter_create('V', 400, &letter[1]), MOTE_OK);
@@ -158,9 +153,8 @@ static double least_overlap(scene *s)
     return least;
 }
 
-static void query_measures_penetration_of_overlapping_bodies(void **unused)
+TEST(query_measures_penetration_of_overlapping_bodies)
 {
-    (void)unused;
     scene s;
     scene_init_meshes(&s, make_ellipsoid(14, 9, 1), make_ellipsoid(12, 7, 1), false);
     void *state = create("penetration=yes", &s, MOTE_ASK_DISTANCE, 0);
@@ -182,9 +176,8 @@ static void query_measures_penetration_of_overlapping_bodies(void **unused)
     scene_free(&s);
 }
 
-static void create_and_update_refuse_bad_input(void **unused)
+TEST(create_and_update_refuse_bad_input)
 {
-    (void)unused;
     const mote_method *m = mote_method_find("ccd-convex");
     scene s;
     scene_init(&s, 8, 5, 1, true);
@@ -217,9 +210,8 @@ static mote_gjk_point segment_support(void *context, mote_vec3 direction)
     return (mote_gjk_point){ends[0][a], ends[1][b]};
 }
 
-static void gjk_distance_of_segments_equals_the_kernel(void **unused)
+TEST(gjk_distance_of_segments_equals_the_kernel)
 {
-    (void)unused;
     scene s = {.random = 3};
     for (int i = 0; i < 20000; ++i) {
         mote_vec3 ends[2][2];
@@ -242,16 +234,4 @@ static void gjk_distance_of_segments_equals_the_kernel(void **unused)
         if (expected < 0.5)
             assert_true(fabs(early.distance - expected) <= 1e-12);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gjk_distance_of_segments_equals_the_kernel),
-        cmocka_unit_test(query_on_convex_bodies_equals_brute_force),
-        cmocka_unit_test(query_on_letters_is_near_and_misses_no_contact),
-        cmocka_unit_test(query_measures_penetration_of_overlapping_bodies),
-        cmocka_unit_test(create_and_update_refuse_bad_input),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

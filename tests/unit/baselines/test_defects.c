@@ -6,15 +6,13 @@
 #include "tests/support/fcl_triangle.h"
 #include "baselines/wide_triangle.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
 #include <ccd/ccd.h>
 #include <float.h>
 #include <signal.h>
-#include <stdarg.h>
-#include <setjmp.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define MENDED "the library no longer shows this defect; see datasets/defects.md"
 
@@ -84,22 +82,19 @@ static void expect_wrong(const char *name, mote_ask ask, const char *what)
     assert_int_equal(count_wrong(name, "update=refit-top-down", ask, frames, &contacts), 0);
 }
 
-static void fcl_refit_bottom_up_of_rss_gives_wrong_distances(void **unused)
+TEST(fcl_refit_bottom_up_of_rss_gives_wrong_distances)
 {
-    (void)unused;
     expect_wrong("fcl-rss", MOTE_ASK_DISTANCE, "distances are wrong");
     expect_wrong("fcl-obbrss", MOTE_ASK_DISTANCE, "distances are wrong");
 }
 
-static void fcl_refit_bottom_up_of_rss_misses_contacts(void **unused)
+TEST(fcl_refit_bottom_up_of_rss_misses_contacts)
 {
-    (void)unused;
     expect_wrong("fcl-rss", MOTE_ASK_CONTACT, "contacts are missed");
 }
 
-static void fcl_sum_of_rss_has_skew_axes(void **unused)
+TEST(fcl_sum_of_rss_has_skew_axes)
 {
-    (void)unused;
     double cosine = mote_fcl_rss_sum_cosine();
     print_message("largest cosine between axes of a sum: %.3f\n", cosine);
     if (cosine < 1e-9)
@@ -126,9 +121,8 @@ static void count_false_contacts(double size, int wrong[2])
     }
 }
 
-static void fcl_distance_of_small_triangles_is_zero(void **unused)
+TEST(fcl_distance_of_small_triangles_is_zero)
 {
-    (void)unused;
     int large[2], small[2];
     count_false_contacts(1, large);
     count_false_contacts(1e-6, small);
@@ -140,9 +134,8 @@ static void fcl_distance_of_small_triangles_is_zero(void **unused)
 }
 
 /* Triangles of whole numbers: a corner of one, (2, 2, 1) and (2, 2, 2), is in the other. */
-static void fcl_distance_of_triangles_that_touch_is_not_zero(void **unused)
+TEST(fcl_distance_of_triangles_that_touch_is_not_zero)
 {
-    (void)unused;
     static const mote_vec3 pairs[2][2][3] = {
         {{{3, 3, 1}, {0, 1, 2}, {3, 2, 0}}, {{1, 2, 3}, {1, 1, 2}, {2, 2, 1}}},
         {{{1, 1, 2}, {2, 0, 0}, {2, 2, 2}}, {{1, 3, 3}, {2, 2, 1}, {3, 1, 2}}}};
@@ -155,30 +148,26 @@ static void fcl_distance_of_triangles_that_touch_is_not_zero(void **unused)
     }
 }
 
-static void fcl_distance_of_oriented_boxes_is_missing(void **unused)
+TEST(fcl_distance_of_oriented_boxes_is_missing)
 {
-    (void)unused;
     if (mote_fcl_obb_distance() != DBL_MAX)
         fail_msg(MENDED);
 }
 
-static void fcl_memory_usage_is_a_status(void **unused)
+TEST(fcl_memory_usage_is_a_status)
 {
-    (void)unused;
     if (mote_fcl_memory_usage() != 0)
         fail_msg(MENDED);
 }
 
-static void fcl_replace_after_update_fails(void **unused)
+TEST(fcl_replace_after_update_fails)
 {
-    (void)unused;
     if (mote_fcl_replace_after_update() == 0)
         fail_msg(MENDED);
 }
 
-static void fcl_builds_models_of_nan(void **unused)
+TEST(fcl_builds_models_of_nan)
 {
-    (void)unused;
     if (!mote_fcl_builds_with_nan())
         fail_msg(MENDED);
 }
@@ -225,9 +214,8 @@ static ccd_t ccd_settings(void)
     return ccd;
 }
 
-static void ccd_mpr_loops_for_ever(void **unused)
+TEST(ccd_mpr_loops_for_ever)
 {
-    (void)unused;
     pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
@@ -244,9 +232,8 @@ static void ccd_mpr_loops_for_ever(void **unused)
         fail_msg(MENDED);
 }
 
-static void ccd_gjk_of_small_triangles_is_wrong(void **unused)
+TEST(ccd_gjk_of_small_triangles_is_wrong)
 {
-    (void)unused;
     scene s = {.random = 9};
     int hits = 0, missed = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -284,9 +271,8 @@ static points cube_at(double z)
     return p;
 }
 
-static void ccd_epa_of_cubes_has_no_direction(void **unused)
+TEST(ccd_epa_of_cubes_has_no_direction)
 {
-    (void)unused;
     const points a = cube_at(0), b = cube_at(1.9);
     ccd_t ccd = ccd_settings();
     ccd_real_t depth;
@@ -313,9 +299,8 @@ static points sphere_at(double x, double angle)
 
 /* The depth at the default tolerance, 1e-4, against that at 1e-9: the tolerance is one of
    squared lengths, so that at unit size shallow depths are noise. */
-static void ccd_epa_at_the_default_tolerance_is_coarse(void **unused)
+TEST(ccd_epa_at_the_default_tolerance_is_coarse)
 {
-    (void)unused;
     int coarse = 0, count = 0;
     double worst = 1;
     for (double x = 0.9; x < 0.99; x += 0.001) {
@@ -338,24 +323,4 @@ static void ccd_epa_at_the_default_tolerance_is_coarse(void **unused)
                   count, worst);
     if (coarse == 0)
         fail_msg(MENDED);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fcl_refit_bottom_up_of_rss_gives_wrong_distances),
-        cmocka_unit_test(fcl_refit_bottom_up_of_rss_misses_contacts),
-        cmocka_unit_test(fcl_sum_of_rss_has_skew_axes),
-        cmocka_unit_test(fcl_distance_of_small_triangles_is_zero),
-        cmocka_unit_test(fcl_distance_of_triangles_that_touch_is_not_zero),
-        cmocka_unit_test(fcl_distance_of_oriented_boxes_is_missing),
-        cmocka_unit_test(fcl_memory_usage_is_a_status),
-        cmocka_unit_test(fcl_replace_after_update_fails),
-        cmocka_unit_test(fcl_builds_models_of_nan),
-        cmocka_unit_test(ccd_mpr_loops_for_ever),
-        cmocka_unit_test(ccd_gjk_of_small_triangles_is_wrong),
-        cmocka_unit_test(ccd_epa_of_cubes_has_no_direction),
-        cmocka_unit_test(ccd_epa_at_the_default_tolerance_is_coarse),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

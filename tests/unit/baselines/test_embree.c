@@ -1,9 +1,6 @@
 /* embree-contact, where it was built, against brute force. */
 #include "tests/support/shapes.h"
-
-#include <stdarg.h>
-#include <setjmp.h>
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 static const mote_method *embree(void)
 {
@@ -40,18 +37,16 @@ static void run_contact(double tolerance, double size)
     scene_free(&s);
 }
 
-static void query_agrees_with_brute_force(void **unused)
+TEST(query_agrees_with_brute_force)
 {
-    (void)unused;
     run_contact(0, 1);
     run_contact(0.05, 1);
     run_contact(0, 0x1p-40);
     run_contact(0.05, 0x1p40);
 }
 
-static void create_asked_for_distance_is_unsupported(void **unused)
+TEST(create_asked_for_distance_is_unsupported)
 {
-    (void)unused;
     const mote_method *m = embree();
     scene s;
     scene_init(&s, 6, 4, 1, true);
@@ -66,9 +61,8 @@ static void create_asked_for_distance_is_unsupported(void **unused)
     scene_free(&s);
 }
 
-static void update_with_a_bad_frame_is_refused(void **unused)
+TEST(update_with_a_bad_frame_is_refused)
 {
-    (void)unused;
     const mote_method *m = embree();
     scene s;
     scene_init(&s, 6, 4, 1, true);
@@ -83,14 +77,4 @@ static void update_with_a_bad_frame_is_refused(void **unused)
     assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
     m->destroy(state);
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_agrees_with_brute_force),
-        cmocka_unit_test(create_asked_for_distance_is_unsupported),
-        cmocka_unit_test(update_with_a_bad_frame_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,9 @@
 /* The FCL adapters against brute force with our own triangle distance. */
 #include "harness/base/heap_count.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
-#include <stdarg.h>
-#include <setjmp.h>
 #include <stdio.h>
-#include <cmocka.h>
 
 /* A method with parameters as text. */
 typedef struct variant {
@@ -150,9 +148,8 @@ static int run_distance(scene *s, const variant *variants, int count, int frames
     return contacts;
 }
 
-static void query_on_deforming_bodies_equals_brute_force(void **unused)
+TEST(query_on_deforming_bodies_equals_brute_force)
 {
-    (void)unused;
     scene s;
     scene_init(&s, 14, 9, 1, true);
     int contacts = run_distance(&s, distance_variants, DISTANCE_VARIANTS, 60, 1.3, false);
@@ -160,18 +157,16 @@ static void query_on_deforming_bodies_equals_brute_force(void **unused)
     scene_free(&s);
 }
 
-static void query_when_weights_stay_equals_brute_force(void **unused)
+TEST(query_when_weights_stay_equals_brute_force)
 {
-    (void)unused;
     scene s;
     scene_init(&s, 10, 6, 1, true);
     run_distance(&s, distance_variants, DISTANCE_VARIANTS, 30, 1.3, true);
     scene_free(&s);
 }
 
-static void query_on_rigid_bodies_without_vertices_equals_brute_force(void **unused)
+TEST(query_on_rigid_bodies_without_vertices_equals_brute_force)
 {
-    (void)unused;
     static const variant rigid[] = {{"fcl-obbrss", "update=none"},
                                     {"fcl-obbrss", "update=none,seed=previous,queue=64"},
                                     {"fcl-obbrss", "update=none,call=api"},
@@ -227,21 +222,18 @@ static void run_contact(const variant *variants, int count, double tolerance)
     scene_free(&s);
 }
 
-static void query_asked_for_contact_agrees_with_brute_force(void **unused)
+TEST(query_asked_for_contact_agrees_with_brute_force)
 {
-    (void)unused;
     run_contact(contact_variants, CONTACT_VARIANTS, 0);
 }
 
-static void query_asked_for_contact_within_tolerance_agrees_with_brute_force(void **unused)
+TEST(query_asked_for_contact_within_tolerance_agrees_with_brute_force)
 {
-    (void)unused;
     run_contact(distance_variants, DISTANCE_VARIANTS, 0.05);
 }
 
-static void query_asked_for_contact_stops_early(void **unused)
+TEST(query_asked_for_contact_stops_early)
 {
-    (void)unused;
     static const variant v = {"fcl-aabb", ""};
     scene s;
     scene_init(&s, 40, 24, 1, true);
@@ -261,9 +253,8 @@ static void query_asked_for_contact_stops_early(void **unused)
     scene_free(&s);
 }
 
-static void query_from_a_seed_makes_fewer_tests(void **unused)
+TEST(query_from_a_seed_makes_fewer_tests)
 {
-    (void)unused;
     static const variant v[2] = {{"fcl-aabb", ""}, {"fcl-aabb", "seed=previous"}};
     scene s;
     scene_init(&s, 40, 24, 1, true);
@@ -287,9 +278,8 @@ static void query_from_a_seed_makes_fewer_tests(void **unused)
     scene_free(&s);
 }
 
-static void query_scaled_by_a_power_of_two_gives_the_same_bits(void **unused)
+TEST(query_scaled_by_a_power_of_two_gives_the_same_bits)
 {
-    (void)unused;
     static const int exponents[] = {0, -40, -20, 13, 40};
     double first[DISTANCE_VARIANTS][6];
     for (int e = 0; e < 5; ++e) {
@@ -314,9 +304,8 @@ static void query_scaled_by_a_power_of_two_gives_the_same_bits(void **unused)
     }
 }
 
-static void create_of_what_fcl_lacks_is_unsupported(void **unused)
+TEST(create_of_what_fcl_lacks_is_unsupported)
 {
-    (void)unused;
     static const variant lacking[] = {
         {"fcl-obb", "call=api"},         {"fcl-kdop18", ""},
         {"fcl-kdop18", "seed=previous"}, {"fcl-obb", "update=none"},
@@ -332,9 +321,8 @@ static void create_of_what_fcl_lacks_is_unsupported(void **unused)
     scene_free(&s);
 }
 
-static void create_with_a_bad_mesh_is_refused(void **unused)
+TEST(create_with_a_bad_mesh_is_refused)
 {
-    (void)unused;
     scene s;
     scene_init(&s, 6, 4, 1, true);
     for (const mote_method *const *m = mote_methods; *m; ++m) {
@@ -372,9 +360,8 @@ static void create_with_a_bad_mesh_is_refused(void **unused)
     scene_free(&s);
 }
 
-static void update_with_a_bad_frame_is_refused_and_the_next_good(void **unused)
+TEST(update_with_a_bad_frame_is_refused_and_the_next_good)
 {
-    (void)unused;
     scene s;
     scene_init(&s, 8, 5, 1, true);
     for (int i = 0; i < DISTANCE_VARIANTS; ++i) {
@@ -399,9 +386,8 @@ static void update_with_a_bad_frame_is_refused_and_the_next_good(void **unused)
 
 /* Bytes a triangle by the sizes of FCL's structures: 2 nodes, 2 indices of nodes, 1 triangle of
    3 indices, half a vertex. */
-static void create_takes_the_memory_that_fcl_needs(void **unused)
+TEST(create_takes_the_memory_that_fcl_needs)
 {
-    (void)unused;
     if (!mote_heap_read().counted)
         skip();
     static const struct {
@@ -446,9 +432,8 @@ static mote_mesh *make_row(uint32_t count, double z)
 
 /* Sixteen components and one, 1.5 apart: more than the default number of particles, and as many
    vertices as that is at most. */
-static void hybrid_on_more_components_than_particles_raises_their_number(void **unused)
+TEST(hybrid_on_more_components_than_particles_raises_their_number)
 {
-    (void)unused;
     static const variant variants[] = {{"hybrid-fcl", ""}, {"hybrid-fcl", "n=1"}};
     for (int v = 0; v < 4; ++v) {
         scene s;
@@ -470,9 +455,8 @@ static void hybrid_on_more_components_than_particles_raises_their_number(void **
     }
 }
 
-static void traits_follow_the_parameters(void **unused)
+TEST(traits_follow_the_parameters)
 {
-    (void)unused;
     static const struct {
         variant v;
         bool needs, given, state, exact;
@@ -495,31 +479,8 @@ static void traits_follow_the_parameters(void **unused)
     }
 }
 
-static void destroy_of_nothing_does_nothing(void **unused)
+TEST(destroy_of_nothing_does_nothing)
 {
-    (void)unused;
     for (const mote_method *const *m = mote_methods; *m; ++m)
         (*m)->destroy(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_on_deforming_bodies_equals_brute_force),
-        cmocka_unit_test(query_when_weights_stay_equals_brute_force),
-        cmocka_unit_test(query_on_rigid_bodies_without_vertices_equals_brute_force),
-        cmocka_unit_test(query_asked_for_contact_agrees_with_brute_force),
-        cmocka_unit_test(query_asked_for_contact_within_tolerance_agrees_with_brute_force),
-        cmocka_unit_test(query_asked_for_contact_stops_early),
-        cmocka_unit_test(query_from_a_seed_makes_fewer_tests),
-        cmocka_unit_test(query_scaled_by_a_power_of_two_gives_the_same_bits),
-        cmocka_unit_test(create_of_what_fcl_lacks_is_unsupported),
-        cmocka_unit_test(create_with_a_bad_mesh_is_refused),
-        cmocka_unit_test(update_with_a_bad_frame_is_refused_and_the_next_good),
-        cmocka_unit_test(create_takes_the_memory_that_fcl_needs),
-        cmocka_unit_test(hybrid_on_more_components_than_particles_raises_their_number),
-        cmocka_unit_test(traits_follow_the_parameters),
-        cmocka_unit_test(destroy_of_nothing_does_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* Our own baselines against a plain double loop over all pairs of triangles. */
 #include "tests/support/shapes.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 /* A method with parameters as text. */
 typedef struct variant {
@@ -92,36 +89,32 @@ static int run_distance(scene *s, int frames, double reach, bool pose_only)
     return contacts;
 }
 
-static void query_on_deforming_bodies_equals_all_pairs(void **state)
+TEST(query_on_deforming_bodies_equals_all_pairs)
 {
-    (void)state;
     scene s;
     scene_init(&s, 14, 9, 1, true);
     assert_in_range(run_distance(&s, 60, 1.3, false), 10, 50);
     scene_free(&s);
 }
 
-static void query_on_rigid_bodies_equals_all_pairs(void **state)
+TEST(query_on_rigid_bodies_equals_all_pairs)
 {
-    (void)state;
     scene s;
     scene_init(&s, 9, 7, 1, false);
     assert_in_range(run_distance(&s, 40, 1.3, true), 5, 35);
     scene_free(&s);
 }
 
-static void query_far_apart_equals_all_pairs(void **state)
+TEST(query_far_apart_equals_all_pairs)
 {
-    (void)state;
     scene s;
     scene_init(&s, 11, 8, 1, true);
     run_distance(&s, 20, 40, false);
     scene_free(&s);
 }
 
-static void query_at_any_scale_equals_all_pairs(void **state)
+TEST(query_at_any_scale_equals_all_pairs)
 {
-    (void)state;
     const double sizes[] = {1e-12, 1e-5, 1e6, 1e12};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         scene s;
@@ -131,9 +124,8 @@ static void query_at_any_scale_equals_all_pairs(void **state)
     }
 }
 
-static void query_for_contact_agrees_with_the_tolerance(void **state)
+TEST(query_for_contact_agrees_with_the_tolerance)
 {
-    (void)state;
     scene s;
     scene_init(&s, 12, 8, 1, true);
     for (int i = 0; i < VARIANTS; i++) {
@@ -153,9 +145,8 @@ static void query_for_contact_agrees_with_the_tolerance(void **state)
     scene_free(&s);
 }
 
-static void create_bad_mesh_invalid(void **state)
+TEST(create_bad_mesh_invalid)
 {
-    (void)state;
     scene s;
     scene_init(&s, 6, 5, 1, false);
     for (int i = 0; i < VARIANTS; i++) {
@@ -184,9 +175,8 @@ static void create_bad_mesh_invalid(void **state)
     scene_free(&s);
 }
 
-static void update_bad_vertices_invalid(void **state)
+TEST(update_bad_vertices_invalid)
 {
-    (void)state;
     scene s;
     scene_init(&s, 6, 5, 1, false);
     for (int i = 0; i < VARIANTS; i++) {
@@ -200,18 +190,4 @@ static void update_bad_vertices_invalid(void **state)
         made.method->destroy(NULL);
     }
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_on_deforming_bodies_equals_all_pairs),
-        cmocka_unit_test(query_on_rigid_bodies_equals_all_pairs),
-        cmocka_unit_test(query_far_apart_equals_all_pairs),
-        cmocka_unit_test(query_at_any_scale_equals_all_pairs),
-        cmocka_unit_test(query_for_contact_agrees_with_the_tolerance),
-        cmocka_unit_test(create_bad_mesh_invalid),
-        cmocka_unit_test(update_bad_vertices_invalid),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The program itself, run as a user runs it. */
 #include "tests/support/command_lines.h"
 #include "tests/support/diamond.h"
+#include "tests/support/test.h"
 
 #include <unistd.h>
 
@@ -32,9 +33,8 @@ static const struct {
              {FOLDER "/far.json", SCENE(", \"active\": [2, 4]", "0.6", "3")}};
 #define FILES (sizeof files / sizeof files[0])
 
-static int set_up(void **state)
+static int set_up(void)
 {
-    (void)state;
     if (mote_directory_make(FOLDER) != MOTE_OK)
         return -1;
     for (size_t i = 0; i < FILES; ++i) {
@@ -44,13 +44,14 @@ static int set_up(void **state)
     return 0;
 }
 
-static int tear_down(void **state)
+static int tear_down(void)
 {
-    (void)state;
     for (size_t i = 0; i < FILES; ++i)
         (void)unlink(files[i].path);
     return rmdir(FOLDER); /* fails if a command left anything behind */
 }
+
+TEST_GROUP(set_up, tear_down);
 
 static const command_line bad_lines[] = {
     {"", 2, "no command"},
@@ -170,9 +171,8 @@ static const command_line bad_lines[] = {
     {"claims --out", 2, "--out needs a value"},
 };
 
-static void main_bad_line_one_line_and_its_exit_status(void **state)
+TEST(main_bad_line_one_line_and_its_exit_status)
 {
-    (void)state;
     command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
 }
 
@@ -200,9 +200,8 @@ static const command_line good_lines[] = {
     {"instructions s.json --frames 4 --inside --particles 2,3 --method particle-paper", 0, ""},
 };
 
-static void main_good_line_says_what_it_will_do(void **state)
+TEST(main_good_line_says_what_it_will_do)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
         const command_line *good = &good_lines[i];
         char output[4096];
@@ -215,9 +214,8 @@ static void main_good_line_says_what_it_will_do(void **state)
     }
 }
 
-static void command_list_names_what_there_is(void **state)
+TEST(command_list_names_what_there_is)
 {
-    (void)state;
     char output[1 << 16];
     assert_int_equal(run("list methods", output, sizeof output), 0);
     assert_non_null(strstr(output, "fcl-aabb"));
@@ -228,9 +226,8 @@ static void command_list_names_what_there_is(void **state)
     assert_non_null(strstr(output, "mote check SCENARIO"));
 }
 
-static void command_letter_writes_that_many_triangles(void **state)
+TEST(command_letter_writes_that_many_triangles)
 {
-    (void)state;
     char output[1024];
     assert_int_equal(run("letter V --triangles 500 -o V.obj", output, sizeof output), 0);
     char *text;
@@ -244,9 +241,8 @@ static void command_letter_writes_that_many_triangles(void **state)
     assert_int_equal(unlink(FOLDER "/V.obj"), 0);
 }
 
-static void command_export_answers_match_between_exact_methods(void **state)
+TEST(command_export_answers_match_between_exact_methods)
 {
-    (void)state;
     char output[1024];
     assert_int_equal(run("export tt --frame 120 --out e --method brute-force "
                          "--method fcl-aabb:seed=previous,queue=64",
@@ -272,25 +268,11 @@ static void command_export_answers_match_between_exact_methods(void **state)
     assert_int_equal(rmdir(FOLDER "/e"), 0);
 }
 
-static void command_list_full_disk_is_an_error(void **state)
+TEST(command_list_full_disk_is_an_error)
 {
-    (void)state;
     char output[1024];
     if (access("/dev/full", W_OK) != 0)
         skip();
     assert_int_equal(
         command_run(FOLDER, "list methods", "2>&1 >/dev/full", output, sizeof output), 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(main_bad_line_one_line_and_its_exit_status),
-        cmocka_unit_test(main_good_line_says_what_it_will_do),
-        cmocka_unit_test(command_list_names_what_there_is),
-        cmocka_unit_test(command_letter_writes_that_many_triangles),
-        cmocka_unit_test(command_export_answers_match_between_exact_methods),
-        cmocka_unit_test(command_list_full_disk_is_an_error),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -3,6 +3,7 @@
 #include "tests/support/command_lines.h"
 #include "tests/support/diamond.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
 #include <unistd.h>
 
@@ -45,9 +46,8 @@ static int run(const char *arguments, char *output, size_t size)
     return command_run(FOLDER, arguments, "2>&1", output, size);
 }
 
-static int set_up(void **state)
+static int set_up(void)
 {
-    (void)state;
     if (mote_directory_make(FOLDER) != MOTE_OK)
         return -1;
     for (int i = 0; i < FILES; ++i) {
@@ -59,9 +59,8 @@ static int set_up(void **state)
     return 0;
 }
 
-static int tear_down(void **state)
+static int tear_down(void)
 {
-    (void)state;
     for (int i = 0; i < FILES; ++i) {
         char path[64];
         (void)snprintf(path, sizeof path, FOLDER "/%s", files[i].name);
@@ -69,6 +68,8 @@ static int tear_down(void **state)
     }
     return rmdir(FOLDER); /* fails if a command left anything behind */
 }
+
+TEST_GROUP(set_up, tear_down);
 
 static const command_line bad_lines[] = {
     {"--allow nowhere check s.json", 4, "nowhere: No such file"},
@@ -170,9 +171,8 @@ static const command_line bad_lines[] = {
     {"simulate b.json --method certified --trace x.json", 2, "are for two bodies"},
 };
 
-static void commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing(void **state)
+TEST(commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing)
 {
-    (void)state;
     command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
 }
 
@@ -216,9 +216,8 @@ static const good_line good_lines[] = {
     {"simulate b.json --method certified --steps 2 --tolerance 0.02 --json", {"\"steps\": 2,"}},
 };
 
-static void commands_with_a_good_line_say_what_was_asked(void **state)
+TEST(commands_with_a_good_line_say_what_was_asked)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
         const good_line *good = &good_lines[i];
         static char output[1 << 16];
@@ -232,9 +231,8 @@ static void commands_with_a_good_line_say_what_was_asked(void **state)
 }
 
 /* What cannot answer a distance answers the contact, and what cannot answer at all says why. */
-static void command_export_tells_what_a_method_cannot_answer(void **state)
+TEST(command_export_tells_what_a_method_cannot_answer)
 {
-    (void)state;
     char output[1024], *text;
     size_t size;
     assert_int_equal(run("export s.json --frame 3 --out e --method fcl-kdop18 --method "
@@ -250,9 +248,8 @@ static void command_export_tells_what_a_method_cannot_answer(void **state)
 }
 
 /* Rotations of the keys stay, positions are the ones found. */
-static void command_approach_replaces_positions_only(void **state)
+TEST(command_approach_replaces_positions_only)
 {
-    (void)state;
     char output[1024], *text;
     size_t size;
     assert_int_equal(run("approach s.json --gaps 1:0.1,4:0.05 --every 2 --direction 0,1,0 -o "
@@ -268,15 +265,4 @@ static void command_approach_replaces_positions_only(void **state)
     assert_int_equal(positions, 3); /* frames 1, 3, 4 */
     free(text);
     assert_int_equal(unlink(FOLDER "/found.json"), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing),
-        cmocka_unit_test(commands_with_a_good_line_say_what_was_asked),
-        cmocka_unit_test(command_export_tells_what_a_method_cannot_answer),
-        cmocka_unit_test(command_approach_replaces_positions_only),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

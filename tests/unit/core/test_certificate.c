@@ -1,15 +1,11 @@
 /* Certified mode against all pairs of triangles. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 
-#include <cmocka.h>
-
 #include "tests/support/certificate_scene.h"
+#include "tests/support/test.h"
 
-static void query_deforming_tori_equals_all_pairs(void **state)
+TEST(query_deforming_tori_equals_all_pairs)
 {
-    (void)state;
     for (int deforming = 0; deforming < 2; ++deforming) {
         scene s;
         scene_init(&s, 22, 11, 2.5, deforming);
@@ -27,9 +23,8 @@ static void query_deforming_tori_equals_all_pairs(void **state)
     }
 }
 
-static void query_linear_modes_equals_all_pairs(void **state)
+TEST(query_linear_modes_equals_all_pairs)
 {
-    (void)state;
     scene s;
     scene_init(&s, 18, 10, 0.7, false);
     use_modes(&s);
@@ -42,9 +37,8 @@ static void query_linear_modes_equals_all_pairs(void **state)
     scene_free(&s);
 }
 
-static void query_without_a_step_equals_all_pairs(void **state)
+TEST(query_without_a_step_equals_all_pairs)
 {
-    (void)state;
     scene s;
     scene_init(&s, 16, 9, 1, true);
     mote_certificate_options options[9];
@@ -109,9 +103,8 @@ static void use_mesh(scene *s, mote_mesh *mesh)
     need(s->world[0]);
 }
 
-static void query_separate_triangles_equals_all_pairs(void **state)
+TEST(query_separate_triangles_equals_all_pairs)
 {
-    (void)state;
     for (uint32_t count = 1; count < 40; count = 2 * count + 1) {
         scene s;
         scene_init(&s, 12, 8, 1, true);
@@ -141,9 +134,8 @@ static mote_mesh *make_cube(void)
 
 /* Corners, edges and faces that touch exactly: hulls in which the search for a direction ends
    at none. Asked cold, and warm after another place. */
-static void query_cubes_of_whole_numbers_equals_the_closed_form(void **state)
+TEST(query_cubes_of_whole_numbers_equals_the_closed_form)
 {
-    (void)state;
     mote_mesh *mesh = make_cube();
     mote_field *field = NULL;
     need(mote_field_create_static(&field) == MOTE_OK);
@@ -179,9 +171,8 @@ static void query_cubes_of_whole_numbers_equals_the_closed_form(void **state)
     mote_mesh_destroy(mesh);
 }
 
-static void query_after_another_history_gives_the_same_distance(void **state)
+TEST(query_after_another_history_gives_the_same_distance)
 {
-    (void)state;
     scene s;
     scene_init(&s, 20, 10, 1, true);
     mote_certificate_options none = mote_default_certificate_options(s.length);
@@ -207,9 +198,8 @@ static void query_after_another_history_gives_the_same_distance(void **state)
     scene_free(&s);
 }
 
-static void query_contact_agrees_with_the_distance(void **state)
+TEST(query_contact_agrees_with_the_distance)
 {
-    (void)state;
     scene s;
     scene_init(&s, 18, 9, 1, true);
     mote_certificate *c = certificate_of(&s, NULL);
@@ -251,9 +241,8 @@ static void scale_frame(const scene *s, scene *scaled, int power)
     }
 }
 
-static void query_scaled_by_powers_of_two_gives_the_same_bits(void **state)
+TEST(query_scaled_by_powers_of_two_gives_the_same_bits)
 {
-    (void)state;
     const int powers[4] = {-40, -3, 1, 40};
     scene s;
     scene_init(&s, 20, 10, 1, true);
@@ -287,19 +276,4 @@ static void query_scaled_by_powers_of_two_gives_the_same_bits(void **state)
     }
     mote_certificate_destroy(c);
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_deforming_tori_equals_all_pairs),
-        cmocka_unit_test(query_linear_modes_equals_all_pairs),
-        cmocka_unit_test(query_without_a_step_equals_all_pairs),
-        cmocka_unit_test(query_separate_triangles_equals_all_pairs),
-        cmocka_unit_test(query_cubes_of_whole_numbers_equals_the_closed_form),
-        cmocka_unit_test(query_after_another_history_gives_the_same_distance),
-        cmocka_unit_test(query_contact_agrees_with_the_distance),
-        cmocka_unit_test(query_scaled_by_powers_of_two_gives_the_same_bits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

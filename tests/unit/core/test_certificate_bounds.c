@@ -2,13 +2,10 @@
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 
-#include <cmocka.h>
-
 #include "tests/support/certificate_scene.h"
+#include "tests/support/test.h"
 
 /* The largest coordinate along side s's facing of the vertices below a block or leaf. */
 static double exact_reach(const scene *s, const mote_certificate *c, int b, int32_t node)
@@ -49,9 +46,8 @@ static int check_boxes(const scene *s, mote_certificate *c, int b, mote_cert_nod
     return count;
 }
 
-static void deformed_boxes_enclose_their_vertices(void **state)
+TEST(deformed_boxes_enclose_their_vertices)
 {
-    (void)state;
     scene s;
     scene_init(&s, 30, 14, 1, true);
     mote_certificate *c = certificate_of(&s, NULL);
@@ -147,9 +143,8 @@ static void check_hulls(const scene *s, mote_certificate *c, mote_cert_node *nod
     }
 }
 
-static void hulls_of_leaves_are_where_their_vertices_are(void **state)
+TEST(hulls_of_leaves_are_where_their_vertices_are)
 {
-    (void)state;
     for (int kind = 0; kind < 3; ++kind) {
         scene s;
         scene_init(&s, 30, 14, 1, kind == 1);
@@ -204,9 +199,8 @@ static double exact_distance(const mote_cert_face_lanes *s, const mote_cert_face
     return sqrt(mote_triangle_triangle(a, b, NULL, NULL));
 }
 
-static void near_pairs_has_every_pair_below_the_limit_and_few_others(void **state)
+TEST(near_pairs_has_every_pair_below_the_limit_and_few_others)
 {
-    (void)state;
     scene s = {.random = 3};
     int below = 0, far = 0, kept = 0;
     for (int k = 0; k < 1500; ++k) {
@@ -239,14 +233,4 @@ static void near_pairs_has_every_pair_below_the_limit_and_few_others(void **stat
     assert_in_range(below, 2000, 12000);
     assert_in_range(far, 800, 12000);
     assert_true(kept < far / 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(deformed_boxes_enclose_their_vertices),
-        cmocka_unit_test(hulls_of_leaves_are_where_their_vertices_are),
-        cmocka_unit_test(near_pairs_has_every_pair_below_the_limit_and_few_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

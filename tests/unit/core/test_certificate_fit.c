@@ -2,6 +2,7 @@
 #include "core/certificate/certificate_fit.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 static double entry(double m[3][3], mote_vec3 a, mote_vec3 b)
 {
@@ -34,9 +35,8 @@ static void check_axes(double m[3][3])
     }
 }
 
-static void principal_axes_diagonalise_by_falling_eigenvalue(void **unused)
+TEST(principal_axes_diagonalise_by_falling_eigenvalue)
 {
-    (void)unused;
     uint64_t seed = 3;
     for (int round = 0; round < 2000; ++round) {
         double m[3][3];
@@ -49,9 +49,8 @@ static void principal_axes_diagonalise_by_falling_eigenvalue(void **unused)
 }
 
 /* Where the eigenvalues' sum is 0, nothing tells how small is small: it ends all the same. */
-static void principal_axes_without_a_trace_diagonalise(void **unused)
+TEST(principal_axes_without_a_trace_diagonalise)
 {
-    (void)unused;
     static double m[3][3][3] = {{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},
                                 {{1, 2, 3}, {2, -3, 5}, {3, 5, 2}},
                                 {{-1, 0.1, 0.7}, {0.1, -1, 0.3}, {0.7, 0.3, -1}}};
@@ -59,9 +58,8 @@ static void principal_axes_without_a_trace_diagonalise(void **unused)
         check_axes(m[k]);
 }
 
-static void box_coordinates_outside_are_held_within(void **unused)
+TEST(box_coordinates_outside_are_held_within)
 {
-    (void)unused;
     const mote_cert_box box = {.centre = {1, 2, 3}, .half = {{4, 0, 0}, {0, 2, 0}, {0, 0, 1}}};
     double z[3];
     mote_cert_box_coordinates(&box, mote_vec3_make(3, 1, 3), z);
@@ -70,14 +68,4 @@ static void box_coordinates_outside_are_held_within(void **unused)
     assert_true(z[0] == 1 && z[1] == -1 && z[2] == 1);
     mote_cert_box_coordinates(&box, mote_vec3_make(-7, 4.1, 1.9), z);
     assert_true(z[0] == -1 && z[1] == 1 && z[2] == -1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(principal_axes_diagonalise_by_falling_eigenvalue),
-        cmocka_unit_test(principal_axes_without_a_trace_diagonalise),
-        cmocka_unit_test(box_coordinates_outside_are_held_within),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

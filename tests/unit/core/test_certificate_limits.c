@@ -2,17 +2,13 @@
 #include "core/certificate/certificate_state.h"
 #include "harness/base/heap_count.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 
-#include <cmocka.h>
-
 #include "tests/support/certificate_scene.h"
+#include "tests/support/test.h"
 
-static void query_with_slack_returns_a_bracket(void **state)
+TEST(query_with_slack_returns_a_bracket)
 {
-    (void)state;
     const double slacks[3] = {1e-6, 1e-3, 0.2};
     scene s;
     scene_init(&s, 18, 9, 1, true);
@@ -39,9 +35,8 @@ static void query_with_slack_returns_a_bracket(void **state)
 
 /* Squares of squares of the distance leave the range of floats: where they decide nothing, all
    is found in double precision. The start is the worst: faces in the order of the mesh. */
-static void query_far_beyond_the_range_of_floats_finds_the_nearest(void **state)
+TEST(query_far_beyond_the_range_of_floats_finds_the_nearest)
 {
-    (void)state;
     scene s;
     scene_init(&s, 18, 9, 1, true);
     mote_certificate_options options = mote_default_certificate_options(s.length);
@@ -66,9 +61,8 @@ static void query_far_beyond_the_range_of_floats_finds_the_nearest(void **state)
     scene_free(&s);
 }
 
-static void query_with_budget_returns_an_honest_bracket(void **state)
+TEST(query_with_budget_returns_an_honest_bracket)
 {
-    (void)state;
     const uint64_t budgets[5] = {0, 8, 60, 400, 3000};
     scene s;
     scene_init(&s, 24, 12, 1, true);
@@ -96,9 +90,8 @@ static void query_with_budget_returns_an_honest_bracket(void **state)
 }
 
 /* After a leap the search does not start from where the last faces are now. */
-static void query_after_a_leap_costs_about_as_much_as_a_cold_one(void **state)
+TEST(query_after_a_leap_costs_about_as_much_as_a_cold_one)
 {
-    (void)state;
     scene s;
     scene_init(&s, 60, 30, 1, true);
     mote_certificate_options none = mote_default_certificate_options(s.length);
@@ -121,9 +114,8 @@ static void query_after_a_leap_costs_about_as_much_as_a_cold_one(void **state)
     scene_free(&s);
 }
 
-static void query_when_its_rooms_are_full_gives_the_same(void **state)
+TEST(query_when_its_rooms_are_full_gives_the_same)
 {
-    (void)state;
     scene s;
     scene_init(&s, 40, 16, 1, true);
     mote_certificate *roomy = certificate_of(&s, NULL);
@@ -145,9 +137,8 @@ static void query_when_its_rooms_are_full_gives_the_same(void **state)
     scene_free(&s);
 }
 
-static void query_from_frame_fifty_on_does_not_allocate(void **state)
+TEST(query_from_frame_fifty_on_does_not_allocate)
 {
-    (void)state;
     if (!mote_heap_read().counted)
         skip();
     scene s;
@@ -166,9 +157,8 @@ static void query_from_frame_fifty_on_does_not_allocate(void **state)
     scene_free(&s);
 }
 
-static void bytes_of_a_large_pair_stay_below_180_a_vertex(void **state)
+TEST(bytes_of_a_large_pair_stay_below_180_a_vertex)
 {
-    (void)state;
     scene s;
     scene_init(&s, 120, 50, 1, true);
     const int64_t before = mote_heap_read().live_bytes;
@@ -183,18 +173,4 @@ static void bytes_of_a_large_pair_stay_below_180_a_vertex(void **state)
     }
     mote_certificate_destroy(c);
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_with_slack_returns_a_bracket),
-        cmocka_unit_test(query_far_beyond_the_range_of_floats_finds_the_nearest),
-        cmocka_unit_test(query_with_budget_returns_an_honest_bracket),
-        cmocka_unit_test(query_after_a_leap_costs_about_as_much_as_a_cold_one),
-        cmocka_unit_test(query_when_its_rooms_are_full_gives_the_same),
-        cmocka_unit_test(query_from_frame_fifty_on_does_not_allocate),
-        cmocka_unit_test(bytes_of_a_large_pair_stay_below_180_a_vertex),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "core/body/deform.h"
 
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 typedef struct moving {
     test_body b[2];
@@ -73,9 +74,8 @@ static void move_together(mote_frame *frame, const mote_mat3 *turn, mote_vec3 sh
     }
 }
 
-static void motion_first_is_all_of_the_length(void **unused)
+TEST(motion_first_is_all_of_the_length)
 {
-    (void)unused;
     for (int given = 0; given < 2; ++given) {
         moving m;
         moving_init(&m, 9);
@@ -85,9 +85,8 @@ static void motion_first_is_all_of_the_length(void **unused)
     }
 }
 
-static void motion_of_both_together_none(void **unused)
+TEST(motion_of_both_together_none)
 {
-    (void)unused;
     for (int given = 0; given < 2; ++given) {
         moving m;
         moving_init(&m, 0);
@@ -101,9 +100,8 @@ static void motion_of_both_together_none(void **unused)
     }
 }
 
-static void motion_of_a_shift_its_length(void **unused)
+TEST(motion_of_a_shift_its_length)
 {
-    (void)unused;
     for (int given = 0; given < 2; ++given) {
         moving m;
         moving_init(&m, 14);
@@ -120,9 +118,8 @@ static void motion_of_a_shift_its_length(void **unused)
 
 /* A turn of body 1 about its middle by a small angle moves its farthest points by the angle
    times their radius of 1; the estimate takes half of L for that. */
-static void motion_of_a_turn_angle_times_half_length(void **unused)
+TEST(motion_of_a_turn_angle_times_half_length)
 {
-    (void)unused;
     moving m;
     moving_init(&m, 0);
     (void)motion(&m, false);
@@ -143,9 +140,8 @@ static void motion_of_a_turn_angle_times_half_length(void **unused)
 
 /* A shape that changes is seen without any motion of the pose: by the weights, and by the
    positions of the probes. */
-static void motion_of_a_shape_seen(void **unused)
+TEST(motion_of_a_shape_seen)
 {
-    (void)unused;
     for (int given = 0; given < 2; ++given) {
         moving m;
         moving_init(&m, 14);
@@ -164,16 +160,4 @@ static void motion_of_a_shape_seen(void **unused)
         assert_true(motion(&m, given) > 0.02);
         moving_free(&m);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(motion_first_is_all_of_the_length),
-        cmocka_unit_test(motion_of_both_together_none),
-        cmocka_unit_test(motion_of_a_shift_its_length),
-        cmocka_unit_test(motion_of_a_turn_angle_times_half_length),
-        cmocka_unit_test(motion_of_a_shape_seen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

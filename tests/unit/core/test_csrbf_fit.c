@@ -2,6 +2,7 @@
 #include "core/body/csrbf_fit.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 enum { MOST = 64 };
 
@@ -64,9 +65,8 @@ static mote_csrbf_fit *fit_of(const mote_field *field, double *reciprocal)
     return fit;
 }
 
-static void solve_reproduces_control_vectors_to_1e_10(void **unused)
+TEST(solve_reproduces_control_vectors_to_1e_10)
 {
-    (void)unused;
     uint64_t seed = 1;
     const uint32_t counts[] = {3, 12, 14, 64};
     const double supports[] = {0.5, 1.5, 4};
@@ -136,9 +136,8 @@ static long double reciprocal_condition(const mote_vec3 *centres, uint32_t count
 }
 
 /* The estimate of |A^-1| is a lower bound, and rarely below a third of it. */
-static void reciprocal_condition_matches_an_explicit_inverse(void **unused)
+TEST(reciprocal_condition_matches_an_explicit_inverse)
 {
-    (void)unused;
     uint64_t seed = 2;
     const double supports[] = {0.3, 1, 2, 5, 20};
     for (int k = 0; k < 5; ++k) {
@@ -155,9 +154,8 @@ static void reciprocal_condition_matches_an_explicit_inverse(void **unused)
     }
 }
 
-static void create_with_disjoint_supports_has_condition_one(void **unused)
+TEST(create_with_disjoint_supports_has_condition_one)
 {
-    (void)unused;
     const mote_vec3 centres[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     const mote_vec3 wanted[3] = {{1, 2, 3}, {-4, 5, 6}, {7, 8, -9}};
     mote_vec3 weights[3];
@@ -189,9 +187,8 @@ static void expect_singular(const mote_vec3 *centres, uint32_t count, double sup
     mote_field_destroy(field);
 }
 
-static void create_with_coincident_centres_is_a_numeric_error(void **unused)
+TEST(create_with_coincident_centres_is_a_numeric_error)
 {
-    (void)unused;
     uint64_t seed = 3;
     const uint32_t counts[] = {2, 3, 8, 14, 30, MOST};
     for (int round = 0; round < 1800; ++round) {
@@ -207,9 +204,8 @@ static void create_with_coincident_centres_is_a_numeric_error(void **unused)
     }
 }
 
-static void create_of_another_kind_names_it(void **unused)
+TEST(create_of_another_kind_names_it)
 {
-    (void)unused;
     mote_field *field = NULL;
     mote_csrbf_fit *fit = NULL;
     assert_int_equal(mote_field_create_static(&field), MOTE_OK);
@@ -227,9 +223,8 @@ static void create_of_another_kind_names_it(void **unused)
     mote_csrbf_fit_destroy(NULL);
 }
 
-static void solve_with_a_displacement_not_finite_names_the_point(void **unused)
+TEST(solve_with_a_displacement_not_finite_names_the_point)
 {
-    (void)unused;
     const mote_vec3 centres[2] = {{0, 0, 0}, {0.5, 0, 0}};
     mote_field *field = csrbf_field(centres, 2, 1);
     mote_csrbf_fit *fit = fit_of(field, NULL);
@@ -249,9 +244,8 @@ static void solve_with_a_displacement_not_finite_names_the_point(void **unused)
 
 /* Mirrored centres and vectors have mirrored weights; the solution is linear and of the scale
    of the vectors only. */
-static void solve_keeps_symmetry_linearity_and_scale(void **unused)
+TEST(solve_keeps_symmetry_linearity_and_scale)
 {
-    (void)unused;
     uint64_t seed = 4;
     mote_vec3 centres[14];
     mote_vec3 wanted[14];
@@ -283,18 +277,4 @@ static void solve_keeps_symmetry_linearity_and_scale(void **unused)
                     mirrored[i].z == weights[i].z);
     mote_csrbf_fit_destroy(fit);
     mote_field_destroy(field);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solve_reproduces_control_vectors_to_1e_10),
-        cmocka_unit_test(reciprocal_condition_matches_an_explicit_inverse),
-        cmocka_unit_test(create_with_disjoint_supports_has_condition_one),
-        cmocka_unit_test(create_with_coincident_centres_is_a_numeric_error),
-        cmocka_unit_test(create_of_another_kind_names_it),
-        cmocka_unit_test(solve_with_a_displacement_not_finite_names_the_point),
-        cmocka_unit_test(solve_keeps_symmetry_linearity_and_scale),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "core/body/lazy.h"
 
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 /* J, or minus the number of modes. */
 static const int field_sizes[] = {0, 1, 7, 8, 9, 14, 16, 17, 256, -1, -2, -3, -5, -6, -85};
@@ -17,9 +18,8 @@ static mote_deform *deform_of(const mote_body *body)
     return deform;
 }
 
-static void all_single_and_lazy_positions_are_the_same_bits(void **unused)
+TEST(all_single_and_lazy_positions_are_the_same_bits)
 {
-    (void)unused;
     uint64_t seed = 1;
     const uint32_t vertex_counts[] = {3, 4, 7, 8, 9, 15, 16, 17, 63, 100, 257};
     for (size_t n = 0; n < sizeof vertex_counts / sizeof *vertex_counts; ++n) {
@@ -53,9 +53,8 @@ static void all_single_and_lazy_positions_are_the_same_bits(void **unused)
 }
 
 /* R x + t + sum_j phi_j w_j in long double. */
-static void all_matches_the_definition(void **unused)
+TEST(all_matches_the_definition)
 {
-    (void)unused;
     uint64_t seed = 2;
     for (int k = 0; k < FIELD_SIZES; ++k) {
         test_body b;
@@ -89,9 +88,8 @@ static void all_matches_the_definition(void **unused)
 
 /* A translated pose translates each vertex, and a mode of a linear field rotates with nothing:
    weights are in world axes, so that they are not rotated with the body. */
-static void all_adds_weights_in_world_axes(void **unused)
+TEST(all_adds_weights_in_world_axes)
 {
-    (void)unused;
     const mote_vec3 mode[3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};
     mote_mesh *mesh = solid_to_mesh(solid_triangle());
     mote_field *field = NULL;
@@ -112,9 +110,8 @@ static void all_adds_weights_in_world_axes(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void all_scaled_by_powers_of_two_keeps_its_bits(void **unused)
+TEST(all_scaled_by_powers_of_two_keeps_its_bits)
 {
-    (void)unused;
     for (int k = -40; k <= 40; k += 20) {
         mote_vec3 world[2][42];
         for (int i = 0; i < 2; ++i) {
@@ -139,9 +136,8 @@ static void all_scaled_by_powers_of_two_keeps_its_bits(void **unused)
     }
 }
 
-static void bytes_grow_by_the_table(void **unused)
+TEST(bytes_grow_by_the_table)
 {
-    (void)unused;
     uint64_t seed = 4;
     size_t bytes[2];
     for (int i = 0; i < 2; ++i) {
@@ -155,16 +151,4 @@ static void bytes_grow_by_the_table(void **unused)
     assert_int_equal(bytes[1] - bytes[0], 24 * 8 * sizeof(double));
     assert_in_range(bytes[0], 24 * 11 * sizeof(double), 24 * 11 * sizeof(double) + 128);
     mote_deform_destroy(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_single_and_lazy_positions_are_the_same_bits),
-        cmocka_unit_test(all_matches_the_definition),
-        cmocka_unit_test(all_adds_weights_in_world_axes),
-        cmocka_unit_test(all_scaled_by_powers_of_two_keeps_its_bits),
-        cmocka_unit_test(bytes_grow_by_the_table),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

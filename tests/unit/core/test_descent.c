@@ -1,12 +1,9 @@
 /* Walks over pairs of deforming tori: where they end, and that they only come nearer. */
 #include "core/particle/descent.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 typedef struct walk_scene {
     scene s;
@@ -104,27 +101,23 @@ static void check_descents(bool deforming, bool given)
     walk_scene_free(&w);
 }
 
-static void descend_static_local_minimum(void **context)
+TEST(descend_static_local_minimum)
 {
-    (void)context;
     check_descents(false, false);
 }
 
-static void descend_given_local_minimum(void **context)
+TEST(descend_given_local_minimum)
 {
-    (void)context;
     check_descents(true, true);
 }
 
-static void descend_deforming_local_minimum(void **context)
+TEST(descend_deforming_local_minimum)
 {
-    (void)context;
     check_descents(true, false);
 }
 
-static void walk_one_level_stays_on_it(void **context)
+TEST(walk_one_level_stays_on_it)
 {
-    (void)context;
     walk_scene w;
     walk_scene_init(&w, true);
     for (int frame = 0; frame < 20; ++frame) {
@@ -145,9 +138,8 @@ static void walk_one_level_stays_on_it(void **context)
 
 /* A descent that gives up says why, and has cost less; any other ends where it would have
    ended. */
-static void descend_not_worth_it_gives_up(void **context)
+TEST(descend_not_worth_it_gives_up)
 {
-    (void)context;
     walk_scene w;
     walk_scene_init(&w, true);
     int given_up = 0;
@@ -179,9 +171,8 @@ static void descend_not_worth_it_gives_up(void **context)
 
 /* A descent over thousands of vertices evaluates about as many as it has moves, and whole rings
    only where it ends. */
-static void descend_evaluates_few_positions(void **context)
+TEST(descend_evaluates_few_positions)
 {
-    (void)context;
     walk_scene w;
     walk_scene_init(&w, true);
     uint64_t all_moves = 0;
@@ -201,9 +192,8 @@ static void descend_evaluates_few_positions(void **context)
 }
 
 /* With the end known, a descent ends beside it, for fewer moves, or comes to it as before. */
-static void descend_beside_known_ends_there(void **context)
+TEST(descend_beside_known_ends_there)
 {
-    (void)context;
     walk_scene w;
     walk_scene_init(&w, true);
     int joined = 0;
@@ -234,18 +224,4 @@ static void descend_beside_known_ends_there(void **context)
     }
     assert_in_range(joined, 1, 99);
     walk_scene_free(&w);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(descend_static_local_minimum),
-        cmocka_unit_test(descend_given_local_minimum),
-        cmocka_unit_test(descend_deforming_local_minimum),
-        cmocka_unit_test(walk_one_level_stays_on_it),
-        cmocka_unit_test(descend_not_worth_it_gives_up),
-        cmocka_unit_test(descend_beside_known_ends_there),
-        cmocka_unit_test(descend_evaluates_few_positions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

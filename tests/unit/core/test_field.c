@@ -2,6 +2,7 @@
 #include "core/body/field.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 /* Weights in the three padded arrays. */
 typedef struct weight_set {
@@ -61,9 +62,8 @@ static long double wendland(const mote_field *field, uint32_t j, mote_vec3 p)
     return r < 1 ? powl(1 - r, 4) * (4 * r + 1) : 0;
 }
 
-static void csrbf_basis_matches_wendlands_closed_form(void **unused)
+TEST(csrbf_basis_matches_wendlands_closed_form)
 {
-    (void)unused;
     uint64_t seed = 1;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     const uint32_t counts[] = {1, 7, 8, 9, 14, 256};
@@ -90,9 +90,8 @@ static void csrbf_basis_matches_wendlands_closed_form(void **unused)
 
 /* At fractions of the support on an axis the values are rational: one at the centre, 3/16 half
    way out, and nothing at the rim and beyond. */
-static void csrbf_basis_at_known_distances_is_exact(void **unused)
+TEST(csrbf_basis_at_known_distances_is_exact)
 {
-    (void)unused;
     const double r[] = {0, 0.25, 0.5, 0.75, 1, 1.0000000000000002, 2, 1e100};
     const double value[] = {1, 81.0 / 128, 3.0 / 16, 1.0 / 64, 0, 0, 0, 0};
     solid s = solid_fan(8, 0);
@@ -115,9 +114,8 @@ static void csrbf_basis_at_known_distances_is_exact(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void csrbf_far_beyond_a_tiny_support_is_exactly_zero(void **unused)
+TEST(csrbf_far_beyond_a_tiny_support_is_exactly_zero)
 {
-    (void)unused;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     uint64_t seed = 2;
     const double support[] = {1e-3, 1e-100, 1e-160, 1e-300, 1e-307};
@@ -156,9 +154,8 @@ static mote_mesh *moved_vertex(const solid *s, uint32_t v, mote_vec3 d)
     return solid_to_mesh(copy);
 }
 
-static void csrbf_gradient_matches_finite_differences(void **unused)
+TEST(csrbf_gradient_matches_finite_differences)
 {
-    (void)unused;
     uint64_t seed = 3;
     solid s = solid_icosphere(0);
     mote_mesh *mesh = moved_vertex(&s, 0, mote_vec3_make(0, 0, 0));
@@ -190,9 +187,8 @@ static void csrbf_gradient_matches_finite_differences(void **unused)
 
 /* Two mirrored centres give mirrored fields, and a moved body with its centres the same values.
  */
-static void csrbf_basis_is_symmetric_and_translates(void **unused)
+TEST(csrbf_basis_is_symmetric_and_translates)
 {
-    (void)unused;
     const mote_vec3 pair[2] = {{0.5, 0.25, 1}, {-0.5, 0.25, 1}};
     mote_field *field = csrbf_field(pair, 2, 2);
     solid s = solid_fan(4, 0);
@@ -215,9 +211,8 @@ static void csrbf_basis_is_symmetric_and_translates(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void csrbf_scaled_by_powers_of_two_keeps_its_bits(void **unused)
+TEST(csrbf_scaled_by_powers_of_two_keeps_its_bits)
 {
-    (void)unused;
     for (int k = -40; k <= 40; k += 8) {
         mote_mesh *mesh[2];
         mote_field *field[2];
@@ -268,9 +263,8 @@ static mote_vec3 sum_by_lanes(const mote_field *field, const mote_mesh *mesh, ui
     return mote_vec3_make(total[0], total[1], total[2]);
 }
 
-static void displacement_equals_lane_sum_over_basis_bit_for_bit(void **unused)
+TEST(displacement_equals_lane_sum_over_basis_bit_for_bit)
 {
-    (void)unused;
     uint64_t seed = 8;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     const uint32_t counts[] = {1, 7, 8, 9, 14, 16, 17, 256};
@@ -292,9 +286,8 @@ static void displacement_equals_lane_sum_over_basis_bit_for_bit(void **unused)
 
 /* Rounding of positions (2^-24 of 1.2), of phi and of the sum is all that single precision may
    add. */
-static void displacement_single_stays_near_double(void **unused)
+TEST(displacement_single_stays_near_double)
 {
-    (void)unused;
     uint64_t seed = 12;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     mote_field *fields[] = {random_csrbf(14, 1.3, &seed), random_csrbf(256, 0.5, &seed),
@@ -327,9 +320,8 @@ static void displacement_single_stays_near_double(void **unused)
 }
 
 /* Within the error that it promises, also far from the origin, where a float holds little. */
-static void estimate_is_as_near_as_it_says(void **unused)
+TEST(estimate_is_as_near_as_it_says)
 {
-    (void)unused;
     uint64_t seed = 21;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     const uint32_t counts[3] = {1, 14, 256};
@@ -375,9 +367,8 @@ static void estimate_is_as_near_as_it_says(void **unused)
 }
 
 /* A kind without a displacement of its own is summed over its basis. */
-static void displacement_of_a_kind_without_one_sums_its_basis(void **unused)
+TEST(displacement_of_a_kind_without_one_sums_its_basis)
 {
-    (void)unused;
     uint64_t seed = 9;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     mote_field *field = random_csrbf(14, 1.3, &seed);
@@ -396,9 +387,8 @@ static void displacement_of_a_kind_without_one_sums_its_basis(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void static_field_displaces_by_zero(void **unused)
+TEST(static_field_displaces_by_zero)
 {
-    (void)unused;
     mote_mesh *mesh = solid_to_mesh(solid_triangle());
     mote_field *field = NULL;
     assert_int_equal(mote_field_create_static(&field), MOTE_OK);
@@ -416,9 +406,8 @@ static void static_field_displaces_by_zero(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void bytes_count_centres_and_modes(void **unused)
+TEST(bytes_count_centres_and_modes)
 {
-    (void)unused;
     uint64_t seed = 10;
     mote_field *field = random_csrbf(9, 1, &seed);
     assert_int_equal(field->bytes, sizeof *field + 3 * 16 * (sizeof(double) + sizeof(float)));
@@ -441,9 +430,8 @@ static void expect_csrbf_error(const mote_vec3 *centres, uint32_t count, double 
     assert_ptr_equal(field, &mark);
 }
 
-static void create_csrbf_with_bad_input_says_what(void **unused)
+TEST(create_csrbf_with_bad_input_says_what)
 {
-    (void)unused;
     mote_vec3 centre[2] = {{0, 0, 0}, {1, 0, 0}};
     expect_csrbf_error(centre, 0, 1, "a CSRBF field has 1 to 256 centres, not 0");
     expect_csrbf_error(centre, 257, 1, "a CSRBF field has 1 to 256 centres, not 257");
@@ -462,24 +450,4 @@ static void create_csrbf_with_bad_input_says_what(void **unused)
     expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");
     centre[1] = mote_vec3_make(0, 0, -HUGE_VAL);
     expect_csrbf_error(centre, 2, 1, "centre 1 is not finite");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(csrbf_basis_matches_wendlands_closed_form),
-        cmocka_unit_test(csrbf_basis_at_known_distances_is_exact),
-        cmocka_unit_test(csrbf_far_beyond_a_tiny_support_is_exactly_zero),
-        cmocka_unit_test(csrbf_gradient_matches_finite_differences),
-        cmocka_unit_test(csrbf_basis_is_symmetric_and_translates),
-        cmocka_unit_test(csrbf_scaled_by_powers_of_two_keeps_its_bits),
-        cmocka_unit_test(displacement_equals_lane_sum_over_basis_bit_for_bit),
-        cmocka_unit_test(displacement_single_stays_near_double),
-        cmocka_unit_test(estimate_is_as_near_as_it_says),
-        cmocka_unit_test(displacement_of_a_kind_without_one_sums_its_basis),
-        cmocka_unit_test(static_field_displaces_by_zero),
-        cmocka_unit_test(bytes_count_centres_and_modes),
-        cmocka_unit_test(create_csrbf_with_bad_input_says_what),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

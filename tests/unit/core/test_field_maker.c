@@ -1,11 +1,9 @@
 /* Kinds of fields that scenarios name. */
 #include "core/body/field_maker.h"
 #include "harness/scene/scenario.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,18 +12,18 @@
 static char base[] = "/tmp/mote-test-field-XXXXXX";
 static char path[64];
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     (void)snprintf(path, sizeof path, "%s/s.json", mkdtemp(base) ? base : "");
     return path[0] == '/' ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return remove(path) || remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 /* Control 2 of body 0 is displaced by (0.3, 0.2, -0.1) L at frame 25; line 4 has the field. */
 static void write_scenario(const char *field)
@@ -46,9 +44,8 @@ static void write_scenario(const char *field)
 
 /* Column y of the matrix: every vertex moves by its height above the middle, times the weight.
  */
-static void stretch_in_a_scenario_moves_vertices_by_the_matrix(void **state)
+TEST(stretch_in_a_scenario_moves_vertices_by_the_matrix)
 {
-    (void)state;
     mote_scenario *s;
     mote_frame_buffer *buffer;
     write_scenario("\"kind\": \"stretch\"");
@@ -73,9 +70,8 @@ static void stretch_in_a_scenario_moves_vertices_by_the_matrix(void **state)
     mote_scenario_destroy(s);
 }
 
-static void stretch_gradient_is_the_slope_between_vertices(void **state)
+TEST(stretch_gradient_is_the_slope_between_vertices)
 {
-    (void)state;
     mote_scenario *s;
     write_scenario("\"kind\": \"stretch\"");
     assert_int_equal(mote_scenario_load(path, &s), MOTE_OK);
@@ -127,9 +123,8 @@ static double ask(const char *name, const mote_scenario *s, const mote_frame *fr
     return answer.distance;
 }
 
-static void stretch_certified_agrees_with_every_pair_of_triangles(void **state)
+TEST(stretch_certified_agrees_with_every_pair_of_triangles)
 {
-    (void)state;
     mote_scenario *s;
     mote_frame_buffer *buffer;
     write_scenario("\"kind\": \"stretch\"");
@@ -147,9 +142,8 @@ static void stretch_certified_agrees_with_every_pair_of_triangles(void **state)
     mote_scenario_destroy(s);
 }
 
-static void field_of_an_unknown_kind_or_key_is_refused_with_its_line(void **state)
+TEST(field_of_an_unknown_kind_or_key_is_refused_with_its_line)
 {
-    (void)state;
     static const char *const bad[][2] = {
         {"\"kind\": \"strech\"", "strech"},
         {"\"kind\": 3", "kind"},
@@ -169,9 +163,8 @@ static void field_of_an_unknown_kind_or_key_is_refused_with_its_line(void **stat
     }
 }
 
-static void field_of_kind_csrbf_is_the_default(void **state)
+TEST(field_of_kind_csrbf_is_the_default)
 {
-    (void)state;
     uint64_t fingerprint[2];
     for (int k = 0; k < 2; ++k) {
         mote_scenario *s;
@@ -182,16 +175,4 @@ static void field_of_kind_csrbf_is_the_default(void **state)
         mote_scenario_destroy(s);
     }
     assert_true(fingerprint[0] == fingerprint[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stretch_in_a_scenario_moves_vertices_by_the_matrix),
-        cmocka_unit_test(stretch_gradient_is_the_slope_between_vertices),
-        cmocka_unit_test(stretch_certified_agrees_with_every_pair_of_triangles),
-        cmocka_unit_test(field_of_an_unknown_kind_or_key_is_refused_with_its_line),
-        cmocka_unit_test(field_of_kind_csrbf_is_the_default),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

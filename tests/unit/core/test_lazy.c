@@ -3,6 +3,7 @@
 #include "core/body/lazy.h"
 
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 static void init_lazy(mote_lazy *lazy, const mote_body *body, uint32_t expected, bool single)
 {
@@ -20,9 +21,8 @@ static void expect_same(mote_lazy *lazy, const mote_body *body, const mote_body_
     assert_memory_equal(&got, &expected, sizeof got);
 }
 
-static void position_is_evaluated_once_a_frame(void **unused)
+TEST(position_is_evaluated_once_a_frame)
 {
-    (void)unused;
     uint64_t seed = 1;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 14, &seed);
@@ -44,9 +44,8 @@ static void position_is_evaluated_once_a_frame(void **unused)
     test_body_free(&b);
 }
 
-static void position_after_begin_is_never_stale(void **unused)
+TEST(position_after_begin_is_never_stale)
 {
-    (void)unused;
     uint64_t seed = 2;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 14, &seed);
@@ -64,9 +63,8 @@ static void position_after_begin_is_never_stale(void **unused)
 }
 
 /* The stamp is a counter of 32 bits: a value stored 2^32 frames ago must not come back. */
-static void position_after_the_stamp_wraps_is_not_stale(void **unused)
+TEST(position_after_the_stamp_wraps_is_not_stale)
 {
-    (void)unused;
     uint64_t seed = 3;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 8, &seed);
@@ -93,9 +91,8 @@ static void position_after_the_stamp_wraps_is_not_stale(void **unused)
     test_body_free(&b);
 }
 
-static void growth_keeps_values_and_counts(void **unused)
+TEST(growth_keeps_values_and_counts)
 {
-    (void)unused;
     uint64_t seed = 4;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 9, &seed);
@@ -136,9 +133,8 @@ static void growth_keeps_values_and_counts(void **unused)
 }
 
 /* A fixed table gives the same positions, and evaluates again what it has no room for. */
-static void fixed_table_keeps_its_size_and_the_values(void **unused)
+TEST(fixed_table_keeps_its_size_and_the_values)
 {
-    (void)unused;
     uint64_t seed = 4;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(3)), 9, &seed);
@@ -165,9 +161,8 @@ static void fixed_table_keeps_its_size_and_the_values(void **unused)
 }
 
 /* A table grown in one frame forgets all the same. */
-static void growth_then_begin_evaluates_anew(void **unused)
+TEST(growth_then_begin_evaluates_anew)
 {
-    (void)unused;
     uint64_t seed = 5;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 9, &seed);
@@ -185,9 +180,8 @@ static void growth_then_begin_evaluates_anew(void **unused)
     test_body_free(&b);
 }
 
-static void init_expecting_more_than_the_mesh_is_sized_by_the_mesh(void **unused)
+TEST(init_expecting_more_than_the_mesh_is_sized_by_the_mesh)
 {
-    (void)unused;
     uint64_t seed = 6;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 0, &seed);
@@ -201,9 +195,8 @@ static void init_expecting_more_than_the_mesh_is_sized_by_the_mesh(void **unused
     test_body_free(&b);
 }
 
-static void given_positions_are_read_and_not_evaluated(void **unused)
+TEST(given_positions_are_read_and_not_evaluated)
 {
-    (void)unused;
     uint64_t seed = 7;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_triangle()), 3, &seed);
@@ -229,9 +222,8 @@ static void given_positions_are_read_and_not_evaluated(void **unused)
 }
 
 /* Floats carry 24 bits: a sum of terms up to 3 stays within some 2^-22 of the double. */
-static void single_positions_stay_near_double(void **unused)
+TEST(single_positions_stay_near_double)
 {
-    (void)unused;
     uint64_t seed = 8;
     const int sizes[] = {0, 14, -4};
     for (int k = 0; k < 3; ++k) {
@@ -257,9 +249,8 @@ static void single_positions_stay_near_double(void **unused)
 }
 
 /* Whatever is known before, listed twice or makes the table grow. */
-static void fetch_same_bits_as_one_by_one(void **unused)
+TEST(fetch_same_bits_as_one_by_one)
 {
-    (void)unused;
     const int sizes[] = {0, 1, 7, 8, 9, 14, 40, 256, -1, -4};
     uint64_t seed = 9;
     for (size_t k = 0; k < sizeof sizes / sizeof sizes[0]; ++k) {
@@ -293,9 +284,8 @@ static void fetch_same_bits_as_one_by_one(void **unused)
     }
 }
 
-static void fetch_in_single_precision_evaluates_nothing(void **unused)
+TEST(fetch_in_single_precision_evaluates_nothing)
 {
-    (void)unused;
     uint64_t seed = 9;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 5, &seed);
@@ -314,9 +304,8 @@ static void fetch_in_single_precision_evaluates_nothing(void **unused)
 
 /* A table of 2^31 places is the largest; it forgets what it has no room for. (No such table is
    made: only its first place is looked at.) */
-static void position_in_the_largest_table_is_not_remembered(void **unused)
+TEST(position_in_the_largest_table_is_not_remembered)
 {
-    (void)unused;
     uint64_t seed = 9;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(1)), 5, &seed);
@@ -340,9 +329,8 @@ static void position_in_the_largest_table_is_not_remembered(void **unused)
     test_body_free(&b);
 }
 
-static void fetch_evaluates_each_vertex_once(void **unused)
+TEST(fetch_evaluates_each_vertex_once)
 {
-    (void)unused;
     uint64_t seed = 10;
     test_body b;
     test_body_init(&b, solid_to_mesh(solid_icosphere(2)), 14, &seed);
@@ -359,24 +347,4 @@ static void fetch_evaluates_each_vertex_once(void **unused)
     assert_int_equal(lazy.filled, 100);
     mote_lazy_free(&lazy);
     test_body_free(&b);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(position_is_evaluated_once_a_frame),
-        cmocka_unit_test(position_after_begin_is_never_stale),
-        cmocka_unit_test(position_after_the_stamp_wraps_is_not_stale),
-        cmocka_unit_test(growth_keeps_values_and_counts),
-        cmocka_unit_test(fixed_table_keeps_its_size_and_the_values),
-        cmocka_unit_test(growth_then_begin_evaluates_anew),
-        cmocka_unit_test(init_expecting_more_than_the_mesh_is_sized_by_the_mesh),
-        cmocka_unit_test(given_positions_are_read_and_not_evaluated),
-        cmocka_unit_test(single_positions_stay_near_double),
-        cmocka_unit_test(fetch_same_bits_as_one_by_one),
-        cmocka_unit_test(fetch_in_single_precision_evaluates_nothing),
-        cmocka_unit_test(position_in_the_largest_table_is_not_remembered),
-        cmocka_unit_test(fetch_evaluates_each_vertex_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/particle/levels.h"
 #include "datasets/letter.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 /* The neighbours in the level below, as a plain range. */
 typedef struct range {
@@ -134,17 +135,15 @@ static mote_mesh *letter(char name, size_t triangles)
     return mesh;
 }
 
-static void create_closed_meshes_as_defined(void **context)
+TEST(create_closed_meshes_as_defined)
 {
-    (void)context;
     check_levels(letter('W', 5000));
     check_levels(solid_to_mesh(solid_icosphere(3)));
     check_levels(solid_to_mesh(solid_torus(40, 15)));
 }
 
-static void create_open_and_tiny_meshes_as_defined(void **context)
+TEST(create_open_and_tiny_meshes_as_defined)
 {
-    (void)context;
     check_levels(solid_to_mesh(solid_grid(30, 20)));
     check_levels(solid_to_mesh(solid_triangle()));
     check_levels(solid_to_mesh(solid_tetrahedron()));
@@ -152,27 +151,24 @@ static void create_open_and_tiny_meshes_as_defined(void **context)
 }
 
 /* Squares of its edges are beyond doubles. */
-static void create_mesh_as_large_as_1e200_as_defined(void **context)
+TEST(create_mesh_as_large_as_1e200_as_defined)
 {
-    (void)context;
     solid s = solid_torus(40, 15);
     for (size_t i = 0; i < 3 * s.vertex_count; ++i)
         s.xyz[i] *= 1e200;
     check_levels(solid_to_mesh(s));
 }
 
-static void create_many_components_as_defined(void **context)
+TEST(create_many_components_as_defined)
 {
-    (void)context;
     solid s = solid_join(solid_torus(20, 9), solid_icosphere(2), 4);
     for (int i = 0; i < 60; ++i)
         s = solid_join(s, solid_tetrahedron(), 8 + 4 * i);
     check_levels(solid_to_mesh(s));
 }
 
-static void create_letter_lean_and_coarse(void **context)
+TEST(create_letter_lean_and_coarse)
 {
-    (void)context;
     mote_mesh *mesh = letter('W', 40000);
     mote_levels *levels = levels_of(mesh);
     const uint32_t last = levels->level[levels->depth - 1].count;
@@ -184,9 +180,8 @@ static void create_letter_lean_and_coarse(void **context)
     mote_mesh_destroy(mesh);
 }
 
-static void spread_farthest_is_farthest(void **context)
+TEST(spread_farthest_is_farthest)
 {
-    (void)context;
     mote_mesh *mesh = letter('M', 4000);
     mote_levels *levels = levels_of(mesh);
     uint32_t node[20];
@@ -210,9 +205,8 @@ static void spread_farthest_is_farthest(void **context)
     mote_mesh_destroy(mesh);
 }
 
-static void spread_covers_components_with_different_nodes(void **context)
+TEST(spread_covers_components_with_different_nodes)
 {
-    (void)context;
     solid s = solid_join(solid_torus(20, 9), solid_icosphere(2), 4);
     for (int i = 0; i < 10; ++i)
         s = solid_join(s, solid_tetrahedron(), 8 + 4 * i);
@@ -247,9 +241,8 @@ static void spread_covers_components_with_different_nodes(void **context)
 
 /* Each vertex is a node or one edge farther from its home than some neighbour with that home,
    and no neighbour is two edges nearer to any. */
-static void home_letter_nearest_by_edges(void **context)
+TEST(home_letter_nearest_by_edges)
 {
-    (void)context;
     mote_mesh *mesh = letter('V', 3000);
     mote_levels *levels = levels_of(mesh);
     const uint32_t l = 1;
@@ -283,24 +276,7 @@ static void home_letter_nearest_by_edges(void **context)
     mote_mesh_destroy(mesh);
 }
 
-static void destroy_null_does_nothing(void **context)
+TEST(destroy_null_does_nothing)
 {
-    (void)context;
     mote_levels_destroy(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(create_closed_meshes_as_defined),
-        cmocka_unit_test(create_open_and_tiny_meshes_as_defined),
-        cmocka_unit_test(create_mesh_as_large_as_1e200_as_defined),
-        cmocka_unit_test(create_many_components_as_defined),
-        cmocka_unit_test(create_letter_lean_and_coarse),
-        cmocka_unit_test(spread_farthest_is_farthest),
-        cmocka_unit_test(spread_covers_components_with_different_nodes),
-        cmocka_unit_test(home_letter_nearest_by_edges),
-        cmocka_unit_test(destroy_null_does_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/base/linear_algebra.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 static mote_mat3 random_symmetric(uint64_t *seed)
 {
@@ -18,9 +19,8 @@ static mote_vec3 column(const mote_mat3 *m, int k)
     return mote_vec3_make(m->m[0][k], m->m[1][k], m->m[2][k]);
 }
 
-static void eigen_symmetric_rises_and_is_a_rotation(void **unused)
+TEST(eigen_symmetric_rises_and_is_a_rotation)
 {
-    (void)unused;
     uint64_t seed = 1;
     for (int round = 0; round < 1000; ++round) {
         const mote_mat3 m = random_symmetric(&seed);
@@ -40,9 +40,8 @@ static void eigen_symmetric_rises_and_is_a_rotation(void **unused)
     }
 }
 
-static void eigen_symmetric_not_finite_is_refused(void **unused)
+TEST(eigen_symmetric_not_finite_is_refused)
 {
-    (void)unused;
     uint64_t seed = 2;
     for (int k = 0; k < 9; ++k) {
         mote_mat3 m = random_symmetric(&seed), vectors;
@@ -55,9 +54,8 @@ static void eigen_symmetric_not_finite_is_refused(void **unused)
     }
 }
 
-static void cholesky_of_an_indefinite_matrix_is_refused(void **unused)
+TEST(cholesky_of_an_indefinite_matrix_is_refused)
 {
-    (void)unused;
     const double matrix[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
     mote_cholesky *factor = NULL;
     double condition = -1;
@@ -67,9 +65,8 @@ static void cholesky_of_an_indefinite_matrix_is_refused(void **unused)
     assert_true(condition == -1);
 }
 
-static void cholesky_solves_every_third_number(void **unused)
+TEST(cholesky_solves_every_third_number)
 {
-    (void)unused;
     const double matrix[9] = {4, 1, 0, 1, 3, -1, 0, -1, 2};
     const double x[3] = {1, -2, 5};
     double values[9], solved[9];
@@ -89,15 +86,4 @@ static void cholesky_solves_every_third_number(void **unused)
     }
     mote_cholesky_destroy(factor);
     mote_cholesky_destroy(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eigen_symmetric_rises_and_is_a_rotation),
-        cmocka_unit_test(eigen_symmetric_not_finite_is_refused),
-        cmocka_unit_test(cholesky_of_an_indefinite_matrix_is_refused),
-        cmocka_unit_test(cholesky_solves_every_third_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/body/mass.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #include <float.h>
 
@@ -89,9 +90,8 @@ static void assert_rotation(const mote_mat3 *r)
     assert_close(mote_dot(mote_cross(x, y), z), 1, 1e-14);
 }
 
-static void mass_of_mesh_box_closed_form(void **state)
+TEST(mass_of_mesh_box_closed_form)
 {
-    (void)state;
     const double a = 3, b = 2, c = 1, density = 5, m = density * a * b * c;
     const mote_mass mass = mass_of(solid_box(a, b, c), density);
     assert_close(mass.volume, a * b * c, 1e-14);
@@ -106,9 +106,8 @@ static void mass_of_mesh_box_closed_form(void **state)
         assert_close(fabs(mass.axes.m[k][k]), 1, 1e-14);
 }
 
-static void mass_of_mesh_tetrahedron_closed_form(void **state)
+TEST(mass_of_mesh_tetrahedron_closed_form)
 {
-    (void)state;
     /* About the centre: squares 3 m a^2 / 80 each, products -m a^2 / 80. */
     const double a = 2, m = a * a * a / 6;
     const mote_mass mass = mass_of(corner_tetrahedron(a), 1);
@@ -123,9 +122,8 @@ static void mass_of_mesh_tetrahedron_closed_form(void **state)
     assert_close(fabs(along), sqrt(3.0), 1e-13);
 }
 
-static void mass_of_mesh_sphere_converges_to_closed_form(void **state)
+TEST(mass_of_mesh_sphere_converges_to_closed_form)
 {
-    (void)state;
     double before = HUGE_VAL;
     for (int level = 2; level <= 4; ++level) {
         const mote_mass mass = mass_of(solid_icosphere(level), 1);
@@ -139,9 +137,8 @@ static void mass_of_mesh_sphere_converges_to_closed_form(void **state)
     assert_true(before < 0.02);
 }
 
-static void mass_of_mesh_torus_converges_to_closed_form(void **state)
+TEST(mass_of_mesh_torus_converges_to_closed_form)
 {
-    (void)state;
     const double r = 0.3, volume = 2 * pi * pi * r * r;
     const double axial = volume * (1 + 3 * r * r / 4);
     const double across = volume * (0.5 + 5 * r * r / 8);
@@ -158,9 +155,8 @@ static void mass_of_mesh_torus_converges_to_closed_form(void **state)
     assert_true(before < 2e-3);
 }
 
-static void mass_of_mesh_moved_and_scaled_follows(void **state)
+TEST(mass_of_mesh_moved_and_scaled_follows)
 {
-    (void)state;
     uint64_t seed = 5;
     const mote_mass at_rest = mass_of(solid_box(3, 2, 1), 1);
     for (int i = 0; i < 50; ++i) {
@@ -184,9 +180,8 @@ static void mass_of_mesh_moved_and_scaled_follows(void **state)
     }
 }
 
-static void mass_of_mesh_inside_out_is_the_same(void **state)
+TEST(mass_of_mesh_inside_out_is_the_same)
 {
-    (void)state;
     solid s = solid_box(3, 2, 1);
     flip_faces(&s, 0, 12);
     const mote_mass a = mass_of(s, 2), b = mass_of(solid_box(3, 2, 1), 2);
@@ -195,9 +190,8 @@ static void mass_of_mesh_inside_out_is_the_same(void **state)
     assert_vec3_close(a.inertia, b.inertia, 1e-13);
 }
 
-static void mass_of_mesh_cavity_is_taken_off(void **state)
+TEST(mass_of_mesh_cavity_is_taken_off)
 {
-    (void)state;
     /* A unit sphere's mesh in a twice larger one, wound the other way. */
     solid outer = solid_icosphere(2);
     move_vertices(&outer, (mote_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
@@ -216,9 +210,8 @@ typedef struct refusal {
     const char *says;
 } refusal;
 
-static void mass_of_mesh_bad_input_refused_with_reason(void **state)
+TEST(mass_of_mesh_bad_input_refused_with_reason)
 {
-    (void)state;
     solid twisted = solid_box(1, 1, 1);
     flip_faces(&twisted, 3, 4);
     /* Beside a solid its mirror image, wound as it was: their volumes cancel. */
@@ -258,29 +251,12 @@ static void mass_of_mesh_bad_input_refused_with_reason(void **state)
     }
 }
 
-static void mass_of_mesh_sliver_keeps_its_digits(void **state)
+TEST(mass_of_mesh_sliver_keeps_its_digits)
 {
-    (void)state;
     for (double thin = 1; thin > 1e-12; thin /= 16) {
         const mote_mass mass = mass_of(solid_box(1, 2, thin), 1);
         assert_close(mass.mass / thin, 2, 1e-14);
         assert_close(mass.inertia.z / thin, 2.0 / 12 * 5, 1e-13);
         assert_close(mass.inertia.x / thin, 2.0 / 12 * (1 + thin * thin), 1e-13);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mass_of_mesh_box_closed_form),
-        cmocka_unit_test(mass_of_mesh_tetrahedron_closed_form),
-        cmocka_unit_test(mass_of_mesh_sphere_converges_to_closed_form),
-        cmocka_unit_test(mass_of_mesh_torus_converges_to_closed_form),
-        cmocka_unit_test(mass_of_mesh_moved_and_scaled_follows),
-        cmocka_unit_test(mass_of_mesh_inside_out_is_the_same),
-        cmocka_unit_test(mass_of_mesh_cavity_is_taken_off),
-        cmocka_unit_test(mass_of_mesh_bad_input_refused_with_reason),
-        cmocka_unit_test(mass_of_mesh_sliver_keeps_its_digits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Meshes and their ordered rings against brute force over the faces. */
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #include <time.h>
 
@@ -308,9 +309,8 @@ static void check_counts(const mote_mesh *mesh, uint32_t edges, uint32_t open, i
     assert_int_equal(mesh->component_count, components);
 }
 
-static void create_tetrahedron_has_closed_rings_of_three(void **unused)
+TEST(create_tetrahedron_has_closed_rings_of_three)
 {
-    (void)unused;
     mote_mesh *mesh = checked_mesh(solid_tetrahedron());
     check_counts(mesh, 6, 0, 2, 1);
     for (uint32_t v = 0; v < 4; ++v)
@@ -321,9 +321,8 @@ static void create_tetrahedron_has_closed_rings_of_three(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_icospheres_are_closed_with_euler_two(void **unused)
+TEST(create_icospheres_are_closed_with_euler_two)
 {
-    (void)unused;
     for (int level = 0; level < 5; ++level) {
         mote_mesh *mesh = checked_mesh(solid_icosphere(level));
         const uint32_t triangles = 20u << (2 * level);
@@ -333,9 +332,8 @@ static void create_icospheres_are_closed_with_euler_two(void **unused)
     }
 }
 
-static void create_torus_is_closed_with_euler_zero(void **unused)
+TEST(create_torus_is_closed_with_euler_zero)
 {
-    (void)unused;
     mote_mesh *mesh = checked_mesh(solid_torus(17, 9));
     check_counts(mesh, 3 * 17 * 9, 0, 0, 1);
     for (uint32_t v = 0; v < mesh->vertex_count; ++v)
@@ -343,9 +341,8 @@ static void create_torus_is_closed_with_euler_zero(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_single_triangle_is_open(void **unused)
+TEST(create_single_triangle_is_open)
 {
-    (void)unused;
     mote_mesh *mesh = checked_mesh(solid_triangle());
     check_counts(mesh, 3, 3, 1, 1);
     assert_true(mesh->diagonal == 5);
@@ -354,18 +351,16 @@ static void create_single_triangle_is_open(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_grid_counts_its_open_edges(void **unused)
+TEST(create_grid_counts_its_open_edges)
 {
-    (void)unused;
     mote_mesh *mesh = checked_mesh(solid_grid(7, 5));
     check_counts(mesh, 7 * 6 + 8 * 5 + 35, 2 * (7 + 5), 1, 1);
     assert_close(mote_mesh_smallest_angle(mesh), 45, 1e-13);
     mote_mesh_destroy(mesh);
 }
 
-static void create_two_solids_has_two_components(void **unused)
+TEST(create_two_solids_has_two_components)
 {
-    (void)unused;
     mote_mesh *mesh = checked_mesh(solid_join(solid_icosphere(1), solid_torus(5, 4), 4));
     check_counts(mesh, 120 + 60, 0, 2 + 0, 2);
     assert_int_equal(mesh->component[0], 0);
@@ -373,9 +368,8 @@ static void create_two_solids_has_two_components(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_closed_bow_tie_keeps_both_fans(void **unused)
+TEST(create_closed_bow_tie_keeps_both_fans)
 {
-    (void)unused;
     solid s = solid_join(solid_tetrahedron(), solid_icosahedron(), 3);
     solid_weld(&s, 4, 0); /* a corner of the second onto a corner of the first */
     mote_mesh *mesh = checked_mesh(s);
@@ -384,9 +378,8 @@ static void create_closed_bow_tie_keeps_both_fans(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_open_bow_tie_keeps_both_fans(void **unused)
+TEST(create_open_bow_tie_keeps_both_fans)
 {
-    (void)unused;
     solid s = solid_join(solid_triangle(), solid_tetrahedron(), 1);
     solid_weld(&s, 3, 1); /* an open and a closed fan at one vertex */
     mote_mesh *mesh = checked_mesh(s);
@@ -399,9 +392,8 @@ static void create_open_bow_tie_keeps_both_fans(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_inconsistent_winding_gives_the_same_counts(void **unused)
+TEST(create_inconsistent_winding_gives_the_same_counts)
 {
-    (void)unused;
     solid s = solid_icosphere(2);
     for (size_t f = 0; f < s.triangle_count; f += 3) {
         const uint32_t swap = s.faces[3 * f];
@@ -413,9 +405,8 @@ static void create_inconsistent_winding_gives_the_same_counts(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_duplicate_face_closes_the_pair(void **unused)
+TEST(create_duplicate_face_closes_the_pair)
 {
-    (void)unused;
     solid s = solid_allocate(3, 2);
     solid_set_vertex(&s, 0, 0, 0, 0);
     solid_set_vertex(&s, 1, 1, 0, 0);
@@ -429,9 +420,8 @@ static void create_duplicate_face_closes_the_pair(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_zero_area_faces_are_allowed(void **unused)
+TEST(create_zero_area_faces_are_allowed)
 {
-    (void)unused;
     solid s = solid_grid(3, 3);
     solid_set_vertex(&s, 5, 0, 1, 0); /* onto vertex 1: two equal corners, zero area */
     mote_mesh *mesh = checked_mesh(s);
@@ -442,9 +432,8 @@ static void create_zero_area_faces_are_allowed(void **unused)
 
 /* Random faces, of which those that would give an edge a third face are left out: open and
    closed fans, several at a vertex, duplicates and mixed winding, in all combinations. */
-static void create_random_faces_match_brute_force(void **unused)
+TEST(create_random_faces_match_brute_force)
 {
-    (void)unused;
     uint64_t seed = 11;
     for (int round = 0; round < 400; ++round) {
         const uint32_t n = 4 + (uint32_t)(random_bits(&seed) % 12);
@@ -481,9 +470,8 @@ static void create_random_faces_match_brute_force(void **unused)
     }
 }
 
-static void create_copies_its_input(void **unused)
+TEST(create_copies_its_input)
 {
-    (void)unused;
     solid s = solid_icosphere(1);
     mote_mesh *mesh = NULL;
     assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
@@ -506,9 +494,8 @@ static double process_seconds(void)
     return (double)clock() / CLOCKS_PER_SEC;
 }
 
-static void create_fan_of_100000_faces_takes_linear_time(void **unused)
+TEST(create_fan_of_100000_faces_takes_linear_time)
 {
-    (void)unused;
     for (int closed = 0; closed <= 1; ++closed) {
         solid s = solid_fan(100000u + (closed ? 1 : 2), closed);
         const double start = process_seconds();
@@ -525,25 +512,4 @@ static void create_fan_of_100000_faces_takes_linear_time(void **unused)
         check_edges(mesh);
         mote_mesh_destroy(mesh);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(create_tetrahedron_has_closed_rings_of_three),
-        cmocka_unit_test(create_icospheres_are_closed_with_euler_two),
-        cmocka_unit_test(create_torus_is_closed_with_euler_zero),
-        cmocka_unit_test(create_single_triangle_is_open),
-        cmocka_unit_test(create_grid_counts_its_open_edges),
-        cmocka_unit_test(create_two_solids_has_two_components),
-        cmocka_unit_test(create_closed_bow_tie_keeps_both_fans),
-        cmocka_unit_test(create_open_bow_tie_keeps_both_fans),
-        cmocka_unit_test(create_inconsistent_winding_gives_the_same_counts),
-        cmocka_unit_test(create_duplicate_face_closes_the_pair),
-        cmocka_unit_test(create_zero_area_faces_are_allowed),
-        cmocka_unit_test(create_random_faces_match_brute_force),
-        cmocka_unit_test(create_copies_its_input),
-        cmocka_unit_test(create_fan_of_100000_faces_takes_linear_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* What mote_mesh_create rejects: each text whole, and the output untouched. */
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -16,9 +17,8 @@ static void expect_error(solid s, const char *text)
     solid_free(&s);
 }
 
-static void create_without_a_triangle_is_an_error(void **unused)
+TEST(create_without_a_triangle_is_an_error)
 {
-    (void)unused;
     const char *text = "the mesh has no triangle; at least one is needed";
     solid s = solid_triangle();
     s.triangle_count = 0;
@@ -28,9 +28,8 @@ static void create_without_a_triangle_is_an_error(void **unused)
     expect_error(s, text);
 }
 
-static void create_with_too_many_elements_is_an_error(void **unused)
+TEST(create_with_too_many_elements_is_an_error)
 {
-    (void)unused;
     solid s = solid_triangle();
     s.vertex_count = (size_t)1 << 31;
     expect_error(s, "the mesh has 2147483648 vertices and 1 triangles; below 2^31 vertices and "
@@ -41,9 +40,8 @@ static void create_with_too_many_elements_is_an_error(void **unused)
                     "2^31 / 3 triangles are supported");
 }
 
-static void create_with_a_coordinate_not_finite_names_it(void **unused)
+TEST(create_with_a_coordinate_not_finite_names_it)
 {
-    (void)unused;
     const double bad[] = {NAN, INFINITY, -INFINITY};
     const char *text[] = {
         "vertex 3: x is not finite; every coordinate must be a finite number",
@@ -56,9 +54,8 @@ static void create_with_a_coordinate_not_finite_names_it(void **unused)
     }
 }
 
-static void create_with_an_index_out_of_range_names_the_face(void **unused)
+TEST(create_with_an_index_out_of_range_names_the_face)
 {
-    (void)unused;
     solid s = solid_tetrahedron();
     s.faces[7] = 4;
     expect_error(s, "face 2: index 4 is out of range; there are 4 vertices, counted from 0");
@@ -68,9 +65,8 @@ static void create_with_an_index_out_of_range_names_the_face(void **unused)
         s, "face 3: index 4294967295 is out of range; there are 4 vertices, counted from 0");
 }
 
-static void create_with_a_repeated_vertex_names_the_face(void **unused)
+TEST(create_with_a_repeated_vertex_names_the_face)
 {
-    (void)unused;
     for (size_t k = 0; k < 3; ++k) {
         solid s = solid_tetrahedron();
         solid_set_face(&s, 1, 2, 2, 2);
@@ -84,9 +80,8 @@ static void create_with_a_repeated_vertex_names_the_face(void **unused)
     }
 }
 
-static void create_with_three_faces_at_an_edge_names_the_edge(void **unused)
+TEST(create_with_three_faces_at_an_edge_names_the_edge)
 {
-    (void)unused;
     const uint32_t order[][2] = {{2, 3}, {3, 2}};
     for (int k = 0; k < 2; ++k) {
         solid s = solid_join(solid_tetrahedron(), solid_triangle(), 5);
@@ -99,9 +94,8 @@ static void create_with_three_faces_at_an_edge_names_the_edge(void **unused)
     }
 }
 
-static void create_with_three_equal_faces_names_an_edge(void **unused)
+TEST(create_with_three_equal_faces_names_an_edge)
 {
-    (void)unused;
     solid s = solid_allocate(3, 3);
     solid_set_vertex(&s, 0, 0, 0, 0);
     solid_set_vertex(&s, 1, 1, 0, 0);
@@ -112,26 +106,23 @@ static void create_with_three_equal_faces_names_an_edge(void **unused)
                     "or two");
 }
 
-static void create_with_an_unused_vertex_names_it(void **unused)
+TEST(create_with_an_unused_vertex_names_it)
 {
-    (void)unused;
     solid s = solid_tetrahedron();
     s.triangle_count = 1; /* 0, 1, 2 */
     expect_error(s, "vertex 3 belongs to no face; leave it out or use it");
 }
 
-static void create_without_extent_is_an_error(void **unused)
+TEST(create_without_extent_is_an_error)
 {
-    (void)unused;
     solid s = solid_tetrahedron();
     for (size_t i = 0; i < 12; ++i)
         s.xyz[i] = 7.5;
     expect_error(s, "all vertices coincide; a mesh needs an extent");
 }
 
-static void create_with_an_extent_out_of_range_is_an_error(void **unused)
+TEST(create_with_an_extent_out_of_range_is_an_error)
 {
-    (void)unused;
     solid s = solid_tetrahedron();
     for (size_t i = 0; i < 12; ++i)
         s.xyz[i] *= 1.7e308;
@@ -150,21 +141,4 @@ static void create_with_an_extent_out_of_range_is_an_error(void **unused)
     expect_error(
         s, "the bounding-box diagonal is 4.94e-323; it must be a normal number, from 2.2e-308 "
            "to 1.8e+308");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(create_without_a_triangle_is_an_error),
-        cmocka_unit_test(create_with_too_many_elements_is_an_error),
-        cmocka_unit_test(create_with_a_coordinate_not_finite_names_it),
-        cmocka_unit_test(create_with_an_index_out_of_range_names_the_face),
-        cmocka_unit_test(create_with_a_repeated_vertex_names_the_face),
-        cmocka_unit_test(create_with_three_faces_at_an_edge_names_the_edge),
-        cmocka_unit_test(create_with_three_equal_faces_names_an_edge),
-        cmocka_unit_test(create_with_an_unused_vertex_names_it),
-        cmocka_unit_test(create_without_extent_is_an_error),
-        cmocka_unit_test(create_with_an_extent_out_of_range_is_an_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Lengths and angles of a mesh over the whole range of doubles. */
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 /* A solid scaled by 2^k; returns its mesh. */
 static mote_mesh *scaled_icosphere(int k)
@@ -10,9 +11,8 @@ static mote_mesh *scaled_icosphere(int k)
     return solid_to_mesh(s);
 }
 
-static void lengths_scaled_by_powers_of_two_scale_exactly(void **unused)
+TEST(lengths_scaled_by_powers_of_two_scale_exactly)
 {
-    (void)unused;
     mote_mesh *unit = scaled_icosphere(0);
     const int exponents[] = {-998, -540, -300, -40, -1, 1, 40, 300, 540, 996, 1022};
     for (size_t i = 0; i < sizeof exponents / sizeof *exponents; ++i) {
@@ -52,9 +52,8 @@ static long double smallest_by_cosines(const mote_mesh *mesh)
     return smallest;
 }
 
-static void smallest_angle_matches_law_of_cosines(void **unused)
+TEST(smallest_angle_matches_law_of_cosines)
 {
-    (void)unused;
     mote_mesh *mesh = solid_to_mesh(solid_torus(23, 7));
     assert_close(mote_mesh_smallest_angle(mesh), smallest_by_cosines(mesh), 1e-11);
     mote_mesh_destroy(mesh);
@@ -62,9 +61,8 @@ static void smallest_angle_matches_law_of_cosines(void **unused)
 
 /* Differences are taken before anything is rounded again, so a mesh far from the origin keeps
    the angles that its coordinates have. */
-static void smallest_angle_far_from_the_origin_stays_accurate(void **unused)
+TEST(smallest_angle_far_from_the_origin_stays_accurate)
 {
-    (void)unused;
     solid s = solid_torus(23, 7);
     for (size_t i = 0; i < 3 * s.vertex_count; ++i)
         s.xyz[i] += 3e6;
@@ -73,9 +71,8 @@ static void smallest_angle_far_from_the_origin_stays_accurate(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_at_the_ends_of_the_range_is_finite(void **unused)
+TEST(create_at_the_ends_of_the_range_is_finite)
 {
-    (void)unused;
     const double size[] = {1e-307, 5e307};
     for (int k = 0; k < 2; ++k) {
         solid s = solid_tetrahedron();
@@ -87,15 +84,4 @@ static void create_at_the_ends_of_the_range_is_finite(void **unused)
         assert_close(mote_mesh_smallest_angle(mesh), 60, 1e-12);
         mote_mesh_destroy(mesh);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lengths_scaled_by_powers_of_two_scale_exactly),
-        cmocka_unit_test(smallest_angle_matches_law_of_cosines),
-        cmocka_unit_test(smallest_angle_far_from_the_origin_stays_accurate),
-        cmocka_unit_test(create_at_the_ends_of_the_range_is_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,8 @@
 /* What stands for the functions that a method leaves out. */
 #include "core/method/method.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 static mote_status query(void *state, const mote_frame *frame, mote_answer *answer)
 {
@@ -15,9 +13,8 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
 
 static const mote_method least = {.name = "least", .query = query};
 
-static void method_create_without_one_keeps_the_setup(void **unused)
+TEST(method_create_without_one_keeps_the_setup)
 {
-    (void)unused;
     mote_setup setup = {.length = 3.5, .tolerance = 0.25};
     mote_answer answer = {0};
     void *state = NULL;
@@ -30,31 +27,19 @@ static void method_create_without_one_keeps_the_setup(void **unused)
     mote_method_destroy(&least, NULL);
 }
 
-static void method_traits_without_them_are_none(void **unused)
+TEST(method_traits_without_them_are_none)
 {
-    (void)unused;
     mote_traits traits = mote_method_traits(&least, NULL);
     assert_false(traits.needs_vertices || traits.given_vertices || traits.keeps_state ||
                  traits.exact || traits.hulls);
 }
 
-static void method_functions_of_its_own_are_used(void **unused)
+TEST(method_functions_of_its_own_are_used)
 {
-    (void)unused;
     const mote_method *method = mote_method_find("certified");
     double values[MOTE_PARAMETERS_MAX];
     assert_non_null(method);
     mote_parameters_default(method->parameters, method->parameter_count, values);
     assert_true(mote_method_traits(method, values).exact);
     mote_method_destroy(method, NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(method_create_without_one_keeps_the_setup),
-        cmocka_unit_test(method_traits_without_them_are_none),
-        cmocka_unit_test(method_functions_of_its_own_are_used),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

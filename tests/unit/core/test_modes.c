@@ -2,6 +2,7 @@
 #include "core/body/field.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 /* Weights in the three padded arrays. */
 typedef struct weight_set {
@@ -9,9 +10,8 @@ typedef struct weight_set {
     mote_weights weights;
 } weight_set;
 
-static void modes_displacement_reproduces_scaled_columns(void **unused)
+TEST(modes_displacement_reproduces_scaled_columns)
 {
-    (void)unused;
     uint64_t seed = 5;
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(1));
     enum { COUNT = 5 };
@@ -53,9 +53,8 @@ static void modes_displacement_reproduces_scaled_columns(void **unused)
 }
 
 /* A single mode of weight s moves vertex x exactly to x + s u. */
-static void modes_with_one_mode_is_exact(void **unused)
+TEST(modes_with_one_mode_is_exact)
 {
-    (void)unused;
     uint64_t seed = 6;
     mote_mesh *mesh = solid_to_mesh(solid_grid(4, 3));
     mote_vec3 modes[20];
@@ -78,9 +77,8 @@ static void modes_with_one_mode_is_exact(void **unused)
 
 /* Of displacements linear in the rest position the gradient is known: column c of basis 3 m + c
    has the gradient of that coordinate. In a flat ring only its part in the plane is. */
-static void modes_gradient_of_a_linear_map_is_the_map(void **unused)
+TEST(modes_gradient_of_a_linear_map_is_the_map)
 {
-    (void)unused;
     uint64_t seed = 7;
     const double map[3][3] = {{0.3, -0.7, 0.2}, {1.1, 0.4, -0.5}, {-0.2, 0.6, 0.9}};
     for (int exponent = -300; exponent <= 300; exponent += 150) {
@@ -111,9 +109,8 @@ static void modes_gradient_of_a_linear_map_is_the_map(void **unused)
     }
 }
 
-static void modes_gradient_in_a_flat_ring_has_no_normal_part(void **unused)
+TEST(modes_gradient_in_a_flat_ring_has_no_normal_part)
 {
-    (void)unused;
     mote_mesh *mesh = solid_to_mesh(solid_grid(2, 2));
     mote_vec3 modes[9];
     for (uint32_t v = 0; v < 9; ++v)
@@ -134,9 +131,8 @@ static void modes_gradient_in_a_flat_ring_has_no_normal_part(void **unused)
 }
 
 /* A ring that has no extent at all tells of no slope. */
-static void modes_gradient_where_all_neighbours_coincide_is_zero(void **unused)
+TEST(modes_gradient_where_all_neighbours_coincide_is_zero)
 {
-    (void)unused;
     solid s = solid_triangle();
     for (size_t i = 0; i < 3; ++i)
         solid_set_vertex(&s, i, 2, 3, 4);
@@ -156,9 +152,8 @@ static void modes_gradient_where_all_neighbours_coincide_is_zero(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void create_modes_with_bad_input_says_what(void **unused)
+TEST(create_modes_with_bad_input_says_what)
 {
-    (void)unused;
     mote_vec3 modes[6] = {{0, 0, 0}};
     mote_field mark;
     mote_field *field = &mark;
@@ -173,17 +168,4 @@ static void create_modes_with_bad_input_says_what(void **unused)
         assert_string_equal(mote_error_text(), "mode 1 is not finite at vertex 1");
     }
     assert_ptr_equal(field, &mark);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(modes_displacement_reproduces_scaled_columns),
-        cmocka_unit_test(modes_with_one_mode_is_exact),
-        cmocka_unit_test(modes_gradient_of_a_linear_map_is_the_map),
-        cmocka_unit_test(modes_gradient_in_a_flat_ring_has_no_normal_part),
-        cmocka_unit_test(modes_gradient_where_all_neighbours_coincide_is_zero),
-        cmocka_unit_test(create_modes_with_bad_input_says_what),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 #include "datasets/letter.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #include <stdio.h>
 
@@ -81,9 +82,8 @@ typedef struct pair {
 /* Twice the convex parts of the body that has more (paper 3.5), but not more than a body has
    vertices, and 8 at least when tracked; N_min = n / 10, N_max the square root of the vertices
    of the larger body. */
-static void automatic_numbers_are_those_of_the_paper(void **unused)
+TEST(automatic_numbers_are_those_of_the_paper)
 {
-    (void)unused;
     const pair pairs[] = {{letter('W', 400), letter('T', 400)},
                           {letter('T', 400), letter('W', 400)},
                           {letter('W', 400), solid_to_mesh(solid_icosahedron())},
@@ -112,9 +112,8 @@ static void automatic_numbers_are_those_of_the_paper(void **unused)
 }
 
 /* Two bodies of one mesh have its parts. */
-static void automatic_number_of_one_mesh_twice_is_that_of_one(void **unused)
+TEST(automatic_number_of_one_mesh_twice_is_that_of_one)
 {
-    (void)unused;
     scene s;
     scene_init_meshes(&s, letter('W', 400), letter('W', 400), false);
     mote_mesh *second = s.mesh[1];
@@ -128,9 +127,8 @@ static void automatic_number_of_one_mesh_twice_is_that_of_one(void **unused)
 }
 
 /* A cached influence does not outlive a query that starts anew. */
-static void far_cache_without_coherence_answers_the_same_again(void **unused)
+TEST(far_cache_without_coherence_answers_the_same_again)
 {
-    (void)unused;
     scene s;
     scene_init(&s, 20, 10, 1, true);
     const mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);
@@ -150,9 +148,8 @@ static void far_cache_without_coherence_answers_the_same_again(void **unused)
 
 /* What certified says of a contact is true whenever it says anything, and it says so unless it
    was told to stop early. */
-static void certified_contact_question_says_what_it_knows(void **unused)
+TEST(certified_contact_question_says_what_it_knows)
 {
-    (void)unused;
     static const struct {
         const char *keys;
         bool always;
@@ -190,9 +187,8 @@ static void certified_contact_question_says_what_it_knows(void **unused)
 }
 
 /* Exact is what neither slack nor a budget ends early. */
-static void certified_claims_to_be_exact_where_nothing_ends_it(void **unused)
+TEST(certified_claims_to_be_exact_where_nothing_ends_it)
 {
-    (void)unused;
     static const struct {
         const char *keys;
         bool exact;
@@ -208,16 +204,4 @@ static void certified_claims_to_be_exact_where_nothing_ends_it(void **unused)
         assert_int_equal(t.exact, cases[k].exact);
         assert_int_equal(t.keeps_state, k != 3);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(automatic_numbers_are_those_of_the_paper),
-        cmocka_unit_test(automatic_number_of_one_mesh_twice_is_that_of_one),
-        cmocka_unit_test(far_cache_without_coherence_answers_the_same_again),
-        cmocka_unit_test(certified_claims_to_be_exact_where_nothing_ends_it),
-        cmocka_unit_test(certified_contact_question_says_what_it_knows),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/body/pairs.h"
 
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 static mote_pair pair_at(double squared, double x)
 {
@@ -10,9 +11,8 @@ static mote_pair pair_at(double squared, double x)
                        .shape = {mote_vec3_make(x, 0, 0), mote_vec3_make(0, x, 0)}};
 }
 
-static void keep_far_from_each_other_sorted(void **unused)
+TEST(keep_far_from_each_other_sorted)
 {
-    (void)unused;
     uint64_t seed = 1;
     mote_pairs pairs = {.count = 0};
     double least = HUGE_VAL;
@@ -27,9 +27,8 @@ static void keep_far_from_each_other_sorted(void **unused)
     }
 }
 
-static void keep_within_a_ring_only_the_nearest(void **unused)
+TEST(keep_within_a_ring_only_the_nearest)
 {
-    (void)unused;
     mote_pairs pairs = {.count = 0};
     const mote_pair first = pair_at(4, 0), farther = pair_at(5, 0.5), nearer = pair_at(3, -0.5);
     const mote_pair other = pair_at(6, 7);
@@ -45,9 +44,8 @@ static void keep_within_a_ring_only_the_nearest(void **unused)
 
 /* What was checked exactly stays, even where a vertex pair nearby is nearer; nothing that stood
    before it is lost by that. */
-static void keep_within_a_ring_of_a_refined_one_nothing(void **unused)
+TEST(keep_within_a_ring_of_a_refined_one_nothing)
 {
-    (void)unused;
     mote_pairs pairs = {.count = 0};
     mote_pair refined = pair_at(4, 0);
     refined.refined = true;
@@ -69,9 +67,8 @@ static void keep_within_a_ring_of_a_refined_one_nothing(void **unused)
 
 /* Two sheets that lie on each other, one mesh: their corners are in the same place, but a walk
    on one does not come to the other. */
-static void keep_in_one_place_on_two_sheets_both(void **unused)
+TEST(keep_in_one_place_on_two_sheets_both)
 {
-    (void)unused;
     mote_mesh *sheets = solid_to_mesh(solid_join(solid_grid(2, 2), solid_grid(2, 2), 0));
     const uint32_t half = sheets->vertex_count / 2;
     const uint32_t beside = MOTE_RING_VERTEX(sheets->ring[sheets->ring_start[0]]);
@@ -88,15 +85,4 @@ static void keep_in_one_place_on_two_sheets_both(void **unused)
         assert_true(pairs.list[0].squared == 4 && pairs.list[1].squared == 5);
     }
     mote_mesh_destroy(sheets);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keep_far_from_each_other_sorted),
-        cmocka_unit_test(keep_in_one_place_on_two_sheets_both),
-        cmocka_unit_test(keep_within_a_ring_only_the_nearest),
-        cmocka_unit_test(keep_within_a_ring_of_a_refined_one_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

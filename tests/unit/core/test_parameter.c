@@ -2,6 +2,7 @@
 #include "core/base/parameter.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #include <float.h>
 #include <stdio.h>
@@ -29,9 +30,8 @@ static void parse(const char *text, double values[COUNT])
         fail_msg("%s", mote_error_text());
 }
 
-static void default_values_are_those_of_the_table(void **unused)
+TEST(default_values_are_those_of_the_table)
 {
-    (void)unused;
     double values[COUNT];
     defaults(values);
     assert_true(values[N] == 5);
@@ -41,9 +41,8 @@ static void default_values_are_those_of_the_table(void **unused)
     assert_true(values[SHARE] == 0.5);
 }
 
-static void parse_of_empty_text_keeps_the_values(void **unused)
+TEST(parse_of_empty_text_keeps_the_values)
 {
-    (void)unused;
     double values[COUNT] = {1, 2, 0, 3, 0.25};
     const double before[COUNT] = {1, 2, 0, 3, 0.25};
     assert_int_equal(mote_parameters_parse(table, COUNT, "", values), MOTE_OK);
@@ -51,9 +50,8 @@ static void parse_of_empty_text_keeps_the_values(void **unused)
     assert_int_equal(mote_parameters_parse(NULL, 0, "", values), MOTE_OK);
 }
 
-static void parse_sets_what_is_named_and_nothing_else(void **unused)
+TEST(parse_sets_what_is_named_and_nothing_else)
 {
-    (void)unused;
     double values[COUNT];
     parse("reff=2.5,law=inverse-square,n=17", values);
     assert_true(values[N] == 17 && values[RADIUS] == 2.5 && values[LAW] == 2);
@@ -62,9 +60,8 @@ static void parse_sets_what_is_named_and_nothing_else(void **unused)
     assert_true(values[N] == 1000 && values[STEPS] == 12 && values[LAW] == 1);
 }
 
-static void parse_takes_both_ends_of_a_range(void **unused)
+TEST(parse_takes_both_ends_of_a_range)
 {
-    (void)unused;
     double values[COUNT];
     parse("n=1,share=0.25,reff=0,nmax=0", values);
     assert_true(values[N] == 1 && values[SHARE] == 0.25 && values[RADIUS] == 0 &&
@@ -76,9 +73,8 @@ static void parse_takes_both_ends_of_a_range(void **unused)
     assert_true(values[RADIUS] == MOTE_AUTO && values[STEPS] == MOTE_AUTO);
 }
 
-static void parse_takes_every_choice(void **unused)
+TEST(parse_takes_every_choice)
 {
-    (void)unused;
     const char *text[] = {"law=log", "law=inverse", "law=inverse-square"};
     for (int k = 0; k < 3; ++k) {
         double values[COUNT];
@@ -106,9 +102,8 @@ static void expect_bad_value(const char *item, const char *range)
     expect_error(item, message);
 }
 
-static void parse_of_a_bad_whole_number_says_the_range(void **unused)
+TEST(parse_of_a_bad_whole_number_says_the_range)
 {
-    (void)unused;
     const char *bad[] = {"n=",    "n=0",   "n=1001",  "n=-1",  "n=2.5",
                          "n=abc", "n=5x",  "n= 5",    "n=5 ",  "n=auto",
                          "n=inf", "n=nan", "n=1e400", "n=5=6", "n=--5"};
@@ -119,9 +114,8 @@ static void parse_of_a_bad_whole_number_says_the_range(void **unused)
     expect_bad_value("nmax=AUTO", "a whole number from 0 to 1000000000, or auto");
 }
 
-static void parse_of_a_bad_number_says_the_range(void **unused)
+TEST(parse_of_a_bad_number_says_the_range)
 {
-    (void)unused;
     const char *bad[] = {"share=",     "share=0.2499999999999999",
                          "share=0.76", "share=nan",
                          "share=auto", "share=inf",
@@ -133,9 +127,8 @@ static void parse_of_a_bad_number_says_the_range(void **unused)
         expect_bad_value(radius[k], "a number from 0 to inf, or auto");
 }
 
-static void parse_of_a_whole_number_beyond_doubles_is_an_error(void **unused)
+TEST(parse_of_a_whole_number_beyond_doubles_is_an_error)
 {
-    (void)unused;
     const mote_parameter open = {"seed", MOTE_PARAMETER_INTEGER, 0, HUGE_VAL, NULL,
                                  "1",    "any whole number"};
     double value = 7;
@@ -146,26 +139,23 @@ static void parse_of_a_whole_number_beyond_doubles_is_an_error(void **unused)
     assert_true(value == 0x1p53);
 }
 
-static void parse_of_a_bad_choice_lists_the_choices(void **unused)
+TEST(parse_of_a_bad_choice_lists_the_choices)
 {
-    (void)unused;
     const char *bad[] = {"law=",           "law=lo", "law=logs", "law=log|inverse",
                          "law=inverse-sq", "law=0",  "law=LOG",  "law=auto"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k)
         expect_bad_value(bad[k], "one of log|inverse|inverse-square");
 }
 
-static void parse_of_a_very_long_value_is_an_error(void **unused)
+TEST(parse_of_a_very_long_value_is_an_error)
 {
-    (void)unused;
     char text[200] = "share=0.5";
     memset(text + strlen(text), '0', 100);
     expect_bad_value(text, "a number from 0.25 to 0.75");
 }
 
-static void parse_of_an_unknown_key_lists_the_keys(void **unused)
+TEST(parse_of_an_unknown_key_lists_the_keys)
 {
-    (void)unused;
     expect_error("m=3", "unknown key \"m\"; the keys are n, reff, law, nmax, share");
     expect_error("n=3,nn=4", "unknown key \"nn\"; the keys are n, reff, law, nmax, share");
     expect_error("=3", "unknown key \"\"; the keys are n, reff, law, nmax, share");
@@ -176,9 +166,8 @@ static void parse_of_an_unknown_key_lists_the_keys(void **unused)
 }
 
 /* What there is room for in an error's text. */
-static void parse_of_an_unknown_key_among_many_names_the_first(void **unused)
+TEST(parse_of_an_unknown_key_among_many_names_the_first)
 {
-    (void)unused;
     char keys[MOTE_PARAMETERS_MAX][40];
     mote_parameter many[MOTE_PARAMETERS_MAX];
     double values[MOTE_PARAMETERS_MAX];
@@ -196,15 +185,13 @@ static void parse_of_an_unknown_key_among_many_names_the_first(void **unused)
     assert_null(strstr(mote_error_text(), keys[22]));
 }
 
-static void parse_of_a_key_given_twice_is_an_error(void **unused)
+TEST(parse_of_a_key_given_twice_is_an_error)
 {
-    (void)unused;
     expect_error("n=3,law=log,n=3", "n is given twice; give it once");
 }
 
-static void parse_of_an_item_without_a_value_is_an_error(void **unused)
+TEST(parse_of_an_item_without_a_value_is_an_error)
 {
-    (void)unused;
     expect_error("n", "\"n\" is not of the form key=value");
     expect_error("n=3,", "\"\" is not of the form key=value");
     expect_error(",n=3", "\"\" is not of the form key=value");
@@ -212,9 +199,8 @@ static void parse_of_an_item_without_a_value_is_an_error(void **unused)
     expect_error(",", "\"\" is not of the form key=value");
 }
 
-static void parse_failing_at_the_end_changes_nothing(void **unused)
+TEST(parse_failing_at_the_end_changes_nothing)
 {
-    (void)unused;
     expect_error("n=3,reff=4,law=log,nmax=5,share=0.8",
                  "share=0.8 is not valid; share must be a number from 0.25 to 0.75");
 }
@@ -232,9 +218,8 @@ static double round_trip(size_t parameter, double value)
     return values[parameter];
 }
 
-static void text_of_random_doubles_reads_back_the_same(void **unused)
+TEST(text_of_random_doubles_reads_back_the_same)
 {
-    (void)unused;
     uint64_t seed = 1;
     int checked = 0;
     while (checked < 20000) {
@@ -255,9 +240,8 @@ static void text_of_random_doubles_reads_back_the_same(void **unused)
         assert_true(round_trip(LAW, k) == k);
 }
 
-static void text_is_short_and_whole_numbers_are_plain(void **unused)
+TEST(text_is_short_and_whole_numbers_are_plain)
 {
-    (void)unused;
     const double value[] = {0.1, 0.5, 1.0 / 3, 1e300, 12345, 10, 1e15, 0, HUGE_VAL, MOTE_AUTO};
     const char *text[] = {
         "0.1", "0.5", "0.3333333333333333", "1e+300", "12345", "10", "1e+15", "0",
@@ -273,28 +257,4 @@ static void text_is_short_and_whole_numbers_are_plain(void **unused)
     assert_string_equal(mote_parameter_text(&table[N], 1000, buffer, sizeof buffer), "1000");
     /* What no text reads back as equal to. */
     assert_string_equal(mote_parameter_text(&table[RADIUS], NAN, buffer, sizeof buffer), "nan");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(default_values_are_those_of_the_table),
-        cmocka_unit_test(parse_of_empty_text_keeps_the_values),
-        cmocka_unit_test(parse_sets_what_is_named_and_nothing_else),
-        cmocka_unit_test(parse_takes_both_ends_of_a_range),
-        cmocka_unit_test(parse_takes_every_choice),
-        cmocka_unit_test(parse_of_a_bad_whole_number_says_the_range),
-        cmocka_unit_test(parse_of_a_bad_number_says_the_range),
-        cmocka_unit_test(parse_of_a_whole_number_beyond_doubles_is_an_error),
-        cmocka_unit_test(parse_of_a_bad_choice_lists_the_choices),
-        cmocka_unit_test(parse_of_a_very_long_value_is_an_error),
-        cmocka_unit_test(parse_of_an_unknown_key_lists_the_keys),
-        cmocka_unit_test(parse_of_an_unknown_key_among_many_names_the_first),
-        cmocka_unit_test(parse_of_a_key_given_twice_is_an_error),
-        cmocka_unit_test(parse_of_an_item_without_a_value_is_an_error),
-        cmocka_unit_test(parse_failing_at_the_end_changes_nothing),
-        cmocka_unit_test(text_of_random_doubles_reads_back_the_same),
-        cmocka_unit_test(text_is_short_and_whole_numbers_are_plain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "core/method/method.h"
 
 #include "tests/support/particle_scene.h"
+#include "tests/support/test.h"
 
 typedef struct paper_run {
     const mote_method *method;
@@ -67,9 +68,8 @@ static void expect_scaled(mote_vec3 got, mote_vec3 expected, double unit)
                 got.z == expected.z * unit);
 }
 
-static void answers_scaled_by_powers_of_two_keep_their_bits(void **unused)
+TEST(answers_scaled_by_powers_of_two_keep_their_bits)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; ++v) {
         for (int k = -40; k <= 40; k += v == 0 ? 1 : 16) {
             particle_scene s[2];
@@ -128,9 +128,8 @@ static void move_frame(particle_scene *s, const mote_mat3 *turn, mote_vec3 shift
 }
 
 /* These frames hold no tie: potentials of different places differ by far more than rounding. */
-static void answers_after_a_rigid_motion_agree_to_1e_12(void **unused)
+TEST(answers_after_a_rigid_motion_agree_to_1e_12)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS - 1; ++v) { /* the last one rounds to floats */
         particle_scene s[2];
         paper_run r[2];
@@ -158,9 +157,8 @@ static void answers_after_a_rigid_motion_agree_to_1e_12(void **unused)
     }
 }
 
-static void answers_with_one_seed_are_identical(void **unused)
+TEST(answers_with_one_seed_are_identical)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(3), solid_torus(20, 12), 14, 1);
     int differing = 0;
@@ -190,9 +188,8 @@ static void answers_with_one_seed_are_identical(void **unused)
     scene_close(&s);
 }
 
-static void distance_is_at_least_the_truth_and_between_its_witnesses(void **unused)
+TEST(distance_is_at_least_the_truth_and_between_its_witnesses)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_torus(9, 6), 6, 1);
     for (int v = 0; v + 1 < VARIANTS; ++v) { /* floats may fall short by their rounding */
@@ -210,9 +207,8 @@ static void distance_is_at_least_the_truth_and_between_its_witnesses(void **unus
     scene_close(&s);
 }
 
-static void particles_are_told_with_the_closest_pair_at_the_distance(void **unused)
+TEST(particles_are_told_with_the_closest_pair_at_the_distance)
 {
-    (void)unused;
     particle_scene s;
     paper_run r;
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
@@ -235,9 +231,8 @@ static void particles_are_told_with_the_closest_pair_at_the_distance(void **unus
     scene_close(&s);
 }
 
-static void every_component_has_a_particle_that_stays_on_it(void **unused)
+TEST(every_component_has_a_particle_that_stays_on_it)
 {
-    (void)unused;
     particle_scene s;
     scene_open(
         &s,
@@ -274,9 +269,8 @@ static void every_component_has_a_particle_that_stays_on_it(void **unused)
 }
 
 /* Two single triangles: with a particle on each corner, and the exact check, the truth. */
-static void single_triangles_are_answered_for_every_n(void **unused)
+TEST(single_triangles_are_answered_for_every_n)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_triangle(), solid_triangle(), 0, 1);
     const char *const text[] = {"n=1,refine=always", "n=2,refine=always",
@@ -298,9 +292,8 @@ static void single_triangles_are_answered_for_every_n(void **unused)
     scene_close(&s);
 }
 
-static void open_and_bow_tie_meshes_are_answered(void **unused)
+TEST(open_and_bow_tie_meshes_are_answered)
 {
-    (void)unused;
     particle_scene s;
     solid tie = solid_join(solid_icosphere(1), solid_grid(3, 2), 3);
     solid_weld(&tie, 42, 0);
@@ -317,9 +310,8 @@ static void open_and_bow_tie_meshes_are_answered(void **unused)
     scene_close(&s);
 }
 
-static void create_with_n_out_of_range_says_the_range(void **unused)
+TEST(create_with_n_out_of_range_says_the_range)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_icosphere(0), 0, 1);
     paper_run r;
@@ -342,9 +334,8 @@ static void create_with_n_out_of_range_says_the_range(void **unused)
     scene_close(&s);
 }
 
-static void create_with_fewer_particles_than_components_is_unsupported(void **unused)
+TEST(create_with_fewer_particles_than_components_is_unsupported)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_join(solid_icosphere(0), solid_icosphere(0), 3), 0,
                1);
@@ -354,21 +345,4 @@ static void create_with_fewer_particles_than_components_is_unsupported(void **un
                                            "each needs at least one");
     assert_null(r.state);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_scaled_by_powers_of_two_keep_their_bits),
-        cmocka_unit_test(answers_after_a_rigid_motion_agree_to_1e_12),
-        cmocka_unit_test(answers_with_one_seed_are_identical),
-        cmocka_unit_test(distance_is_at_least_the_truth_and_between_its_witnesses),
-        cmocka_unit_test(particles_are_told_with_the_closest_pair_at_the_distance),
-        cmocka_unit_test(every_component_has_a_particle_that_stays_on_it),
-        cmocka_unit_test(single_triangles_are_answered_for_every_n),
-        cmocka_unit_test(open_and_bow_tie_meshes_are_answered),
-        cmocka_unit_test(create_with_n_out_of_range_says_the_range),
-        cmocka_unit_test(create_with_fewer_particles_than_components_is_unsupported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* The paper's particle system: every move against an independent evaluation of the potential in
    long double, the energy, and the invariants of a query. */
 #include "tests/support/particle_scene.h"
+#include "tests/support/test.h"
 
 enum { MOST = 64 };
 
@@ -208,9 +209,8 @@ static uint64_t follow_moves(particle_scene *s, mote_particles_options *o, int f
     return all_moves;
 }
 
-static void relax_moves_to_the_lowest_neighbour_and_energy_falls(void **unused)
+TEST(relax_moves_to_the_lowest_neighbour_and_energy_falls)
 {
-    (void)unused;
     const uint32_t counts[] = {1, 2, 5, 16, 40};
     const double reaches[] = {1, INFINITY, 0.3, 0};
     for (int k = 0; k < 20; ++k) {
@@ -227,9 +227,8 @@ static void relax_moves_to_the_lowest_neighbour_and_energy_falls(void **unused)
     }
 }
 
-static void relax_with_each_law_moves_to_the_lowest_neighbour(void **unused)
+TEST(relax_with_each_law_moves_to_the_lowest_neighbour)
 {
-    (void)unused;
     for (int k = 0; k < 9; ++k) {
         particle_scene s;
         scene_open(&s, solid_icosphere(2), solid_grid(9, 9), -2, 1);
@@ -247,9 +246,8 @@ static void relax_with_each_law_moves_to_the_lowest_neighbour(void **unused)
     }
 }
 
-static void relax_over_the_surface_moves_to_the_lowest_neighbour(void **unused)
+TEST(relax_over_the_surface_moves_to_the_lowest_neighbour)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_grid(5, 5), 5, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -259,9 +257,8 @@ static void relax_over_the_surface_moves_to_the_lowest_neighbour(void **unused)
     scene_close(&s);
 }
 
-static void relax_on_open_and_bow_tie_meshes_moves_to_the_lowest_neighbour(void **unused)
+TEST(relax_on_open_and_bow_tie_meshes_moves_to_the_lowest_neighbour)
 {
-    (void)unused;
     for (int surface = 0; surface <= 1; ++surface) {
         particle_scene s;
         solid tie = solid_join(solid_icosphere(1), solid_grid(3, 2), 3);
@@ -275,9 +272,8 @@ static void relax_on_open_and_bow_tie_meshes_moves_to_the_lowest_neighbour(void 
     }
 }
 
-static void query_distance_is_never_below_the_truth(void **unused)
+TEST(query_distance_is_never_below_the_truth)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_torus(9, 6), 6, 1);
     for (int surface = 0; surface <= 1; ++surface) {
@@ -296,9 +292,8 @@ static void query_distance_is_never_below_the_truth(void **unused)
     scene_close(&s);
 }
 
-static void closest_matches_all_pairs(void **unused)
+TEST(closest_matches_all_pairs)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(2), solid_icosphere(1), 0, 1);
     const uint32_t counts[] = {1, 7, 8, 9, 42};
@@ -328,9 +323,8 @@ static void closest_matches_all_pairs(void **unused)
     scene_close(&s);
 }
 
-static void query_with_a_particle_on_every_vertex_never_moves(void **unused)
+TEST(query_with_a_particle_on_every_vertex_never_moves)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_icosphere(1), 5, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -363,9 +357,8 @@ static int count_on(const snapshot *s, uint32_t vertex)
 
 /* Two different vertices in one place, each with a particle: at the first chance one leaves;
    with every vertex taken none moves onto another. */
-static void query_with_coincident_starts_separates_them(void **unused)
+TEST(query_with_coincident_starts_separates_them)
 {
-    (void)unused;
     solid sheet = solid_grid(3, 3);
     solid_set_vertex(&sheet, 5, sheet.xyz[18], sheet.xyz[19], sheet.xyz[20]); /* onto 6 */
     particle_scene s;
@@ -402,9 +395,8 @@ static void query_with_coincident_starts_separates_them(void **unused)
 }
 
 /* Without attraction the bodies know nothing of each other. */
-static void relax_without_reach_ignores_the_other_body(void **unused)
+TEST(relax_without_reach_ignores_the_other_body)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -427,9 +419,8 @@ static void relax_without_reach_ignores_the_other_body(void **unused)
     scene_close(&s);
 }
 
-static void relax_again_in_the_same_frame_moves_nothing(void **unused)
+TEST(relax_again_in_the_same_frame_moves_nothing)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -450,9 +441,8 @@ static void relax_again_in_the_same_frame_moves_nothing(void **unused)
     scene_close(&s);
 }
 
-static void query_not_coherent_answers_as_the_first_one(void **unused)
+TEST(query_not_coherent_answers_as_the_first_one)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -473,9 +463,8 @@ static void query_not_coherent_answers_as_the_first_one(void **unused)
     scene_close(&s);
 }
 
-static void relax_ends_by_nmin_nmax_and_stop_distance(void **unused)
+TEST(relax_ends_by_nmin_nmax_and_stop_distance)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(3), solid_icosphere(2), 0, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -509,9 +498,8 @@ static void relax_ends_by_nmin_nmax_and_stop_distance(void **unused)
     scene_close(&s);
 }
 
-static void query_with_given_positions_evaluates_none(void **unused)
+TEST(query_with_given_positions_evaluates_none)
 {
-    (void)unused;
     particle_scene s;
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
     mote_particles_options o = mote_default_particles_options();
@@ -540,24 +528,4 @@ static void query_with_given_positions_evaluates_none(void **unused)
     mote_particles_destroy(lazy);
     mote_particles_destroy(given);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(relax_moves_to_the_lowest_neighbour_and_energy_falls),
-        cmocka_unit_test(relax_with_each_law_moves_to_the_lowest_neighbour),
-        cmocka_unit_test(relax_over_the_surface_moves_to_the_lowest_neighbour),
-        cmocka_unit_test(relax_on_open_and_bow_tie_meshes_moves_to_the_lowest_neighbour),
-        cmocka_unit_test(query_distance_is_never_below_the_truth),
-        cmocka_unit_test(closest_matches_all_pairs),
-        cmocka_unit_test(query_with_a_particle_on_every_vertex_never_moves),
-        cmocka_unit_test(query_with_coincident_starts_separates_them),
-        cmocka_unit_test(relax_without_reach_ignores_the_other_body),
-        cmocka_unit_test(relax_again_in_the_same_frame_moves_nothing),
-        cmocka_unit_test(query_not_coherent_answers_as_the_first_one),
-        cmocka_unit_test(relax_ends_by_nmin_nmax_and_stop_distance),
-        cmocka_unit_test(query_with_given_positions_evaluates_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

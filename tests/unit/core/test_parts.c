@@ -2,12 +2,10 @@
 #include "core/body/parts.h"
 #include "datasets/letter.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
-#include <stdarg.h>
-#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 /* Up to 64 x 64 cells of size 1 in the plane. */
 typedef struct cells {
@@ -109,9 +107,8 @@ static mote_parts *checked_parts(const mote_mesh *mesh, const mote_vec3 *positio
     return parts;
 }
 
-static void parts_create_of_letters_finds_their_strokes(void **unused)
+TEST(parts_create_of_letters_finds_their_strokes)
 {
-    (void)unused;
     /* At least one part a stroke; HACD splits a stroke where the rounded joints make it
        concave, up to three times in what was measured. */
     static const struct {
@@ -128,9 +125,8 @@ static void parts_create_of_letters_finds_their_strokes(void **unused)
     }
 }
 
-static void parts_create_of_v_separates_its_arms(void **unused)
+TEST(parts_create_of_v_separates_its_arms)
 {
-    (void)unused;
     mote_mesh *mesh = make_letter('V', 1764);
     mote_parts *parts = checked_parts(mesh, NULL);
     uint32_t left = 0, right = 0;
@@ -146,9 +142,8 @@ static void parts_create_of_v_separates_its_arms(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void parts_create_of_a_comb_counts_its_teeth(void **unused)
+TEST(parts_create_of_a_comb_counts_its_teeth)
 {
-    (void)unused;
     cells comb = {.width = 39, .height = 9};
     for (int i = 0; i < comb.width; ++i) {
         for (int j = 0; j < comb.height; ++j)
@@ -161,9 +156,8 @@ static void parts_create_of_a_comb_counts_its_teeth(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void parts_create_gives_each_component_its_own_parts(void **unused)
+TEST(parts_create_gives_each_component_its_own_parts)
 {
-    (void)unused;
     cells islands = {.width = 64, .height = 60};
     for (int i = 0; i < islands.width; ++i) {
         for (int j = 0; j < islands.height; ++j)
@@ -182,9 +176,8 @@ static void parts_create_gives_each_component_its_own_parts(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void parts_create_of_a_mesh_that_cannot_be_simplified_succeeds(void **unused)
+TEST(parts_create_of_a_mesh_that_cannot_be_simplified_succeeds)
 {
-    (void)unused;
     cells board = {.width = 60, .height = 60};
     for (int i = 0; i < board.width; ++i) {
         for (int j = 0; j < board.height; ++j)
@@ -196,9 +189,8 @@ static void parts_create_of_a_mesh_that_cannot_be_simplified_succeeds(void **unu
 }
 
 /* Components so small that in floats of the mesh's size nothing of them is left. */
-static void parts_create_of_components_simplified_to_nothing_is_one_part_each(void **unused)
+TEST(parts_create_of_components_simplified_to_nothing_is_one_part_each)
 {
-    (void)unused;
     solid all = solid_icosphere(2);
     for (int k = 1; k < 16; ++k)
         all = solid_join(all, solid_icosphere(2), 0);
@@ -217,9 +209,8 @@ static void parts_create_of_components_simplified_to_nothing_is_one_part_each(vo
     mote_mesh_destroy(mesh);
 }
 
-static void parts_create_of_the_smallest_meshes_is_one_part(void **unused)
+TEST(parts_create_of_the_smallest_meshes_is_one_part)
 {
-    (void)unused;
     static const double xyz[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, 0, 2, 0, 0}};
     static const uint32_t face[3] = {0, 1, 2};
     for (int i = 0; i < 2; ++i) {
@@ -232,9 +223,8 @@ static void parts_create_of_the_smallest_meshes_is_one_part(void **unused)
     }
 }
 
-static void parts_create_again_or_scaled_gives_the_same_labels(void **unused)
+TEST(parts_create_again_or_scaled_gives_the_same_labels)
 {
-    (void)unused;
     mote_mesh *mesh = make_letter('M', 2968);
     mote_parts *first = checked_parts(mesh, NULL);
     mote_mesh scaled = *mesh;
@@ -256,9 +246,8 @@ static void parts_create_again_or_scaled_gives_the_same_labels(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void parts_create_with_a_position_not_finite_is_refused(void **unused)
+TEST(parts_create_with_a_position_not_finite_is_refused)
 {
-    (void)unused;
     mote_mesh *mesh = make_letter('T', 400);
     const mote_vec3 good = mesh->positions[17];
     const mote_vec3 bad[3] = {
@@ -272,20 +261,4 @@ static void parts_create_with_a_position_not_finite_is_refused(void **unused)
     }
     mote_parts_destroy(NULL);
     mote_mesh_destroy(mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_create_of_letters_finds_their_strokes),
-        cmocka_unit_test(parts_create_of_v_separates_its_arms),
-        cmocka_unit_test(parts_create_of_a_comb_counts_its_teeth),
-        cmocka_unit_test(parts_create_gives_each_component_its_own_parts),
-        cmocka_unit_test(parts_create_of_a_mesh_that_cannot_be_simplified_succeeds),
-        cmocka_unit_test(parts_create_of_components_simplified_to_nothing_is_one_part_each),
-        cmocka_unit_test(parts_create_of_the_smallest_meshes_is_one_part),
-        cmocka_unit_test(parts_create_again_or_scaled_gives_the_same_labels),
-        cmocka_unit_test(parts_create_with_a_position_not_finite_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

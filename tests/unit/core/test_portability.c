@@ -12,6 +12,7 @@
 #include "harness/base/hash.h"
 
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 static void hash_vec3(uint64_t *hash, mote_vec3 v)
 {
@@ -35,9 +36,8 @@ static void hash_gradient(uint64_t *hash, const test_body *b, uint32_t vertex)
         hash_vec3(hash, gradient[j]);
 }
 
-static void deform_of_fixed_bodies_has_the_committed_hash(void **unused)
+TEST(deform_of_fixed_bodies_has_the_committed_hash)
 {
-    (void)unused;
     const int sizes[] = {0, 1, 9, 14, 16, 256, -1, -3};
     uint64_t seed = 1;
     uint64_t hash = MOTE_HASH_START;
@@ -64,9 +64,8 @@ static void deform_of_fixed_bodies_has_the_committed_hash(void **unused)
     expect_hash(hash, 0xd4f00f555e840a95u);
 }
 
-static void single_positions_of_fixed_bodies_have_the_committed_hash(void **unused)
+TEST(single_positions_of_fixed_bodies_have_the_committed_hash)
 {
-    (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 2;
     uint64_t hash = MOTE_HASH_START;
@@ -124,9 +123,8 @@ static uint64_t particles_hash(const mote_particles_options *options)
     return hash;
 }
 
-static void particles_of_fixed_bodies_have_the_committed_hash(void **unused)
+TEST(particles_of_fixed_bodies_have_the_committed_hash)
 {
-    (void)unused;
     mote_particles_options options = mote_default_particles_options();
     options.count = 9;
     expect_hash(particles_hash(&options), 0x0fc4df54102b2f3au);
@@ -142,9 +140,8 @@ static void particles_of_fixed_bodies_have_the_committed_hash(void **unused)
 }
 
 /* The exact check from many pairs of vertices of two deforming spheres that meet. */
-static void refined_pairs_of_fixed_bodies_have_the_committed_hash(void **unused)
+TEST(refined_pairs_of_fixed_bodies_have_the_committed_hash)
 {
-    (void)unused;
     uint64_t seed = 4;
     uint64_t hash = MOTE_HASH_START;
     test_body b[2];
@@ -176,9 +173,8 @@ static void refined_pairs_of_fixed_bodies_have_the_committed_hash(void **unused)
 }
 
 /* Certified queries, counters included: floats decide which boxes are tested. */
-static void certified_queries_of_fixed_bodies_have_the_committed_hash(void **unused)
+TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
 {
-    (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 5;
     uint64_t hash = MOTE_HASH_START;
@@ -214,9 +210,8 @@ static void certified_queries_of_fixed_bodies_have_the_committed_hash(void **unu
 }
 
 /* Tracked queries, counters included, of two bodies that come near, meet and jump. */
-static void tracked_queries_of_fixed_bodies_have_the_committed_hash(void **unused)
+TEST(tracked_queries_of_fixed_bodies_have_the_committed_hash)
 {
-    (void)unused;
     const int sizes[] = {0, 14, -3};
     uint64_t seed = 6;
     uint64_t hash = MOTE_HASH_START;
@@ -254,17 +249,4 @@ static void tracked_queries_of_fixed_bodies_have_the_committed_hash(void **unuse
         test_body_free(&b[1]);
     }
     expect_hash(hash, 0x850b688448d7a806u);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(deform_of_fixed_bodies_has_the_committed_hash),
-        cmocka_unit_test(single_positions_of_fixed_bodies_have_the_committed_hash),
-        cmocka_unit_test(particles_of_fixed_bodies_have_the_committed_hash),
-        cmocka_unit_test(refined_pairs_of_fixed_bodies_have_the_committed_hash),
-        cmocka_unit_test(tracked_queries_of_fixed_bodies_have_the_committed_hash),
-        cmocka_unit_test(certified_queries_of_fixed_bodies_have_the_committed_hash),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

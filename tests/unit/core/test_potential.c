@@ -4,6 +4,7 @@
 #include "core/particle/potential.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 enum { MOST = 300 };
 
@@ -66,9 +67,8 @@ static long double value_of(const mote_potentials *p, int lane, bool log_law)
     return 0.5L * (p->major[lane] * logl(2) + logl(p->minor[lane]));
 }
 
-static void potential_matches_long_double_for_every_pair_of_laws(void **unused)
+TEST(potential_matches_long_double_for_every_pair_of_laws)
 {
-    (void)unused;
     uint64_t seed = 1;
     const uint32_t counts[] = {1, 2, 7, 8, 9, 17, MOST};
     const double reaches[] = {INFINITY, 1, 0.2, 0};
@@ -99,9 +99,8 @@ static void potential_matches_long_double_for_every_pair_of_laws(void **unused)
     }
 }
 
-static void potential_is_ordered_as_its_value(void **unused)
+TEST(potential_is_ordered_as_its_value)
 {
-    (void)unused;
     uint64_t seed = 2;
     for (int round = 0; round < 200; ++round) {
         crowd a;
@@ -123,9 +122,8 @@ static void potential_is_ordered_as_its_value(void **unused)
 }
 
 /* Hundreds of factors of 1e-10 or 1e10 leave the range of a double many times over. */
-static void potential_of_hundreds_at_extreme_distances_stays_exact(void **unused)
+TEST(potential_of_hundreds_at_extreme_distances_stays_exact)
 {
-    (void)unused;
     uint64_t seed = 3;
     const double sizes[] = {1e-5, 1, 1e5, 1e9};
     for (int k = 0; k < 4; ++k) {
@@ -149,9 +147,8 @@ static void potential_of_hundreds_at_extreme_distances_stays_exact(void **unused
 
 /* Lane 0 lies on a particle of the same type, 1 on one of the other, 2 on both, 3 on the
    particle that is moved, the rest nowhere. */
-static void potential_on_a_particle_is_infinite(void **unused)
+TEST(potential_on_a_particle_is_infinite)
 {
-    (void)unused;
     uint64_t seed = 4;
     for (int laws = 0; laws < 9; ++laws) {
         crowd a;
@@ -182,9 +179,8 @@ static void potential_on_a_particle_is_infinite(void **unused)
     }
 }
 
-static void potential_of_attraction_has_no_jump_at_the_reach(void **unused)
+TEST(potential_of_attraction_has_no_jump_at_the_reach)
 {
-    (void)unused;
     for (int law = 0; law < 3; ++law) {
         const double zero = 0;
         const mote_sources same = {.law = (mote_law)law};
@@ -234,9 +230,8 @@ static double error_of_expansion(const mote_sources *same, const mote_sources *o
 }
 
 /* What is left out of a potential of second order falls with the third power. */
-static void far_cache_with_every_pair_of_laws_is_of_second_order(void **unused)
+TEST(far_cache_with_every_pair_of_laws_is_of_second_order)
 {
-    (void)unused;
     uint64_t seed = 5;
     crowd a;
     crowd b;
@@ -255,9 +250,8 @@ static void far_cache_with_every_pair_of_laws_is_of_second_order(void **unused)
 
 /* An expansion is computed anew once a particle may have moved by more than half of part times
    the near distance. */
-static void far_cache_keeps_an_expansion_while_all_moved_little(void **unused)
+TEST(far_cache_keeps_an_expansion_while_all_moved_little)
 {
-    (void)unused;
     uint64_t seed = 5;
     crowd a;
     crowd b;
@@ -282,18 +276,4 @@ static void far_cache_keeps_an_expansion_while_all_moved_little(void **unused)
     mote_far_cache_split(cache, 0, 7, last, &same, &other, INFINITY, &split);
     assert_true(split.centre.x == last.x);
     mote_far_cache_destroy(cache);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(potential_matches_long_double_for_every_pair_of_laws),
-        cmocka_unit_test(potential_is_ordered_as_its_value),
-        cmocka_unit_test(potential_of_hundreds_at_extreme_distances_stays_exact),
-        cmocka_unit_test(potential_on_a_particle_is_infinite),
-        cmocka_unit_test(potential_of_attraction_has_no_jump_at_the_reach),
-        cmocka_unit_test(far_cache_with_every_pair_of_laws_is_of_second_order),
-        cmocka_unit_test(far_cache_keeps_an_expansion_while_all_moved_little),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

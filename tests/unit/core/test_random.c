@@ -1,16 +1,13 @@
 /* Random numbers: in their range, evenly, the same on every machine. */
 #include "core/base/random.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 /* The first numbers from seed 1234567 that splitmix64's authors print. */
-static void next_of_a_known_seed_as_published(void **unused)
+TEST(next_of_a_known_seed_as_published)
 {
-    (void)unused;
     static const uint64_t published[5] = {6457827717110365317u, 3203168211198807973u,
                                           9817491932198370423u, 4593380528125082431u,
                                           16408922859458223821u};
@@ -20,9 +17,8 @@ static void next_of_a_known_seed_as_published(void **unused)
 }
 
 /* Above half of the range, about every second number is drawn again. */
-static void below_a_bound_that_divides_badly_is_even(void **unused)
+TEST(below_a_bound_that_divides_badly_is_even)
 {
-    (void)unused;
     const uint64_t bound = (UINT64_C(1) << 63) + 1;
     mote_random random = {5};
     int low = 0, drawn = 0;
@@ -41,9 +37,8 @@ static void below_a_bound_that_divides_badly_is_even(void **unused)
     assert_in_range(drawn, 8000 - 450, 8000 + 450);
 }
 
-static void below_a_small_bound_takes_every_value(void **unused)
+TEST(below_a_small_bound_takes_every_value)
 {
-    (void)unused;
     mote_random random = {9};
     int count[6] = {0};
     for (int k = 0; k < 6000; ++k)
@@ -54,9 +49,8 @@ static void below_a_small_bound_takes_every_value(void **unused)
         assert_int_equal(mote_random_below(&random, 1), 0);
 }
 
-static void direction_is_a_unit_vector_of_no_preference(void **unused)
+TEST(direction_is_a_unit_vector_of_no_preference)
 {
-    (void)unused;
     mote_random random = {2};
     mote_vec3 sum = {0, 0, 0};
     for (int k = 0; k < 4000; ++k) {
@@ -66,15 +60,4 @@ static void direction_is_a_unit_vector_of_no_preference(void **unused)
     }
     /* Each coordinate has variance 1/3. */
     assert_true(fabs(sum.x) < 183 && fabs(sum.y) < 183 && fabs(sum.z) < 183);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(next_of_a_known_seed_as_published),
-        cmocka_unit_test(below_a_bound_that_divides_badly_is_even),
-        cmocka_unit_test(below_a_small_bound_takes_every_value),
-        cmocka_unit_test(direction_is_a_unit_vector_of_no_preference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

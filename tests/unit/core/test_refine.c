@@ -3,14 +3,11 @@
 
 #include "core/body/triangle.h"
 #include "datasets/letter.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #define CENTRES 6
 
@@ -254,9 +251,8 @@ static void assert_result(scene *s, const mote_refined *r, uint32_t a, uint32_t 
     assert_true(sqrt(r->squared) <= sqrt(brute_force(s, r)) + 1e-11 * s->mesh[0]->diagonal);
 }
 
-static void vertices_random_starts_local_minimum(void **context)
+TEST(vertices_random_starts_local_minimum)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 600), letter_mesh('M', 500), 1);
     for (int frame = 0; frame < 20; ++frame) {
         scene_move(s, 0.3 + 0.05 * frame, false);
@@ -270,9 +266,8 @@ static void vertices_random_starts_local_minimum(void **context)
     scene_free(s);
 }
 
-static void vertices_all_starts_global_minimum(void **context)
+TEST(vertices_all_starts_global_minimum)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('T', 400), letter_mesh('V', 400), 2);
     for (int frame = 0; frame < 3; ++frame) {
         scene_move(s, 0.7, false);
@@ -287,9 +282,8 @@ static void vertices_all_starts_global_minimum(void **context)
     scene_free(s);
 }
 
-static void vertices_open_sheets_local_minimum(void **context)
+TEST(vertices_open_sheets_local_minimum)
 {
-    (void)context;
     scene *s = scene_of(sheet_mesh(12, -0.5), sheet_mesh(9, 0.7), 3);
     for (int frame = 0; frame < 40; ++frame) {
         scene_move(s, 0.4, false);
@@ -317,16 +311,14 @@ static void check_cones(uint32_t n, bool open, uint64_t seed)
     scene_free(s);
 }
 
-static void vertices_several_fans_global_minimum(void **context)
+TEST(vertices_several_fans_global_minimum)
 {
-    (void)context;
     check_cones(7, false, 4);
     check_cones(7, true, 5);
 }
 
-static void vertices_ring_of_thousands_local_minimum(void **context)
+TEST(vertices_ring_of_thousands_local_minimum)
 {
-    (void)context;
     check_cones(150, false, 6);
     scene *s = scene_of(double_cone_mesh(5000, false), letter_mesh('T', 400), 7);
     for (int frame = 0; frame < 3; ++frame) {
@@ -337,9 +329,8 @@ static void vertices_ring_of_thousands_local_minimum(void **context)
     scene_free(s);
 }
 
-static void vertices_intersecting_zero_at_one_point(void **context)
+TEST(vertices_intersecting_zero_at_one_point)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 600), letter_mesh('W', 600), 8);
     int contacts = 0;
     for (int frame = 0; frame < 100; ++frame) {
@@ -355,9 +346,8 @@ static void vertices_intersecting_zero_at_one_point(void **context)
 }
 
 /* Alternate projection may end on a line where faces cross, some rounding apart. */
-static void vertices_crossing_exactly_zero(void **context)
+TEST(vertices_crossing_exactly_zero)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 14);
     int contacts = 0;
     for (int frame = 0; frame < 300; ++frame) {
@@ -372,9 +362,8 @@ static void vertices_crossing_exactly_zero(void **context)
     scene_free(s);
 }
 
-static void vertices_enough_stops_early(void **context)
+TEST(vertices_enough_stops_early)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 9);
     mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
     int stopped = 0;
@@ -394,9 +383,8 @@ static void vertices_enough_stops_early(void **context)
 }
 
 /* Above worth the search may end early; below it, it finds what the full one does. */
-static void below_finds_what_is_worth_finding(void **context)
+TEST(below_finds_what_is_worth_finding)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 15);
     mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
     uint32_t tests[2] = {0};
@@ -422,9 +410,8 @@ static void below_finds_what_is_worth_finding(void **context)
     scene_free(s);
 }
 
-static void vertices_positions_given_same_bits(void **context)
+TEST(vertices_positions_given_same_bits)
 {
-    (void)context;
     scene *lazy = scene_of(letter_mesh('M', 600), letter_mesh('V', 400), 10);
     scene *given = scene_of(letter_mesh('M', 600), letter_mesh('V', 400), 10);
     for (int frame = 0; frame < 20; ++frame) {
@@ -456,9 +443,8 @@ static void scene_scale(scene *s, const scene *from, double factor)
     }
 }
 
-static void vertices_scaled_by_powers_of_two_same_bits(void **context)
+TEST(vertices_scaled_by_powers_of_two_same_bits)
 {
-    (void)context;
     const int exponent[] = {-100, -40, -1, 7, 90};
     scene *s = scene_of(letter_mesh('M', 600), letter_mesh('V', 400), 11);
     scene *scaled = scene_of(letter_mesh('M', 600), letter_mesh('V', 400), 11);
@@ -481,9 +467,8 @@ static void vertices_scaled_by_powers_of_two_same_bits(void **context)
     scene_free(scaled);
 }
 
-static void triangles_random_starts_local_minimum(void **context)
+TEST(triangles_random_starts_local_minimum)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 600), sheet_mesh(12, 0.5), 12);
     mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
     for (int frame = 0; frame < 100; ++frame) {
@@ -503,9 +488,8 @@ static void triangles_random_starts_local_minimum(void **context)
     scene_free(s);
 }
 
-static void triangles_from_own_result_unchanged(void **context)
+TEST(triangles_from_own_result_unchanged)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 13);
     mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
     for (int frame = 0; frame < 50; ++frame) {
@@ -519,9 +503,8 @@ static void triangles_from_own_result_unchanged(void **context)
     scene_free(s);
 }
 
-static void slide_from_random_faces_ends_at_a_nearer_pair(void **context)
+TEST(slide_from_random_faces_ends_at_a_nearer_pair)
 {
-    (void)context;
     scene *s = scene_of(letter_mesh('W', 600), sheet_mesh(12, 0.5), 14);
     mote_lazy *const lazy[2] = {&s->lazy[0], &s->lazy[1]};
     uint64_t tests[2] = {0, 0};
@@ -553,25 +536,4 @@ static void slide_from_random_faces_ends_at_a_nearer_pair(void **context)
     assert_true(minima > 50);
     assert_true(3 * tests[0] < tests[1]);
     scene_free(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(vertices_random_starts_local_minimum),
-        cmocka_unit_test(vertices_all_starts_global_minimum),
-        cmocka_unit_test(vertices_open_sheets_local_minimum),
-        cmocka_unit_test(vertices_several_fans_global_minimum),
-        cmocka_unit_test(vertices_ring_of_thousands_local_minimum),
-        cmocka_unit_test(vertices_intersecting_zero_at_one_point),
-        cmocka_unit_test(vertices_crossing_exactly_zero),
-        cmocka_unit_test(vertices_enough_stops_early),
-        cmocka_unit_test(below_finds_what_is_worth_finding),
-        cmocka_unit_test(vertices_positions_given_same_bits),
-        cmocka_unit_test(vertices_scaled_by_powers_of_two_same_bits),
-        cmocka_unit_test(triangles_random_starts_local_minimum),
-        cmocka_unit_test(triangles_from_own_result_unchanged),
-        cmocka_unit_test(slide_from_random_faces_ends_at_a_nearer_pair),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/motion/response.h"
 
 #include "tests/support/rigid_bodies.h"
+#include "tests/support/test.h"
 
 typedef struct collision {
     mote_mass mass[2];
@@ -73,9 +74,8 @@ static mote_impact respond(collision *c, double restitution)
     return impact;
 }
 
-static void respond_elastic_conserves_and_reverses(void **state)
+TEST(respond_elastic_conserves_and_reverses)
 {
-    (void)state;
     uint64_t seed = 1;
     double momentum = 0, angular = 0, energy = 0, closing = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -113,9 +113,8 @@ static void apply_printed(collision *c, double sign)
                          &c->state[i]);
 }
 
-static void printed_sign_minus_triples_speed_and_gains_energy(void **state)
+TEST(printed_sign_minus_triples_speed_and_gains_energy)
 {
-    (void)state;
     uint64_t seed = 2;
     for (int i = 0; i < 2000; ++i) {
         const collision before = random_collision(&seed);
@@ -135,9 +134,8 @@ static void printed_sign_minus_triples_speed_and_gains_energy(void **state)
 }
 
 /* w' = w + L_c / I_c in the main axes. */
-static void apply_pulse_angular_velocity_as_printed(void **state)
+TEST(apply_pulse_angular_velocity_as_printed)
 {
-    (void)state;
     uint64_t seed = 3;
     for (int i = 0; i < 500; ++i) {
         const mote_mass mass = random_mass(&seed);
@@ -157,9 +155,8 @@ static void apply_pulse_angular_velocity_as_printed(void **state)
 }
 
 /* A pulse of 1 along n changes the velocity along n of the point it acts in by 1 / m_e. */
-static void effective_mass_is_pulse_over_velocity(void **state)
+TEST(effective_mass_is_pulse_over_velocity)
 {
-    (void)state;
     uint64_t seed = 4;
     for (int i = 0; i < 500; ++i) {
         const mote_mass mass = random_mass(&seed);
@@ -178,9 +175,8 @@ static void effective_mass_is_pulse_over_velocity(void **state)
     }
 }
 
-static void respond_restitution_scales_and_loses_energy(void **state)
+TEST(respond_restitution_scales_and_loses_energy)
 {
-    (void)state;
     uint64_t seed = 5;
     for (int i = 0; i < 500; ++i) {
         const collision before = random_collision(&seed);
@@ -194,9 +190,8 @@ static void respond_restitution_scales_and_loses_energy(void **state)
     }
 }
 
-static void respond_moving_apart_changes_nothing(void **state)
+TEST(respond_moving_apart_changes_nothing)
 {
-    (void)state;
     uint64_t seed = 6;
     for (int i = 0; i < 100; ++i) {
         collision c = random_collision(&seed);
@@ -209,9 +204,8 @@ static void respond_moving_apart_changes_nothing(void **state)
 }
 
 /* Equal balls head on exchange their velocities. */
-static void respond_equal_balls_exchange_velocities(void **state)
+TEST(respond_equal_balls_exchange_velocities)
 {
-    (void)state;
     const mote_mass ball = {.volume = 1,
                             .mass = 3,
                             .inertia = {1, 1, 1},
@@ -226,9 +220,8 @@ static void respond_equal_balls_exchange_velocities(void **state)
     assert_close(mote_length(c.state[0].angular_momentum), 0, 0);
 }
 
-static void respond_bad_input_refused(void **state)
+TEST(respond_bad_input_refused)
 {
-    (void)state;
     uint64_t seed = 7;
     collision c = random_collision(&seed);
     const collision before = c;
@@ -245,19 +238,4 @@ static void respond_bad_input_refused(void **state)
     assert_int_equal(mote_respond(mass, c.point, c.normal, NAN, states, &impact), MOTE_EINVAL);
     assert_memory_equal(&c.state, &before.state, sizeof c.state);
     assert_true(impact.closing == -7);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(respond_elastic_conserves_and_reverses),
-        cmocka_unit_test(printed_sign_minus_triples_speed_and_gains_energy),
-        cmocka_unit_test(apply_pulse_angular_velocity_as_printed),
-        cmocka_unit_test(effective_mass_is_pulse_over_velocity),
-        cmocka_unit_test(respond_restitution_scales_and_loses_energy),
-        cmocka_unit_test(respond_moving_apart_changes_nothing),
-        cmocka_unit_test(respond_equal_balls_exchange_velocities),
-        cmocka_unit_test(respond_bad_input_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/motion/rigid_motion.h"
 
 #include "tests/support/rigid_bodies.h"
+#include "tests/support/test.h"
 
 static const mote_vec3 nothing = {0, 0, 0};
 
@@ -20,9 +21,8 @@ static void steps(const mote_mass *mass, mote_vec3 gravity, double step, int cou
         assert_int_equal(mote_rigid_step(mass, gravity, step, state), MOTE_OK);
 }
 
-static void rigid_step_free_body_conserves_energy_and_length(void **state)
+TEST(rigid_step_free_body_conserves_energy_and_length)
 {
-    (void)state;
     uint64_t seed = 3;
     double worst = 0;
     for (int body = 0; body < 20; ++body) {
@@ -42,9 +42,8 @@ static void rigid_step_free_body_conserves_energy_and_length(void **state)
 }
 
 /* About a main axis the turn is even: Cayley's map turns by 2 atan(w step / 2) a step. */
-static void rigid_step_main_axis_turns_evenly(void **state)
+TEST(rigid_step_main_axis_turns_evenly)
 {
-    (void)state;
     const mote_mass mass = top_of(1, 2, 2.5);
     mote_rigid_state s = {.turn = {1, 0, 0, 0}, .angular_momentum = {0, 0, 2.5 * 0.4}};
     steps(&mass, nothing, 0.05, 1000, &s);
@@ -55,9 +54,8 @@ static void rigid_step_main_axis_turns_evenly(void **state)
 }
 
 /* A symmetric top precesses about its angular momentum at |L| / I_1. */
-static void rigid_step_symmetric_top_precesses_as_known(void **state)
+TEST(rigid_step_symmetric_top_precesses_as_known)
 {
-    (void)state;
     const mote_mass mass = top_of(2, 2, 3);
     mote_rigid_state s = {.turn = {1, 0, 0, 0}, .angular_momentum = {0.6, 0, 0.8}};
     const double time = 10;
@@ -81,9 +79,8 @@ static void rigid_step_symmetric_top_precesses_as_known(void **state)
 }
 
 /* A throw: x0 + V t + g t^2 / 2, whatever the steps. */
-static void rigid_step_gravity_exact_parabola(void **state)
+TEST(rigid_step_gravity_exact_parabola)
 {
-    (void)state;
     uint64_t seed = 8;
     const mote_mass mass = random_mass(&seed);
     mote_rigid_state s = random_state(&seed);
@@ -98,9 +95,8 @@ static void rigid_step_gravity_exact_parabola(void **state)
                 1e-12);
 }
 
-static void rigid_step_at_rest_stays_at_rest(void **state)
+TEST(rigid_step_at_rest_stays_at_rest)
 {
-    (void)state;
     uint64_t seed = 9;
     const mote_mass mass = random_mass(&seed);
     mote_rigid_state s = random_state(&seed);
@@ -117,9 +113,8 @@ static void rigid_step_at_rest_stays_at_rest(void **state)
 }
 
 /* A million steps, the unstable middle axis and steps far too long included. */
-static void rigid_step_million_steps_no_nan(void **state)
+TEST(rigid_step_million_steps_no_nan)
 {
-    (void)state;
     const mote_mass mass = top_of(1, 2, 2.9);
     static const double sizes[] = {1e-3, 0.3, 50};
     for (int i = 0; i < 3; ++i) {
@@ -133,9 +128,8 @@ static void rigid_step_million_steps_no_nan(void **state)
     }
 }
 
-static void rigid_pose_centre_of_mass_stands_where_it_should(void **state)
+TEST(rigid_pose_centre_of_mass_stands_where_it_should)
 {
-    (void)state;
     uint64_t seed = 11;
     for (int i = 0; i < 100; ++i) {
         const mote_mass mass = random_mass(&seed);
@@ -150,9 +144,8 @@ static void rigid_pose_centre_of_mass_stands_where_it_should(void **state)
     }
 }
 
-static void rigid_step_bad_step_refused(void **state)
+TEST(rigid_step_bad_step_refused)
 {
-    (void)state;
     const mote_mass mass = top_of(1, 1, 1);
     static const double bad[] = {0, -1, NAN, HUGE_VAL};
     for (int i = 0; i < 4; ++i) {
@@ -161,19 +154,4 @@ static void rigid_step_bad_step_refused(void **state)
         assert_non_null(strstr(mote_error_text(), "time step"));
         assert_true(s.centre.x == 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rigid_step_free_body_conserves_energy_and_length),
-        cmocka_unit_test(rigid_step_main_axis_turns_evenly),
-        cmocka_unit_test(rigid_step_symmetric_top_precesses_as_known),
-        cmocka_unit_test(rigid_step_gravity_exact_parabola),
-        cmocka_unit_test(rigid_step_at_rest_stays_at_rest),
-        cmocka_unit_test(rigid_step_million_steps_no_nan),
-        cmocka_unit_test(rigid_pose_centre_of_mass_stands_where_it_should),
-        cmocka_unit_test(rigid_step_bad_step_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "harness/base/heap_count.h"
 #include "tests/support/crowd.h"
+#include "tests/support/test.h"
 
 static void check_contained(const crowd *c, const mote_scene_box *boxes)
 {
@@ -18,9 +19,8 @@ static void check_contained(const crowd *c, const mote_scene_box *boxes)
     }
 }
 
-static void mote_scene_bounds_random_states_contain_every_vertex(void **state)
+TEST(mote_scene_bounds_random_states_contain_every_vertex)
 {
-    (void)state;
     /* From the origin to where the last bit of a coordinate is a part of a triangle. */
     static const double sides[] = {3, 1e3, 1e7, 1e12};
     static crowd c;
@@ -39,9 +39,8 @@ static void mote_scene_bounds_random_states_contain_every_vertex(void **state)
     }
 }
 
-static void mote_scene_bounds_large_and_tiny_weights_contain_every_vertex(void **state)
+TEST(mote_scene_bounds_large_and_tiny_weights_contain_every_vertex)
 {
-    (void)state;
     static const double factors[] = {0, 1e-12, 1e-3, 10, 1e4};
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
@@ -63,9 +62,8 @@ static void mote_scene_bounds_large_and_tiny_weights_contain_every_vertex(void *
 }
 
 /* Bounds that were infinite would contain everything, too. */
-static void mote_scene_bounds_gentle_deformation_are_tight(void **state)
+TEST(mote_scene_bounds_gentle_deformation_are_tight)
 {
-    (void)state;
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 30, 2000, 3);
@@ -90,9 +88,8 @@ static void mote_scene_bounds_gentle_deformation_are_tight(void **state)
     crowd_free(&c);
 }
 
-static void mote_scene_bounds_not_finite_names_the_body(void **state)
+TEST(mote_scene_bounds_not_finite_names_the_body)
 {
-    (void)state;
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 6, 400, 3);
@@ -109,9 +106,8 @@ static void mote_scene_bounds_not_finite_names_the_body(void **state)
     crowd_free(&c);
 }
 
-static void mote_scene_query_all_pairs_equals_brute_force(void **state)
+TEST(mote_scene_query_all_pairs_equals_brute_force)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     options.tolerance = 0.02;
@@ -145,9 +141,8 @@ static void mote_scene_query_all_pairs_equals_brute_force(void **state)
     crowd_free(&c);
 }
 
-static void mote_scene_query_contact_question_says_the_same(void **state)
+TEST(mote_scene_query_contact_question_says_the_same)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     options.tolerance = 0.05;
@@ -201,9 +196,8 @@ static void check_same_bits(const mote_scene *one, const mote_scene *many)
 }
 
 /* The pairs of every other step only, so that states come and go. */
-static void mote_scene_query_more_threads_same_bits(void **state)
+TEST(mote_scene_query_more_threads_same_bits)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 14, 400, 2.5);
@@ -237,9 +231,8 @@ static void mote_scene_query_more_threads_same_bits(void **state)
 
 /* What a workspace was used for before must not show: each pair has a scene of its own, too.
    The meshes are large enough for leaves to be told apart by directions that are remembered. */
-static void mote_scene_query_other_pairs_do_not_change_an_answer(void **state)
+TEST(mote_scene_query_other_pairs_do_not_change_an_answer)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     enum { PAIRS = 6 };
@@ -292,9 +285,8 @@ static void ask_pairs(const crowd *c, mote_cert_tree *const *trees, const uint32
     }
 }
 
-static void mote_cert_workspace_query_any_order_and_workspace_same_bits(void **state)
+TEST(mote_cert_workspace_query_any_order_and_workspace_same_bits)
 {
-    (void)state;
     static crowd c;
     enum { PAIRS = 6, WORKSPACES = 3 };
     crowd_init(&c, 4, 12000, 1.2);
@@ -329,9 +321,8 @@ static void mote_cert_workspace_query_any_order_and_workspace_same_bits(void **s
     crowd_free(&c);
 }
 
-static void mote_scene_query_pair_state_lives_while_near(void **state)
+TEST(mote_scene_query_pair_state_lives_while_near)
 {
-    (void)state;
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 4, 400, 3);
@@ -356,9 +347,8 @@ static void mote_scene_query_pair_state_lives_while_near(void **state)
     crowd_free(&c);
 }
 
-static void mote_scene_query_bad_pairs_are_refused(void **state)
+TEST(mote_scene_query_bad_pairs_are_refused)
 {
-    (void)state;
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 4, 400, 3);
@@ -386,9 +376,8 @@ static void check_refused(const crowd *c, uint32_t shapes, uint32_t bodies,
     assert_non_null(strstr(mote_error_text(), text));
 }
 
-static void mote_scene_create_bad_input_is_refused(void **state)
+TEST(mote_scene_create_bad_input_is_refused)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 4, 400, 3);
@@ -412,9 +401,8 @@ static void mote_scene_create_bad_input_is_refused(void **state)
 }
 
 /* The rooms of a query are those of the widest tree, wherever it stands. */
-static void mote_scene_create_shapes_in_any_order_same_bits(void **state)
+TEST(mote_scene_create_shapes_in_any_order_same_bits)
 {
-    (void)state;
     static const uint32_t pair[1][2] = {{0, 1}}, shape_of[2][2] = {{0, 1}, {1, 0}};
     uint64_t seed = 3;
     test_body b[2];
@@ -440,9 +428,8 @@ static void mote_scene_create_shapes_in_any_order_same_bits(void **state)
     }
 }
 
-static void mote_scene_query_steady_state_allocates_nothing(void **state)
+TEST(mote_scene_query_steady_state_allocates_nothing)
 {
-    (void)state;
     static crowd c;
     mote_scene_options options = mote_default_scene_options();
     options.threads = 2;
@@ -466,9 +453,8 @@ static void mote_scene_query_steady_state_allocates_nothing(void **state)
 }
 
 /* Each body costs its shape's number, each pair its state; nothing grows with triangles. */
-static void mote_scene_bytes_do_not_grow_with_bodies_times_triangles(void **state)
+TEST(mote_scene_bytes_do_not_grow_with_bodies_times_triangles)
 {
-    (void)state;
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
     crowd_init(&c, 3, 4000, 2);
@@ -480,26 +466,4 @@ static void mote_scene_bytes_do_not_grow_with_bodies_times_triangles(void **stat
     mote_scene_destroy(few);
     mote_scene_destroy(many);
     crowd_free(&c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_scene_bounds_random_states_contain_every_vertex),
-        cmocka_unit_test(mote_scene_bounds_large_and_tiny_weights_contain_every_vertex),
-        cmocka_unit_test(mote_scene_bounds_gentle_deformation_are_tight),
-        cmocka_unit_test(mote_scene_bounds_not_finite_names_the_body),
-        cmocka_unit_test(mote_scene_query_all_pairs_equals_brute_force),
-        cmocka_unit_test(mote_scene_query_contact_question_says_the_same),
-        cmocka_unit_test(mote_scene_query_more_threads_same_bits),
-        cmocka_unit_test(mote_scene_query_other_pairs_do_not_change_an_answer),
-        cmocka_unit_test(mote_cert_workspace_query_any_order_and_workspace_same_bits),
-        cmocka_unit_test(mote_scene_query_pair_state_lives_while_near),
-        cmocka_unit_test(mote_scene_query_bad_pairs_are_refused),
-        cmocka_unit_test(mote_scene_create_bad_input_is_refused),
-        cmocka_unit_test(mote_scene_create_shapes_in_any_order_same_bits),
-        cmocka_unit_test(mote_scene_query_steady_state_allocates_nothing),
-        cmocka_unit_test(mote_scene_bytes_do_not_grow_with_bodies_times_triangles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "core/particle/start.h"
 
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 /* A torus, and the smallest of bodies beside it: five components. */
 static mote_mesh *five_components(void)
@@ -12,9 +13,8 @@ static mote_mesh *five_components(void)
     return solid_to_mesh(s);
 }
 
-static void start_places_different_vertices_on_every_component(void **unused)
+TEST(start_places_different_vertices_on_every_component)
 {
-    (void)unused;
     mote_mesh *mesh = five_components();
     assert_int_equal(mesh->component_count, 5);
     const uint32_t counts[3] = {5, 17, mesh->vertex_count};
@@ -38,9 +38,8 @@ static void start_places_different_vertices_on_every_component(void **unused)
     mote_mesh_destroy(mesh);
 }
 
-static void start_with_a_bad_count_says_the_range(void **unused)
+TEST(start_with_a_bad_count_says_the_range)
 {
-    (void)unused;
     mote_mesh *mesh = five_components();
     uint32_t v[300] = {7};
     assert_int_equal(mote_start_vertices(mesh, 0, MOTE_START_RANDOM, 1, v), MOTE_EINVAL);
@@ -52,13 +51,4 @@ static void start_with_a_bad_count_says_the_range(void **unused)
                                            "each needs at least one");
     assert_int_equal(v[0], 7);
     mote_mesh_destroy(mesh);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(start_places_different_vertices_on_every_component),
-        cmocka_unit_test(start_with_a_bad_count_says_the_range),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,18 +1,14 @@
 /* Status codes and the remembered text. */
 #include "core/base/status.h"
+#include "tests/support/test.h"
 
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-static void status_text_every_code_is_its_own_phrase(void **unused)
+TEST(status_text_every_code_is_its_own_phrase)
 {
-    (void)unused;
     const char *phrase[] = {"done",          "invalid input",
                             "out of memory", "input or output failed",
                             "not supported", "numerical failure"};
@@ -21,25 +17,22 @@ static void status_text_every_code_is_its_own_phrase(void **unused)
     assert_string_equal(mote_status_text((mote_status)6), "unknown status");
 }
 
-static void fail_formats_text_and_returns_its_status(void **unused)
+TEST(fail_formats_text_and_returns_its_status)
 {
-    (void)unused;
     const mote_status status = mote_fail(MOTE_EIO, "%s:%d: %c", "a.obj", 17, 'x');
     assert_int_equal(status, MOTE_EIO);
     assert_string_equal(mote_error_text(), "a.obj:17: x");
 }
 
-static void fail_with_its_own_text_as_argument_keeps_it(void **unused)
+TEST(fail_with_its_own_text_as_argument_keeps_it)
 {
-    (void)unused;
     mote_fail(MOTE_EINVAL, "index 9 is out of range");
     assert_int_equal(mote_fail(MOTE_EINVAL, "a.obj: %s", mote_error_text()), MOTE_EINVAL);
     assert_string_equal(mote_error_text(), "a.obj: index 9 is out of range");
 }
 
-static void fail_text_longer_than_1023_bytes_is_cut(void **unused)
+TEST(fail_text_longer_than_1023_bytes_is_cut)
 {
-    (void)unused;
     char text[3000];
     memset(text, 'a', sizeof text);
     text[sizeof text - 1] = '\0';
@@ -62,9 +55,8 @@ static void *fail_elsewhere(void *argument)
                : NULL;
 }
 
-static void error_text_of_each_thread_is_its_own(void **unused)
+TEST(error_text_of_each_thread_is_its_own)
 {
-    (void)unused;
     mote_fail(MOTE_EINVAL, "text of this thread");
     pthread_t thread;
     int mark = 0;
@@ -73,16 +65,4 @@ static void error_text_of_each_thread_is_its_own(void **unused)
     assert_int_equal(pthread_join(thread, &result), 0);
     assert_ptr_equal(result, &mark);
     assert_string_equal(mote_error_text(), "text of this thread");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(status_text_every_code_is_its_own_phrase),
-        cmocka_unit_test(fail_formats_text_and_returns_its_status),
-        cmocka_unit_test(fail_with_its_own_text_as_argument_keeps_it),
-        cmocka_unit_test(fail_text_longer_than_1023_bytes_is_cut),
-        cmocka_unit_test(error_text_of_each_thread_is_its_own),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,12 @@
 /* The pool of threads and the queue of frames. */
 #include "core/base/frame_queue.h"
 #include "core/base/pool.h"
+#include "tests/support/test.h"
 
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #define ITEMS 10007
 
@@ -29,9 +26,8 @@ static void count_items(void *context, uint32_t worker, size_t first, size_t end
         ++t->done[i];
 }
 
-static void mote_pool_run_any_threads_does_each_item_once(void **state)
+TEST(mote_pool_run_any_threads_does_each_item_once)
 {
-    (void)state;
     static const uint32_t threads[] = {1, 2, 3, 16};
     static const size_t counts[] = {0, 1, 5, 64, ITEMS}, grains[] = {1, 7, 20000};
     static tally t;
@@ -54,9 +50,8 @@ static void mote_pool_run_any_threads_does_each_item_once(void **state)
     mote_pool_destroy(NULL);
 }
 
-static void mote_pool_create_bad_number_is_refused(void **state)
+TEST(mote_pool_create_bad_number_is_refused)
 {
-    (void)state;
     mote_pool *pool = NULL;
     assert_int_equal(mote_pool_create(0, &pool), MOTE_EINVAL);
     assert_int_equal(mote_pool_create(MOTE_POOL_MAX + 1, &pool), MOTE_EINVAL);
@@ -103,9 +98,8 @@ static uint64_t read_frames(stream *s, uint64_t wanted)
     return read;
 }
 
-static void mote_frame_queue_all_frames_arrive_in_order(void **state)
+TEST(mote_frame_queue_all_frames_arrive_in_order)
 {
-    (void)state;
     for (size_t places = 1; places <= PLACES; ++places) {
         stream s = {.count = 5000};
         assert_int_equal(mote_frame_queue_create(places, &s.queue), MOTE_OK);
@@ -115,9 +109,8 @@ static void mote_frame_queue_all_frames_arrive_in_order(void **state)
     }
 }
 
-static void mote_frame_queue_cancelled_reader_ends_the_writer(void **state)
+TEST(mote_frame_queue_cancelled_reader_ends_the_writer)
 {
-    (void)state;
     stream s = {.count = UINT64_MAX};
     assert_int_equal(mote_frame_queue_create(PLACES, &s.queue), MOTE_OK);
     assert_int_equal(read_frames(&s, 100), 100);
@@ -125,25 +118,12 @@ static void mote_frame_queue_cancelled_reader_ends_the_writer(void **state)
     mote_frame_queue_destroy(s.queue);
 }
 
-static void mote_frame_queue_no_frames_ends_the_reader(void **state)
+TEST(mote_frame_queue_no_frames_ends_the_reader)
 {
-    (void)state;
     stream s = {.count = 0};
     assert_int_equal(mote_frame_queue_create(PLACES, &s.queue), MOTE_OK);
     assert_int_equal(read_frames(&s, UINT64_MAX), 0);
     mote_frame_queue_destroy(s.queue);
     mote_frame_queue_destroy(NULL);
     assert_int_equal(mote_frame_queue_create(0, &s.queue), MOTE_EINVAL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_pool_run_any_threads_does_each_item_once),
-        cmocka_unit_test(mote_pool_create_bad_number_is_refused),
-        cmocka_unit_test(mote_frame_queue_all_frames_arrive_in_order),
-        cmocka_unit_test(mote_frame_queue_cancelled_reader_ends_the_writer),
-        cmocka_unit_test(mote_frame_queue_no_frames_ends_the_reader),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

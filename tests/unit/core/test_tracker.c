@@ -3,12 +3,9 @@
 #include "datasets/letter.h"
 #include "harness/base/heap_count.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 typedef struct subject {
     const mote_method *method;
@@ -103,24 +100,21 @@ static double run_tori(const char *parameters, int frames, bool deforming, bool 
     return rate;
 }
 
-static void query_smooth_motion_nearly_always_exact(void **context)
+TEST(query_smooth_motion_nearly_always_exact)
 {
-    (void)context;
     assert_true(run_tori("n=8", 80, true, true) >= 0.98);
     assert_true(run_tori("n=8,positions=given", 80, true, true) >= 0.98);
     assert_true(run_tori("n=8", 80, false, true) >= 0.98);
 }
 
-static void query_teleports_mostly_exact(void **context)
+TEST(query_teleports_mostly_exact)
 {
-    (void)context;
     assert_true(run_tori("n=16", 80, true, false) >= 0.9);
     assert_true(run_tori("n=16,positions=given", 80, true, false) >= 0.9);
 }
 
-static void query_switches_answers_on_surfaces(void **context)
+TEST(query_switches_answers_on_surfaces)
 {
-    (void)context;
     static const char *const choices[] = {
         "n=0",
         "n=1",
@@ -142,9 +136,8 @@ static void query_switches_answers_on_surfaces(void **context)
 
 /* One query after a jump must not depend on a wrong idea of where things are: a tracker that
    comes from elsewhere finds what a new one finds. */
-static void query_after_teleport_as_good_as_new(void **context)
+TEST(query_after_teleport_as_good_as_new)
 {
-    (void)context;
     scene s;
     scene_init(&s, 24, 12, 1, true);
     subject old;
@@ -165,9 +158,8 @@ static void query_after_teleport_as_good_as_new(void **context)
     scene_free(&s);
 }
 
-static void query_same_frames_same_bits(void **context)
+TEST(query_same_frames_same_bits)
 {
-    (void)context;
     mote_answer answers[2][40];
     for (int round = 0; round < 2; ++round) {
         scene s;
@@ -183,9 +175,8 @@ static void query_same_frames_same_bits(void **context)
     assert_memory_equal(answers[0], answers[1], sizeof answers[0]);
 }
 
-static void contact_question_as_the_distance_says(void **context)
+TEST(contact_question_as_the_distance_says)
 {
-    (void)context;
     scene s;
     scene_init(&s, 120, 40, 1, true);
     const double tolerance = 0.02 * s.length;
@@ -213,9 +204,8 @@ static void contact_question_as_the_distance_says(void **context)
     scene_free(&s);
 }
 
-static void query_warm_no_allocation(void **context)
+TEST(query_warm_no_allocation)
 {
-    (void)context;
     scene s;
     scene_init(&s, 60, 24, 1, true);
     subject u;
@@ -254,9 +244,8 @@ static mote_frame scaled_frame(const mote_frame *frame, double factor,
     return made;
 }
 
-static void query_scaled_by_powers_of_two_same_bits(void **context)
+TEST(query_scaled_by_powers_of_two_same_bits)
 {
-    (void)context;
     for (int exponent = -60; exponent <= 60; exponent += 40) {
         const double factor = ldexp(1, exponent);
         scene s, t;
@@ -285,9 +274,8 @@ static void query_scaled_by_powers_of_two_same_bits(void **context)
 
 /* Vertices of their bodies in the frame, the first pair as near as the closest vertices of the
    faces that the answer is on, and no more than room was given for are written. */
-static void particles_after_query_are_vertices_nearest_first(void **context)
+TEST(particles_after_query_are_vertices_nearest_first)
 {
-    (void)context;
     scene s;
     scene_init(&s, 24, 12, 1, true);
     subject u;
@@ -333,9 +321,8 @@ static void particles_after_query_are_vertices_nearest_first(void **context)
 }
 
 /* Without seeds there is nothing that forces could move. */
-static void forces_without_seeds_change_nothing(void **context)
+TEST(forces_without_seeds_change_nothing)
 {
-    (void)context;
     scene s;
     scene_init(&s, 24, 12, 1, true);
     subject with, without;
@@ -354,9 +341,8 @@ static void forces_without_seeds_change_nothing(void **context)
     scene_free(&s);
 }
 
-static void create_bad_options_rejected(void **context)
+TEST(create_bad_options_rejected)
 {
-    (void)context;
     scene s;
     scene_init(&s, 12, 6, 1, false);
     const mote_body *bodies[2] = {&s.body[0], &s.body[1]};
@@ -374,22 +360,4 @@ static void create_bad_options_rejected(void **context)
     assert_null(tracker);
     mote_tracker_destroy(NULL);
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(query_smooth_motion_nearly_always_exact),
-        cmocka_unit_test(query_teleports_mostly_exact),
-        cmocka_unit_test(query_switches_answers_on_surfaces),
-        cmocka_unit_test(query_after_teleport_as_good_as_new),
-        cmocka_unit_test(query_same_frames_same_bits),
-        cmocka_unit_test(contact_question_as_the_distance_says),
-        cmocka_unit_test(query_warm_no_allocation),
-        cmocka_unit_test(query_scaled_by_powers_of_two_same_bits),
-        cmocka_unit_test(particles_after_query_are_vertices_nearest_first),
-        cmocka_unit_test(forces_without_seeds_change_nothing),
-        cmocka_unit_test(create_bad_options_rejected),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

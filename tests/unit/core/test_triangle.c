@@ -1,14 +1,12 @@
 /* Distances of triangles against closed forms and against a slow reference in 113 bits. */
 #include "core/body/triangle.h"
 
+#include "tests/support/test.h"
 #include "tests/support/triangle_pairs.h"
 #include "baselines/wide_triangle.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 #include <string.h>
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
@@ -71,9 +69,8 @@ static void check_points(const mote_vec3 s[3], const mote_vec3 t[3], double squa
         assert_memory_equal(&p, &q, sizeof(p));
 }
 
-static void triangle_triangle_closed_forms_exact(void **state)
+TEST(triangle_triangle_closed_forms_exact)
 {
-    (void)state;
     for (size_t i = 0; i < COUNT(closed_forms); i++) {
         const closed_form *c = &closed_forms[i];
         for (int turn = 0; turn < 9; turn++) {
@@ -107,9 +104,8 @@ static void check_pair(pair_sort sort, const mote_vec3 s[3], const mote_vec3 t[3
     check_points(s, t, squared, p, q);
 }
 
-static void triangle_triangle_random_pairs_match_reference(void **state)
+TEST(triangle_triangle_random_pairs_match_reference)
 {
-    (void)state;
     uint64_t seed = 1;
     for (int i = 0; i < 108000; i++) {
         mote_vec3 s[3], t[3];
@@ -130,9 +126,8 @@ static mote_mat3 random_rotation(uint64_t *seed)
     return r;
 }
 
-static void triangle_triangle_rigid_motion_same_distance(void **state)
+TEST(triangle_triangle_rigid_motion_same_distance)
 {
-    (void)state;
     uint64_t seed = 2;
     for (int i = 0; i < 20000; i++) {
         mote_vec3 s[3], t[3];
@@ -154,9 +149,8 @@ static void scale_triangle(const mote_vec3 t[3], double scale, mote_vec3 scaled[
         scaled[k] = mote_scale(t[k], scale);
 }
 
-static void triangle_triangle_power_of_two_scale_same_bits(void **state)
+TEST(triangle_triangle_power_of_two_scale_same_bits)
 {
-    (void)state;
     uint64_t seed = 3;
     const int exponents[] = {-120, -40, -7, 1, 13, 40, 120};
     for (int i = 0; i < 20000; i++) {
@@ -178,9 +172,8 @@ static void triangle_triangle_power_of_two_scale_same_bits(void **state)
     }
 }
 
-static void triangle_triangle_common_offset_costs_nothing(void **state)
+TEST(triangle_triangle_common_offset_costs_nothing)
 {
-    (void)state;
     uint64_t seed = 4;
     for (int i = 0; i < 20000; i++) {
         mote_vec3 s[3], t[3];
@@ -199,9 +192,8 @@ static void triangle_triangle_common_offset_costs_nothing(void **state)
 
 /* Where an edge goes through a face, the point is rounded at the offset, the distance is not.
  */
-static void triangle_triangle_offset_of_intersecting_pairs_is_a_contact(void **state)
+TEST(triangle_triangle_offset_of_intersecting_pairs_is_a_contact)
 {
-    (void)state;
     uint64_t seed = 5;
     int contacts = 0;
     for (int i = 0; i < 20000; i++) {
@@ -221,9 +213,8 @@ static void triangle_triangle_offset_of_intersecting_pairs_is_a_contact(void **s
     assert_in_range(contacts, 2000, 10000);
 }
 
-static void triangle_triangle_below_agrees_with_the_bound(void **state)
+TEST(triangle_triangle_below_agrees_with_the_bound)
 {
-    (void)state;
     uint64_t seed = 5;
     int cut = 0;
     for (int i = 0; i < 40000; i++) {
@@ -245,9 +236,8 @@ static void triangle_triangle_below_agrees_with_the_bound(void **state)
     assert_true(cut > 1000);
 }
 
-static void point_triangle_random_points_match_reference(void **state)
+TEST(point_triangle_random_points_match_reference)
 {
-    (void)state;
     uint64_t seed = 6;
     for (int i = 0; i < 50000; i++) {
         mote_vec3 s[3], t[3], closest;
@@ -264,9 +254,8 @@ static void point_triangle_random_points_match_reference(void **state)
     }
 }
 
-static void segment_segment_random_pairs_match_reference(void **state)
+TEST(segment_segment_random_pairs_match_reference)
 {
-    (void)state;
     uint64_t seed = 7;
     for (int i = 0; i < 50000; i++) {
         mote_vec3 s[3], t[3], p, q;
@@ -281,29 +270,11 @@ static void segment_segment_random_pairs_match_reference(void **state)
     }
 }
 
-static void segment_segment_one_point_distance_of_points(void **state)
+TEST(segment_segment_one_point_distance_of_points)
 {
-    (void)state;
     mote_vec3 a[2] = {{1, 2, 3}, {1, 2, 3}}, b[2] = {{1, 2, 5}, {1, 2, 5}}, p, q;
     assert_true(mote_segment_segment(a, b, &p, &q) == 4);
     assert_memory_equal(&p, a, sizeof(p));
     assert_memory_equal(&q, b, sizeof(q));
     assert_true(mote_segment_segment(a, a, &p, &q) == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(triangle_triangle_closed_forms_exact),
-        cmocka_unit_test(triangle_triangle_random_pairs_match_reference),
-        cmocka_unit_test(triangle_triangle_rigid_motion_same_distance),
-        cmocka_unit_test(triangle_triangle_power_of_two_scale_same_bits),
-        cmocka_unit_test(triangle_triangle_common_offset_costs_nothing),
-        cmocka_unit_test(triangle_triangle_offset_of_intersecting_pairs_is_a_contact),
-        cmocka_unit_test(triangle_triangle_below_agrees_with_the_bound),
-        cmocka_unit_test(point_triangle_random_points_match_reference),
-        cmocka_unit_test(segment_segment_random_pairs_match_reference),
-        cmocka_unit_test(segment_segment_one_point_distance_of_points),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,13 +2,11 @@
    as touching: pairs that are made so that the answer is known. */
 #include "core/body/triangle.h"
 
+#include "tests/support/test.h"
 #include "tests/support/triangle_pairs.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 /* A random rotation about the origin: its columns. */
 static void random_axes(uint64_t *seed, mote_vec3 axes[3])
@@ -39,9 +37,8 @@ static void check_cut(const mote_vec3 s[3], const mote_vec3 t[3], double bound_s
 }
 
 /* Apart by 2 to 4 along z: the plane of the lower one shows it, up to a tenth of a percent. */
-static void below_of_pairs_beyond_a_plane_is_the_bound(void **state)
+TEST(below_of_pairs_beyond_a_plane_is_the_bound)
 {
-    (void)state;
     uint64_t seed = 31;
     for (int i = 0; i < 2000; ++i) {
         mote_vec3 s[3], t[3], axes[3];
@@ -62,9 +59,8 @@ static void below_of_pairs_beyond_a_plane_is_the_bound(void **state)
 
 /* Two triangles upright on the line through both, each cut by the other's plane: the one around
    x = 0, the other around x = 10. */
-static void below_of_pairs_far_along_their_centres_is_the_bound(void **state)
+TEST(below_of_pairs_far_along_their_centres_is_the_bound)
 {
-    (void)state;
     uint64_t seed = 32;
     for (int i = 0; i < 2000; ++i) {
         const mote_vec3 flat[3] = {{-1, -1, 0}, {-1, 1, 0}, {1, 0, 0}};
@@ -80,9 +76,8 @@ static void below_of_pairs_far_along_their_centres_is_the_bound(void **state)
 
 /* Two points of triangles face each other across a gap of a few roundings: no proof that is
    itself only rounding may take the distance for the bound. */
-static void below_of_pairs_apart_by_rounding_is_the_distance(void **state)
+TEST(below_of_pairs_apart_by_rounding_is_the_distance)
 {
-    (void)state;
     uint64_t seed = 33;
     int apart = 0;
     for (int i = 0; i < 40000; ++i) {
@@ -104,9 +99,8 @@ static void below_of_pairs_apart_by_rounding_is_the_distance(void **state)
 }
 
 /* The longest edge is 5: touching is below 4.5e-16 x 5 = 2.2e-15. */
-static void pairs_apart_by_more_than_rounding_do_not_touch(void **state)
+TEST(pairs_apart_by_more_than_rounding_do_not_touch)
 {
-    (void)state;
     const mote_vec3 s[3] = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     for (int k = 1; k <= 40; ++k) {
         const double gap = 1e-16 * k;
@@ -123,9 +117,8 @@ static void pairs_apart_by_more_than_rounding_do_not_touch(void **state)
 }
 
 /* A triangle that is a segment and goes through a face, at every slope. */
-static void segment_through_a_face_touches_at_any_slope(void **state)
+TEST(segment_through_a_face_touches_at_any_slope)
 {
-    (void)state;
     const mote_vec3 s[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     for (int k = 1; k <= 16; ++k) {
         const double half = 0.125 * k; /* 0.5: the normal's dot with the edge is 1 */
@@ -136,16 +129,4 @@ static void segment_through_a_face_touches_at_any_slope(void **state)
         assert_true(p.x == 0.25 && p.y == 0.25 && p.z == 0);
         assert_true(mote_triangle_triangle(t, s, NULL, NULL) == 0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(below_of_pairs_beyond_a_plane_is_the_bound),
-        cmocka_unit_test(below_of_pairs_far_along_their_centres_is_the_bound),
-        cmocka_unit_test(below_of_pairs_apart_by_rounding_is_the_distance),
-        cmocka_unit_test(pairs_apart_by_more_than_rounding_do_not_touch),
-        cmocka_unit_test(segment_through_a_face_touches_at_any_slope),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 /* Vectors, rotations and poses against identities and long double sums. */
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 static void assert_near(mote_vec3 a, mote_vec3 b, double tolerance)
 {
@@ -8,9 +9,8 @@ static void assert_near(mote_vec3 a, mote_vec3 b, double tolerance)
     assert_close(a.z, b.z, tolerance);
 }
 
-static void arithmetic_of_known_vectors_is_exact(void **unused)
+TEST(arithmetic_of_known_vectors_is_exact)
 {
-    (void)unused;
     const mote_vec3 a = mote_vec3_make(1, 2, 3);
     const mote_vec3 b = mote_vec3_make(-4, 5, 0.5);
     assert_near(mote_add(a, b), mote_vec3_make(-3, 7, 3.5), 0);
@@ -24,9 +24,8 @@ static void arithmetic_of_known_vectors_is_exact(void **unused)
     assert_true(mote_distance_squared(a, b) == 25 + 9 + 6.25);
 }
 
-static void cross_of_random_vectors_obeys_lagrange(void **unused)
+TEST(cross_of_random_vectors_obeys_lagrange)
 {
-    (void)unused;
     uint64_t seed = 1;
     for (int k = 0; k < 1000; ++k) {
         const mote_vec3 a = random_vec3(&seed, 1);
@@ -40,9 +39,8 @@ static void cross_of_random_vectors_obeys_lagrange(void **unused)
     }
 }
 
-static void rotate_quarter_turn_about_z_takes_x_to_y(void **unused)
+TEST(rotate_quarter_turn_about_z_takes_x_to_y)
 {
-    (void)unused;
     const mote_mat3 quarter = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
     assert_near(mote_rotate(&quarter, mote_vec3_make(1, 0, 0)), mote_vec3_make(0, 1, 0), 0);
     assert_near(mote_rotate_back(&quarter, mote_vec3_make(0, 1, 0)), mote_vec3_make(1, 0, 0),
@@ -51,9 +49,8 @@ static void rotate_quarter_turn_about_z_takes_x_to_y(void **unused)
     assert_near(mote_pose_apply(&pose, mote_vec3_make(1, 2, 3)), mote_vec3_make(8, 21, 33), 0);
 }
 
-static void rotate_back_undoes_random_rotations(void **unused)
+TEST(rotate_back_undoes_random_rotations)
 {
-    (void)unused;
     uint64_t seed = 2;
     for (int k = 0; k < 1000; ++k) {
         const mote_mat3 r = random_rotation_matrix(&seed);
@@ -64,9 +61,8 @@ static void rotate_back_undoes_random_rotations(void **unused)
     }
 }
 
-static void pose_apply_agrees_with_long_double(void **unused)
+TEST(pose_apply_agrees_with_long_double)
 {
-    (void)unused;
     uint64_t seed = 3;
     for (int k = 0; k < 1000; ++k) {
         const mote_pose pose = {random_rotation_matrix(&seed), random_vec3(&seed, 10)};
@@ -84,9 +80,8 @@ static void pose_apply_agrees_with_long_double(void **unused)
 }
 
 /* A single has 24 bits: of a double's 53 the last 29 are 0. */
-static void as_floats_of_random_vectors_keeps_24_bits(void **unused)
+TEST(as_floats_of_random_vectors_keeps_24_bits)
 {
-    (void)unused;
     uint64_t seed = 4;
     for (int k = 0; k < 1000; ++k) {
         const mote_vec3 v = random_vec3(&seed, 1);
@@ -100,17 +95,4 @@ static void as_floats_of_random_vectors_keeps_24_bits(void **unused)
             assert_true(fabs(to[c] - from[c]) <= 0x1p-24 * fabs(from[c]));
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_floats_of_random_vectors_keeps_24_bits),
-        cmocka_unit_test(arithmetic_of_known_vectors_is_exact),
-        cmocka_unit_test(cross_of_random_vectors_obeys_lagrange),
-        cmocka_unit_test(rotate_quarter_turn_about_z_takes_x_to_y),
-        cmocka_unit_test(rotate_back_undoes_random_rotations),
-        cmocka_unit_test(pose_apply_agrees_with_long_double),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"
 #include "tests/support/bodies.h"
+#include "tests/support/test.h"
 
 #include <stdio.h>
 
@@ -160,9 +161,8 @@ static bool is_small(const mote_scenario *scenario)
                                    scenario->body[1].mesh->triangle_count <= FACES_MAX);
 }
 
-static void answers_of_built_in_scenarios_have_witnesses_on_the_surfaces(void **unused)
+TEST(answers_of_built_in_scenarios_have_witnesses_on_the_surfaces)
 {
-    (void)unused;
     mote_catalog catalog;
     size_t checked = 0, answers = 0;
     assert_int_equal(mote_catalog_read(&catalog), MOTE_OK);
@@ -206,9 +206,8 @@ static mote_mesh *random_mesh(uint64_t *seed)
     return solid_to_mesh(s);
 }
 
-static void answers_on_random_meshes_have_witnesses_on_the_surfaces(void **unused)
+TEST(answers_on_random_meshes_have_witnesses_on_the_surfaces)
 {
-    (void)unused;
     static const int fields[] = {6, -3, 0};
     uint64_t seed = 20;
     size_t answers = 0;
@@ -235,13 +234,4 @@ static void answers_on_random_meshes_have_witnesses_on_the_surfaces(void **unuse
         test_body_free(&b[1]);
     }
     assert_true(answers >= 16 / STRIDE * 12 * 8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(answers_of_built_in_scenarios_have_witnesses_on_the_surfaces),
-        cmocka_unit_test(answers_on_random_meshes_have_witnesses_on_the_surfaces),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,16 +1,13 @@
 /* Every property of a letter is recomputed here from its positions and indices alone. */
 #include "datasets/letter.h"
 #include "harness/base/hash.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 typedef struct half_edge {
     uint32_t from, to;
@@ -193,26 +190,23 @@ static void assert_sound(char character, size_t triangles, int64_t euler)
     mote_mesh_destroy(mesh);
 }
 
-static void create_papers_counts_sound(void **state)
+TEST(create_papers_counts_sound)
 {
-    (void)state;
     assert_sound('T', 1380, 2);
     assert_sound('V', 1764, 2);
     assert_sound('M', 2968, 2);
     assert_sound('W', 11920, 2);
 }
 
-static void create_scaling_counts_sound(void **state)
+TEST(create_scaling_counts_sound)
 {
-    (void)state;
     assert_sound('W', 1000, 2);
     assert_sound('W', 10000, 2);
     assert_sound('W', 100000, 2);
 }
 
-static void create_any_even_count_sound(void **state)
+TEST(create_any_even_count_sound)
 {
-    (void)state;
     static const char letters[] = "TVMW";
     static const size_t counts[] = {400, 402, 404, 450, 500, 614, 778, 1000, 1234, 5000, 20002};
     for (size_t i = 0; letters[i]; i++)
@@ -220,9 +214,8 @@ static void create_any_even_count_sound(void **state)
             assert_sound(letters[i], counts[j], 2);
 }
 
-static void create_every_letter_sound(void **state)
+TEST(create_every_letter_sound)
 {
-    (void)state;
     for (char c = 'A'; c <= 'Z'; c++) {
         const int64_t euler = c == 'B' ? -2 : strchr("ADOPQR", c) ? 0 : 2;
         assert_sound(c, 400, euler);
@@ -231,9 +224,8 @@ static void create_every_letter_sound(void **state)
     }
 }
 
-static void create_every_letter_upright_and_centred(void **state)
+TEST(create_every_letter_upright_and_centred)
 {
-    (void)state;
     for (char c = 'A'; c <= 'Z'; c++) {
         mote_mesh *mesh = letter(c, 1600);
         const mote_vec3 size = mote_sub(mesh->high, mesh->low);
@@ -282,9 +274,8 @@ static unsigned pieces_at_height(const mote_mesh *mesh, double height)
 }
 
 /* What a reader sees: the pieces that lines near its foot and its top cross. */
-static void create_each_letter_has_its_shape(void **state)
+TEST(create_each_letter_has_its_shape)
 {
-    (void)state;
     static const struct {
         char character;
         unsigned low, high;
@@ -303,9 +294,8 @@ static void create_each_letter_has_its_shape(void **state)
     }
 }
 
-static void create_twice_same_bits(void **state)
+TEST(create_twice_same_bits)
 {
-    (void)state;
     mote_mesh *first = letter('M', 2968);
     mote_mesh *second = letter('M', 2968);
     assert_int_equal(first->vertex_count, second->vertex_count);
@@ -318,9 +308,8 @@ static void create_twice_same_bits(void **state)
 }
 
 /* FNV-1a of positions and triangles: the same on every compiler and optimisation level. */
-static void create_papers_w_known_bits(void **state)
+TEST(create_papers_w_known_bits)
 {
-    (void)state;
     mote_mesh *mesh = letter('W', 11920);
     uint64_t hash = MOTE_HASH_START;
     hash = mote_hash_bytes(hash, mesh->positions, mesh->vertex_count * sizeof *mesh->positions);
@@ -339,9 +328,8 @@ static void assert_refused(char character, size_t triangles, const char *part)
         fail_msg("\"%s\" does not say \"%s\"", mote_error_text(), part);
 }
 
-static void create_bad_count_says_what_is_right(void **state)
+TEST(create_bad_count_says_what_is_right)
 {
-    (void)state;
     assert_refused('W', 11921, "use 11920 or 11922");
     assert_refused('W', 398, "an even number from 400");
     assert_refused('W', 0, "an even number from 400");
@@ -349,28 +337,10 @@ static void create_bad_count_says_what_is_right(void **state)
     assert_refused('W', SIZE_MAX - 1, "to 20000000");
 }
 
-static void create_unknown_letter_says_what_is_right(void **state)
+TEST(create_unknown_letter_says_what_is_right)
 {
-    (void)state;
     assert_refused('?', 1000, "A to Z");
     assert_refused('w', 1000, "A to Z");
     assert_refused('\0', 1000, "A to Z");
     assert_refused((char)-61, 1000, "A to Z");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(create_papers_counts_sound),
-        cmocka_unit_test(create_scaling_counts_sound),
-        cmocka_unit_test(create_any_even_count_sound),
-        cmocka_unit_test(create_every_letter_sound),
-        cmocka_unit_test(create_every_letter_upright_and_centred),
-        cmocka_unit_test(create_each_letter_has_its_shape),
-        cmocka_unit_test(create_twice_same_bits),
-        cmocka_unit_test(create_papers_w_known_bits),
-        cmocka_unit_test(create_bad_count_says_what_is_right),
-        cmocka_unit_test(create_unknown_letter_says_what_is_right),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,20 +3,17 @@
 #include "harness/base/file.h"
 #include "harness/base/record.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <dirent.h>
 
 static char base[] = "/tmp/mote-test-figure-list-XXXXXX";
 static char run_folder[64], readme[1 << 16];
 
-static int make_run(void **state)
+static int make_run(void)
 {
-    (void)state;
     char line[256], said[64];
     if (!mkdtemp(base))
         return -1;
@@ -33,11 +30,12 @@ static int make_run(void **state)
     return program_wait(program_start(line, said));
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_run, remove_base);
 
 /* The line of README about a figure: "| 4 | `front-SCENARIO` | ..."; NULL: there is none. */
 static const char *line_of(int number, const char *name)
@@ -49,9 +47,8 @@ static const char *line_of(int number, const char *name)
     return line ? line : strstr(readme, each);
 }
 
-static void every_drawn_figure_is_in_the_readme(void **state)
+TEST(every_drawn_figure_is_in_the_readme)
 {
-    (void)state;
     size_t i;
     const json_t *figure;
     json_t *list;
@@ -73,9 +70,8 @@ static void every_drawn_figure_is_in_the_readme(void **state)
 }
 
 /* Also the command that README gives; OUT=DIR names this run. */
-static void every_figure_not_drawn_is_in_the_readme_with_its_command(void **state)
+TEST(every_figure_not_drawn_is_in_the_readme_with_its_command)
 {
-    (void)state;
     size_t i;
     const json_t *figure;
     json_t *list;
@@ -103,9 +99,8 @@ static void every_figure_not_drawn_is_in_the_readme_with_its_command(void **stat
 }
 
 /* Figures that other commands draw are in no list of the program: plots/NAME.gp is. */
-static void every_script_that_draws_is_in_the_readme(void **state)
+TEST(every_script_that_draws_is_in_the_readme)
 {
-    (void)state;
     static const char *const shared[] = {"draw", "style", "solid"};
     size_t scripts = 0;
     DIR *folder = opendir(MOTE_SOURCE_DIR "/plots");
@@ -127,14 +122,4 @@ static void every_script_that_draws_is_in_the_readme(void **state)
     }
     (void)closedir(folder);
     assert_true(scripts > 20);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_drawn_figure_is_in_the_readme),
-        cmocka_unit_test(every_figure_not_drawn_is_in_the_readme_with_its_command),
-        cmocka_unit_test(every_script_that_draws_is_in_the_readme),
-    };
-    return cmocka_run_group_tests(tests, make_run, remove_base);
 }

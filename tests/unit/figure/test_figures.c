@@ -7,11 +7,9 @@
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <dirent.h>
 #include <math.h>
@@ -48,9 +46,8 @@ static bool exists(const char *name)
 }
 
 /* Makes one small run: two scenarios, some n, two replicates. */
-static int make_run(void **state)
+static int make_run(void)
 {
-    (void)state;
     return mkdtemp(base) &&
                    run("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "
                        "particle-paper:refine=no|near --method fcl-aabb --out",
@@ -60,11 +57,12 @@ static int make_run(void **state)
                : -1;
 }
 
-static int remove_run(void **state)
+static int remove_run(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_run, remove_run);
 
 static json_t *read_list(const char *directory, const char *key)
 {
@@ -77,9 +75,8 @@ static json_t *read_list(const char *directory, const char *key)
     return list;
 }
 
-static void figures_of_a_run_are_there_in_every_format(void **state)
+TEST(figures_of_a_run_are_there_in_every_format)
 {
-    (void)state;
     static const char *const names[] = {"fig1",      "front-tt",  "errors-tt",
                                         "shares-tt", "ratios-tt", "error-time-tt"};
     static const char *const formats[] = {"svg", "png", "pdf"};
@@ -96,9 +93,8 @@ static void figures_of_a_run_are_there_in_every_format(void **state)
     json_decref(list);
 }
 
-static void figures_that_cannot_be_drawn_are_named(void **state)
+TEST(figures_that_cannot_be_drawn_are_named)
 {
-    (void)state;
     assert_int_equal(run("figures", "run"), 0);
     static const int numbers[] = {2, 3, 6, 7, 10, 11, 13, 14, 15};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
@@ -115,9 +111,8 @@ static void figures_that_cannot_be_drawn_are_named(void **state)
 
 /* What make ingredients measures, on a few frames: a line an ingredient with its shares and its
    time over the whole's, and the front over n, launch and track. */
-static void figures_of_ingredients_have_the_rows_of_each(void **state)
+TEST(figures_of_ingredients_have_the_rows_of_each)
 {
-    (void)state;
     char path[256];
     assert_int_equal(
         run("run jump --frames 1-12 --replicates 1 --method particle:n=0 --method "
@@ -149,9 +144,8 @@ static void figures_of_ingredients_have_the_rows_of_each(void **state)
 }
 
 /* The footer's run is the manifest's, its data the hash of the file that is drawn. */
-static void footers_name_run_and_data(void **state)
+TEST(footers_name_run_and_data)
 {
-    (void)state;
     char folder[256], path[256], expected[128];
     json_t *manifest = NULL;
     path_of("run", folder);
@@ -170,16 +164,14 @@ static void footers_name_run_and_data(void **state)
 }
 
 /* The published FNV-1a of "" and "foobar". */
-static void hash_is_fnv_1a(void **state)
+TEST(hash_is_fnv_1a)
 {
-    (void)state;
     assert_true(mote_hash_text("") == 0xcbf29ce484222325u);
     assert_true(mote_hash_text("foobar") == 0x85944171f73967e8u);
 }
 
-static void drawing_again_gives_the_same_bytes(void **state)
+TEST(drawing_again_gives_the_same_bytes)
 {
-    (void)state;
     static char again[1 << 20], before[1 << 20];
     static const char *const names[] = {"fig1.svg", "front-tt.svg", "errors-tt.svg",
                                         "figures.json"};
@@ -234,9 +226,8 @@ static void rename_scenario(const char *path)
             "\"scenario\": \"'; system(\\\"touch HACKED\\\") `touch HACKED` $(touch HACKED)\"");
 }
 
-static void scenario_that_is_a_command_is_drawn_and_never_run(void **state)
+TEST(scenario_that_is_a_command_is_drawn_and_never_run)
 {
-    (void)state;
     copy_run("hostile", rename_scenario);
     assert_int_equal(run("figures", "hostile"), 0);
     assert_false(exists("hostile/figures/HACKED"));
@@ -266,9 +257,8 @@ static void damage_some(const char *path)
         rewrite(path, "\"scenario\"", "\"scen");
 }
 
-static void damaged_cells_are_named_and_the_rest_is_drawn(void **state)
+TEST(damaged_cells_are_named_and_the_rest_is_drawn)
 {
-    (void)state;
     copy_run("damaged", damage_some);
     assert_int_equal(run("figures", "damaged"), 0);
     assert_non_null(strstr(text, "left out"));
@@ -282,9 +272,8 @@ static void take_frames_away(const char *path)
 }
 
 /* The frames that a cell names choose the rows that a figure shows: of the most of them. */
-static void cells_that_name_no_frames_are_drawn(void **state)
+TEST(cells_that_name_no_frames_are_drawn)
 {
-    (void)state;
     copy_run("frames", take_frames_away);
     assert_int_equal(run("figures", "frames"), 0);
     assert_true(exists("frames/figures/shares-tt.svg"));
@@ -306,9 +295,8 @@ static void write_replicate(const char *name, const char *method, int r, int ste
 }
 
 /* Processes are paired by their numbers, and one may have more frames than the first. */
-static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **state)
+TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
 {
-    (void)state;
     char folder[256];
     mote_summary summary;
     mote_figure figure = {0};
@@ -337,9 +325,8 @@ static void ratios_of_processes_that_are_missing_or_cut_are_of_pairs(void **stat
     mote_summary_free(&summary);
 }
 
-static void ratios_of_processes_without_a_pair_are_missing(void **state)
+TEST(ratios_of_processes_without_a_pair_are_missing)
 {
-    (void)state;
     char folder[256];
     mote_summary summary;
     mote_figure figure = {0};
@@ -357,9 +344,8 @@ static void ratios_of_processes_without_a_pair_are_missing(void **state)
 }
 
 /* All frames up to the one that is shown are asked again: none may be beyond the scenario. */
-static void scene_of_a_cell_with_a_frame_that_is_not_there_is_refused(void **state)
+TEST(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused)
 {
-    (void)state;
     static const uint32_t frames[] = {60, 2001, UINT32_MAX};
     char folder[256];
     mote_summary summary;
@@ -383,9 +369,8 @@ static void remove_csv(const char *path)
     assert_int_equal(unlink(csv), 0);
 }
 
-static void run_of_which_nothing_can_be_drawn_is_bad_input(void **state)
+TEST(run_of_which_nothing_can_be_drawn_is_bad_input)
 {
-    (void)state;
     copy_run("bare", remove_csv);
     assert_int_equal(run("figures", "bare"), 4);
     assert_non_null(strstr(text, "left out"));
@@ -399,9 +384,8 @@ static void run_of_which_nothing_can_be_drawn_is_bad_input(void **state)
     assert_non_null(strstr(text, "nothing to draw"));
 }
 
-static void claims_alone_are_drawn(void **state)
+TEST(claims_alone_are_drawn)
 {
-    (void)state;
     char path[256];
     path_of("claims", path);
     assert_int_equal(mkdir(path, 0777), 0);
@@ -418,9 +402,8 @@ static void claims_alone_are_drawn(void **state)
     assert_non_null(strstr(text, "within limits"));
 }
 
-static void quoted_text_has_no_quote_nor_line_end_inside(void **state)
+TEST(quoted_text_has_no_quote_nor_line_end_inside)
 {
-    (void)state;
     mote_text made = {0};
     mote_gnuplot_quote(&made, "a\"b\nc\\");
     assert_string_equal(made.data, "\"a\xe2\x80\x9d"
@@ -428,9 +411,8 @@ static void quoted_text_has_no_quote_nor_line_end_inside(void **state)
     free(made.data);
 }
 
-static void numbers_have_commas(void **state)
+TEST(numbers_have_commas)
 {
-    (void)state;
     char number[MOTE_FIGURE_NUMBER];
     assert_string_equal(mote_figure_number(7, number), "7");
     assert_string_equal(mote_figure_number(11920, number), "11,920");
@@ -438,27 +420,4 @@ static void numbers_have_commas(void **state)
     /* Cut where there is no room, never beyond it. */
     assert_true(strlen(mote_figure_number(1e300, number)) < sizeof number);
     assert_int_equal(strncmp(number, "1,000,000", 5), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(figures_of_a_run_are_there_in_every_format),
-        cmocka_unit_test(figures_that_cannot_be_drawn_are_named),
-        cmocka_unit_test(figures_of_ingredients_have_the_rows_of_each),
-        cmocka_unit_test(footers_name_run_and_data),
-        cmocka_unit_test(hash_is_fnv_1a),
-        cmocka_unit_test(drawing_again_gives_the_same_bytes),
-        cmocka_unit_test(scenario_that_is_a_command_is_drawn_and_never_run),
-        cmocka_unit_test(cells_that_name_no_frames_are_drawn),
-        cmocka_unit_test(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused),
-        cmocka_unit_test(ratios_of_processes_without_a_pair_are_missing),
-        cmocka_unit_test(ratios_of_processes_that_are_missing_or_cut_are_of_pairs),
-        cmocka_unit_test(damaged_cells_are_named_and_the_rest_is_drawn),
-        cmocka_unit_test(run_of_which_nothing_can_be_drawn_is_bad_input),
-        cmocka_unit_test(claims_alone_are_drawn),
-        cmocka_unit_test(quoted_text_has_no_quote_nor_line_end_inside),
-        cmocka_unit_test(numbers_have_commas),
-    };
-    return cmocka_run_group_tests(tests, make_run, remove_run);
 }

@@ -4,6 +4,7 @@
 #include "harness/base/file.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #define FOLDER "test_bodies_simulate_files"
 #define FILE_NAME FOLDER "/b.json"
@@ -43,9 +44,8 @@ static mote_status depth_by_body(void *context, const uint32_t body[2], double a
     return MOTE_OK;
 }
 
-static void mote_bodies_book_step_runs_of_several_pairs_are_kept_apart(void **state)
+TEST(mote_bodies_book_step_runs_of_several_pairs_are_kept_apart)
 {
-    (void)state;
     static const char *const truth[] = {"0-1 2-3", "0-1! 2-3!", "0-1! 1-4! 2-3!", "0-1! 1-4",
                                         "0-1 1-4!"};
     static const char *const said[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
@@ -96,9 +96,8 @@ static mote_bodies_simulation simulate(const char *method, double restitution,
     return result;
 }
 
-static void mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants(void **state)
+TEST(mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants)
 {
-    (void)state;
     static const char *const methods[] = {"certified", "aabb-tree", "certified:threads=2"};
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
     mote_bodies_simulation r[3];
@@ -114,18 +113,16 @@ static void mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants(v
 }
 
 /* What impacts lose is booked, and what gravity gives. */
-static void mote_bodies_simulate_losses_and_gravity_are_booked(void **state)
+TEST(mote_bodies_simulate_losses_and_gravity_are_booked)
 {
-    (void)state;
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
     const mote_bodies_simulation r = simulate("certified", 0.5, mote_vec3_make(0, -1e-3, 0));
     assert_true(r.energy_drift < 1e-11 && r.momentum_drift < 1e-11);
 }
 
 /* Particles that see contacts late or never: what they miss is counted. */
-static void mote_bodies_simulate_one_particle_misses_contacts(void **state)
+TEST(mote_bodies_simulate_one_particle_misses_contacts)
 {
-    (void)state;
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
     const mote_bodies_simulation r =
         simulate("particle-paper:n=1,refine=no", 1, mote_vec3_make(0, 0, 0));
@@ -149,9 +146,8 @@ static void check(const char *line, int code, const char *text)
         fail_msg("%s: exit %d: %s", line, ended, said);
 }
 
-static void mote_simulate_several_bodies_on_the_command_line(void **state)
+TEST(mote_simulate_several_bodies_on_the_command_line)
 {
-    (void)state;
     write_file("\"count\": 8, \"box\": 3, " LETTERS);
     check("simulate " FILE_NAME " --method certified --steps 3 --json", 0,
           "\"passes_through\": 0");
@@ -170,28 +166,15 @@ static void mote_simulate_several_bodies_on_the_command_line(void **state)
 }
 
 /* Farther apart than scenarios want bodies to be, nearer than this contact. */
-static void mote_simulate_bodies_that_start_in_contact_are_refused(void **state)
+TEST(mote_simulate_bodies_that_start_in_contact_are_refused)
 {
-    (void)state;
     write_file("\"count\": 40, \"near_pairs\": 5, " LETTERS);
     check("simulate " FILE_NAME " --method certified --tolerance 0.05", 4, "start in contact");
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_bodies_book_step_runs_of_several_pairs_are_kept_apart),
-        cmocka_unit_test(mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants),
-        cmocka_unit_test(mote_bodies_simulate_losses_and_gravity_are_booked),
-        cmocka_unit_test(mote_bodies_simulate_one_particle_misses_contacts),
-        cmocka_unit_test(mote_simulate_several_bodies_on_the_command_line),
-        cmocka_unit_test(mote_simulate_bodies_that_start_in_contact_are_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, NULL);
-}
+TEST_GROUP(make_folder, NULL);

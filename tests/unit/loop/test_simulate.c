@@ -10,6 +10,7 @@
 #include "harness/run/truth.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #define FOLDER "test_simulate_files"
 #define FILE_NAME FOLDER "/s.json"
@@ -115,9 +116,8 @@ static mote_simulation_result run_of(const mote_scenario *scenario,
     return result;
 }
 
-static void simulator_run_exact_methods_agree_and_miss_nothing(void **state)
+TEST(simulator_run_exact_methods_agree_and_miss_nothing)
 {
-    (void)state;
     static const char *const methods[] = {"certified", "aabb-tree", "fcl-aabb"};
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
     const mote_simulation_options options = mote_default_simulation_options(scenario);
@@ -143,9 +143,8 @@ static void simulator_run_exact_methods_agree_and_miss_nothing(void **state)
     mote_scenario_destroy(scenario);
 }
 
-static void simulator_run_blind_method_passes_through(void **state)
+TEST(simulator_run_blind_method_passes_through)
 {
-    (void)state;
     const mote_method_choice blind = {.method = &told_method, .text = "told"};
     told = false;
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
@@ -190,9 +189,8 @@ static void simulator_run_blind_method_passes_through(void **state)
     assert_int_equal(unlink(TRACE), 0);
 }
 
-static void simulator_run_at_rest_stays(void **state)
+TEST(simulator_run_at_rest_stays)
 {
-    (void)state;
     mote_scenario *scenario =
         load("", "1.1, 0, 0", "\"velocity\": [0, 0, 0], \"spin\": [0, 0, 0]");
     const mote_simulation_options options = mote_default_simulation_options(scenario);
@@ -205,9 +203,8 @@ static void simulator_run_at_rest_stays(void **state)
     mote_scenario_destroy(scenario);
 }
 
-static void simulator_run_gravity_and_restitution_are_accounted_for(void **state)
+TEST(simulator_run_gravity_and_restitution_are_accounted_for)
 {
-    (void)state;
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
     mote_simulation_options options = mote_default_simulation_options(scenario);
     options.gravity = mote_vec3_make(1e-5, -2e-5, 3e-5);
@@ -220,9 +217,8 @@ static void simulator_run_gravity_and_restitution_are_accounted_for(void **state
     mote_scenario_destroy(scenario);
 }
 
-static void simulator_run_refuses_with_reason(void **state)
+TEST(simulator_run_refuses_with_reason)
 {
-    (void)state;
     const mote_method_choice method = {.method = &told_method, .text = "told"};
     mote_simulation_result r = {.steps = 77};
     /* A contact without a normal. */
@@ -272,9 +268,8 @@ static void simulator_run_refuses_with_reason(void **state)
 
 /* What a method says instead of an answer ends the simulation; a distance is as good as a
    contact. */
-static void simulator_run_needs_an_answer(void **state)
+TEST(simulator_run_needs_an_answer)
 {
-    (void)state;
     static const struct {
         int form;
         bool told;
@@ -307,9 +302,8 @@ static void simulator_run_needs_an_answer(void **state)
 }
 
 /* A scenario of one frame has one shape, but its bodies move. */
-static void simulator_run_of_one_frame_moves_on(void **state)
+TEST(simulator_run_of_one_frame_moves_on)
 {
-    (void)state;
     static const char text[] =
         "{\"purpose\": \"a test\", \"frames\": 1, \"like\": \"s.json\"}\n";
     mote_scenario_destroy(load("", "1.1, 0, 0", FLYING));
@@ -334,9 +328,8 @@ static void simulator_run_of_one_frame_moves_on(void **state)
 }
 
 /* Steps of a half and of two frames: the same paths until the first contact, the same time. */
-static void simulator_run_time_step_keeps_the_pace(void **state)
+TEST(simulator_run_time_step_keeps_the_pace)
 {
-    (void)state;
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
     const mote_method_choice choice = choice_of("certified");
     mote_simulation_options options = mote_default_simulation_options(scenario);
@@ -404,9 +397,8 @@ static double depth_by_angles(mote_mesh *const mesh[2], mote_vec3 *const world[2
     return deepest;
 }
 
-static void penetration_depth_random_poses_as_by_solid_angles(void **state)
+TEST(penetration_depth_random_poses_as_by_solid_angles)
 {
-    (void)state;
     uint64_t seed = 21;
     mote_mesh *mesh[2] = {solid_to_mesh(solid_torus(24, 12)),
                           solid_to_mesh(solid_icosphere(2))};
@@ -451,9 +443,8 @@ static void penetration_depth_random_poses_as_by_solid_angles(void **state)
 }
 
 /* Shifted along the ray, every vertex of one lies on rays through vertices of the other. */
-static void penetration_depth_aligned_tori_ties_as_by_solid_angles(void **state)
+TEST(penetration_depth_aligned_tori_ties_as_by_solid_angles)
 {
-    (void)state;
     mote_mesh *mesh[2] = {solid_to_mesh(solid_torus(16, 8)), solid_to_mesh(solid_torus(16, 8))};
     mote_penetration *penetration = NULL;
     assert_int_equal(mote_penetration_create(mesh[0], mesh[1], &penetration), MOTE_OK);
@@ -481,9 +472,8 @@ static int run_line(const char *line, char *said, size_t size)
     return status;
 }
 
-static void command_simulate_json_has_the_keys(void **state)
+TEST(command_simulate_json_has_the_keys)
 {
-    (void)state;
     static const char *const keys[] = {"steps",           "approaches",   "passes_through",
                                        "max_penetration", "energy_drift", "momentum_drift"};
     char said[8192];
@@ -500,9 +490,8 @@ static void command_simulate_json_has_the_keys(void **state)
 }
 
 /* A GIF of nine pictures, and nothing beside it. */
-static void command_simulate_film_is_a_gif(void **state)
+TEST(command_simulate_film_is_a_gif)
 {
-    (void)state;
     static const unsigned char control[] = {0x21, 0xf9, 0x04};
     char said[8192], *gif;
     size_t size, pictures = 0;
@@ -524,9 +513,8 @@ static void command_simulate_film_is_a_gif(void **state)
 /* More steps with a contact than a film has pictures, bodies one above the other or at one
    place, and a method without witnesses: pictures that gnuplot can read, twice as many at
    most. */
-static void film_watch_of_odd_steps_keeps_its_bounds(void **state)
+TEST(film_watch_of_odd_steps_keeps_its_bounds)
 {
-    (void)state;
     static const char *const places[] = {"0, 0, 0", "0, 2, 0"};
     const mote_method_choice choice = choice_of("certified");
     for (size_t p = 0; p < 2; ++p) {
@@ -564,36 +552,16 @@ static void film_watch_of_odd_steps_keeps_its_bounds(void **state)
     }
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     (void)unlink(FILE_NAME);
     (void)unlink(SAID);
     return rmdir(FOLDER);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(simulator_run_exact_methods_agree_and_miss_nothing),
-        cmocka_unit_test(simulator_run_blind_method_passes_through),
-        cmocka_unit_test(simulator_run_at_rest_stays),
-        cmocka_unit_test(simulator_run_gravity_and_restitution_are_accounted_for),
-        cmocka_unit_test(simulator_run_time_step_keeps_the_pace),
-        cmocka_unit_test(simulator_run_needs_an_answer),
-        cmocka_unit_test(simulator_run_of_one_frame_moves_on),
-        cmocka_unit_test(simulator_run_refuses_with_reason),
-        cmocka_unit_test(penetration_depth_random_poses_as_by_solid_angles),
-        cmocka_unit_test(penetration_depth_aligned_tori_ties_as_by_solid_angles),
-        cmocka_unit_test(command_simulate_json_has_the_keys),
-        cmocka_unit_test(command_simulate_film_is_a_gif),
-        cmocka_unit_test(film_watch_of_odd_steps_keeps_its_bounds),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TEST_GROUP(make_folder, remove_folder);

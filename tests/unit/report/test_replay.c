@@ -2,11 +2,9 @@
 #include "harness/scene/probe.h"
 #include "harness/report/replay.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <math.h>
 
@@ -19,9 +17,8 @@ static mote_report report;
 /* The tracks as a run orders them. */
 enum { CERTIFIED, TRACKED, PAPER, PAPER_CHECKED, TRACKS };
 
-static int make_run(void **state)
+static int make_run(void)
 {
-    (void)state;
     static const char scenario[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 149.75,\n"
         " \"warmup\": null, \"active\": null}\n";
@@ -43,12 +40,13 @@ static int make_run(void **state)
     return mote_report_gather(run_directory, &report) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     mote_report_free(&report);
     return program_remove(base);
 }
+
+TEST_GROUP(make_run, remove_base);
 
 static void assert_near(double a, double b, double tolerance)
 {
@@ -98,9 +96,8 @@ static json_t *first_scene(const json_t *root)
     return scene;
 }
 
-static void replay_json_holds_the_poses_and_weights_of_each_frame(void **state)
+TEST(replay_json_holds_the_poses_and_weights_of_each_frame)
 {
-    (void)state;
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     assert_int_equal(shown, 1);
@@ -134,9 +131,8 @@ static void replay_json_holds_the_poses_and_weights_of_each_frame(void **state)
     json_decref(root);
 }
 
-static void replay_json_holds_the_stored_answers(void **state)
+TEST(replay_json_holds_the_stored_answers)
 {
-    (void)state;
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     const json_t *tracks = json_object_get(first_scene(root), "tracks");
@@ -157,9 +153,8 @@ static void replay_json_holds_the_stored_answers(void **state)
 }
 
 /* The method's points are its distance apart, on a grid of 2^16 steps over the scene. */
-static void replay_json_pairs_are_their_distance_apart(void **state)
+TEST(replay_json_pairs_are_their_distance_apart)
 {
-    (void)state;
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     const json_t *scene = first_scene(root);
@@ -180,9 +175,8 @@ static void replay_json_pairs_are_their_distance_apart(void **state)
 }
 
 /* With and without the exact check the particles are the same: they are stored once. */
-static void replay_json_particles_are_stored_once(void **state)
+TEST(replay_json_particles_are_stored_once)
 {
-    (void)state;
     size_t shown, size;
     json_t *root = read_scenes(&shown);
     json_t *sets = json_object_get(first_scene(root), "particles");
@@ -198,9 +192,8 @@ static void replay_json_particles_are_stored_once(void **state)
 }
 
 /* Room for the meshes and motion alone, then for one track more, then for nothing. */
-static void replay_write_of_a_small_budget_leaves_out_and_names(void **state)
+TEST(replay_write_of_a_small_budget_leaves_out_and_names)
 {
-    (void)state;
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
     mote_text all = {0}, less = {0}, none = {0};
@@ -217,9 +210,8 @@ static void replay_write_of_a_small_budget_leaves_out_and_names(void **state)
 }
 
 /* The minima that are followed, the nearest first: its vertices are of the answer's faces. */
-static void replay_particles_of_tracked_begin_with_the_pair(void **state)
+TEST(replay_particles_of_tracked_begin_with_the_pair)
 {
-    (void)state;
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
     const mote_replay_track *track = &scene.tracks[TRACKED];
@@ -233,9 +225,8 @@ static void replay_particles_of_tracked_begin_with_the_pair(void **state)
     mote_replay_free(&scene);
 }
 
-static void replay_particles_of_other_answers_are_not_shown(void **state)
+TEST(replay_particles_of_other_answers_are_not_shown)
 {
-    (void)state;
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
     mote_replay_track *track = &scene.tracks[PAPER];
@@ -254,9 +245,8 @@ static void replay_particles_of_other_answers_are_not_shown(void **state)
 
 /* Down from all that there is: first particles, then tracks are left out, each named; what is
    written is JSON and no larger than what was allowed, but for its notes. */
-static void replay_write_of_any_budget_names_all_that_is_left_out(void **state)
+TEST(replay_write_of_any_budget_names_all_that_is_left_out)
 {
-    (void)state;
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
     mote_text all = {0};
@@ -287,9 +277,8 @@ static void replay_write_of_any_budget_names_all_that_is_left_out(void **state)
 }
 
 /* What stands on the page before it leaves less room: first none is lost, then all. */
-static void replay_json_of_a_full_page_shows_no_scene(void **state)
+TEST(replay_json_of_a_full_page_shows_no_scene)
 {
-    (void)state;
     static const size_t filled[] = {MOTE_REPLAY_PAGE_BYTES - 2000000, MOTE_REPLAY_PAGE_BYTES};
     for (size_t i = 0; i < 2; ++i) {
         char *blank = malloc(filled[i] + 1);
@@ -309,9 +298,8 @@ static void replay_json_of_a_full_page_shows_no_scene(void **state)
 }
 
 /* A file that was cut or changed since it was read gives empty places, and no more rows. */
-static void replay_read_cell_of_a_changed_file_gives_none(void **state)
+TEST(replay_read_cell_of_a_changed_file_gives_none)
 {
-    (void)state;
     static const char *const texts[] = {"", "frame,distance", "frame,distance\n",
                                         "distance,frame\n0.5,1\n,2\n",
                                         "distance,ax,ay,az,bx,by,bz\n0.5,1,2,3,4,5,6\n7"};
@@ -335,9 +323,8 @@ static void replay_read_cell_of_a_changed_file_gives_none(void **state)
 }
 
 /* A method that is not known here, more particles than a picture shows, and no rows. */
-static void replay_particles_of_odd_tracks_are_not_shown(void **state)
+TEST(replay_particles_of_odd_tracks_are_not_shown)
 {
-    (void)state;
     static const struct {
         const char *label, *note;
         size_t rows;
@@ -390,9 +377,8 @@ static void replay_particles_of_odd_tracks_are_not_shown(void **state)
 }
 
 /* Numbers of frames are read from a file: one after the scenario's end is of nothing there. */
-static void replay_load_of_a_frame_that_the_scenario_has_not_is_refused(void **state)
+TEST(replay_load_of_a_frame_that_the_scenario_has_not_is_refused)
 {
-    (void)state;
     static const uint32_t numbers[] = {FRAMES + 1, 100000, UINT32_MAX};
     uint32_t *last = &report.cells.rows[CERTIFIED].first->frame[FRAMES - 1];
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
@@ -405,9 +391,8 @@ static void replay_load_of_a_frame_that_the_scenario_has_not_is_refused(void **s
     *last = FRAMES;
 }
 
-static void replay_load_of_a_changed_scenario_is_refused(void **state)
+TEST(replay_load_of_a_changed_scenario_is_refused)
 {
-    (void)state;
     mote_replay_scene scene;
     static const char other[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 100,\n"
@@ -421,24 +406,4 @@ static void replay_load_of_a_changed_scenario_is_refused(void **state)
     assert_int_equal(shown, 0);
     assert_int_equal(json_array_size(json_object_get(root, "notes")), 1);
     json_decref(root);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(replay_json_holds_the_poses_and_weights_of_each_frame),
-        cmocka_unit_test(replay_json_holds_the_stored_answers),
-        cmocka_unit_test(replay_json_pairs_are_their_distance_apart),
-        cmocka_unit_test(replay_json_particles_are_stored_once),
-        cmocka_unit_test(replay_write_of_a_small_budget_leaves_out_and_names),
-        cmocka_unit_test(replay_particles_of_tracked_begin_with_the_pair),
-        cmocka_unit_test(replay_particles_of_other_answers_are_not_shown),
-        cmocka_unit_test(replay_write_of_any_budget_names_all_that_is_left_out),
-        cmocka_unit_test(replay_json_of_a_full_page_shows_no_scene),
-        cmocka_unit_test(replay_read_cell_of_a_changed_file_gives_none),
-        cmocka_unit_test(replay_particles_of_odd_tracks_are_not_shown),
-        cmocka_unit_test(replay_load_of_a_frame_that_the_scenario_has_not_is_refused),
-        cmocka_unit_test(replay_load_of_a_changed_scenario_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_run, remove_base);
 }

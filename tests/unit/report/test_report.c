@@ -3,11 +3,9 @@
 #include "harness/report/markdown_html.h"
 #include "harness/base/number_text.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <sys/stat.h>
 
@@ -60,9 +58,8 @@ static void write_file(const char *directory, const char *name, const char *cont
 }
 
 /* A run of five frames of a scenario with that name, a figure, claims. */
-static int make_run(void **state)
+static int make_run(void)
 {
-    (void)state;
     static const char scenario[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 149.75,\n"
         " \"warmup\": null, \"active\": null}\n";
@@ -90,15 +87,15 @@ static int make_run(void **state)
     return report(run_directory);
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
-static void report_prints_its_paths(void **state)
+TEST_GROUP(make_run, remove_base);
+
+TEST(report_prints_its_paths)
 {
-    (void)state;
     char expected[256];
     assert_int_equal(report(run_directory), 0);
     (void)snprintf(expected, sizeof expected, "%s/report.md\n%s/report.html\n", run_directory,
@@ -106,18 +103,16 @@ static void report_prints_its_paths(void **state)
     assert_string_equal(said, expected);
 }
 
-static void report_html_of_hostile_name_is_escaped(void **state)
+TEST(report_html_of_hostile_name_is_escaped)
 {
-    (void)state;
     read_page("report.html");
     assert_non_null(strstr(page, EVIL_HTML));
     assert_null(strstr(page, EVIL));
     assert_null(strstr(page, ")<script>"));
 }
 
-static void report_markdown_of_hostile_name_is_escaped(void **state)
+TEST(report_markdown_of_hostile_name_is_escaped)
 {
-    (void)state;
     read_page("report.md");
     assert_non_null(strstr(page, "'; system(\"x\")&lt;script&gt;"));
     assert_null(strstr(page, "<script"));
@@ -125,9 +120,8 @@ static void report_markdown_of_hostile_name_is_escaped(void **state)
 }
 
 /* Every link of the page to a file of the run names a file that is there. */
-static void report_html_links_lead_somewhere(void **state)
+TEST(report_html_links_lead_somewhere)
 {
-    (void)state;
     int files = 0, anchors = 0;
     read_page("report.html");
     for (const char *at = page; (at = strstr(at, "href=\"")) != NULL;) {
@@ -160,9 +154,8 @@ static void report_html_links_lead_somewhere(void **state)
 }
 
 /* The median of the page is the one that the CSV of the summary gives. */
-static void report_html_shows_the_numbers_of_the_summary(void **state)
+TEST(report_html_shows_the_numbers_of_the_summary)
 {
-    (void)state;
     const char *const summarize[] = {"summarize", run_directory, "--format", "csv", NULL};
     assert_int_equal(program(summarize), 0);
     const char *row = strstr(said, "\"particle-paper:n=2\"");
@@ -179,9 +172,8 @@ static void report_html_shows_the_numbers_of_the_summary(void **state)
     assert_non_null(strstr(page, expected));
 }
 
-static void report_html_loads_nothing(void **state)
+TEST(report_html_loads_nothing)
 {
-    (void)state;
     read_page("report.html");
     assert_null(strstr(page, "src=\"http"));
     assert_null(strstr(page, "@import"));
@@ -190,9 +182,8 @@ static void report_html_loads_nothing(void **state)
     assert_non_null(strstr(page, "<h3>1. FCL: the sum of two rectangle swept spheres"));
 }
 
-static void report_of_what_is_missing_names_it(void **state)
+TEST(report_of_what_is_missing_names_it)
 {
-    (void)state;
     char partial[96], saved[96];
     (void)snprintf(saved, sizeof saved, "%s", run_directory);
     (void)snprintf(partial, sizeof partial, "%s/partial", base);
@@ -223,9 +214,8 @@ static void report_with(const char *folder, const char *name, const char *conten
     program_read(path, page, sizeof page);
 }
 
-static void report_markdown_of_a_hostile_manifest_is_escaped(void **state)
+TEST(report_markdown_of_a_hostile_manifest_is_escaped)
 {
-    (void)state;
     report_with(
         "manifest", "manifest.json",
         "{\"sessions\": [{\"started\": \"<script>\\n# x](y)\", \"command\": [\"<b>\"]}],"
@@ -235,9 +225,8 @@ static void report_markdown_of_a_hostile_manifest_is_escaped(void **state)
 }
 
 /* An end that was not finite is null in the file, and not 0 on the page. */
-static void report_of_an_interval_without_its_ends_shows_none(void **state)
+TEST(report_of_an_interval_without_its_ends_shows_none)
 {
-    (void)state;
     static const char *const intervals[] = {"[null, null]", "[1, null]", "[\"1\", 2]", "[1]"};
     for (size_t i = 0; i < 5; ++i) {
         char claims[256];
@@ -253,9 +242,8 @@ static void report_of_an_interval_without_its_ends_shows_none(void **state)
     }
 }
 
-static void report_of_a_broken_cell_names_it(void **state)
+TEST(report_of_a_broken_cell_names_it)
 {
-    (void)state;
     char broken[96], cells[128], path[256];
     (void)snprintf(broken, sizeof broken, "%s/broken", base);
     (void)snprintf(cells, sizeof cells, "%s/cells", broken);
@@ -271,9 +259,8 @@ static void report_of_a_broken_cell_names_it(void **state)
     assert_non_null(strstr(page, "broken/cells/b\n- a cell: c.json:"));
 }
 
-static void report_of_a_run_with_a_broken_cell_shows_the_others(void **state)
+TEST(report_of_a_run_with_a_broken_cell_shows_the_others)
 {
-    (void)state;
     char cells[128], path[256];
     (void)snprintf(cells, sizeof cells, "%s/cells", run_directory);
     (void)snprintf(path, sizeof path, "%s/zz.json", cells);
@@ -286,9 +273,8 @@ static void report_of_a_run_with_a_broken_cell_shows_the_others(void **state)
     assert_non_null(strstr(page, "particle-paper:n=2</a>"));
 }
 
-static void report_of_nothing_fails_with_4(void **state)
+TEST(report_of_nothing_fails_with_4)
 {
-    (void)state;
     char empty[96], file[96];
     (void)snprintf(empty, sizeof empty, "%s/empty", base);
     (void)snprintf(file, sizeof file, "%s/said", base);
@@ -301,36 +287,32 @@ static void report_of_nothing_fails_with_4(void **state)
     assert_int_equal(program(bare), 2);
 }
 
-static void escape_path_leaves_no_scheme_and_no_quote(void **state)
+TEST(escape_path_leaves_no_scheme_and_no_quote)
 {
-    (void)state;
     mote_text text = {0};
     mote_escape_path(&text, "javascript:a'\"<\xc3\xa9 b/c-d_e.csv");
     assert_string_equal(text.data, "javascript%3Aa%27%22%3C%C3%A9%20b/c-d_e.csv");
     free(text.data);
 }
 
-static void escape_html_keeps_lines_and_drops_controls(void **state)
+TEST(escape_html_keeps_lines_and_drops_controls)
 {
-    (void)state;
     mote_text text = {0};
     mote_escape_html(&text, "a\n\t\x01<b> & 'c' \"d\"\x7f");
     assert_string_equal(text.data, "a\n\t &lt;b&gt; &amp; &#39;c&#39; &quot;d&quot; ");
     free(text.data);
 }
 
-static void escape_drawing_stays_within_its_attribute(void **state)
+TEST(escape_drawing_stays_within_its_attribute)
 {
-    (void)state;
     mote_text text = {0};
     mote_escape_drawing(&text, "<a b=\"#1\">\n5 % &lt; \xc2\xb7 'x'</a>");
     assert_string_equal(text.data, "%3Ca b=%22%231%22%3E 5 %25 &amp;lt; \xc2\xb7 'x'%3C/a%3E");
     free(text.data);
 }
 
-static void escape_script_cannot_end_the_element(void **state)
+TEST(escape_script_cannot_end_the_element)
 {
-    (void)state;
     mote_text text = {0};
     mote_escape_script(&text, "{\"a\": \"</script><!--\"}");
     assert_string_equal(text.data, "{\"a\": \"\\u003c/script>\\u003c!--\"}");
@@ -338,9 +320,8 @@ static void escape_script_cannot_end_the_element(void **state)
 }
 
 /* The vectors of RFC 4648, and a text longer than a line of the writer. */
-static void base64_of_the_standards_vectors_is_theirs(void **state)
+TEST(base64_of_the_standards_vectors_is_theirs)
 {
-    (void)state;
     static const char *const pairs[][2] = {{"f", "Zg=="},         {"fo", "Zm8="},
                                            {"foo", "Zm9v"},       {"foob", "Zm9vYg=="},
                                            {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
@@ -358,9 +339,8 @@ static void base64_of_the_standards_vectors_is_theirs(void **state)
     free(text.data);
 }
 
-static void markdown_html_folds_code_and_escapes(void **state)
+TEST(markdown_html_folds_code_and_escapes)
 {
-    (void)state;
     mote_text text = {0};
     mote_markdown_html(&text,
                        "# title\n\n## 1. `a<b>` & c\n\ntwo\nlines\n\n    x < y;\n\n    z\n"
@@ -372,9 +352,8 @@ static void markdown_html_folds_code_and_escapes(void **state)
     free(text.data);
 }
 
-static void markdown_html_of_a_text_without_ends_closes_what_is_open(void **state)
+TEST(markdown_html_of_a_text_without_ends_closes_what_is_open)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"###### deep `code", "<h6>deep <code>code</code></h6>\n"},
         {"    code", "<details><summary>Reproduction</summary><pre><code>code\n"
@@ -393,40 +372,12 @@ static void markdown_html_of_a_text_without_ends_closes_what_is_open(void **stat
     free(text.data);
 }
 
-static void show_whole_separates_thousands(void **state)
+TEST(show_whole_separates_thousands)
 {
-    (void)state;
     char shown[MOTE_NUMBER_TEXT];
     assert_string_equal(mote_show_whole(0, shown), "0");
     assert_string_equal(mote_show_whole(999, shown), "999");
     assert_string_equal(mote_show_whole(11920, shown), "11,920");
     assert_string_equal(mote_show_whole(1e7, shown), "10,000,000");
     assert_string_equal(mote_show_whole(1e300, shown), "1e+300");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(report_prints_its_paths),
-        cmocka_unit_test(report_html_of_hostile_name_is_escaped),
-        cmocka_unit_test(report_markdown_of_hostile_name_is_escaped),
-        cmocka_unit_test(report_html_links_lead_somewhere),
-        cmocka_unit_test(report_html_shows_the_numbers_of_the_summary),
-        cmocka_unit_test(report_html_loads_nothing),
-        cmocka_unit_test(report_of_what_is_missing_names_it),
-        cmocka_unit_test(report_markdown_of_a_hostile_manifest_is_escaped),
-        cmocka_unit_test(report_of_an_interval_without_its_ends_shows_none),
-        cmocka_unit_test(report_of_a_broken_cell_names_it),
-        cmocka_unit_test(report_of_a_run_with_a_broken_cell_shows_the_others),
-        cmocka_unit_test(report_of_nothing_fails_with_4),
-        cmocka_unit_test(escape_path_leaves_no_scheme_and_no_quote),
-        cmocka_unit_test(escape_html_keeps_lines_and_drops_controls),
-        cmocka_unit_test(escape_drawing_stays_within_its_attribute),
-        cmocka_unit_test(escape_script_cannot_end_the_element),
-        cmocka_unit_test(base64_of_the_standards_vectors_is_theirs),
-        cmocka_unit_test(markdown_html_folds_code_and_escapes),
-        cmocka_unit_test(markdown_html_of_a_text_without_ends_closes_what_is_open),
-        cmocka_unit_test(show_whole_separates_thousands),
-    };
-    return cmocka_run_group_tests(tests, make_run, remove_base);
 }

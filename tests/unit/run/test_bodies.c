@@ -5,6 +5,7 @@
 #include "harness/base/file.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
+#include "tests/support/test.h"
 
 #define FOLDER "test_bodies_files"
 #define FILE_NAME FOLDER "/b.json"
@@ -59,9 +60,8 @@ static mote_bodies_engine *engine_of(const mote_bodies *b, const char *text)
     return engine;
 }
 
-static void mote_bodies_load_near_pairs_are_as_wished(void **state)
+TEST(mote_bodies_load_near_pairs_are_as_wished)
 {
-    (void)state;
     static const char *const wishes[] = {"0.1", "1", "4"};
     for (int k = 0; k < 3; ++k) {
         char *more = mote_format("\"count\": 40, \"near_pairs\": %s, " SHAPES, wishes[k]);
@@ -86,9 +86,8 @@ static void mote_bodies_load_near_pairs_are_as_wished(void **state)
     }
 }
 
-static void mote_bodies_frame_set_long_paths_stay_in_the_box(void **state)
+TEST(mote_bodies_frame_set_long_paths_stay_in_the_box)
 {
-    (void)state;
     mote_bodies *b = load("", "\"count\": 20, \"box\": [4, 3, 2], \"speed\": 0.3, " SHAPES);
     mote_bodies_frame frame = frame_of(b);
     mote_vec3 before[20];
@@ -115,9 +114,8 @@ static void mote_bodies_frame_set_long_paths_stay_in_the_box(void **state)
 }
 
 /* Two bodies of one shape deform apart, and turn with their pose. */
-static void mote_bodies_frame_set_each_body_has_its_own_weights(void **state)
+TEST(mote_bodies_frame_set_each_body_has_its_own_weights)
 {
-    (void)state;
     mote_bodies *b = load("", "\"count\": 6, \"box\": 4, " SHAPES);
     mote_bodies_frame frame = frame_of(b);
     mote_bodies_frame_set(b, 7, &frame);
@@ -137,9 +135,8 @@ static void mote_bodies_frame_set_each_body_has_its_own_weights(void **state)
     mote_bodies_destroy(b);
 }
 
-static void mote_bodies_load_same_seed_same_bits(void **state)
+TEST(mote_bodies_load_same_seed_same_bits)
 {
-    (void)state;
     mote_bodies *b[3];
     b[0] = load("", "\"count\": 20, \"near_pairs\": 1, \"seed\": 4, " SHAPES);
     b[1] = load("", "\"count\": 20, \"near_pairs\": 1, \"seed\": 4, " SHAPES);
@@ -186,9 +183,8 @@ static void check_agreement(const mote_bodies *b, mote_bodies_engine *const *eng
     }
 }
 
-static void mote_bodies_engine_step_exact_methods_agree(void **state)
+TEST(mote_bodies_engine_step_exact_methods_agree)
 {
-    (void)state;
     static const char *const texts[] = {"certified", "fcl-aabb:refit=every", "fcl-aabb",
                                         "aabb-tree", "aabb-tree:refit=every"};
     mote_bodies *b = load(", \"tolerance\": 0.01",
@@ -214,9 +210,8 @@ static void mote_bodies_engine_step_exact_methods_agree(void **state)
     mote_bodies_destroy(b);
 }
 
-static void mote_bodies_engine_step_contact_question_agrees(void **state)
+TEST(mote_bodies_engine_step_contact_question_agrees)
 {
-    (void)state;
     static const char *const texts[] = {"certified", "fcl-aabb", "aabb-tree"};
     write_file("", "");
     char *text = mote_format("{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"contact\", "
@@ -274,9 +269,8 @@ static char *whole_file(const char *pattern)
 }
 
 /* The records of every pair and step, digit for digit. */
-static void mote_run_threads_and_frames_ahead_give_the_same_records(void **state)
+TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
 {
-    (void)state;
     static const char *const ways[] = {"certified",         "certified:threads=2",
                                        "certified:ahead=1", "certified:threads=3,ahead=4",
                                        "particle:n=4",      "particle:threads=3,n=4,ahead=2"};
@@ -299,9 +293,8 @@ static void mote_run_threads_and_frames_ahead_give_the_same_records(void **state
         free(texts[k]);
 }
 
-static void mote_run_writes_steps_and_a_summary(void **state)
+TEST(mote_run_writes_steps_and_a_summary)
 {
-    (void)state;
     char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     assert_int_equal(run("run " FILE_NAME " --frames 1-6 --replicates 2 --out " FOLDER
@@ -329,9 +322,8 @@ typedef struct refusal {
     const char *more, *bodies, *text;
 } refusal;
 
-static void mote_bodies_load_bad_input_names_the_place(void **state)
+TEST(mote_bodies_load_bad_input_names_the_place)
 {
-    (void)state;
     static const refusal cases[] = {
         {"", "\"count\": 0, \"box\": 4, " SHAPE, "bodies.count"},
         {"", "\"count\": -5, \"box\": 4, " SHAPE, "bodies.count"},
@@ -392,9 +384,8 @@ static void mote_bodies_load_bad_input_names_the_place(void **state)
     }
 }
 
-static void mote_bodies_choice_read_keys_are_taken_apart(void **state)
+TEST(mote_bodies_choice_read_keys_are_taken_apart)
 {
-    (void)state;
     mote_bodies_choice c;
     assert_int_equal(mote_bodies_choice_read("particle:threads=3,n=7,ahead=2,levels=1", &c),
                      MOTE_EINVAL);
@@ -431,9 +422,8 @@ static void mote_bodies_choice_read_keys_are_taken_apart(void **state)
     }
 }
 
-static void mote_run_bad_requests_have_their_exit_codes(void **state)
+TEST(mote_run_bad_requests_have_their_exit_codes)
 {
-    (void)state;
     static const struct {
         const char *line, *text;
         int code;
@@ -469,9 +459,8 @@ static const char stored[] =
     "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": null, \"rss_peak_bytes\": 1, \"ratio\": "
     "null}]}\n";
 
-static void mote_figure_bodies_stored_rows_become_lines(void **state)
+TEST(mote_figure_bodies_stored_rows_become_lines)
 {
-    (void)state;
     const mote_figure_run run = {.directory = FOLDER "/stored"};
     mote_figure figure = {0};
     assert_int_equal(mote_directory_make(FOLDER "/stored"), MOTE_OK);
@@ -498,27 +487,9 @@ static void mote_figure_bodies_stored_rows_become_lines(void **state)
     free(figure.caption.data);
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_bodies_load_near_pairs_are_as_wished),
-        cmocka_unit_test(mote_bodies_frame_set_long_paths_stay_in_the_box),
-        cmocka_unit_test(mote_bodies_frame_set_each_body_has_its_own_weights),
-        cmocka_unit_test(mote_bodies_load_same_seed_same_bits),
-        cmocka_unit_test(mote_bodies_engine_step_exact_methods_agree),
-        cmocka_unit_test(mote_bodies_engine_step_contact_question_agrees),
-        cmocka_unit_test(mote_run_threads_and_frames_ahead_give_the_same_records),
-        cmocka_unit_test(mote_run_writes_steps_and_a_summary),
-        cmocka_unit_test(mote_bodies_load_bad_input_names_the_place),
-        cmocka_unit_test(mote_bodies_choice_read_keys_are_taken_apart),
-        cmocka_unit_test(mote_run_bad_requests_have_their_exit_codes),
-        cmocka_unit_test(mote_figure_bodies_stored_rows_become_lines),
-    };
-    return cmocka_run_group_tests(tests, make_folder, NULL);
-}
+TEST_GROUP(make_folder, NULL);

@@ -4,15 +4,13 @@
 
 #include "harness/run/bodies_record.h"
 #include "harness/base/file.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FILE_NAME "test_bodies_row.json"
 
@@ -27,9 +25,8 @@ static mote_bodies_choice choice_of(const char *text)
 }
 
 /* Contacts (frame, a, b) that are missed or false count up to the last common step. */
-static void mote_bodies_row_compare_counts_contacts_by_frame_and_pair(void **state)
+TEST(mote_bodies_row_compare_counts_contacts_by_frame_and_pair)
 {
-    (void)state;
     static const struct {
         mote_bodies_contact mine[3], theirs[3];
         size_t mine_count, theirs_count, missed, wrong;
@@ -72,9 +69,8 @@ static void mote_bodies_row_compare_counts_contacts_by_frame_and_pair(void **sta
     }
 }
 
-static void mote_bodies_row_compare_without_steps_of_both_compares_nothing(void **state)
+TEST(mote_bodies_row_compare_without_steps_of_both_compares_nothing)
 {
-    (void)state;
     const mote_bodies_result nothing = {.step_count = 0};
     for (int k = 0; k < 4; ++k) {
         mote_bodies_row row = {.ok = k != 0, .steps = k != 1};
@@ -86,9 +82,8 @@ static void mote_bodies_row_compare_without_steps_of_both_compares_nothing(void 
 }
 
 /* A cell that ended before its first step: nothing is a number. */
-static void mote_bodies_row_make_without_steps_has_no_times(void **state)
+TEST(mote_bodies_row_make_without_steps_has_no_times)
 {
-    (void)state;
     const mote_bodies_choice choice = choice_of("certified");
     const mote_bodies_result result = {.status = MOTE_CELL_TIMEOUT, .reason = "out of time"};
     mote_bodies_row row;
@@ -135,9 +130,8 @@ static void expect_end(mote_bodies_result result, mote_cell_status status, const
     mote_bodies_result_free(&result);
 }
 
-static void mote_bodies_measure_ends_that_are_not_good_are_results(void **state)
+TEST(mote_bodies_measure_ends_that_are_not_good_are_results)
 {
-    (void)state;
     const mote_bodies_options all = {.first = 1};
     expect_end(measure("particle:n=2,positions=given", &all), MOTE_CELL_UNSUPPORTED,
                "leave out positions=given");
@@ -156,9 +150,8 @@ static void mote_bodies_measure_ends_that_are_not_good_are_results(void **state)
     expect_end(died, MOTE_CELL_CRASHED, "ended ");
 }
 
-static void mote_bodies_measure_of_frames_beyond_the_last_is_refused(void **state)
+TEST(mote_bodies_measure_of_frames_beyond_the_last_is_refused)
 {
-    (void)state;
     const mote_bodies_choice choice = choice_of("certified");
     const mote_bodies_options beyond = {.first = 30, .last = 41};
     mote_bodies_result result = {.step_count = 77};
@@ -168,9 +161,8 @@ static void mote_bodies_measure_of_frames_beyond_the_last_is_refused(void **stat
 }
 
 /* A budget that is spent at once leaves the least number of steps. */
-static void mote_bodies_measure_over_budget_makes_the_least_steps(void **state)
+TEST(mote_bodies_measure_over_budget_makes_the_least_steps)
 {
-    (void)state;
     static const char *const methods[] = {"certified", "certified:ahead=2"};
     for (int k = 0; k < 2; ++k) {
         const mote_bodies_options options = {.first = 3, .budget = 1e-9, .least = 4};
@@ -187,9 +179,8 @@ static void mote_bodies_measure_over_budget_makes_the_least_steps(void **state)
 }
 
 /* Names of files: what is not plain becomes a dash, and the hash tells the choices apart. */
-static void mote_bodies_cell_name_is_plain(void **state)
+TEST(mote_bodies_cell_name_is_plain)
 {
-    (void)state;
     mote_bodies named = *bodies;
     char text[] = "AZaz09.@[`{/: ~";
     named.name = text;
@@ -205,9 +196,8 @@ static void mote_bodies_cell_name_is_plain(void **state)
     free(b);
 }
 
-static int load_bodies(void **state)
+static int load_bodies(void)
 {
-    (void)state;
     static const char text[] =
         "{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"distance\", \"bodies\": {"
         "\"count\": 60, \"box\": 8, \"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]}}\n";
@@ -217,23 +207,10 @@ static int load_bodies(void **state)
                : -1;
 }
 
-static int free_bodies(void **state)
+static int free_bodies(void)
 {
-    (void)state;
     mote_bodies_destroy(bodies);
     return unlink(FILE_NAME);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_bodies_row_compare_counts_contacts_by_frame_and_pair),
-        cmocka_unit_test(mote_bodies_row_compare_without_steps_of_both_compares_nothing),
-        cmocka_unit_test(mote_bodies_row_make_without_steps_has_no_times),
-        cmocka_unit_test(mote_bodies_measure_ends_that_are_not_good_are_results),
-        cmocka_unit_test(mote_bodies_measure_of_frames_beyond_the_last_is_refused),
-        cmocka_unit_test(mote_bodies_cell_name_is_plain),
-        cmocka_unit_test(mote_bodies_measure_over_budget_makes_the_least_steps),
-    };
-    return cmocka_run_group_tests(tests, load_bodies, free_bodies);
-}
+TEST_GROUP(load_bodies, free_bodies);

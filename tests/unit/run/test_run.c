@@ -1,11 +1,9 @@
 #include "harness/run/cell_process.h"
 #include "harness/base/record.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <dirent.h>
 #include <signal.h>
@@ -22,22 +20,19 @@ static char base[] = "/tmp/mote-test-run-XXXXXX";
 static int directories;
 static char directory[64], said[64], text[1 << 16];
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     return mkdtemp(base) ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
 /* Names a directory that is not there. */
-static int bare_directory(void **state)
+static int bare_directory(void)
 {
-    (void)state;
     (void)snprintf(directory, sizeof directory, "%s/%d", base, directories);
     (void)snprintf(said, sizeof said, "%s/said-%d", base, directories);
     ++directories;
@@ -45,15 +40,18 @@ static int bare_directory(void **state)
 }
 
 /* Makes a directory that shares the truth with all others: it is computed once. */
-static int next_directory(void **state)
+static int next_directory(void)
 {
     char truth[64], link[96];
-    (void)bare_directory(state);
+    (void)bare_directory();
     (void)snprintf(truth, sizeof truth, "%s/truth", base);
     (void)snprintf(link, sizeof link, "%s/truth", directory);
     (void)mkdir(truth, 0777);
     return mkdir(directory, 0777) || symlink(truth, link);
 }
+
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(next_directory, NULL);
 
 /* mote run ARGUMENTS --out directory */
 static int run(const char *arguments)
@@ -90,9 +88,8 @@ static json_t *read_json(const char *name)
 
 #define TWO_METHODS "--method particle-paper:n=2 --method fcl-aabb"
 
-static void run_of_two_methods_leaves_a_cell_each_replicate(void **state)
+TEST(run_of_two_methods_leaves_a_cell_each_replicate)
 {
-    (void)state;
     assert_int_equal(run("tt --frames 3-12 --replicates 2 " TWO_METHODS), 0);
     assert_int_equal(count_cells(".json"), 4);
     assert_int_equal(count_cells(".csv"), 4);
@@ -130,9 +127,8 @@ static int count_fields(const char *line)
     return count;
 }
 
-static void run_writes_rows_with_the_columns_of_the_contract(void **state)
+TEST(run_writes_rows_with_the_columns_of_the_contract)
 {
-    (void)state;
     assert_int_equal(run("mv --frames 3-12 --replicates 1 --stride 1 --method fcl-aabb"), 0);
     char path[512];
     find_csv(path, sizeof path);
@@ -149,9 +145,8 @@ static void run_writes_rows_with_the_columns_of_the_contract(void **state)
     assert_null(strstr(text, "inf"));
 }
 
-static void run_summary_has_a_row_a_configuration(void **state)
+TEST(run_summary_has_a_row_a_configuration)
 {
-    (void)state;
     assert_int_equal(run("mv --frames 3-12 --replicates 2 --stride 1 " TWO_METHODS), 0);
     json_t *summary = read_json("summary.json");
     assert_int_equal(json_integer_value(json_object_get(summary, "schema")), 1);
@@ -184,9 +179,8 @@ static time_t newest_cell(void)
     return info.st_mtime;
 }
 
-static void run_again_measures_nothing_again(void **state)
+TEST(run_again_measures_nothing_again)
 {
-    (void)state;
     assert_int_equal(run("tt --frames 1-4 --replicates 1 --method fcl-aabb"), 0);
     time_t before = newest_cell();
     struct timespec pause = {1, 100000000};
@@ -198,18 +192,16 @@ static void run_again_measures_nothing_again(void **state)
     assert_int_equal(count_cells(".json"), 2);
 }
 
-static void run_with_a_sweep_makes_every_combination(void **state)
+TEST(run_with_a_sweep_makes_every_combination)
 {
-    (void)state;
     assert_int_equal(run("tt --frames 1-4 --replicates 1 --particles 1,3-4 --method "
                          "particle-paper:law=log|inverse,start=random|fps"),
                      0);
     assert_int_equal(count_cells(".json"), 12);
 }
 
-static void run_with_jobs_marks_times_as_not_comparable(void **state)
+TEST(run_with_jobs_marks_times_as_not_comparable)
 {
-    (void)state;
     assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 --jobs 3 " TWO_METHODS),
                      0);
     assert_non_null(strstr(text, "times not comparable: 3 cells at once"));
@@ -261,9 +253,8 @@ static double widest_interval(json_int_t *replicates)
 
 #define UNTIL "tt --frames 1-50 --replicates 1 --method aabb-tree --method particle-paper:n=2 "
 
-static void run_until_an_interval_is_narrow_adds_replicates(void **state)
+TEST(run_until_an_interval_is_narrow_adds_replicates)
 {
-    (void)state;
     json_int_t replicates;
     assert_int_equal(run(UNTIL "--until-ci 100% --budget 60"), 0);
     double widest = widest_interval(&replicates);
@@ -285,9 +276,9 @@ static void refused(const char *arguments, int status, const char *part)
     assert_int_not_equal(stat(directory, &info), 0);
 }
 
-static void run_with_bad_input_says_what_and_writes_nothing(void **state)
+TEST(run_with_bad_input_says_what_and_writes_nothing)
 {
-    (void)state;
+    assert_int_equal(bare_directory(), 0);
     refused("no-such-scenario", 4, "no-such-scenario");
     refused("/no/such/file.json", 4, "/no/such/file.json");
     refused("tt --method no-such-method", 4, "no-such-method");
@@ -300,9 +291,9 @@ static void run_with_bad_input_says_what_and_writes_nothing(void **state)
     refused("tt --frames 1-100000", 4, "100000");
 }
 
-static void run_with_bad_usage_says_what_is_expected(void **state)
+TEST(run_with_bad_usage_says_what_is_expected)
 {
-    (void)state;
+    assert_int_equal(bare_directory(), 0);
     refused("", 2, "no scenario");
     refused("tt --no-such-option", 2, "--no-such-option");
     refused("tt --replicates 0", 2, "--replicates 0");
@@ -315,9 +306,9 @@ static void run_with_bad_usage_says_what_is_expected(void **state)
     refused("tt --until-ci 2% --jobs 2", 2, "--until-ci");
 }
 
-static void run_into_an_impossible_directory_is_bad_input(void **state)
+TEST(run_into_an_impossible_directory_is_bad_input)
 {
-    (void)state;
+    assert_int_equal(bare_directory(), 0);
     int status = program_wait(
         program_start("run tt --frames 1-2 --method fcl-aabb --out /dev/null/run", said));
     program_read(said, text, sizeof text);
@@ -325,9 +316,8 @@ static void run_into_an_impossible_directory_is_bad_input(void **state)
     assert_non_null(strstr(text, "/dev/null"));
 }
 
-static void run_into_a_locked_directory_is_refused(void **state)
+TEST(run_into_a_locked_directory_is_refused)
 {
-    (void)state;
     char path[96];
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
     (void)snprintf(path, sizeof path, "%s/.lock", directory);
@@ -340,9 +330,8 @@ static void run_into_a_locked_directory_is_refused(void **state)
     assert_int_equal(count_cells(".json"), 1);
 }
 
-static void run_out_of_time_is_a_recorded_row(void **state)
+TEST(run_out_of_time_is_a_recorded_row)
 {
-    (void)state;
     assert_int_equal(run("tt --replicates 1 --timeout 0.001 --method brute-force"), 5);
     json_t *summary = read_json("summary.json");
     const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
@@ -351,9 +340,8 @@ static void run_out_of_time_is_a_recorded_row(void **state)
     assert_int_equal(count_cells(".csv"), 0);
 }
 
-static void run_killed_at_any_time_goes_on_without_loss(void **state)
+TEST(run_killed_at_any_time_goes_on_without_loss)
 {
-    (void)state;
     const char *arguments = "tt --frames 1-200 --replicates 4 " TWO_METHODS;
     char line[512];
     (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
@@ -392,9 +380,8 @@ static void change_cell(const char *members)
 }
 
 /* What a stored cell says of itself decides whether it is measured again. */
-static void run_of_a_changed_cell_goes_by_its_status_and_stride(void **state)
+TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
 {
-    (void)state;
     static const struct {
         const char *members;
         int status;
@@ -419,9 +406,8 @@ static void run_of_a_changed_cell_goes_by_its_status_and_stride(void **state)
     assert_non_null(strstr(text, "0 of them done"));
 }
 
-static void run_sweeps_what_an_interrupted_write_left(void **state)
+TEST(run_sweeps_what_an_interrupted_write_left)
 {
-    (void)state;
     static const char *const names[] = {"summary.json.part", "cells/a.json.part",
                                         "truth/b.csv.part"};
     char line[512], path[128];
@@ -442,9 +428,8 @@ static void run_sweeps_what_an_interrupted_write_left(void **state)
     assert_int_equal(stat(path, &info), 0);
 }
 
-static void run_whose_lock_cannot_be_opened_says_so(void **state)
+TEST(run_whose_lock_cannot_be_opened_says_so)
 {
-    (void)state;
     char line[128];
     (void)snprintf(line, sizeof line, "mkdir %s/.lock", directory);
     assert_int_equal(system(line), 0);
@@ -453,9 +438,8 @@ static void run_whose_lock_cannot_be_opened_says_so(void **state)
 }
 
 /* Replicates are added to the reference whatever its interval, and to nothing that failed. */
-static void run_until_an_interval_is_narrow_needs_cells_that_end(void **state)
+TEST(run_until_an_interval_is_narrow_needs_cells_that_end)
 {
-    (void)state;
     assert_int_equal(
         run("tt --replicates 1 --timeout 0.001 --method brute-force --until-ci 50%"), 5);
     assert_non_null(strstr(text, "after 1 replicates the widest interval is +-0 %"));
@@ -540,9 +524,8 @@ static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *,
     return end.status;
 }
 
-static void cell_of_a_crashing_method_is_recorded_as_crashed(void **state)
+TEST(cell_of_a_crashing_method_is_recorded_as_crashed)
 {
-    (void)state;
     char reason[400];
     assert_int_equal(measure(die, reason, sizeof reason), MOTE_CELL_CRASHED);
     assert_non_null(strstr(reason, "signal 11"));
@@ -550,39 +533,9 @@ static void cell_of_a_crashing_method_is_recorded_as_crashed(void **state)
     assert_int_equal(count_cells(".csv"), 0);
 }
 
-static void cell_of_a_failing_method_keeps_frame_and_reason(void **state)
+TEST(cell_of_a_failing_method_keeps_frame_and_reason)
 {
-    (void)state;
     char reason[400];
     assert_int_equal(measure(refuse, reason, sizeof reason), MOTE_CELL_CRASHED);
     assert_string_equal(reason, "frame 1: the reason");
-}
-
-#define TEST(name) cmocka_unit_test_setup(name, next_directory)
-#define TEST_BARE(name) cmocka_unit_test_setup(name, bare_directory)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(run_of_two_methods_leaves_a_cell_each_replicate),
-        TEST(run_writes_rows_with_the_columns_of_the_contract),
-        TEST(run_summary_has_a_row_a_configuration),
-        TEST(run_again_measures_nothing_again),
-        TEST(run_with_a_sweep_makes_every_combination),
-        TEST(run_with_jobs_marks_times_as_not_comparable),
-        TEST(run_until_an_interval_is_narrow_adds_replicates),
-        TEST_BARE(run_with_bad_input_says_what_and_writes_nothing),
-        TEST_BARE(run_with_bad_usage_says_what_is_expected),
-        TEST_BARE(run_into_an_impossible_directory_is_bad_input),
-        TEST(run_into_a_locked_directory_is_refused),
-        TEST(run_out_of_time_is_a_recorded_row),
-        TEST(run_killed_at_any_time_goes_on_without_loss),
-        TEST(run_of_a_changed_cell_goes_by_its_status_and_stride),
-        TEST(run_sweeps_what_an_interrupted_write_left),
-        TEST(run_whose_lock_cannot_be_opened_says_so),
-        TEST(run_until_an_interval_is_narrow_needs_cells_that_end),
-        TEST(cell_of_a_crashing_method_is_recorded_as_crashed),
-        TEST(cell_of_a_failing_method_keeps_frame_and_reason),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -1,11 +1,9 @@
 /* Shards of a run, and runs merged. */
 #include "harness/base/record.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <dirent.h>
 #include <stdbool.h>
@@ -20,9 +18,8 @@ static char base[] = "/tmp/mote-test-shard-XXXXXX";
 static char names[SCENARIOS][96], said[64], text[1 << 16];
 
 /* Three scenarios of a few frames, so that the truth takes no time. */
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     if (!mkdtemp(base))
         return -1;
     (void)snprintf(said, sizeof said, "%s/said", base);
@@ -40,9 +37,8 @@ static int make_base(void **state)
     return 0;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
@@ -53,11 +49,13 @@ static int set_task(const char *task, const char *count)
                   : unsetenv("SLURM_ARRAY_TASK_COUNT"));
 }
 
-static int clear_task(void **state)
+static int clear_task(void)
 {
-    (void)state;
     return set_task(NULL, NULL);
 }
+
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(NULL, clear_task);
 
 static int program(const char *line)
 {
@@ -106,9 +104,8 @@ static const char *member(const json_t *object, const char *key)
     return value ? value : "";
 }
 
-static void shards_keep_the_methods_of_a_scenario_together(void **state)
+TEST(shards_keep_the_methods_of_a_scenario_together)
 {
-    (void)state;
     assert_int_equal(run("--shard 1/2", "first"), 0);
     assert_int_equal(run("--shard 2/2", "second"), 0);
     const int first = count_cells("first"), second = count_cells("second");
@@ -125,16 +122,14 @@ static void shards_keep_the_methods_of_a_scenario_together(void **state)
     }
 }
 
-static void shard_without_a_scenario_is_an_empty_run(void **state)
+TEST(shard_without_a_scenario_is_an_empty_run)
 {
-    (void)state;
     assert_int_equal(run("--shard 4/4", "none"), 0);
     assert_int_equal(count_cells("none"), 0);
 }
 
-static void shard_of_an_array_task_is_its_default(void **state)
+TEST(shard_of_an_array_task_is_its_default)
 {
-    (void)state;
     assert_int_equal(set_task("3", "3"), 0);
     assert_int_equal(run("", "task"), 0);
     assert_non_null(strstr(text, "shard 3/3"));
@@ -147,9 +142,8 @@ static void shard_of_an_array_task_is_its_default(void **state)
     assert_null(strstr(text, "scenario-2"));
 }
 
-static void array_task_that_is_no_shard_is_refused(void **state)
+TEST(array_task_that_is_no_shard_is_refused)
 {
-    (void)state;
     static const char *const bad[][2] = {{"0", "4"},   {"5", "4"},  {"-1", "4"}, {"1", "0"},
                                          {"one", "4"}, {"1", "4x"}, {"", "4"},   {"2", NULL},
                                          {NULL, "4"},  {"1.5", "4"}};
@@ -174,9 +168,8 @@ static json_t *read_rows(const char *name)
     return rows;
 }
 
-static void merge_of_shards_is_the_whole_run(void **state)
+TEST(merge_of_shards_is_the_whole_run)
 {
-    (void)state;
     char line[512];
     assert_int_equal(run("", "whole"), 0);
     (void)snprintf(line, sizeof line, "merge %s/merged %s/first %s/second %s/first", base, base,
@@ -225,9 +218,8 @@ static void move_cells(const char *name, const char *method, int replicate, cons
 }
 
 /* Replicate 2 was measured elsewhere, and of it the reference on a third machine. */
-static void merge_compares_only_within_one_machine(void **state)
+TEST(merge_compares_only_within_one_machine)
 {
-    (void)state;
     char line[512];
     assert_int_equal(run("--shard 3/3", "here"), 0);
     move_cells("here", "", 2, "there, slow");
@@ -247,19 +239,4 @@ static void merge_compares_only_within_one_machine(void **state)
     }
     assert_int_equal(compared, CONFIGURATIONS + 1);
     json_decref(rows);
-}
-
-#define TEST(name) cmocka_unit_test_teardown(name, clear_task)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(shards_keep_the_methods_of_a_scenario_together),
-        TEST(shard_without_a_scenario_is_an_empty_run),
-        TEST(shard_of_an_array_task_is_its_default),
-        TEST(array_task_that_is_no_shard_is_refused),
-        TEST(merge_of_shards_is_the_whole_run),
-        TEST(merge_compares_only_within_one_machine),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

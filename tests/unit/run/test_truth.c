@@ -3,18 +3,16 @@
 #include "harness/run/truth.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_truth_files"
 
@@ -37,26 +35,28 @@ static char *truth_path(const mote_scenario *scenario)
     return path;
 }
 
-static int set_up(void **state)
+static mote_scenario *small;
+
+static int set_up(void)
 {
-    mote_scenario *scenario;
     if (mote_directory_make(FOLDER) != MOTE_OK ||
         mote_file_write(FOLDER "/small.json", small_text, strlen(small_text)) != MOTE_OK ||
-        mote_scenario_load(FOLDER "/small.json", &scenario) != MOTE_OK)
+        mote_scenario_load(FOLDER "/small.json", &small) != MOTE_OK)
         return -1;
-    *state = scenario;
     return 0;
 }
 
-static int tear_down(void **state)
+static int tear_down(void)
 {
-    mote_scenario_destroy(*state);
+    mote_scenario_destroy(small);
     return program_remove(FOLDER);
 }
 
-static void mote_truth_compute_small_scenario_is_exact_where_known(void **state)
+TEST_GROUP(set_up, tear_down);
+
+TEST(mote_truth_compute_small_scenario_is_exact_where_known)
 {
-    const mote_scenario *scenario = *state;
+    const mote_scenario *scenario = small;
     mote_truth *truth;
     assert_int_equal(mote_truth_compute(scenario, &truth), MOTE_OK);
     assert_int_equal(truth->frames, 30);
@@ -69,9 +69,9 @@ static void mote_truth_compute_small_scenario_is_exact_where_known(void **state)
     mote_truth_destroy(truth);
 }
 
-static void mote_truth_load_or_compute_twice_gives_the_same_bits(void **state)
+TEST(mote_truth_load_or_compute_twice_gives_the_same_bits)
 {
-    const mote_scenario *scenario = *state;
+    const mote_scenario *scenario = small;
     mote_truth *first, *second;
     assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &first), MOTE_OK);
     char *path = truth_path(scenario);
@@ -100,9 +100,8 @@ static void mote_truth_load_or_compute_twice_gives_the_same_bits(void **state)
 
 /* datasets/defects.md 11: corners that lie in a triangle of the other body, which FCL tells
    apart. */
-static void mote_truth_compute_frame_that_fcl_gets_wrong_is_settled(void **state)
+TEST(mote_truth_compute_frame_that_fcl_gets_wrong_is_settled)
 {
-    (void)state;
     static const struct {
         const char *a, *b;
         mote_vec3 touch;
@@ -138,9 +137,9 @@ static void mote_truth_compute_frame_that_fcl_gets_wrong_is_settled(void **state
     }
 }
 
-static void mote_truth_read_settled_frame_keeps_what_was_overruled(void **state)
+TEST(mote_truth_read_settled_frame_keeps_what_was_overruled)
 {
-    const mote_scenario *scenario = *state;
+    const mote_scenario *scenario = small;
     mote_truth *truth, *again;
     assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
     truth->overruled[4] = 0.1; /* with and without witness points */
@@ -158,9 +157,9 @@ static void mote_truth_read_settled_frame_keeps_what_was_overruled(void **state)
     mote_truth_destroy(again);
 }
 
-static void mote_truth_read_changed_or_cut_file_is_refused(void **state)
+TEST(mote_truth_read_changed_or_cut_file_is_refused)
 {
-    const mote_scenario *scenario = *state;
+    const mote_scenario *scenario = small;
     mote_truth *truth, *read = NULL;
     assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
     char *path = truth_path(scenario);
@@ -213,9 +212,9 @@ static void write_rows(const char *path, const char *first, const char *columns,
     "\n"
 
 /* The hash withstands no forger: what it covers must be a truth, too. */
-static void mote_truth_read_wrong_rows_with_a_right_hash_are_refused(void **state)
+TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
 {
-    const mote_scenario *scenario = *state;
+    const mote_scenario *scenario = small;
     static const struct {
         const char *first, *columns, *rows; /* NULL: as it must be */
         bool good;
@@ -264,9 +263,8 @@ static void mote_truth_read_wrong_rows_with_a_right_hash_are_refused(void **stat
 }
 
 /* A name may hold what the first line is made of: its truth is computed once all the same. */
-static void mote_truth_read_of_an_odd_name_reads_what_was_written(void **state)
+TEST(mote_truth_read_of_an_odd_name_reads_what_was_written)
 {
-    (void)state;
     static const char *const names[] = {"a#b", "a frames, 7", "a 100% checked,%s"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
         char path[96];
@@ -288,24 +286,9 @@ static void mote_truth_read_of_an_odd_name_reads_what_was_written(void **state)
     }
 }
 
-static void mote_truth_load_or_compute_unwritable_folder_is_an_error(void **state)
+TEST(mote_truth_load_or_compute_unwritable_folder_is_an_error)
 {
     mote_truth *truth = NULL;
-    assert_int_equal(mote_truth_load_or_compute(*state, "/proc/nothing", &truth), MOTE_EIO);
+    assert_int_equal(mote_truth_load_or_compute(small, "/proc/nothing", &truth), MOTE_EIO);
     assert_null(truth);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_truth_compute_small_scenario_is_exact_where_known),
-        cmocka_unit_test(mote_truth_load_or_compute_twice_gives_the_same_bits),
-        cmocka_unit_test(mote_truth_compute_frame_that_fcl_gets_wrong_is_settled),
-        cmocka_unit_test(mote_truth_read_settled_frame_keeps_what_was_overruled),
-        cmocka_unit_test(mote_truth_read_of_an_odd_name_reads_what_was_written),
-        cmocka_unit_test(mote_truth_read_changed_or_cut_file_is_refused),
-        cmocka_unit_test(mote_truth_read_wrong_rows_with_a_right_hash_are_refused),
-        cmocka_unit_test(mote_truth_load_or_compute_unwritable_folder_is_an_error),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -5,12 +5,9 @@
 #include "tests/support/diamond.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 #include <math.h>
 
@@ -33,9 +30,8 @@
 
 static mote_scenario *scenario;
 
-static int load(void **state)
+static int load(void)
 {
-    (void)state;
     if (mote_directory_make(FOLDER) != MOTE_OK || !plain_file_put(FOLDER "/gate.obj", GATE) ||
         !plain_file_put(FOLDER "/diamond.obj", DIAMOND) ||
         !plain_file_put(FOLDER "/s.json", SCENE))
@@ -43,12 +39,13 @@ static int load(void **state)
     return mote_scenario_load(FOLDER "/s.json", &scenario) == MOTE_OK ? 0 : -1;
 }
 
-static int clean(void **state)
+static int clean(void)
 {
-    (void)state;
     mote_scenario_destroy(scenario);
     return program_remove(FOLDER);
 }
+
+TEST_GROUP(load, clean);
 
 /* Comes along x to an absolute distance. */
 static mote_status come(double distance, mote_vec3 *place)
@@ -61,9 +58,8 @@ static mote_status come(double distance, mote_vec3 *place)
 
 /* The inner edge of a box at (2, 1.1), against the side of the diamond from (c - 1, 0) to (c,
    1): sqrt(2) times their distance is c - 2 + 0.1. */
-static void approach_stops_at_the_first_place_with_the_wished_distance(void **state)
+TEST(approach_stops_at_the_first_place_with_the_wished_distance)
 {
-    (void)state;
     static const double distances[] = {0.15, 0.3, 0.5};
     for (size_t i = 0; i < sizeof distances / sizeof distances[0]; ++i) {
         mote_vec3 place;
@@ -75,9 +71,8 @@ static void approach_stops_at_the_first_place_with_the_wished_distance(void **st
     }
 }
 
-static void approach_that_slides_by_or_passes_is_refused_with_the_frame(void **state)
+TEST(approach_that_slides_by_or_passes_is_refused_with_the_frame)
 {
-    (void)state;
     static const struct {
         double below; /* the gate's 0.1, in L */
         const char *says;
@@ -89,13 +84,4 @@ static void approach_that_slides_by_or_passes_is_refused_with_the_frame(void **s
         if (!strstr(mote_error_text(), cases[i].says))
             fail_msg("not \"%s\" but \"%s\"", cases[i].says, mote_error_text());
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(approach_stops_at_the_first_place_with_the_wished_distance),
-        cmocka_unit_test(approach_that_slides_by_or_passes_is_refused_with_the_frame),
-    };
-    return cmocka_run_group_tests(tests, load, clean);
 }

@@ -4,17 +4,15 @@
 #include "harness/scene/mesh_import.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <time.h>
-#include <cmocka.h>
 
 #define FOLDER "test_bad_input_files"
 #define SECONDS 5.0
@@ -196,25 +194,24 @@ static void remove_file(const char *name)
     assert_int_equal(unlink(path), 0);
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     if (mote_directory_make(FOLDER) != MOTE_OK)
         return -1;
     return mote_file_write(FOLDER "/a.obj", OBJ, strlen(OBJ)) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     (void)unlink(FOLDER "/said");
     (void)unlink(FOLDER "/a.obj");
     return rmdir(FOLDER);
 }
 
-static void program_bad_files_exit_4_in_time_and_memory(void **state)
+TEST_GROUP(make_folder, remove_folder);
+
+TEST(program_bad_files_exit_4_in_time_and_memory)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
         write_plain(inputs[i].file, inputs[i].text, strlen(inputs[i].text));
         expect_file(inputs[i].file, inputs[i].status, inputs[i].says);
@@ -223,9 +220,8 @@ static void program_bad_files_exit_4_in_time_and_memory(void **state)
 }
 
 /* A process whose environment asks for decimal commas reads points all the same. */
-static void program_in_a_comma_locale_reads_points(void **state)
+TEST(program_in_a_comma_locale_reads_points)
 {
-    (void)state;
     assert_int_equal(setenv("LC_ALL", "de_DE.UTF-8", 1), 0);
     static const char points[] = "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n";
     static const char scene[] = SCENE(", \"tolerance\": 0,5", "a.obj");
@@ -238,9 +234,8 @@ static void program_in_a_comma_locale_reads_points(void **state)
     assert_int_equal(unsetenv("LC_ALL"), 0);
 }
 
-static void program_what_is_no_file_exits_4(void **state)
+TEST(program_what_is_no_file_exits_4)
 {
-    (void)state;
     expect("mesh " FOLDER, 4, "not a regular file");
     expect("mesh /dev/zero", 4, "not a regular file");
     expect("check " FOLDER "/", 4, "not a regular file");
@@ -257,9 +252,8 @@ static void program_what_is_no_file_exits_4(void **state)
 }
 
 /* 80 bytes, a count, and 50 bytes a triangle. */
-static void program_bad_binary_stl_exits_4(void **state)
+TEST(program_bad_binary_stl_exits_4)
 {
-    (void)state;
     static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     unsigned char data[84 + 50] = "solid, but binary";
     data[80] = 1;
@@ -283,9 +277,8 @@ static void program_bad_binary_stl_exits_4(void **state)
 }
 
 /* Every prefix of a good file is read or refused, soon, with its name. */
-static void mote_mesh_import_truncated_anywhere_is_read_or_refused(void **state)
+TEST(mote_mesh_import_truncated_anywhere_is_read_or_refused)
 {
-    (void)state;
     static const struct {
         const char *file, *text;
         size_t most; /* characters that may be missing without harm */
@@ -312,16 +305,4 @@ static void mote_mesh_import_truncated_anywhere_is_read_or_refused(void **state)
         }
         remove_file(good[i].file);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(program_bad_files_exit_4_in_time_and_memory),
-        cmocka_unit_test(program_in_a_comma_locale_reads_points),
-        cmocka_unit_test(program_what_is_no_file_exits_4),
-        cmocka_unit_test(program_bad_binary_stl_exits_4),
-        cmocka_unit_test(mote_mesh_import_truncated_anywhere_is_read_or_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

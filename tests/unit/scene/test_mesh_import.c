@@ -2,10 +2,9 @@
 #include "harness/scene/mesh_import.h"
 #include "harness/scene/mesh_soup.h"
 #include "tests/support/plain_file.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +14,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_mesh_import_files"
 
@@ -63,17 +61,17 @@ static mote_status import_text(const char *name, const void *text, size_t size,
     return status;
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     return rmdir(FOLDER);
 }
+
+TEST_GROUP(make_folder, remove_folder);
 
 static void check_tetrahedron(const char *name, const char *text, bool single)
 {
@@ -91,9 +89,8 @@ static void check_tetrahedron(const char *name, const char *text, bool single)
     mote_mesh_destroy(mesh);
 }
 
-static void mote_mesh_import_formats_give_the_same_tetrahedron(void **state)
+TEST(mote_mesh_import_formats_give_the_same_tetrahedron)
 {
-    (void)state;
     check_tetrahedron("t.obj", obj_text, false);
     check_tetrahedron("t.off", off_text, false);
     check_tetrahedron("t.ply", ply_text, true);
@@ -102,9 +99,8 @@ static void mote_mesh_import_formats_give_the_same_tetrahedron(void **state)
 }
 
 /* Everything that the format allows around the numbers. */
-static void mote_mesh_import_off_with_extras_is_read(void **state)
+TEST(mote_mesh_import_off_with_extras_is_read)
 {
-    (void)state;
     static const char text[] =
         "\xef\xbb\xbf# made by hand\r\nSTCNOFF 6 2\r\n\r\n0 0 0 1 0 0 0.5 0.5 0.5 1 0 0\r\n"
         "1 0 0 0 # second\r\n1 1 0\r\n \t0 1 0\r\n9 9 9\r\n0 0 1\r\n# faces\r\n4 0 1 2 3 255 0 "
@@ -122,9 +118,8 @@ static void mote_mesh_import_off_with_extras_is_read(void **state)
 }
 
 /* 80 bytes that say solid, a count, and 50 bytes a triangle. */
-static void mote_mesh_import_binary_stl_beginning_with_solid_is_read(void **state)
+TEST(mote_mesh_import_binary_stl_beginning_with_solid_is_read)
 {
-    (void)state;
     static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1f}};
     static const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     unsigned char data[84 + 4 * 50] = "solid but binary";
@@ -142,9 +137,8 @@ static void mote_mesh_import_binary_stl_beginning_with_solid_is_read(void **stat
     mote_mesh_destroy(mesh);
 }
 
-static void mote_soup_weld_equal_places_become_one(void **state)
+TEST(mote_soup_weld_equal_places_become_one)
 {
-    (void)state;
     mote_soup soup = {0};
     static const double places[][3] = {{0, 0, 0},    {1, 0, 0}, {0, 1, 0},
                                        {-0.0, 0, 0}, {1, 0, 0}, {5, 5, 5}};
@@ -229,9 +223,8 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void mote_mesh_import_bad_file_names_the_place(void **state)
+TEST(mote_mesh_import_bad_file_names_the_place)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof bad_texts / sizeof bad_texts[0]; ++i) {
         const bad_text *bad = &bad_texts[i];
         mote_mesh *mesh = NULL;
@@ -246,9 +239,8 @@ static void mote_mesh_import_bad_file_names_the_place(void **state)
     }
 }
 
-static void mote_mesh_import_not_a_file_is_refused(void **state)
+TEST(mote_mesh_import_not_a_file_is_refused)
 {
-    (void)state;
     mote_mesh *mesh = NULL;
     assert_int_equal(mote_mesh_import("no/such.obj", &mesh, NULL), MOTE_EIO);
     assert_int_equal(mote_mesh_import(FOLDER, &mesh, NULL), MOTE_EINVAL);
@@ -294,9 +286,8 @@ static size_t mutate(const char *text, uint32_t *seed, char *out)
 }
 
 /* Whatever comes of them, it comes soon, as a valid mesh or as an error. */
-static void mote_mesh_import_mutated_files_are_read_or_refused(void **state)
+TEST(mote_mesh_import_mutated_files_are_read_or_refused)
 {
-    (void)state;
     static const struct {
         const char *name, *text;
     } kinds[] = {
@@ -320,18 +311,4 @@ static void mote_mesh_import_mutated_files_are_read_or_refused(void **state)
         assert_true(seconds_now() - start < 5);
     }
     assert_in_range(read, 1, 999);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_mesh_import_formats_give_the_same_tetrahedron),
-        cmocka_unit_test(mote_mesh_import_off_with_extras_is_read),
-        cmocka_unit_test(mote_mesh_import_binary_stl_beginning_with_solid_is_read),
-        cmocka_unit_test(mote_soup_weld_equal_places_become_one),
-        cmocka_unit_test(mote_mesh_import_bad_file_names_the_place),
-        cmocka_unit_test(mote_mesh_import_not_a_file_is_refused),
-        cmocka_unit_test(mote_mesh_import_mutated_files_are_read_or_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,18 +1,15 @@
 #include "harness/base/curve.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/turn.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <cmocka.h>
 
-static void mote_turn_many_angles_matches_the_c_library(void **state)
+TEST(mote_turn_many_angles_matches_the_c_library)
 {
-    (void)state;
     for (int i = -4000; i <= 4000; ++i) {
         const double turns = i * 0.0137 + 1e-9 * i * i;
         double sine, cosine;
@@ -24,9 +21,8 @@ static void mote_turn_many_angles_matches_the_c_library(void **state)
     }
 }
 
-static void mote_turn_quarter_turns_is_exact(void **state)
+TEST(mote_turn_quarter_turns_is_exact)
 {
-    (void)state;
     static const double expected[4][2] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
     for (int i = -9; i < 9; ++i) {
         double sine, cosine;
@@ -36,9 +32,8 @@ static void mote_turn_quarter_turns_is_exact(void **state)
     }
 }
 
-static void mote_curve_evaluate_keys_are_met_exactly(void **state)
+TEST(mote_curve_evaluate_keys_are_met_exactly)
 {
-    (void)state;
     static const uint32_t frames[] = {1, 4, 50, 51};
     static const double values[] = {1, -2, 3, 5, -7, 11, 13, 17};
     mote_curve *curve;
@@ -58,9 +53,8 @@ static void mote_curve_evaluate_keys_are_met_exactly(void **state)
 }
 
 /* A parabola's inner pieces are reproduced by tangents taken from parabolas. */
-static void mote_curve_evaluate_parabola_is_reproduced(void **state)
+TEST(mote_curve_evaluate_parabola_is_reproduced)
 {
-    (void)state;
     static const uint32_t frames[] = {1, 3, 8, 10, 20};
     double values[5];
     for (int k = 0; k < 5; ++k)
@@ -75,9 +69,8 @@ static void mote_curve_evaluate_parabola_is_reproduced(void **state)
     mote_curve_destroy(curve);
 }
 
-static void mote_curve_evaluate_across_keys_slope_is_continuous(void **state)
+TEST(mote_curve_evaluate_across_keys_slope_is_continuous)
 {
-    (void)state;
     static const uint32_t frames[] = {1, 10, 14, 40};
     static const double values[] = {0, 1, -1, 2};
     mote_curve *curve;
@@ -93,9 +86,8 @@ static void mote_curve_evaluate_across_keys_slope_is_continuous(void **state)
     mote_curve_destroy(curve);
 }
 
-static void mote_curve_create_frames_not_rising_is_refused(void **state)
+TEST(mote_curve_create_frames_not_rising_is_refused)
 {
-    (void)state;
     static const uint32_t frames[] = {1, 5, 5};
     static const double values[] = {0, 0, 0};
     mote_curve *curve = NULL;
@@ -103,9 +95,8 @@ static void mote_curve_create_frames_not_rising_is_refused(void **state)
     assert_null(curve);
 }
 
-static void mote_quaternion_matrix_is_a_rotation(void **state)
+TEST(mote_quaternion_matrix_is_a_rotation)
 {
-    (void)state;
     for (int i = 1; i < 200; ++i) {
         const mote_vec3 axis = {i - 100.5, (i * 7) % 13 - 6.0, (i * 5) % 11 - 5.0};
         const double degrees = i * 7.3;
@@ -122,9 +113,8 @@ static void mote_quaternion_matrix_is_a_rotation(void **state)
     }
 }
 
-static void mote_motion_pose_places_the_centre(void **state)
+TEST(mote_motion_pose_places_the_centre)
 {
-    (void)state;
     static const uint32_t frames[] = {1, 101};
     static const double positions[] = {1, 2, 3, 2, 4, 6};
     mote_quaternion turns[2] = {mote_quaternion_about(mote_vec3_make(0, 0, 1), 0),
@@ -144,9 +134,8 @@ static void mote_motion_pose_places_the_centre(void **state)
     mote_body_motion_free(&motion);
 }
 
-static void mote_waves_draw_stays_within_amplitude_and_periods(void **state)
+TEST(mote_waves_draw_stays_within_amplitude_and_periods)
 {
-    (void)state;
     mote_wave waves[14 * 3];
     mote_waves_draw(7, 14, 3, 0.05, 200, 500, waves);
     for (uint32_t i = 0; i < 42; ++i) {
@@ -164,9 +153,8 @@ static void mote_waves_draw_stays_within_amplitude_and_periods(void **state)
         assert_true(waves[i].phase != again[i].phase);
 }
 
-static void mote_motion_displacements_sums_the_sines(void **state)
+TEST(mote_motion_displacements_sums_the_sines)
 {
-    (void)state;
     mote_wave *waves = calloc(2, sizeof *waves);
     assert_non_null(waves);
     waves[0] = (mote_wave){1, {1, 0, 2}, 100, 0.25};
@@ -179,21 +167,4 @@ static void mote_motion_displacements_sums_the_sines(void **state)
     const double b = sin(2 * 3.14159265358979323846 * 0.75);
     assert_true(mote_length(mote_sub(d[1], mote_vec3_make(a, 3 * b, 2 * a))) < 1e-14);
     mote_body_motion_free(&motion);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_turn_many_angles_matches_the_c_library),
-        cmocka_unit_test(mote_turn_quarter_turns_is_exact),
-        cmocka_unit_test(mote_curve_evaluate_keys_are_met_exactly),
-        cmocka_unit_test(mote_curve_evaluate_parabola_is_reproduced),
-        cmocka_unit_test(mote_curve_evaluate_across_keys_slope_is_continuous),
-        cmocka_unit_test(mote_curve_create_frames_not_rising_is_refused),
-        cmocka_unit_test(mote_quaternion_matrix_is_a_rotation),
-        cmocka_unit_test(mote_motion_pose_places_the_centre),
-        cmocka_unit_test(mote_waves_draw_stays_within_amplitude_and_periods),
-        cmocka_unit_test(mote_motion_displacements_sums_the_sines),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,16 +2,14 @@
 #include "harness/scene/catalog.h"
 #include "harness/base/file.h"
 #include "harness/run/truth.h"
+#include "tests/support/test.h"
 
 #include <inttypes.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
 
 #define MESHES MOTE_SOURCE_DIR "/datasets/meshes/"
 
@@ -40,15 +38,13 @@ static void check_pair(const char *name)
     mote_scenario_destroy(scenario);
 }
 
-static void mote_scenario_load_pair_of_bunny_and_box_touches_as_promised(void **state)
+TEST(mote_scenario_load_pair_of_bunny_and_box_touches_as_promised)
 {
-    (void)state;
     check_pair("pair:" MESHES "bunny.obj:" MESHES "box.obj");
 }
 
-static void mote_scenario_load_pair_of_spider_and_teapot_touches_as_promised(void **state)
+TEST(mote_scenario_load_pair_of_spider_and_teapot_touches_as_promised)
 {
-    (void)state;
     check_pair("pair:" MESHES "spider.obj:" MESHES "teapot.obj");
 }
 
@@ -77,9 +73,8 @@ static bool is_large(const char *name)
            strcmp(name, "ww-10m") == 0;
 }
 
-static void mote_scenario_fingerprint_built_in_is_the_committed_one(void **state)
+TEST(mote_scenario_fingerprint_built_in_is_the_committed_one)
 {
-    (void)state;
     const bool full = getenv("MOTE_FULL") != NULL;
     char *text;
     size_t size;
@@ -115,14 +110,4 @@ static void mote_scenario_fingerprint_built_in_is_the_committed_one(void **state
     assert_true(checked >= 10);
     mote_catalog_free(&catalog);
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_scenario_load_pair_of_bunny_and_box_touches_as_promised),
-        cmocka_unit_test(mote_scenario_load_pair_of_spider_and_teapot_touches_as_promised),
-        cmocka_unit_test(mote_scenario_fingerprint_built_in_is_the_committed_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,9 @@
 /* One method asked outside a measurement: its particles after it has answered. */
 #include "harness/scene/probe.h"
 #include "tests/support/shapes.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 /* What other calls leave where the stack of earlier ones was. */
 static void overwrite_stack(void)
@@ -18,9 +15,8 @@ static void overwrite_stack(void)
 
 /* Bodies that touch end the search at once: minima that were found before are then looked at
    for the first time in this frame when they are asked for. */
-static void particles_after_the_answer_are_vertices_of_its_frame(void **state)
+TEST(particles_after_the_answer_are_vertices_of_its_frame)
 {
-    (void)state;
     void (*volatile between)(void) = overwrite_stack;
     mote_method_choice choice;
     assert_int_equal(mote_method_choice_read("particle:n=8", &choice), MOTE_OK);
@@ -55,12 +51,4 @@ static void particles_after_the_answer_are_vertices_of_its_frame(void **state)
     assert_true(touching > 10);
     mote_probe_destroy(probe);
     scene_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(particles_after_the_answer_are_vertices_of_its_frame),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,10 +5,9 @@
 #include "harness/scene/scenario.h"
 #include "harness/scene/spread.h"
 #include "tests/support/plain_file.h"
+#include "tests/support/test.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -16,7 +15,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #define FOLDER "test_scenario_files"
 #define FILE_NAME FOLDER "/s.json"
@@ -59,18 +57,18 @@ static void write_changed(const char *from, const char *to)
     free(text);
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     (void)unlink(FILE_NAME);
     return rmdir(FOLDER);
 }
+
+TEST_GROUP(make_folder, remove_folder);
 
 static mote_scenario *load_good(void)
 {
@@ -80,9 +78,8 @@ static mote_scenario *load_good(void)
     return scenario;
 }
 
-static void mote_scenario_load_good_file_reads_every_part(void **state)
+TEST(mote_scenario_load_good_file_reads_every_part)
 {
-    (void)state;
     mote_scenario *s = load_good();
     assert_string_equal(s->name, "s");
     assert_string_equal(s->purpose, "a test");
@@ -100,9 +97,8 @@ static void mote_scenario_load_good_file_reads_every_part(void **state)
 }
 
 /* Control points are vertices here, so the deformed vertex shows its control vector. */
-static void mote_scenario_frame_control_points_are_displaced_exactly(void **state)
+TEST(mote_scenario_frame_control_points_are_displaced_exactly)
 {
-    (void)state;
     mote_scenario *s = load_good();
     const mote_mesh *mesh = s->body[0].mesh;
     mote_vec3 points[14], wished[14];
@@ -130,9 +126,8 @@ static void mote_scenario_frame_control_points_are_displaced_exactly(void **stat
     mote_scenario_destroy(s);
 }
 
-static void mote_scenario_frame_changes_are_told_against_the_previous(void **state)
+TEST(mote_scenario_frame_changes_are_told_against_the_previous)
 {
-    (void)state;
     mote_scenario *s = load_good();
     mote_frame_buffer *buffer;
     assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
@@ -152,9 +147,8 @@ static void mote_scenario_frame_changes_are_told_against_the_previous(void **sta
 }
 
 /* 60 degrees in 39 frames, eased in by the curve: the same from two frames' matrices. */
-static void mote_scenario_velocity_absent_follows_from_frames_1_and_2(void **state)
+TEST(mote_scenario_velocity_absent_follows_from_frames_1_and_2)
 {
-    (void)state;
     mote_scenario *s = load_good();
     mote_frame_buffer *buffer;
     assert_int_equal(mote_frame_buffer_create(s, &buffer), MOTE_OK);
@@ -179,9 +173,8 @@ static void mote_scenario_velocity_absent_follows_from_frames_1_and_2(void **sta
 }
 
 /* An FNV-1a of our own, over bytes written out. */
-static void mote_scenario_fingerprint_matches_a_hash_of_written_bytes(void **state)
+TEST(mote_scenario_fingerprint_matches_a_hash_of_written_bytes)
 {
-    (void)state;
     mote_scenario *s = load_good();
     uint64_t fingerprint, again, hash = 14695981039346656037u;
     assert_int_equal(mote_scenario_fingerprint(s, &fingerprint), MOTE_OK);
@@ -328,9 +321,8 @@ static const bad_case bad_cases[] = {
     {"  ]\n}", "  ]\n", ":20:", "near end of file"},
 };
 
-static void mote_scenario_load_bad_file_names_line_and_path(void **state)
+TEST(mote_scenario_load_bad_file_names_line_and_path)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof bad_cases / sizeof bad_cases[0]; ++i) {
         const bad_case *bad = &bad_cases[i];
         write_changed(bad->from, bad->to);
@@ -348,9 +340,8 @@ static void mote_scenario_load_bad_file_names_line_and_path(void **state)
 }
 
 /* Every prefix of a valid file is refused, none crashes. */
-static void mote_scenario_load_truncated_anywhere_is_refused(void **state)
+TEST(mote_scenario_load_truncated_anywhere_is_refused)
 {
-    (void)state;
     for (size_t size = 0; size + 2 < sizeof good_text; ++size) {
         write_plain(good_text, size);
         mote_scenario *scenario = NULL;
@@ -359,9 +350,8 @@ static void mote_scenario_load_truncated_anywhere_is_refused(void **state)
     }
 }
 
-static void mote_scenario_load_not_a_file_is_refused(void **state)
+TEST(mote_scenario_load_not_a_file_is_refused)
 {
-    (void)state;
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load("no/such/file.json", &scenario), MOTE_EIO);
     assert_int_equal(mote_scenario_load(FOLDER "/", &scenario), MOTE_EINVAL);
@@ -375,9 +365,8 @@ static void mote_scenario_load_not_a_file_is_refused(void **state)
     assert_null(scenario);
 }
 
-static void mote_json_line_nested_path_is_found(void **state)
+TEST(mote_json_line_nested_path_is_found)
 {
-    (void)state;
     static const char text[] =
         "{\"a\": \"x]}\\\"{\",\n \"b\": [1, {\"c\": 2,\n\"d\": [\n[], 5]}]}";
     assert_int_equal(mote_json_line(text, "a"), 1);
@@ -388,9 +377,8 @@ static void mote_json_line_nested_path_is_found(void **state)
 }
 
 /* The second point is the farthest from the first, by brute force. */
-static void mote_spread_points_are_far_apart(void **state)
+TEST(mote_spread_points_are_far_apart)
 {
-    (void)state;
     mote_scenario *s = load_good();
     const mote_mesh *mesh = s->body[0].mesh;
     mote_vec3 points[6];
@@ -418,9 +406,8 @@ static void write_like(const char *text)
 /* Frame k of the one is frame 1 + 3 (k - 1) + 4 of the other; the second body's path is its
  * own.
  */
-static void mote_scenario_load_like_takes_what_it_does_not_name(void **state)
+TEST(mote_scenario_load_like_takes_what_it_does_not_name)
 {
-    (void)state;
     mote_scenario *base = load_good();
     write_like("{\"purpose\": \"other\", \"like\": \"s.json\", \"frames\": 9, \"start\": 5,"
                " \"pace\": 3, \"warmup\": null, \"active\": [2, 3], \"bodies\": [{},"
@@ -452,9 +439,8 @@ static void mote_scenario_load_like_takes_what_it_does_not_name(void **state)
     assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
-static void mote_scenario_load_like_in_a_circle_or_missing_is_refused(void **state)
+TEST(mote_scenario_load_like_in_a_circle_or_missing_is_refused)
 {
-    (void)state;
     mote_scenario *scenario = NULL;
     write_like("{\"purpose\": \"x\",\n\"like\": \"like.json\"}");
     assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
@@ -467,9 +453,8 @@ static void mote_scenario_load_like_in_a_circle_or_missing_is_refused(void **sta
 }
 
 /* One of ours, and one in a folder below. */
-static void mote_scenario_load_like_one_elsewhere_finds_its_meshes(void **state)
+TEST(mote_scenario_load_like_one_elsewhere_finds_its_meshes)
 {
-    (void)state;
     mote_scenario *like;
     write_like("{\"like\": \"flat\", \"frames\": 2, \"purpose\": \"x\"}");
     assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
@@ -491,9 +476,8 @@ static void mote_scenario_load_like_one_elsewhere_finds_its_meshes(void **state)
 }
 
 /* What is named replaces what the other one says, whatever that was. */
-static void mote_scenario_load_like_with_what_does_not_fit_is_refused(void **state)
+TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
 {
-    (void)state;
     static const struct {
         const char *more, *says;
     } cases[] = {{"\"active\": {\"first\": 2}", "active: is not that"},
@@ -521,9 +505,8 @@ static void mote_scenario_load_like_with_what_does_not_fit_is_refused(void **sta
     assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
-static void mote_scenario_load_missing_mesh_file_is_refused(void **state)
+TEST(mote_scenario_load_missing_mesh_file_is_refused)
 {
-    (void)state;
     write_changed("\"letter\": \"M\", \"triangles\": 600", "\"file\": \"none.obj\"");
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
@@ -536,9 +519,8 @@ static void mote_scenario_load_missing_mesh_file_is_refused(void **state)
 }
 
 /* The paper's scenarios are what the paper says. */
-static void mote_scenario_load_paper_scenarios_have_the_paper_s_sizes(void **state)
+TEST(mote_scenario_load_paper_scenarios_have_the_paper_s_sizes)
 {
-    (void)state;
     static const struct {
         const char *name;
         uint32_t triangles[2], controls[2], frames_at_least;
@@ -563,27 +545,4 @@ static void mote_scenario_load_paper_scenarios_have_the_paper_s_sizes(void **sta
         }
         mote_scenario_destroy(s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_scenario_load_good_file_reads_every_part),
-        cmocka_unit_test(mote_scenario_frame_control_points_are_displaced_exactly),
-        cmocka_unit_test(mote_scenario_frame_changes_are_told_against_the_previous),
-        cmocka_unit_test(mote_scenario_velocity_absent_follows_from_frames_1_and_2),
-        cmocka_unit_test(mote_scenario_fingerprint_matches_a_hash_of_written_bytes),
-        cmocka_unit_test(mote_scenario_load_bad_file_names_line_and_path),
-        cmocka_unit_test(mote_scenario_load_truncated_anywhere_is_refused),
-        cmocka_unit_test(mote_scenario_load_not_a_file_is_refused),
-        cmocka_unit_test(mote_scenario_load_like_takes_what_it_does_not_name),
-        cmocka_unit_test(mote_scenario_load_like_one_elsewhere_finds_its_meshes),
-        cmocka_unit_test(mote_scenario_load_like_in_a_circle_or_missing_is_refused),
-        cmocka_unit_test(mote_scenario_load_like_with_what_does_not_fit_is_refused),
-        cmocka_unit_test(mote_scenario_load_missing_mesh_file_is_refused),
-        cmocka_unit_test(mote_json_line_nested_path_is_found),
-        cmocka_unit_test(mote_spread_points_are_far_apart),
-        cmocka_unit_test(mote_scenario_load_paper_scenarios_have_the_paper_s_sizes),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -4,12 +4,9 @@
 #include "harness/figure/figure.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 #include <math.h>
 
@@ -26,9 +23,8 @@ static void add(mote_claim *claim, double value, mote_confidence range, mote_bou
     mote_claim_require(claim, bound, holds, limits);
 }
 
-static void judge_by_the_worse_end_of_the_interval(void **unused)
+TEST(judge_by_the_worse_end_of_the_interval)
 {
-    (void)unused;
     mote_claim claim = {.id = "x"};
     add(&claim, 0.08, interval(0.07, 0.09), MOTE_AT_MOST, 0.1, 0.2);
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
@@ -43,9 +39,8 @@ static void judge_by_the_worse_end_of_the_interval(void **unused)
     mote_claim_free(&claim);
 }
 
-static void judge_needs_every_threshold_of_a_level(void **unused)
+TEST(judge_needs_every_threshold_of_a_level)
 {
-    (void)unused;
     mote_claim claim = {.id = "x"};
     const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
     add(&claim, 1, none, MOTE_AT_MOST, 2, 2);
@@ -56,9 +51,8 @@ static void judge_needs_every_threshold_of_a_level(void **unused)
     mote_claim_free(&claim);
 }
 
-static void judge_without_a_figure_or_a_threshold_does_not_hold(void **unused)
+TEST(judge_without_a_figure_or_a_threshold_does_not_hold)
 {
-    (void)unused;
     mote_claim claim = {.id = "x"};
     const mote_confidence none = interval(MOTE_NONE, MOTE_NONE);
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
@@ -69,9 +63,8 @@ static void judge_without_a_figure_or_a_threshold_does_not_hold(void **unused)
     mote_claim_free(&claim);
 }
 
-static void json_holds_the_headline_and_every_figure(void **unused)
+TEST(json_holds_the_headline_and_every_figure)
 {
-    (void)unused;
     mote_claim claim = {
         .id = "x", .section = "3", .claim = "c", .measured = "m", .curve = NULL};
     add(&claim, 0.5, interval(0.25, 0.75), MOTE_AT_MOST, 1, MOTE_NONE);
@@ -90,9 +83,8 @@ static void json_holds_the_headline_and_every_figure(void **unused)
 }
 
 /* Values from published tables of Clopper and Pearson's intervals. */
-static void share_interval_matches_tables(void **unused)
+TEST(share_interval_matches_tables)
 {
-    (void)unused;
     const mote_confidence none = mote_statistics_share_interval(0, 10);
     const mote_confidence half = mote_statistics_share_interval(5, 10);
     const mote_confidence all = mote_statistics_share_interval(10, 10);
@@ -103,9 +95,8 @@ static void share_interval_matches_tables(void **unused)
     assert_true(nothing.low != nothing.low);
 }
 
-static void estimate_of_ratios_is_their_geometric_mean(void **unused)
+TEST(estimate_of_ratios_is_their_geometric_mean)
 {
-    (void)unused;
     const double values[] = {1, 4, 16};
     const mote_estimate e = mote_estimate_ratio(values, 3);
     assert_true(fabs(e.value - 4) < 1e-12);
@@ -113,9 +104,8 @@ static void estimate_of_ratios_is_their_geometric_mean(void **unused)
 }
 
 /* A small variant of a scene, and queries that allocate nothing once they are warm. */
-static void queries_from_frame_50_on_allocate_nothing(void **unused)
+TEST(queries_from_frame_50_on_allocate_nothing)
 {
-    (void)unused;
     char folder[] = "/tmp/mote-claims-XXXXXX";
     assert_non_null(mkdtemp(folder));
     mote_study study;
@@ -142,9 +132,8 @@ static void queries_from_frame_50_on_allocate_nothing(void **unused)
 }
 
 /* The claims table of a file that is not quite what mote writes: nothing is made up. */
-static void figure_of_odd_claims_shows_what_is_there(void **unused)
+TEST(figure_of_odd_claims_shows_what_is_there)
 {
-    (void)unused;
     static const struct {
         const char *claims;
         const char *shows[2]; /* parts of the data */
@@ -193,9 +182,8 @@ static void figure_of_odd_claims_shows_what_is_there(void **unused)
 }
 
 /* Figures of studies that were not made say what makes them. */
-static void figures_without_a_study_name_what_measures_it(void **unused)
+TEST(figures_without_a_study_name_what_measures_it)
 {
-    (void)unused;
     const mote_figure_run run = {"/tmp/no/such/run", NULL, NULL};
     static const struct {
         mote_figure_writer *write;
@@ -211,9 +199,8 @@ static void figures_without_a_study_name_what_measures_it(void **unused)
     }
 }
 
-static void figure_of_extremes_is_their_data(void **unused)
+TEST(figure_of_extremes_is_their_data)
 {
-    (void)unused;
     char folder[] = "/tmp/mote-claims-XXXXXX", path[64], line[160];
     assert_non_null(mkdtemp(folder));
     (void)snprintf(path, sizeof path, "%s/figures", folder);
@@ -237,9 +224,8 @@ static void figure_of_extremes_is_their_data(void **unused)
 }
 
 /* Cells are files: one may have fewer frames than the others, or none that count. */
-static void slowest_frame_of_cut_cells_is_of_what_is_there(void **unused)
+TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
 {
-    (void)unused;
     char folder[] = "/tmp/mote-test-claims-XXXXXX";
     const stored_cell cells[] = {
         {.scenario = "ww",
@@ -269,29 +255,9 @@ static void slowest_frame_of_cut_cells_is_of_what_is_there(void **unused)
     assert_int_equal(program_remove(folder), 0);
 }
 
-static void command_with_an_unknown_word_is_a_usage_error(void **unused)
+TEST(command_with_an_unknown_word_is_a_usage_error)
 {
-    (void)unused;
     assert_int_equal(program_wait(program_start("claims something", "/dev/null")), 2);
     assert_int_equal(program_wait(program_start("claims --fast", "/dev/null")), 2);
     assert_int_equal(program_wait(program_start("claims --out /dev/null/x", "/dev/null")), 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(judge_by_the_worse_end_of_the_interval),
-        cmocka_unit_test(judge_needs_every_threshold_of_a_level),
-        cmocka_unit_test(judge_without_a_figure_or_a_threshold_does_not_hold),
-        cmocka_unit_test(json_holds_the_headline_and_every_figure),
-        cmocka_unit_test(share_interval_matches_tables),
-        cmocka_unit_test(estimate_of_ratios_is_their_geometric_mean),
-        cmocka_unit_test(queries_from_frame_50_on_allocate_nothing),
-        cmocka_unit_test(figure_of_odd_claims_shows_what_is_there),
-        cmocka_unit_test(figures_without_a_study_name_what_measures_it),
-        cmocka_unit_test(figure_of_extremes_is_their_data),
-        cmocka_unit_test(slowest_frame_of_cut_cells_is_of_what_is_there),
-        cmocka_unit_test(command_with_an_unknown_word_is_a_usage_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,12 +4,9 @@
 
 #include "harness/base/file.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-
-#include <cmocka.h>
 
 #define OUT "test_dynamics_files"
 #define SAID OUT "/said"
@@ -27,9 +24,8 @@ static const mote_dynamics_row *find(const mote_dynamics_row *rows, size_t count
     return NULL;
 }
 
-static void plan_full_has_what_the_claim_needs(void **state)
+TEST(plan_full_has_what_the_claim_needs)
 {
-    (void)state;
     static const char *const scenes[] = {"tt", "mv", "ww", "vv", "tw", "comb"};
     static const char *const laws[] = {"log", "inverse", "inverse-square"};
     static const int numbers[] = {1, 2, 3, 4, 5, 6, 7, 8, 16};
@@ -56,9 +52,8 @@ static void plan_full_has_what_the_claim_needs(void **state)
     free(rows);
 }
 
-static void plan_unknown_scene_refused(void **state)
+TEST(plan_unknown_scene_refused)
 {
-    (void)state;
     const mote_dynamics_size size = {.scene = "nowhere"};
     mote_dynamics_row *rows;
     size_t count;
@@ -66,9 +61,8 @@ static void plan_unknown_scene_refused(void **state)
     assert_non_null(strstr(mote_error_text(), "nowhere"));
 }
 
-static void approach_draw_starts_apart_and_aims_at_the_other(void **state)
+TEST(approach_draw_starts_apart_and_aims_at_the_other)
 {
-    (void)state;
     mote_scenario *scenario;
     mote_mass mass[2];
     assert_int_equal(mote_scenario_load("mv", &scenario), MOTE_OK);
@@ -99,9 +93,8 @@ static void approach_draw_starts_apart_and_aims_at_the_other(void **state)
     mote_scenario_destroy(scenario);
 }
 
-static void approaches_json_comes_back(void **state)
+TEST(approaches_json_comes_back)
 {
-    (void)state;
     mote_scenario *scenario;
     mote_approaches sum, again;
     assert_int_equal(mote_scenario_load("tt", &scenario), MOTE_OK);
@@ -131,9 +124,8 @@ static void approaches_json_comes_back(void **state)
 }
 
 /* A row that is stored and was damaged: no share may be more than all, no count negative. */
-static void approaches_read_of_impossible_counts_is_false(void **state)
+TEST(approaches_read_of_impossible_counts_is_false)
 {
-    (void)state;
     static const struct {
         const char *key;
         json_int_t value;
@@ -160,9 +152,8 @@ static void approaches_read_of_impossible_counts_is_false(void **state)
 }
 
 /* Rows without an approach: nothing is a share, and nothing is drawn of them. */
-static void row_without_approaches_has_no_share(void **state)
+TEST(row_without_approaches_has_no_share)
 {
-    (void)state;
     char text[4096];
     const mote_dynamics_row row = {.scene = "tt", .method = "certified", .wanted = 3};
     json_t *object = mote_dynamics_row_json(&row);
@@ -182,9 +173,8 @@ static void row_without_approaches_has_no_share(void **state)
 
 /* Drawn are rows of the law as printed that came to a contact; the claim counts those of the
    paper's scenes. */
-static void figure_and_claim_take_rows_of_the_printed_law(void **state)
+TEST(figure_and_claim_take_rows_of_the_printed_law)
 {
-    (void)state;
     char text[4096];
     const mote_approaches some = {.trials = 9, .approaches = 8, .passes_through = 2};
     const mote_dynamics_row rows[] = {
@@ -215,9 +205,8 @@ static void figure_and_claim_take_rows_of_the_printed_law(void **state)
 }
 
 /* Bodies of two motes each seldom meet: the approaches end, and are said to be too few. */
-static void approaches_that_seldom_come_to_a_contact_end(void **state)
+TEST(approaches_that_seldom_come_to_a_contact_end)
 {
-    (void)state;
     static const char motes[] =
         "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nv 0 0 0.01\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
         "v 1 0 0\nv 1.01 0 0\nv 1 0.01 0\nv 1 0 0.01\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
@@ -243,9 +232,8 @@ static void approaches_that_seldom_come_to_a_contact_end(void **state)
     mote_scenario_destroy(scenario);
 }
 
-static void failure_names_what_was_not_met(void **state)
+TEST(failure_names_what_was_not_met)
 {
-    (void)state;
     mote_dynamics_row row = {.wanted = 10, .sum = {.trials = 12, .approaches = 10}};
     row.sum.passes_through = row.sum.missed_steps = 1;
     assert_null(mote_dynamics_failure(&row));
@@ -266,9 +254,8 @@ static void failure_names_what_was_not_met(void **state)
 }
 
 /* The claim needs every row of 3 to 5 particles, by the upper end of its interval. */
-static void claim_follows_from_the_rows(void **state)
+TEST(claim_follows_from_the_rows)
 {
-    (void)state;
     static const struct {
         uint64_t passes, approaches;
         mote_claim_verdict verdict;
@@ -300,9 +287,8 @@ static void run_study(char *said, size_t size)
 }
 
 /* Rows that are there are taken; one of another build, and one that is damaged, are not. */
-static void command_dynamics_goes_on_where_it_stopped(void **state)
+TEST(command_dynamics_goes_on_where_it_stopped)
 {
-    (void)state;
     static char said[32768], row[8192];
     run_study(said, sizeof said);
     assert_non_null(strstr(said, "dynamics: tt, particle-paper:n=3,law=log:"));
@@ -329,9 +315,8 @@ static void command_dynamics_goes_on_where_it_stopped(void **state)
 }
 
 /* With --keep rows of other builds stay, and tell what sources they are of. */
-static void command_dynamics_keeps_rows_of_other_builds_when_asked(void **state)
+TEST(command_dynamics_keeps_rows_of_other_builds_when_asked)
 {
-    (void)state;
     static const char changed[] = "0123456789abcdef0123456789abcdef01234567";
     static char said[32768], row[8192], other[8300], table[32768];
     program_read(ROW, row, sizeof row);
@@ -354,9 +339,8 @@ static void command_dynamics_keeps_rows_of_other_builds_when_asked(void **state)
     assert_null(strstr(found + 1, changed));
 }
 
-static void command_dynamics_bad_line_refused(void **state)
+TEST(command_dynamics_bad_line_refused)
 {
-    (void)state;
     static const struct {
         const char *line, *says;
         int status;
@@ -374,34 +358,14 @@ static void command_dynamics_bad_line_refused(void **state)
     }
 }
 
-static int make_folder(void **state)
+static int make_folder(void)
 {
-    (void)state;
     return mote_directory_make(OUT) == MOTE_OK ? 0 : -1;
 }
 
-static int remove_folder(void **state)
+static int remove_folder(void)
 {
-    (void)state;
     return program_remove(OUT);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plan_full_has_what_the_claim_needs),
-        cmocka_unit_test(plan_unknown_scene_refused),
-        cmocka_unit_test(approach_draw_starts_apart_and_aims_at_the_other),
-        cmocka_unit_test(approaches_json_comes_back),
-        cmocka_unit_test(approaches_read_of_impossible_counts_is_false),
-        cmocka_unit_test(row_without_approaches_has_no_share),
-        cmocka_unit_test(figure_and_claim_take_rows_of_the_printed_law),
-        cmocka_unit_test(approaches_that_seldom_come_to_a_contact_end),
-        cmocka_unit_test(failure_names_what_was_not_met),
-        cmocka_unit_test(claim_follows_from_the_rows),
-        cmocka_unit_test(command_dynamics_goes_on_where_it_stopped),
-        cmocka_unit_test(command_dynamics_keeps_rows_of_other_builds_when_asked),
-        cmocka_unit_test(command_dynamics_bad_line_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TEST_GROUP(make_folder, remove_folder);

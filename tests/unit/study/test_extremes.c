@@ -1,22 +1,21 @@
 /* The study of numerical extremes: its truth against formulas, its verdicts against answers
    that are right or wrong by construction, and our methods where they were wrong before. */
 #include "harness/study/extreme.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
 
 static mote_extreme_recipe plain, changed;
 
-static int make_plain(void **state)
+static int make_plain(void)
 {
-    (void)state;
     return mote_extreme_plain(&plain) == MOTE_OK ? 0 : -1;
 }
+
+TEST_GROUP(make_plain, NULL);
 
 static const mote_extreme_family *find_family(const char *name)
 {
@@ -41,9 +40,8 @@ static void make(const char *name, int k, bool measured, mote_extreme *e)
 }
 
 /* Cubes of side 1 in line, at gaps that doubles hold exactly. */
-static void mote_extreme_measure_of_cubes_is_their_gap(void **state)
+TEST(mote_extreme_measure_of_cubes_is_their_gap)
 {
-    (void)state;
     static const double gaps[MOTE_EXTREME_FRAMES] = {0.5, 0x1p-20, 0x1p-52, 0};
     const mote_extreme_family *family = find_family("touch");
     assert_int_equal(family->change(&plain, 2, &changed), MOTE_OK);
@@ -61,9 +59,8 @@ static void mote_extreme_measure_of_cubes_is_their_gap(void **state)
 }
 
 /* The gaps that the plain scene asks for, and the same in another unit of length. */
-static void mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale(void **state)
+TEST(mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale)
 {
-    (void)state;
     static const double gaps[] = {0.2, 0.02, 5e-4};
     mote_extreme e;
     for (int k = -12; k <= 12; k += 12) {
@@ -78,9 +75,8 @@ static void mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale(void **
     }
 }
 
-static void mote_extreme_make_of_bad_input_says_why(void **state)
+TEST(mote_extreme_make_of_bad_input_says_why)
 {
-    (void)state;
     mote_extreme e;
     make("duplicate", 0, false, &e);
     assert_non_null(strstr(e.refusal, "singular"));
@@ -94,9 +90,8 @@ static void mote_extreme_make_of_bad_input_says_why(void **state)
     mote_extreme_free(&e);
 }
 
-static void mote_extreme_families_have_labels_of_their_own(void **state)
+TEST(mote_extreme_families_have_labels_of_their_own)
 {
-    (void)state;
     for (size_t i = 0; i < mote_extreme_family_count; ++i) {
         const mote_extreme_family *family = &mote_extreme_families[i];
         char before[24] = "";
@@ -116,9 +111,8 @@ typedef struct judged {
     mote_extreme_verdict verdict;
 } judged;
 
-static void mote_extreme_judge_of_distances_follows_the_promise(void **state)
+TEST(mote_extreme_judge_of_distances_follows_the_promise)
 {
-    (void)state;
     static const judged cases[] = {
         {1, 0, true, false, MOTE_EXTREME_RIGHT},
         {1, 1e-13, true, false, MOTE_EXTREME_RIGHT},
@@ -159,9 +153,8 @@ static void expect(const mote_extreme *e, uint32_t frame, const mote_extreme_sai
                      verdict);
 }
 
-static void mote_extreme_judge_of_bounds_points_and_contacts(void **state)
+TEST(mote_extreme_judge_of_bounds_points_and_contacts)
 {
-    (void)state;
     mote_extreme e;
     make("plain", 0, true, &e);
     mote_extreme_said said = {.exact = true, .answer = {.has_distance = true}};
@@ -195,9 +188,8 @@ static void mote_extreme_judge_of_bounds_points_and_contacts(void **state)
 }
 
 /* Every number of an answer is looked at, each by itself. */
-static void mote_extreme_judge_of_what_is_not_finite_says_so(void **state)
+TEST(mote_extreme_judge_of_what_is_not_finite_says_so)
 {
-    (void)state;
     mote_extreme e;
     make("plain", 0, true, &e);
     for (int k = 0; k < 7; ++k) {
@@ -217,9 +209,8 @@ static void mote_extreme_judge_of_what_is_not_finite_says_so(void **state)
 
 /* What is excused: hulls off the surface, 32 bits their rounding, contacts nearer than that,
    and no contact where the distance is too large anyway. */
-static void mote_extreme_judge_excuses_what_a_method_declares(void **state)
+TEST(mote_extreme_judge_excuses_what_a_method_declares)
 {
-    (void)state;
     mote_extreme e;
     make("plain", 0, true, &e);
     mote_extreme_said said = {.answer = {.has_distance = true, .has_witness = true}};
@@ -258,9 +249,8 @@ static void mote_extreme_judge_excuses_what_a_method_declares(void **state)
     mote_extreme_free(&e);
 }
 
-static void mote_extreme_run_of_what_cannot_be_asked_says_why(void **state)
+TEST(mote_extreme_run_of_what_cannot_be_asked_says_why)
 {
-    (void)state;
     mote_extreme e;
     mote_extreme_cell cell;
     make("plain", 0, false, &e);
@@ -276,9 +266,8 @@ static void mote_extreme_run_of_what_cannot_be_asked_says_why(void **state)
 }
 
 /* The process of a method dies of weights that are not there; the study goes on. */
-static void mote_extreme_run_of_a_method_that_dies_is_crashed(void **state)
+TEST(mote_extreme_run_of_a_method_that_dies_is_crashed)
 {
-    (void)state;
     mote_extreme e;
     mote_extreme_cell cell;
     make("plain", 0, false, &e);
@@ -302,9 +291,8 @@ static void expect_verdict(const mote_extreme *e, const char *method,
 }
 
 /* Closest points that are rounded to a millionth of L are no basis for the distance. */
-static void methods_of_ours_far_from_the_origin_are_right(void **state)
+TEST(methods_of_ours_far_from_the_origin_are_right)
 {
-    (void)state;
     static const char *const methods[] = {"certified", "aabb-tree", "brute-force",
                                           "particle:n=8"};
     static const int powers[] = {4, 8, 10, 12};
@@ -319,9 +307,8 @@ static void methods_of_ours_far_from_the_origin_are_right(void **state)
     }
 }
 
-static void methods_with_too_many_particles_refuse(void **state)
+TEST(methods_with_too_many_particles_refuse)
 {
-    (void)state;
     static const char *const methods[] = {"particle", "particle-paper", "hybrid-fcl"};
     mote_extreme e;
     make("particles", 2, true, &e);
@@ -334,33 +321,12 @@ static void methods_with_too_many_particles_refuse(void **state)
     mote_extreme_free(&e);
 }
 
-static void methods_in_32_bits_are_inexact_as_they_say(void **state)
+TEST(methods_in_32_bits_are_inexact_as_they_say)
 {
-    (void)state;
     mote_extreme e;
     make("float method", 0, true, &e);
     assert_string_equal(e.parameters, "precision=single");
     expect_verdict(&e, "certified", MOTE_EXTREME_NONE);
     expect_verdict(&e, "particle-paper", MOTE_EXTREME_INEXACT);
     mote_extreme_free(&e);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mote_extreme_measure_of_cubes_is_their_gap),
-        cmocka_unit_test(mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale),
-        cmocka_unit_test(mote_extreme_make_of_bad_input_says_why),
-        cmocka_unit_test(mote_extreme_families_have_labels_of_their_own),
-        cmocka_unit_test(mote_extreme_judge_of_distances_follows_the_promise),
-        cmocka_unit_test(mote_extreme_judge_of_bounds_points_and_contacts),
-        cmocka_unit_test(methods_of_ours_far_from_the_origin_are_right),
-        cmocka_unit_test(mote_extreme_judge_of_what_is_not_finite_says_so),
-        cmocka_unit_test(mote_extreme_judge_excuses_what_a_method_declares),
-        cmocka_unit_test(mote_extreme_run_of_what_cannot_be_asked_says_why),
-        cmocka_unit_test(mote_extreme_run_of_a_method_that_dies_is_crashed),
-        cmocka_unit_test(methods_in_32_bits_are_inexact_as_they_say),
-        cmocka_unit_test(methods_with_too_many_particles_refuse),
-    };
-    return cmocka_run_group_tests(tests, make_plain, NULL);
 }

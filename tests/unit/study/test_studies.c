@@ -9,11 +9,9 @@
 #include "harness/study/study_extremes.h"
 #include "tests/support/planted.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -58,9 +56,8 @@ static mote_claim_verdict verdict_of(const char *name)
     return verdict;
 }
 
-static void claims_on_accuracy_follow_the_error(void **state)
+TEST(claims_on_accuracy_follow_the_error)
 {
-    (void)state;
     static const char *const names[] = {"contact_point", "convex_parts", "few_particles",
                                         "exact_shares"};
     plant_good();
@@ -73,9 +70,8 @@ static void claims_on_accuracy_follow_the_error(void **state)
     assert_int_equal(verdict_of("few_particles"), MOTE_CLAIM_LIMITS);
 }
 
-static void claims_on_contacts_follow_what_was_seen(void **state)
+TEST(claims_on_contacts_follow_what_was_seen)
 {
-    (void)state;
     static const char *const names[] = {"passing_through", "no_missed_contact"};
     plant_good();
     for (size_t i = 0; i < 2; ++i)
@@ -88,9 +84,8 @@ static void claims_on_contacts_follow_what_was_seen(void **state)
     assert_int_equal(verdict_of("closed_loop"), MOTE_CLAIM_DOES_NOT_HOLD);
 }
 
-static void claims_on_times_follow_the_times(void **state)
+TEST(claims_on_times_follow_the_times)
 {
-    (void)state;
     plant_good();
     assert_int_equal(verdict_of("times"), MOTE_CLAIM_HOLDS);
     assert_int_equal(verdict_of("hierarchy_memory"), MOTE_CLAIM_HOLDS);
@@ -101,18 +96,16 @@ static void claims_on_times_follow_the_times(void **state)
     assert_int_equal(verdict_of("times"), MOTE_CLAIM_DOES_NOT_HOLD);
 }
 
-static void claim_on_complexity_follows_the_exponent(void **state)
+TEST(claim_on_complexity_follows_the_exponent)
 {
-    (void)state;
     plant_good();
     assert_int_equal(verdict_of("complexity"), MOTE_CLAIM_HOLDS);
     planted.exponent = 0.5;
     assert_int_equal(verdict_of("complexity"), MOTE_CLAIM_DOES_NOT_HOLD);
 }
 
-static void claims_of_a_run_that_lacks_a_row_say_which(void **state)
+TEST(claims_of_a_run_that_lacks_a_row_say_which)
 {
-    (void)state;
     static const char *const names[] = {"times", "hierarchy_memory", "hierarchy_update",
                                         "faster_than_fcl"};
     mote_claim_verdict verdict;
@@ -147,9 +140,8 @@ static void hand_up(size_t k, long n, long all)
 
 /* The n-th call beneath an experiment fails: for the first ones, the last ones, that which adds
    its first figure, and some between (there are thousands of the same kind). */
-static void claims_hand_up_what_fails_beneath(void **state)
+TEST(claims_hand_up_what_fails_beneath)
 {
-    (void)state;
     for (size_t k = 0; k < EXPERIMENTS; ++k) {
         mote_claim_verdict verdict;
         plant_good();
@@ -173,9 +165,8 @@ static size_t size_of(const char *name, const char *key)
     return size;
 }
 
-static void claims_measure_writes_all_and_tells_whether_requirements_are_met(void **state)
+TEST(claims_measure_writes_all_and_tells_whether_requirements_are_met)
 {
-    (void)state;
     for (int good = 1; good >= 0; --good) {
         mote_study study;
         bool met = !good;
@@ -210,9 +201,8 @@ static bool extremes_met(void)
     return met;
 }
 
-static void extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number(void **state)
+TEST(extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number)
 {
-    (void)state;
     plant_good();
     assert_true(extremes_met());
     assert_true(text_has("extremes.md", "## Wrong: 0"));
@@ -240,10 +230,8 @@ static bool dynamics_met(bool keep)
     return met;
 }
 
-static void
-dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass(void **state)
+TEST(dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass)
 {
-    (void)state;
     plant_good();
     assert_true(dynamics_met(false));
     const long simulated = planted.simulated;
@@ -267,9 +255,8 @@ static bool bodies_met(void)
     return met;
 }
 
-static void bodies_are_met_where_every_requirement_is(void **state)
+TEST(bodies_are_met_where_every_requirement_is)
 {
-    (void)state;
     plant_good();
     assert_true(bodies_met());
     assert_int_equal(size_of("bodies.json", "requirements"), 4);
@@ -299,9 +286,8 @@ static const char *profile_of(const char *name)
 }
 
 /* Every way of not being met is told apart in what is written. */
-static void bodies_say_which_requirement_is_not_met(void **state)
+TEST(bodies_say_which_requirement_is_not_met)
 {
-    (void)state;
     plant_good();
     planted.bodies_failed = true; /* and there is no gain to tell */
     assert_false(bodies_met());
@@ -320,9 +306,8 @@ static void bodies_say_which_requirement_is_not_met(void **state)
 }
 
 /* The exit code says whether the requirements are met, the profile what was measured. */
-static void commands_of_studies_exit_as_the_requirements_are_met(void **state)
+TEST(commands_of_studies_exit_as_the_requirements_are_met)
 {
-    (void)state;
     char name[] = "study", out[] = "--out", quick[] = "--quick";
     char *whole[] = {name, out, base, NULL}, *part[] = {name, quick, out, base, NULL};
     plant_good();
@@ -343,9 +328,8 @@ static void commands_of_studies_exit_as_the_requirements_are_met(void **state)
     }
 }
 
-static void studies_hand_up_what_fails_beneath(void **state)
+TEST(studies_hand_up_what_fails_beneath)
 {
-    (void)state;
     for (int bodies = 0; bodies < 2; ++bodies) {
         bool met;
         plant_good();
@@ -365,36 +349,15 @@ static void studies_hand_up_what_fails_beneath(void **state)
     }
 }
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     planted.folder = mkdtemp(base);
     return planted.folder ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(claims_on_accuracy_follow_the_error),
-        cmocka_unit_test(claims_on_contacts_follow_what_was_seen),
-        cmocka_unit_test(claims_on_times_follow_the_times),
-        cmocka_unit_test(claim_on_complexity_follows_the_exponent),
-        cmocka_unit_test(claims_of_a_run_that_lacks_a_row_say_which),
-        cmocka_unit_test(claims_hand_up_what_fails_beneath),
-        cmocka_unit_test(claims_measure_writes_all_and_tells_whether_requirements_are_met),
-        cmocka_unit_test(extremes_are_met_unless_ours_is_wrong_or_any_gives_no_number),
-        cmocka_unit_test(
-            dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass),
-        cmocka_unit_test(bodies_are_met_where_every_requirement_is),
-        cmocka_unit_test(bodies_say_which_requirement_is_not_met),
-        cmocka_unit_test(commands_of_studies_exit_as_the_requirements_are_met),
-        cmocka_unit_test(studies_hand_up_what_fails_beneath),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
-}
+TEST_GROUP(make_base, remove_base);

@@ -1,13 +1,13 @@
 /* Comparisons of summaries that the test writes itself; what lies beside them is in
    test_compare_beside.c. */
 #include "tests/support/plain_file.h"
+#include "tests/support/test.h"
 #include "tests/support/two_runs.h"
 
 #include <math.h>
 
-static void compare_of_unchanged_runs_is_same(void **state)
+TEST(compare_of_unchanged_runs_is_same)
 {
-    (void)state;
     mote_comparison c = compare_with(&usual);
     assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_SAME);
     assert_false(c.worse || c.undecided || c.changes[0].better);
@@ -16,9 +16,8 @@ static void compare_of_unchanged_runs_is_same(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_with_ten_percent_more_time_is_slower(void **state)
+TEST(compare_with_ten_percent_more_time_is_slower)
 {
-    (void)state;
     figures slow = usual;
     slow.ratio /= 1.1;
     mote_comparison c = compare_with(&slow);
@@ -29,9 +28,8 @@ static void compare_with_ten_percent_more_time_is_slower(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_with_noise_is_undecided(void **state)
+TEST(compare_with_noise_is_undecided)
 {
-    (void)state;
     figures noisy = usual;
     noisy.jitter = 0.1;
     mote_comparison c = compare_with(&noisy);
@@ -40,9 +38,8 @@ static void compare_with_noise_is_undecided(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_with_one_more_count_is_worse(void **state)
+TEST(compare_with_one_more_count_is_worse)
 {
-    (void)state;
     figures more = usual;
     more.box_tests += 1;
     mote_comparison c = compare_with(&more);
@@ -52,9 +49,8 @@ static void compare_with_one_more_count_is_worse(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_with_fewer_counts_is_better(void **state)
+TEST(compare_with_fewer_counts_is_better)
 {
-    (void)state;
     figures less = usual;
     less.box_tests -= 1;
     mote_comparison c = compare_with(&less);
@@ -62,9 +58,8 @@ static void compare_with_fewer_counts_is_better(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_with_more_bytes_errors_or_misses_is_worse(void **state)
+TEST(compare_with_more_bytes_errors_or_misses_is_worse)
 {
-    (void)state;
     figures heap = usual, error = usual, missed = usual, rounding = usual;
     heap.heap *= 1.02;
     error.p99 *= 1.1;
@@ -82,9 +77,8 @@ static void compare_with_more_bytes_errors_or_misses_is_worse(void **state)
 }
 
 /* A significant change that such runs cannot tell from noise four times in five is none. */
-static void compare_below_the_smallest_change_is_undecided(void **state)
+TEST(compare_below_the_smallest_change_is_undecided)
 {
-    (void)state;
     figures slow = usual;
     slow.ratio /= 1.1;
     write_run(old_run, &usual, 1);
@@ -102,9 +96,8 @@ static void compare_below_the_smallest_change_is_undecided(void **state)
 }
 
 /* Where cells ran at the same time nothing is said of times. */
-static void compare_of_times_measured_with_jobs_is_refused(void **state)
+TEST(compare_of_times_measured_with_jobs_is_refused)
 {
-    (void)state;
     figures slow = usual;
     slow.ratio /= 2;
     write_run(old_run, &usual, 1);
@@ -131,9 +124,8 @@ static int exit_status(const figures *fresh, const char *options)
     return program_wait(program_start(line, said));
 }
 
-static void compare_command_tells_by_its_exit_status(void **state)
+TEST(compare_command_tells_by_its_exit_status)
 {
-    (void)state;
     figures slow = usual, noisy = usual;
     slow.ratio /= 1.1;
     noisy.jitter = 0.1;
@@ -149,9 +141,8 @@ static void compare_command_tells_by_its_exit_status(void **state)
     json_decref(object);
 }
 
-static void compare_of_what_is_no_run_is_bad_input(void **state)
+TEST(compare_of_what_is_no_run_is_bad_input)
 {
-    (void)state;
     assert_int_equal(program_wait(program_start("compare /no/such/run /no/such/run", said)), 4);
     assert_int_equal(program_wait(program_start("compare one", said)), 2);
 }
@@ -171,9 +162,8 @@ static void compare_of_what_is_no_run_is_bad_input(void **state)
     "{'quiet': {'ratio': [" #a ", " #b ", " #c ", " #d ", " #e "], 'total_ns': [9, 9, 9, "     \
     "9, 9]}}"
 
-static void compare_of_changed_rows_says_what_is_worse_better_or_unknown(void **state)
+TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
 {
-    (void)state;
     static const struct {
         const char *old_members, *new_members;
         int status;
@@ -240,9 +230,8 @@ static void add_row(const char *directory, const char *members)
     change_row(directory, "summary.json", members);
 }
 
-static void compare_of_rows_without_a_partner_is_undecided(void **state)
+TEST(compare_of_rows_without_a_partner_is_undecided)
 {
-    (void)state;
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
     add_row(new_run, "{'frames': 50}");
@@ -267,9 +256,8 @@ static void compare_of_rows_without_a_partner_is_undecided(void **state)
 
 /* Of one configuration on three machines, that of the same machine is compared, or else the
    first. */
-static void compare_prefers_the_row_of_the_same_machine(void **state)
+TEST(compare_prefers_the_row_of_the_same_machine)
 {
-    (void)state;
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
     change_row(new_run, "summary.json", "{'machine': 'third', 'missed': 4}");
@@ -282,9 +270,8 @@ static void compare_prefers_the_row_of_the_same_machine(void **state)
 }
 
 /* Two rows of the base with one partner: no row of the new run is without one. */
-static void compare_of_several_machines_with_one_counts_rows_without_a_partner(void **state)
+TEST(compare_of_several_machines_with_one_counts_rows_without_a_partner)
 {
-    (void)state;
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
     add_row(old_run, "{'machine': 'second'}");
@@ -295,9 +282,8 @@ static void compare_of_several_machines_with_one_counts_rows_without_a_partner(v
 }
 
 /* On another machine only ratios are compared; a floor that is wider still stays. */
-static void compare_on_another_machine_without_ratios_knows_no_time(void **state)
+TEST(compare_on_another_machine_without_ratios_knows_no_time)
 {
-    (void)state;
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
     change_row(old_run, "summary.json", NO_RATIO);
@@ -313,9 +299,8 @@ static void compare_on_another_machine_without_ratios_knows_no_time(void **state
 }
 
 /* One row that is worse is enough. */
-static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
+TEST(compare_of_two_rows_is_worse_when_the_first_is)
 {
-    (void)state;
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
     add_row(old_run, "{'frames': 50}");
@@ -324,9 +309,8 @@ static void compare_of_two_rows_is_worse_when_the_first_is(void **state)
     expect("--format json", 1, "\"verdict\": \"worse\"");
 }
 
-static void compare_of_what_has_no_rows_is_bad_input(void **state)
+TEST(compare_of_what_has_no_rows_is_bad_input)
 {
-    (void)state;
     static const char *const summaries[] = {"{\"schema\": 1}\n", "{\"rows\": 5}\n", "[]\n"};
     for (size_t i = 0; i < sizeof summaries / sizeof summaries[0]; ++i) {
         for (int which = 0; which < 2; ++which) {
@@ -342,28 +326,4 @@ static void compare_of_what_has_no_rows_is_bad_input(void **state)
     write_run(new_run, &usual, -1);
     change_row(new_run, "summary.json", "{'seed': 9}");
     expect("", 4, "the two runs have no configuration in common");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compare_of_unchanged_runs_is_same),
-        cmocka_unit_test(compare_with_ten_percent_more_time_is_slower),
-        cmocka_unit_test(compare_with_noise_is_undecided),
-        cmocka_unit_test(compare_with_one_more_count_is_worse),
-        cmocka_unit_test(compare_with_fewer_counts_is_better),
-        cmocka_unit_test(compare_with_more_bytes_errors_or_misses_is_worse),
-        cmocka_unit_test(compare_below_the_smallest_change_is_undecided),
-        cmocka_unit_test(compare_of_times_measured_with_jobs_is_refused),
-        cmocka_unit_test(compare_command_tells_by_its_exit_status),
-        cmocka_unit_test(compare_of_what_is_no_run_is_bad_input),
-        cmocka_unit_test(compare_of_two_rows_is_worse_when_the_first_is),
-        cmocka_unit_test(compare_of_what_has_no_rows_is_bad_input),
-        cmocka_unit_test(compare_on_another_machine_without_ratios_knows_no_time),
-        cmocka_unit_test(compare_prefers_the_row_of_the_same_machine),
-        cmocka_unit_test(compare_of_several_machines_with_one_counts_rows_without_a_partner),
-        cmocka_unit_test(compare_of_rows_without_a_partner_is_undecided),
-        cmocka_unit_test(compare_of_changed_rows_says_what_is_worse_better_or_unknown),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -1,5 +1,6 @@
 /* Comparisons with what lies beside a summary: instructions, and a manifest that tells the
    processor and the compiler. */
+#include "tests/support/test.h"
 #include "tests/support/two_runs.h"
 
 static mote_comparison compare_beside(const figures *fresh, const char *processor,
@@ -15,9 +16,8 @@ static mote_comparison compare_beside(const figures *fresh, const char *processo
     return c;
 }
 
-static void compare_with_more_instructions_is_worse(void **state)
+TEST(compare_with_more_instructions_is_worse)
 {
-    (void)state;
     mote_comparison c = compare_beside(&usual, "one", 1005);
     assert_false(c.worse); /* within 1 % */
     mote_comparison_free(&c);
@@ -30,9 +30,8 @@ static void compare_with_more_instructions_is_worse(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_explains_a_slower_time(void **state)
+TEST(compare_explains_a_slower_time)
 {
-    (void)state;
     figures slow = usual, counted = usual;
     slow.ratio /= 1.2;
     counted.ratio /= 1.2;
@@ -48,9 +47,8 @@ static void compare_explains_a_slower_time(void **state)
     mote_comparison_free(&c);
 }
 
-static void compare_on_another_processor_is_wide_for_times_and_exact_for_counts(void **state)
+TEST(compare_on_another_processor_is_wide_for_times_and_exact_for_counts)
 {
-    (void)state;
     figures slow = usual, very_slow = usual, more = usual;
     slow.ratio /= 1.3;
     very_slow.ratio /= 1.8;
@@ -68,10 +66,8 @@ static void compare_on_another_processor_is_wide_for_times_and_exact_for_counts(
     mote_comparison_free(&c);
 }
 
-static void
-compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **state)
+TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
 {
-    (void)state;
     char path[96];
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
@@ -92,9 +88,8 @@ compare_of_another_compiler_or_without_a_manifest_judges_no_instructions(void **
 }
 
 /* What only one run has counted, or over other frames, is not compared, and not passed over. */
-static void compare_of_instructions_of_other_frames_is_undecided(void **state)
+TEST(compare_of_instructions_of_other_frames_is_undecided)
 {
-    (void)state;
     static const struct {
         const char *old_members, *new_members;
         int status;
@@ -118,9 +113,8 @@ static void compare_of_instructions_of_other_frames_is_undecided(void **state)
 }
 
 /* What is there and damaged is not taken for what is not there: nothing would be compared. */
-static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **state)
+TEST(compare_of_damaged_files_beside_the_summary_is_bad_input)
 {
-    (void)state;
     static const char *const names[] = {"instructions.json", "manifest.json"};
     for (size_t i = 0; i < 4; ++i) {
         char path[96];
@@ -136,9 +130,8 @@ static void compare_of_damaged_files_beside_the_summary_is_bad_input(void **stat
 }
 
 /* A run may be named by its summary. */
-static void compare_of_summaries_by_name_is_that_of_their_runs(void **state)
+TEST(compare_of_summaries_by_name_is_that_of_their_runs)
 {
-    (void)state;
     char line[256], text[4096], here[64];
     write_run(old_run, &usual, 1);
     write_run(new_run, &usual, -1);
@@ -157,19 +150,4 @@ static void compare_of_summaries_by_name_is_that_of_their_runs(void **state)
     assert_non_null(strstr(text, "instructions 1000 to 1100"));
     assert_int_equal(chdir(here), 0);
     remove_beside();
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(compare_with_more_instructions_is_worse),
-        cmocka_unit_test(compare_explains_a_slower_time),
-        cmocka_unit_test(compare_on_another_processor_is_wide_for_times_and_exact_for_counts),
-        cmocka_unit_test(
-            compare_of_another_compiler_or_without_a_manifest_judges_no_instructions),
-        cmocka_unit_test(compare_of_instructions_of_other_frames_is_undecided),
-        cmocka_unit_test(compare_of_damaged_files_beside_the_summary_is_bad_input),
-        cmocka_unit_test(compare_of_summaries_by_name_is_that_of_their_runs),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

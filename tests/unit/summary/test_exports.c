@@ -1,11 +1,9 @@
 /* What mote summarize writes for other tools; more of it in tests/scripts/exports.py. */
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <jansson.h>
 #include <math.h>
@@ -24,9 +22,8 @@ static int summarize(const char *format)
 }
 
 /* Two rows of three replicates, and one of a method that knows no distance. */
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     char line[512], name[64];
     if (!mkdtemp(base))
         return -1;
@@ -42,11 +39,12 @@ static int make_base(void **state)
     return program_wait(program_start(line, said));
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 static json_t *export(const char *format)
 {
@@ -63,9 +61,8 @@ static bool is_nanoseconds(const json_t *value)
            json_number_value(value) < 1e9;
 }
 
-static void gbench_has_an_entry_a_replicate_and_none_without_figures(void **state)
+TEST(gbench_has_an_entry_a_replicate_and_none_without_figures)
 {
-    (void)state;
     json_t *all = export("gbench");
     const json_t *context = json_object_get(all, "context");
     assert_int_equal(json_integer_value(json_object_get(context, "json_schema_version")), 1);
@@ -87,9 +84,8 @@ static void gbench_has_an_entry_a_replicate_and_none_without_figures(void **stat
     json_decref(all);
 }
 
-static void trackers_get_the_median_of_each_row_with_figures(void **state)
+TEST(trackers_get_the_median_of_each_row_with_figures)
 {
-    (void)state;
     json_t *actions = export("gha"), *bencher = export("bencher");
     assert_int_equal(json_array_size(actions), 2);
     assert_int_equal(json_object_size(bencher), 2);
@@ -121,9 +117,8 @@ static int count_fields(const char *line, size_t length)
     return fields;
 }
 
-static void csv_leaves_empty_what_there_is_not(void **state)
+TEST(csv_leaves_empty_what_there_is_not)
 {
-    (void)state;
     assert_int_equal(summarize("csv"), 0);
     assert_null(strstr(text, "nan"));
     assert_null(strstr(text, "inf"));
@@ -141,9 +136,8 @@ static void csv_leaves_empty_what_there_is_not(void **state)
 }
 
 /* The last of the tests: it adds a run of fewer frames. */
-static void names_tell_rows_of_other_frames_apart(void **state)
+TEST(names_tell_rows_of_other_frames_apart)
 {
-    (void)state;
     char line[512];
     (void)snprintf(line, sizeof line,
                    "run %s/few.json --replicates 3 --frames 1-3 --method certified"
@@ -158,21 +152,8 @@ static void names_tell_rows_of_other_frames_apart(void **state)
     json_decref(bencher);
 }
 
-static void summarize_with_an_unknown_format_lists_those_that_there_are(void **state)
+TEST(summarize_with_an_unknown_format_lists_those_that_there_are)
 {
-    (void)state;
     assert_int_equal(summarize("xml"), 2);
     assert_non_null(strstr(text, "gbench"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(gbench_has_an_entry_a_replicate_and_none_without_figures),
-        cmocka_unit_test(trackers_get_the_median_of_each_row_with_figures),
-        cmocka_unit_test(csv_leaves_empty_what_there_is_not),
-        cmocka_unit_test(summarize_with_an_unknown_format_lists_those_that_there_are),
-        cmocka_unit_test(names_tell_rows_of_other_frames_apart),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -2,12 +2,10 @@
 #include "harness/summary/front.h"
 #include "harness/base/record.h"
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,9 +17,8 @@ static void near(double a, double b, double share)
         fail_msg("%.17g is not %.17g", a, b);
 }
 
-static void front_time_between_two_points_is_interpolated(void **state)
+TEST(front_time_between_two_points_is_interpolated)
 {
-    (void)state;
     /* A line of slope -1/2 in logarithms: 1 ms at 1e-4, 0.1 ms at 1e-2; half-way 10^-0.5. */
     const double times[] = {1e6, 1e5}, errors[] = {1e-4, 1e-2};
     near(mote_front_time(times, errors, 2, 1e-4), 1e6, 1e-12);
@@ -32,25 +29,22 @@ static void front_time_between_two_points_is_interpolated(void **state)
     assert_true(isnan(mote_front_time(times, errors, 0, 1)));
 }
 
-static void front_time_of_an_exact_point_is_not_interpolated(void **state)
+TEST(front_time_of_an_exact_point_is_not_interpolated)
 {
-    (void)state;
     const double times[] = {1e6, 1e3}, errors[] = {0, 1e-2};
     near(mote_front_time(times, errors, 2, 1e-3), 1e6, 1e-12);
     near(mote_front_time(times, errors, 2, 1e-2), 1e3, 1e-12);
 }
 
-static void front_time_leaves_out_points_that_are_dominated(void **state)
+TEST(front_time_leaves_out_points_that_are_dominated)
 {
-    (void)state;
     /* The second is slower and worse than the first; the third is the next on the front. */
     const double times[] = {100, 200, 50}, errors[] = {1e-4, 1e-3, 1e-2};
     near(mote_front_time(times, errors, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
 }
 
-static void front_time_of_points_in_any_order_takes_the_next(void **state)
+TEST(front_time_of_points_in_any_order_takes_the_next)
 {
-    (void)state;
     /* Worse ones last and slower ones between: from 100 at 1e-4 to 50 at 1e-2. */
     const double times[] = {100, 10, 50, 500}, errors[] = {1e-4, 1e-1, 1e-2, 1e-2};
     near(mote_front_time(times, errors, 4, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
@@ -58,9 +52,8 @@ static void front_time_of_points_in_any_order_takes_the_next(void **state)
     near(mote_front_time(turned, wrong, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
 }
 
-static void front_title_leaves_out_n_wherever_it_stands(void **state)
+TEST(front_title_leaves_out_n_wherever_it_stands)
 {
-    (void)state;
     static const char *const labels[][2] = {{"p:n=5", "p"},
                                             {"p:n=5,refine=no", "p:refine=no"},
                                             {"p:law=log,n=5", "p:law=log"},
@@ -84,9 +77,8 @@ static double first_of(void *context, const size_t *drawn, size_t count)
     return exp(sum / (double)count);
 }
 
-static void process_interval_of_few_processes_is_students(void **state)
+TEST(process_interval_of_few_processes_is_students)
 {
-    (void)state;
     double values[] = {1, 2, 4, 8, 16};
     mote_confidence interval;
     assert_int_equal(mote_statistics_process_interval(first_of, values, 5, 1, &interval),
@@ -97,9 +89,8 @@ static void process_interval_of_few_processes_is_students(void **state)
     near(interval.high, exp(2 * log(2) + half), 1e-6);
 }
 
-static void process_interval_of_many_processes_is_near_the_normal_one(void **state)
+TEST(process_interval_of_many_processes_is_near_the_normal_one)
 {
-    (void)state;
     double values[100];
     for (size_t i = 0; i < 100; ++i)
         values[i] = exp((double)i / 100);
@@ -142,10 +133,9 @@ static void write_cell(const char *method, const char *label, double n, int repl
     assert_int_equal(mote_record_json(base, name, cell), MOTE_OK);
 }
 
-static int write_run(void **state)
+static int write_run(void)
 {
     char path[96];
-    (void)state;
     if (!mkdtemp(base))
         return -1;
     (void)snprintf(path, sizeof path, "%s/cells", base);
@@ -161,11 +151,12 @@ static int write_run(void **state)
     return 0;
 }
 
-static int remove_run(void **state)
+static int remove_run(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(write_run, remove_run);
 
 static const mote_front *find_front(const mote_fronts *fronts, const char *title)
 {
@@ -177,9 +168,8 @@ static const mote_front *find_front(const mote_fronts *fronts, const char *title
     return NULL;
 }
 
-static void fronts_of_a_run_say_how_much_faster_at_each_error(void **state)
+TEST(fronts_of_a_run_say_how_much_faster_at_each_error)
 {
-    (void)state;
     mote_summary summary;
     mote_fronts fronts;
     assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
@@ -201,9 +191,8 @@ static void fronts_of_a_run_say_how_much_faster_at_each_error(void **state)
     mote_summary_free(&summary);
 }
 
-static void fronts_of_a_run_say_who_dominates_whom(void **state)
+TEST(fronts_of_a_run_say_who_dominates_whom)
 {
-    (void)state;
     mote_summary summary;
     mote_fronts fronts;
     assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
@@ -232,9 +221,8 @@ static void fronts_of_a_run_say_who_dominates_whom(void **state)
 }
 
 /* The parameters of a method that this build does not have stand in its label as JSON. */
-static void fronts_of_odd_names_are_fields_of_their_csv(void **state)
+TEST(fronts_of_odd_names_are_fields_of_their_csv)
 {
-    (void)state;
     static const char *const names[] = {"fronts.csv", "speed.csv"};
     static const char *const lines[] = {
         "\n\"s \"\"1\"\", 2\",hot,\"gone:law=\"\"log\"\"\",\"gone:law=\"\"log\"\"\",,0.125,10",
@@ -255,21 +243,4 @@ static void fronts_of_odd_names_are_fields_of_their_csv(void **state)
             fail_msg("no line %s in\n%s", lines[i], text);
         free(text);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(front_time_between_two_points_is_interpolated),
-        cmocka_unit_test(front_time_of_an_exact_point_is_not_interpolated),
-        cmocka_unit_test(front_time_leaves_out_points_that_are_dominated),
-        cmocka_unit_test(front_time_of_points_in_any_order_takes_the_next),
-        cmocka_unit_test(front_title_leaves_out_n_wherever_it_stands),
-        cmocka_unit_test(process_interval_of_few_processes_is_students),
-        cmocka_unit_test(process_interval_of_many_processes_is_near_the_normal_one),
-        cmocka_unit_test(fronts_of_a_run_say_how_much_faster_at_each_error),
-        cmocka_unit_test(fronts_of_a_run_say_who_dominates_whom),
-        cmocka_unit_test(fronts_of_odd_names_are_fields_of_their_csv),
-    };
-    return cmocka_run_group_tests(tests, write_run, remove_run);
 }

@@ -2,11 +2,9 @@
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 #include <sys/stat.h>
 
@@ -16,9 +14,8 @@ static char file[64], said[64], text[1 << 14];
 /* A gnuplot that draws nothing: what is drawn from is looked at. */
 #define GNUPLOT "#!/bin/sh\nfor f in $8; do echo drawn > \"$5.$f\"; done\n"
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     char path[512];
     if (!mkdtemp(base))
         return -1;
@@ -31,11 +28,12 @@ static int make_base(void **state)
     return setenv("PATH", path, 1);
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 /* mote history ARGUMENTS: its exit status, and what it must say. */
 static void expect(const char *arguments, int status, const char *says)
@@ -53,9 +51,8 @@ static void expect(const char *arguments, int status, const char *says)
     "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
     "error_p99\n"
 
-static void history_of_what_is_none_is_refused_by_line(void **state)
+TEST(history_of_what_is_none_is_refused_by_line)
 {
-    (void)state;
     static const struct {
         const char *text, *says;
     } cases[] = {
@@ -88,9 +85,8 @@ static void read_data(const char *name)
 }
 
 /* A block a row: reference, time over the first one's, whether it changed, commit. */
-static void history_marks_what_moves_more_than_usual(void **state)
+TEST(history_marks_what_moves_more_than_usual)
 {
-    (void)state;
     static const char lines[] = HEADER "1,0123456789abc,w,r,100,,,,,,\n"
                                        "1,0123456789abc,w,s,7,0.5,,,,,\n"
                                        "2,,w,r,101,,,,,,\n"
@@ -120,9 +116,8 @@ static void history_marks_what_moves_more_than_usual(void **state)
 
 /* Times against fcl-aabb and times in ns have no scale in common: neither is a change of the
    other. */
-static void history_of_a_row_with_and_without_ratios_is_two_series(void **state)
+TEST(history_of_a_row_with_and_without_ratios_is_two_series)
 {
-    (void)state;
     static const char lines[] = HEADER "1,a,w,a \"b\",100,0.5,,,,,\n"
                                        "2,b,w,a \"b\",100,,,,,,\n"
                                        "3,c,w,a \"b\",101,0.25,,,,,\n"
@@ -136,9 +131,8 @@ static void history_of_a_row_with_and_without_ratios_is_two_series(void **state)
 
 /* What would end a field is none, whatever was accepted; a row that did not end well is left
    out. */
-static void history_add_of_odd_names_can_be_drawn(void **state)
+TEST(history_add_of_odd_names_can_be_drawn)
 {
-    (void)state;
     char arguments[256], path[96];
     const stored_cell cells[] = {
         {.rows = "1,0,0,5,0.5,0,0,0,7\n", .scenario = "a,b", .more = ", \"x\": 1"},
@@ -171,25 +165,12 @@ static void history_add_of_odd_names_can_be_drawn(void **state)
 }
 
 /* Only to a history is added. */
-static void history_add_to_another_file_leaves_it_alone(void **state)
+TEST(history_add_to_another_file_leaves_it_alone)
 {
-    (void)state;
     char arguments[256];
     assert_true(plain_file_put(file, "my thesis\n"));
     (void)snprintf(arguments, sizeof arguments, "%s --add %s/run --why w", file, base);
     expect(arguments, 4, "h.csv:1: not the header of a history");
     read_data("h.csv");
     assert_string_equal(text, "my thesis\n");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(history_of_what_is_none_is_refused_by_line),
-        cmocka_unit_test(history_marks_what_moves_more_than_usual),
-        cmocka_unit_test(history_of_a_row_with_and_without_ratios_is_two_series),
-        cmocka_unit_test(history_add_of_odd_names_can_be_drawn),
-        cmocka_unit_test(history_add_to_another_file_leaves_it_alone),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

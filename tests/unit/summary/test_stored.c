@@ -5,12 +5,12 @@
 #include "harness/base/record.h"
 #include "harness/summary/summary.h"
 #include "tests/support/stored_run.h"
+#include "tests/support/test.h"
 
 #include <math.h>
 
-static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state)
+TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
 {
-    (void)state;
     static const char json[] = "cells/fcl-aabb-1.json: a field of a cell is missing or wrong";
     static const struct {
         const char *key, *value; /* NULL: without it */
@@ -79,9 +79,8 @@ static void stored_read_of_a_cell_with_a_wrong_field_names_the_file(void **state
 
 /* Up to 2^62 - 1, where doubles are 512 apart: neither the draws nor the groups are another
    run's. */
-static void stored_read_keeps_every_bit_of_a_seed(void **state)
+TEST(stored_read_keeps_every_bit_of_a_seed)
 {
-    (void)state;
     static const struct {
         int replicate;
         uint64_t seed, draws;
@@ -114,9 +113,8 @@ static void stored_read_keeps_every_bit_of_a_seed(void **state)
 
 #define TEN_COLUMNS "a,b,c,d,e,f,g,h,i,j,"
 
-static void stored_read_of_a_damaged_csv_names_the_line(void **state)
+TEST(stored_read_of_a_damaged_csv_names_the_line)
 {
-    (void)state;
     static const struct {
         const char *csv, *says;
     } changes[] = {
@@ -170,9 +168,8 @@ static void stored_read_of_a_damaged_csv_names_the_line(void **state)
 }
 
 /* What a method cannot answer is empty, and is no answer in the summary. */
-static void summary_of_empty_fields_has_no_figures_of_them(void **state)
+TEST(summary_of_empty_fields_has_no_figures_of_them)
 {
-    (void)state;
     write_cell((stored_cell){.rows = "1,,,,,,,,\n2,,,5,0.5,,,0,\n3,,,7,0,,1,1,\n"
                                      "4,,,9,0.5,,,,2\n",
                              .more = ", \"heap_live_bytes\": null, \"rss_peak_bytes\": 96, "
@@ -194,9 +191,8 @@ static void summary_of_empty_fields_has_no_figures_of_them(void **state)
 }
 
 /* A number that no clock has is not told to other tools. */
-static void summary_clock_of_a_core_is_told_where_it_can_be_one(void **state)
+TEST(summary_clock_of_a_core_is_told_where_it_can_be_one)
 {
-    (void)state;
     static const struct {
         const char *more, *says; /* says: NULL: nothing of it */
     } cells[] = {{", \"clock_mhz\": [2400.5, 2400.5]", "\"mhz_per_cpu\": 2400"},
@@ -212,9 +208,8 @@ static void summary_clock_of_a_core_is_told_where_it_can_be_one(void **state)
 }
 
 /* Cells of other programs are left out, where the manifest names one. */
-static void stored_read_keeps_the_cells_of_the_manifests_program(void **state)
+TEST(stored_read_keeps_the_cells_of_the_manifests_program)
 {
-    (void)state;
     static const struct {
         const char *manifest;
         size_t count, left_out;
@@ -267,9 +262,8 @@ static void write_crash(const char *method, int replicate)
 }
 
 /* Groups of 12 replicates: 1-3, 4-5, 6-8, 9-10, 11-12. */
-static void summary_quiet_times_are_the_fastest_of_each_frame_in_a_group(void **state)
+TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group)
 {
-    (void)state;
     for (int r = 1; r <= 12; ++r) {
         const char *frames = r >= 6 && r <= 8 ? "23x45" : "2345";
         if (r == 9 || r == 10)
@@ -301,9 +295,8 @@ static void summary_quiet_times_are_the_fastest_of_each_frame_in_a_group(void **
 }
 
 /* Frames that only one of two has, and times of 0, are in no ratio. */
-static void summary_ratio_is_of_common_frames_with_a_time(void **state)
+TEST(summary_ratio_is_of_common_frames_with_a_time)
 {
-    (void)state;
     write_times("certified", 1, "12x4", 10);
     write_times("certified", 2, "1", 10);
     write_times("certified", 3, "6", 10); /* of no frame of the reference */
@@ -323,9 +316,8 @@ static void summary_ratio_is_of_common_frames_with_a_time(void **state)
 }
 
 /* Labels: parameters of a method that is gone, of one that never had them, and numbers. */
-static void summary_label_names_what_is_not_default(void **state)
+TEST(summary_label_names_what_is_not_default)
 {
-    (void)state;
     write_cell((stored_cell){.rows = ROWS,
                              .method = "particle-paper",
                              .parameters = "{\"n\": 5, \"law\": \"log\", \"new\": true}"});
@@ -339,9 +331,8 @@ static void summary_label_names_what_is_not_default(void **state)
 }
 
 /* A parameter of another kind than the method's is shown as it is. */
-static void summary_label_of_a_parameter_of_another_kind_is_its_json(void **state)
+TEST(summary_label_of_a_parameter_of_another_kind_is_its_json)
 {
-    (void)state;
     write_cell((stored_cell){.rows = ROWS, .parameters = "{\"queue\": true, \"seed\": null}"});
     write_cell((stored_cell){.rows = ROWS, .id = "two", .parameters = "{\"queue\": 64.5}"});
     mote_summary summary;
@@ -354,9 +345,8 @@ static void summary_label_of_a_parameter_of_another_kind_is_its_json(void **stat
 
 /* What ratios are taken to: fcl-aabb as it is by default, else the first, on the same frames,
    caches and machine. */
-static void summary_reference_is_of_the_same_frames_and_caches(void **state)
+TEST(summary_reference_is_of_the_same_frames_and_caches)
 {
-    (void)state;
     static const stored_cell cells[] = {
         {.method = "certified", .id = "a"},
         {.method = "certified", .id = "b", .fingerprint = "g"},
@@ -395,9 +385,8 @@ static void summary_reference_is_of_the_same_frames_and_caches(void **state)
 }
 
 /* A cell that ended well without a frame, and contacts of which one side is not known. */
-static void summary_of_a_cell_without_frames_or_vertices_has_no_figures(void **state)
+TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures)
 {
-    (void)state;
     write_cell((stored_cell){.rows = "", .method = "certified"});
     write_cell((stored_cell){.rows = "1,0,0,5,0,0,1,,7\n2,0,0,5,0,0,,1,7\n"});
     mote_summary summary;
@@ -413,9 +402,8 @@ static void summary_of_a_cell_without_frames_or_vertices_has_no_figures(void **s
 }
 
 /* 69 that agree and a last one that does not: its error widens the interval. */
-static void figure_quantile_of_many_replicates_takes_them_all(void **state)
+TEST(figure_quantile_of_many_replicates_takes_them_all)
 {
-    (void)state;
     for (int k = 1; k <= 70; ++k)
         write_cell((stored_cell){.replicate = k,
                                  .rows = k < 70 ? "1,1,2,3,0.5,0.001,0,0,7\n"
@@ -462,9 +450,8 @@ static size_t sessions_of(const char *name)
 
 #define BY_ONE "\"program\": \"one\""
 
-static void merge_copies_what_is_not_there_and_adds_sessions(void **state)
+TEST(merge_copies_what_is_not_there_and_adds_sessions)
 {
-    (void)state;
     assert_int_equal(mote_directory_make(directory), MOTE_OK);
     merge(4, "in/cells: No such file");
     write_in((stored_cell){.rows = ROWS, .more = ", " BY_ONE});
@@ -485,25 +472,4 @@ static void merge_copies_what_is_not_there_and_adds_sessions(void **state)
     merge(4, "out/manifest.json: no list of sessions");
     write_plain("out/manifest.json", "no JSON\n");
     merge(4, "out/manifest.json:1:");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file),
-        TEST(stored_read_keeps_every_bit_of_a_seed),
-        TEST(stored_read_of_a_damaged_csv_names_the_line),
-        TEST(summary_clock_of_a_core_is_told_where_it_can_be_one),
-        TEST(stored_read_keeps_the_cells_of_the_manifests_program),
-        TEST(summary_of_empty_fields_has_no_figures_of_them),
-        TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group),
-        TEST(summary_ratio_is_of_common_frames_with_a_time),
-        TEST(summary_label_names_what_is_not_default),
-        TEST(summary_label_of_a_parameter_of_another_kind_is_its_json),
-        TEST(summary_reference_is_of_the_same_frames_and_caches),
-        TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures),
-        TEST(figure_quantile_of_many_replicates_takes_them_all),
-        TEST(merge_copies_what_is_not_there_and_adds_sessions),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -3,15 +3,15 @@
 
 #include "harness/base/record.h"
 #include "tests/support/stored_run.h"
+#include "tests/support/test.h"
 
 #define RIGHT(ns) "1,0,0," #ns ",0.5,0,0,0,7\n"
 #define MISSED(ns) "1,0,0," #ns ",0,0,0,1,7\n"
 #define FAR(ns) "1,0,0," #ns ",0.5,0.25,0,0,7\n"
 #define WRONG(ns) "1,0,0," #ns ",0.5,0.25,1,0,7\n"
 
-static void tune_of_right_and_wrong_configurations_names_the_fastest_right_one(void **state)
+TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
 {
-    (void)state;
     static const stored_cell cells[] = {
         {.method = "fcl-aabb", .id = "a", .status = "crashed"},
         {.method = "fcl-obb", .id = "b", .rows = WRONG(10), .parameters = "{\"n\": 1}"},
@@ -70,9 +70,8 @@ static void tune_of_right_and_wrong_configurations_names_the_fastest_right_one(v
     assert_non_null(strstr(text, "none of them right"));
 }
 
-static void tune_best_fcl_reads_only_rows_that_mote_wrote(void **state)
+TEST(tune_best_fcl_reads_only_rows_that_mote_wrote)
 {
-    (void)state;
 #define TUNED(scenario, cache, method, name, right, total)                                     \
     "{\"scenario\": \"" scenario "\", \"cache\": \"" cache "\", \"method\": \"" method         \
     "\", \"configuration\": \"" name "\", \"right\": " right ", \"total_ns\": " total "}"
@@ -99,13 +98,4 @@ static void tune_best_fcl_reads_only_rows_that_mote_wrote(void **state)
     write_plain("tune.json", "{\"rows\": [");
     assert_int_equal(mote("tune --best-fcl s"), 4);
     assert_non_null(strstr(text, "tune.json:1:"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one),
-        TEST(tune_best_fcl_reads_only_rows_that_mote_wrote),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

@@ -5,12 +5,10 @@
 #include "harness/summary/table.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <cmocka.h>
 
 #include <math.h>
 
@@ -19,31 +17,30 @@ static char directory[64];
 static int directories;
 static mote_summary summary;
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     return mkdtemp(base) ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     return program_remove(base);
 }
 
-static int next_directory(void **state)
+static int next_directory(void)
 {
-    (void)state;
     (void)snprintf(directory, sizeof directory, "%s/%d", base, directories++);
     return 0;
 }
 
-static int free_summary(void **state)
+static int free_summary(void)
 {
-    (void)state;
     mote_summary_free(&summary);
     return 0;
 }
+
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(next_directory, free_summary);
 
 /* Of some frames that all take `ns`, and are wrong by `error` L. */
 static void write_frames(stored_cell cell, int first, int last, double ns, double error)
@@ -75,9 +72,8 @@ static void free_figure(mote_figure *figure)
 }
 
 /* A scenario's file may change between two runs into one directory. */
-static void summary_of_other_questions_keeps_their_cells_apart(void **state)
+TEST(summary_of_other_questions_keeps_their_cells_apart)
 {
-    (void)state;
     static const char *const asked[] = {", \"ask\": \"contact\", \"tolerance\": 0.0",
                                         ", \"ask\": \"distance\", \"tolerance\": 0.0",
                                         ", \"ask\": \"distance\", \"tolerance\": 0.5"};
@@ -100,9 +96,8 @@ static void summary_of_other_questions_keeps_their_cells_apart(void **state)
 
 /* What was measured on another machine, or on other frames of that name, is faster by what
    these are. */
-static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
+TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
 {
-    (void)state;
     static const stored_cell scenes[] = {{.more = ", \"machine\": \"slow\""},
                                          {.more = ", \"machine\": \"fast\""},
                                          {.fingerprint = "g"}};
@@ -138,9 +133,8 @@ static void fronts_of_several_machines_and_scenes_are_kept_apart(void **state)
 }
 
 /* Without an interval nothing is sure. */
-static void fronts_of_one_replicate_have_no_dominator(void **state)
+TEST(fronts_of_one_replicate_have_no_dominator)
 {
-    (void)state;
     write_cell((stored_cell){.method = "certified"}, 10, 0);
     write_cell((stored_cell){.replicate = 1}, 11, 0);
     make_summary();
@@ -168,9 +162,8 @@ static void refers_to(const char *id, const mote_ratio *ratio, const char *to, d
 }
 
 /* FCL is fast around a touch (frames 3-4), where a second leg of the run measured all again. */
-static void summary_ratios_are_of_rows_on_the_same_frames(void **state)
+TEST(summary_ratios_are_of_rows_on_the_same_frames)
 {
-    (void)state;
     static const char touch[] = "[3, 4]", obb[] = "fcl-obb";
     write_frames((stored_cell){.id = "a", .method = "certified", .frames = touch}, 3, 4, 10, 0);
     write_frames((stored_cell){.id = "b", .frames = touch}, 3, 4, 200, 0);
@@ -208,9 +201,8 @@ static void summary_ratios_are_of_rows_on_the_same_frames(void **state)
 
 /* Two processes in five are lost: then the 99th percentile over all frames is far off, though
    that of most processes is not. */
-static void fronts_are_of_the_figures_of_the_rows(void **state)
+TEST(fronts_are_of_the_figures_of_the_rows)
 {
-    (void)state;
     static const char *const numbers[] = {"{\"n\": 8}", "{\"n\": 16}"};
     for (int r = 1; r <= 5; ++r) {
         char id[16];
@@ -240,9 +232,8 @@ static void fronts_are_of_the_figures_of_the_rows(void **state)
 }
 
 /* Where the reference has crashed there is no ratio; the time must not stand for it. */
-static void summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others(void **state)
+TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others)
 {
-    (void)state;
     for (int r = 1; r <= 4; ++r) {
         write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 + r % 2, 0);
         if (r != 2)
@@ -257,9 +248,8 @@ static void summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others(void **
 }
 
 /* --until-ci gives the reference more replicates than others: these must not make it faster. */
-static void summary_quiet_ratio_is_of_replicates_of_one_number(void **state)
+TEST(summary_quiet_ratio_is_of_replicates_of_one_number)
 {
-    (void)state;
     for (int r = 1; r <= 40; ++r) {
         if (r <= 10)
             write_cell((stored_cell){.method = "certified", .replicate = r}, 1000 - r, 0);
@@ -270,9 +260,8 @@ static void summary_quiet_ratio_is_of_replicates_of_one_number(void **state)
         assert_true(fabs(summary.rows[0].quiet.ratio[k] - 10) < 1e-9);
 }
 
-static void summary_status_is_the_worst_where_no_replicate_ended_well(void **state)
+TEST(summary_status_is_the_worst_where_no_replicate_ended_well)
 {
-    (void)state;
     static const char *const ends[] = {"unsupported", "crashed", "timeout"};
     for (int r = 1; r <= 3; ++r) {
         const stored_cell cell = {.replicate = r, .status = ends[r - 1]};
@@ -284,9 +273,8 @@ static void summary_status_is_the_worst_where_no_replicate_ended_well(void **sta
 }
 
 /* Process by process, though the reference lacks the first, and the first was cut short. */
-static void figure_ratios_are_of_replicates_of_one_number(void **state)
+TEST(figure_ratios_are_of_replicates_of_one_number)
 {
-    (void)state;
     write_frames((stored_cell){.method = "certified", .replicate = 1}, 1, 1, 10, 0);
     for (int r = 2; r <= 4; ++r) {
         write_cell((stored_cell){.method = "certified", .replicate = r}, 10 * r, 0);
@@ -306,9 +294,8 @@ static void figure_ratios_are_of_replicates_of_one_number(void **state)
 }
 
 /* Of two runs of 1,000 bodies the ratio of one is to another method than the caption names. */
-static void figure_bodies_caption_is_of_what_is_drawn(void **state)
+TEST(figure_bodies_caption_is_of_what_is_drawn)
 {
-    (void)state;
     static const char row[] =
         "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, "
         "\"near_pairs_wanted\": %d, \"step_mean_ns\": 5000, \"step_ns\": "
@@ -331,9 +318,8 @@ static void figure_bodies_caption_is_of_what_is_drawn(void **state)
 }
 
 /* A run of some of the frames has no figure of the others. */
-static void figure_queries_tells_of_which_frames_it_is(void **state)
+TEST(figure_queries_tells_of_which_frames_it_is)
 {
-    (void)state;
     static const char paper[] = "particle-paper", five[] = "{\"n\": 5}";
     write_frames(
         (stored_cell){
@@ -351,9 +337,8 @@ static void figure_queries_tells_of_which_frames_it_is(void **state)
 }
 
 /* The interval of two processes is wider above than below. */
-static void run_until_ci_tells_the_wider_side_of_the_interval(void **state)
+TEST(run_until_ci_tells_the_wider_side_of_the_interval)
 {
-    (void)state;
     char line[256], said[96], text[4096], expected[64];
     (void)snprintf(said, sizeof said, "%s-said", directory);
     (void)snprintf(line, sizeof line,
@@ -386,9 +371,8 @@ static const char *after(const char *command, const char *more, const char *file
 }
 
 /* Times of cells that ran at once, and rows that lack replicates, must not look like others. */
-static void pages_and_tables_tell_which_times_and_rows_are_not_whole(void **state)
+TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
 {
-    (void)state;
     static const char beside[] = "times not comparable: 2 cells at once",
                       badly[] = "1 of 3 replicates ended badly";
     write_cell((stored_cell){.method = "certified", .more = ", \"jobs\": 2"}, 10, 0);
@@ -412,25 +396,4 @@ static void pages_and_tables_tell_which_times_and_rows_are_not_whole(void **stat
     assert_non_null(strstr(csv, ",replicates_failed,jobs\n"));
     assert_non_null(strstr(csv, ",0,2\n"));
     assert_non_null(strstr(csv, ",1,1\n"));
-}
-
-int main(void)
-{
-#define TEST(name) cmocka_unit_test_setup_teardown(name, next_directory, free_summary)
-    const struct CMUnitTest tests[] = {
-        TEST(summary_of_other_questions_keeps_their_cells_apart),
-        TEST(summary_ratios_are_of_rows_on_the_same_frames),
-        TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole),
-        TEST(fronts_are_of_the_figures_of_the_rows),
-        TEST(run_until_ci_tells_the_wider_side_of_the_interval),
-        TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others),
-        TEST(summary_quiet_ratio_is_of_replicates_of_one_number),
-        TEST(summary_status_is_the_worst_where_no_replicate_ended_well),
-        TEST(figure_ratios_are_of_replicates_of_one_number),
-        TEST(figure_queries_tells_of_which_frames_it_is),
-        TEST(figure_bodies_caption_is_of_what_is_drawn),
-        TEST(fronts_of_one_replicate_have_no_dominator),
-        TEST(fronts_of_several_machines_and_scenes_are_kept_apart),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }

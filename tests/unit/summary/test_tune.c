@@ -1,32 +1,30 @@
 /* mote tune, against the medians of the summary that it reads. */
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
 
 #include <jansson.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stddef.h>
-#include <cmocka.h>
 
 static char base[] = "/tmp/mote-test-tune-XXXXXX";
 static char said[64], text[1 << 16];
 
-static int make_base(void **state)
+static int make_base(void)
 {
-    (void)state;
     (void)snprintf(said, sizeof said, "%s.said", base);
     return mkdtemp(base) ? 0 : -1;
 }
 
-static int remove_base(void **state)
+static int remove_base(void)
 {
-    (void)state;
     (void)remove(said);
     return program_remove(base);
 }
+
+TEST_GROUP(make_base, remove_base);
 
 /* mote ARGUMENTS DIRECTORY MORE, in the test's directory. */
 static int mote(const char *arguments, const char *more)
@@ -77,9 +75,8 @@ static size_t extremes(const json_t *rows, const char *method, bool right, doubl
     return count;
 }
 
-static void tune_names_the_fastest_right_configuration(void **unused)
+TEST(tune_names_the_fastest_right_configuration)
 {
-    (void)unused;
     int status =
         mote("run tt --frames 201-220 --replicates 1"
              " --method fcl-aabb:queue=2|64,seed=none|previous"
@@ -128,9 +125,8 @@ static void tune_names_the_fastest_right_configuration(void **unused)
 }
 
 /* tune.json may be edited: a time below 0 is not the least of them. */
-static void tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time(void **unused)
+TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
 {
-    (void)unused;
     static const struct {
         const char *text, *says;
         int status;
@@ -166,9 +162,8 @@ static void tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time(void **unused)
 }
 
 /* A cell without frames has no time: it is neither the best nor the worst. */
-static void tune_of_a_cell_without_frames_leaves_it_out(void **unused)
+TEST(tune_of_a_cell_without_frames_leaves_it_out)
 {
-    (void)unused;
     char folder[96];
     const stored_cell cells[] = {
         {.rows = "", .parameters = "{\"queue\": 2}"},
@@ -185,22 +180,10 @@ static void tune_of_a_cell_without_frames_leaves_it_out(void **unused)
     json_decref(rows);
 }
 
-static void tune_without_a_run_is_bad_input(void **unused)
+TEST(tune_without_a_run_is_bad_input)
 {
-    (void)unused;
     assert_int_equal(mote("tune ", "/nothing"), 4);
     assert_int_equal(mote("tune --best-fcl tt ", "/nothing"), 4);
     assert_int_equal(mote("tune", ""), 2);
     assert_int_equal(mote("tune ", "/ two"), 2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tune_names_the_fastest_right_configuration),
-        cmocka_unit_test(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time),
-        cmocka_unit_test(tune_of_a_cell_without_frames_leaves_it_out),
-        cmocka_unit_test(tune_without_a_run_is_bad_input),
-    };
-    return cmocka_run_group_tests(tests, make_base, remove_base);
 }
