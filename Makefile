@@ -26,7 +26,7 @@
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make claims [OUT=DIR]                             measure the claims of the paper
 #   make test-library                               the library alone: gcc, clang, musl-gcc
-#   make test-stranger                              a method, field, scenario from README.md alone
+#   make test-stranger                              a method, field, scenario from docs/extending.md alone
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
 #   make test-exports                               exports read by jq, pandas, scipy
 #   make test-bare                                   bench and test as on a fresh Debian 12
@@ -124,7 +124,7 @@ certify: program-certify
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
 # PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
-# into results/reference and README.md; ONLY="kills fuzz" runs some of the studies.
+# into results/reference; ONLY="kills fuzz" runs some of the studies.
 PLANT ?=
 RECORD ?=
 reliability: build-tests program-kills build-fuzz
@@ -242,7 +242,7 @@ check-static: deps-lint
 	    core harness datasets baselines
 
 # Fails below 98 % of core's branches or 90 % of harness's; OUT/coverage.html has them line by line.
-# TESTS='test_mesh|test_lazy' runs these alone; RECORD=1: into README.md.
+# TESTS='test_mesh|test_lazy' runs these alone; RECORD=1: into results/reference.
 .PHONY: coverage
 coverage: deps-test deps-coverage
 	@$(call configure,coverage)
@@ -251,7 +251,7 @@ coverage: deps-test deps-coverage
 	    $(call out,coverage) '$(TESTS)'
 	@$(if $(RECORD),tests/scripts/record.sh --coverage $(call out,coverage)/coverage.tsv)
 
-# A seeded sample of each module; FILES='core/body/triangle*' looks at one file. RECORD=1: into README.md.
+# A seeded sample of each module; FILES='core/body/triangle*' looks at one file. RECORD=1: into results/reference.
 # An hour on two cores; below 85 % it fails.
 COUNT ?= 120
 FILES ?= *

@@ -1,14 +1,15 @@
 #!/bin/bash
 # core_only.sh: builds the library alone with each C compiler at hand, in C only, installs it, and
-# links the README's program and tests/studies/core_only.c with it, by hand, and by pkg-config for
-# cc -static. No other library may be asked for, and every compiler's answers must be the same bits.
+# links the program of docs/extending.md and tests/studies/core_only.c with it, by hand, and by
+# pkg-config for cc -static. No other library may be asked for, and every compiler's answers must be
+# the same bits.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "core_only.sh: $*" >&2; exit 1; }
-"$tests/readme.sh" track.c > track.c
+"$tests/documented.sh" track.c > track.c
 
 check()
 {

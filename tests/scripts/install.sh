@@ -1,6 +1,6 @@
 #!/bin/bash
 # install.sh BUILD: installs a build into a folder of its own as `make install` does, moves it, and
-# uses it as a stranger would: the README's program by pkg-config and by find_package, with the shared
+# uses it as a stranger would: the documented program by pkg-config and by find_package, with the shared
 # and with the static library, every header alone from C and C++, the manual and the completion.
 set -euo pipefail
 build=$(realpath "$1")
@@ -54,8 +54,8 @@ for header in "$root"/include/mote/*.h; do
 done
 echo "$headers headers compile alone, C17 and C++"
 
-# The README's program: two octahedra 3 apart whose corners come nearer by 0.3 a frame.
-"$tests/readme.sh" track.c > track.c
+# The program of docs/extending.md: two octahedra 3 apart whose corners come nearer by 0.3 a frame.
+"$tests/documented.sh" track.c > track.c
 seq 8 | awk '{ printf "frame %d: distance %.9f\n", $1, 3 - 0.3 * $1 }' > expected
 flags="-std=c17 -Wall -Wextra -pedantic-errors -Werror"
 export PKG_CONFIG_PATH=$library/pkgconfig
@@ -80,7 +80,7 @@ LD_LIBRARY_PATH=$library ./use || fail "a program in C++ finds no method"
 
 mkdir package
 cp track.c package
-"$tests/readme.sh" CMakeLists.txt > package/CMakeLists.txt
+"$tests/documented.sh" CMakeLists.txt > package/CMakeLists.txt
 cat >> package/CMakeLists.txt <<'CMAKE'
 add_executable(track-static track.c)
 target_link_libraries(track-static PRIVATE mote::mote_static)
@@ -99,8 +99,10 @@ done
 for program in shared package/build/track; do
     grep -q "NEEDED *$soname" <<< "$(objdump -p $program)" || fail "$program does not ask for $soname"
 done
-echo "the README's program: pkg-config and find_package, shared and static, 8 frames as expected"
+echo "the program of docs/extending.md: pkg-config and find_package, shared and static, 8 frames as expected"
 [ -e "$root/bin/mote" ] || fail "the program is not installed"
+cited=$(sed -n 's/^version: //p' "$tests/../../CITATION.cff")
+[ "mote $cited" = "$("$root/bin/mote" --version)" ] || fail "CITATION.cff names version $cited"
 
 # The installed program reads what was installed beside it.
 echo '{"purpose": "of the installation", "like": "tt"}' > "$root/share/mote/datasets/scenarios/zz.json"

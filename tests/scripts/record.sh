@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Keeps what was tried as committed evidence, and writes the table of README.md again.
+# Keeps what was tried as committed evidence, and writes results/reference/reliability.md again.
 #   record.sh CHECKS.tsv [COMMIT [DATE]]      lines of {check, tried, failed}, as make reliability
 #                                             leaves them; COMMIT and DATE: of what was tested
+#   record.sh --page                          writes the page again from what is stored
 #   record.sh --fuzz FUZZ.tsv [COMMIT [DATE]] lines of fuzz.sh, added to tests/corpus/log.csv
 #   record.sh --soak SOAK.csv [COMMIT [DATE]] of make soak, added to results/reference/soak.csv
 #   record.sh --mutation MUTATION.tsv [COMMIT [DATE]] of make mutation: lines of {module, mutants,
@@ -11,7 +12,7 @@
 set -eu
 kind=checks
 case $1 in
---fuzz | --soak | --mutation | --coverage)
+--fuzz | --soak | --mutation | --coverage | --page)
     kind=${1#--}
     shift
     ;;
@@ -44,16 +45,16 @@ keep_last() { # CSV TSV
         END { for (i = 1; i <= n; ++i) print last[order[i]] }' >"$1.part"
     mv "$1.part" "$1"
 }
-if [ $kind = soak ]; then
+if [ "$kind" = soak ]; then
     sed "s/^/$date,$commit,/" "$1" >>$errors
-elif [ $kind = mutation ]; then
+elif [ "$kind" = mutation ]; then
     keep_last $mutants "$1"
-elif [ $kind = coverage ]; then
+elif [ "$kind" = coverage ]; then
     keep_last $branches "$1"
-elif [ $kind = fuzz ]; then
+elif [ "$kind" = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
-else
+elif [ "$kind" = checks ]; then
     # Fuzzing adds up in its own log; names have commas.
     sed -E '/^fuzz: /d; s/^([^\t]*)/"\1"/' "$1" >"$csv.new"
     keep_last $csv "$csv.new"
@@ -123,18 +124,38 @@ table() {
             }
         }'
 }
+page=results/reference/reliability.md
 {
+    cat <<'TEXT'
+# Reliability
+
+Written by `tests/scripts/record.sh`; do not edit. [docs/benchmarking.md](../../docs/benchmarking.md#reliability)
+says how each of these is measured.
+
+## What was tried, and what failed
+
+A check tries the given number of cases and counts those that fail. The fuzzers' counts add up over all
+recorded hours.
+
+TEXT
     table
-    [ "$(wc -l <$branches)" -eq 1 ] || coverage
-    [ "$(wc -l <$mutants)" -eq 1 ] || mutation
+    if [ "$(wc -l <$branches)" -gt 1 ]; then
+        printf '\n## Branches that the tests take\n'
+        coverage
+    fi
+    if [ "$(wc -l <$mutants)" -gt 1 ]; then
+        printf '\n## Planted errors that the tests find\n\n'
+        echo 'The score leaves out errors that change nothing that is promised (tests/mutants_equivalent.txt).'
+        mutation
+    fi
+    cat <<'TEXT'
+
+## Errors on random scenarios
+
+Share of the queries with an error of at most 1e-12 L (exact) and of at most the other bounds. L is the diagonal
+of the larger body's bounding box at rest. `budget=60` stops early on purpose and returns a bracket, which
+contains the truth.
+TEXT
     distribution
-} >README.table
-awk '/^<!-- reliability -->$/ {
-        print; print ""
-        while ((getline line < "README.table") > 0) print line
-        print ""; skip = 1
-    }
-    /^<!-- end of reliability -->$/ { skip = 0 }
-    !skip' README.md >README.new
-rm README.table
-mv README.new README.md
+} >$page.part
+mv $page.part $page

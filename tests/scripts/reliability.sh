@@ -3,7 +3,7 @@
 # prints a table and writes OUT/reliability.json, a list of {check, tried, failed}.
 #   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ BUILD_TSAN quick|full OUT [plant|record]
 # plant: one wrong answer, one lost row and one leak, which must be reported, and nothing else.
-# record: the table goes into results/reference and README.md. Full takes hours: JOBS=2 fuzzes two
+# record: the table goes into results/reference. Full takes hours: JOBS=2 fuzzes two
 # targets at a time, ONLY="kills fuzz" runs some of the studies.
 set -u
 build=$1 asan=$2 fuzz=$3 tsan=$4 profile=$5 out=$6 plant= record=

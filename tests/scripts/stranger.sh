@@ -1,5 +1,5 @@
 #!/bin/bash
-# stranger.sh: what the README shows of a method, a field and a scenario of one's own, done as it
+# stranger.sh: what docs/extending.md shows of a method, a field and a scenario of your own, done as it
 # says in a copy of the sources: each file dropped in, one `make build`, one run, and all of it is in
 # the table.
 set -euo pipefail
@@ -12,14 +12,14 @@ fail() { echo "stranger.sh: $*" >&2; exit 1; }
 cd "$tests/../.."
 git ls-files -z --cached --others --exclude-standard | xargs -0 cp --parents -t "$work"
 cd "$work"
-readme() { "$tests/readme.sh" "$1" > "$1"; }
-readme core/sampled.c
-readme core/bend.c
-readme datasets/scenarios/bending.json
+documented() { "$tests/documented.sh" "$1" > "$1"; }
+documented core/sampled.c
+documented core/bend.c
+documented datasets/scenarios/bending.json
 
-readme commands
-bash -e commands > table 2> log || { tail -40 log table; fail "the README's commands fail"; }
-if grep -n "warning: " log | grep -v "machine is busy"; then fail "the README's files have warnings"; fi
+documented commands
+bash -e commands > table 2> log || { tail -40 log table; fail "the documented commands fail"; }
+if grep -n "warning: " log | grep -v "machine is busy"; then fail "the documented files have warnings"; fi
 sed -n '/^bending:/,$p' table
 
 grep -q '^sampled: ' <<< "$(build/mote list methods)" || fail "the method is not listed"
@@ -43,4 +43,4 @@ column error_max | awk '
 LC_ALL=C sort -t, -k5,5g results/bending/cells/bending-certified-r1-*.csv | awk -F, '
     $1 == "frame" { next } low == "" { low = $5 } { high = $5 }
     END { if (!(high - low > 0.1)) exit 1 }' || fail "the body does not bend"
-echo "a method, a field and a scenario from the README alone: built, run, in the table"
+echo "a method, a field and a scenario from docs/extending.md alone: built, run, in the table"

@@ -1,8 +1,8 @@
 #!/bin/sh
-# readme.sh NAME [FILE]: prints the block of README.md (or FILE) that stands below the comment
-# <!-- NAME -->, so that what is tested is what is read.
+# documented.sh NAME [FILE]: prints the code block of docs/extending.md (or FILE) that stands below
+# the comment <!-- NAME -->, so that what is tested is what is read.
 set -eu
-file=${2:-$(dirname "$0")/../../README.md}
+file=${2:-$(dirname "$0")/../../docs/extending.md}
 text=$(awk -v mark="<!-- $1 -->" '
     $0 == mark { found = 1; next }
     found && /^```/ { if (inside) exit; inside = 1; next }
