@@ -1,11 +1,18 @@
 /* How a body deforms: a displacement that is linear in per-frame weights,
+
        d(x_i) = sum over j of phi_j(x_i) * w_j,
-   with J scalar basis functions phi_j known at rest and one weight vector w_j each. Three
-   kinds: static  J = 0; nothing is evaluated csrbf   phi_j = Wendland's C2 function of |x -
-   c_j| / support (paper section 4) modes   per-vertex displacement vectors with one scalar
-   weight s each; a mode is three basis functions (its x, y and z column) with weights (s,0,0),
-   (0,s,0), (0,0,s) Immutable once made. A new kind is a new source file that fills the struct
-   below; field_maker.h gives it a name in scenarios. */
+
+   with J scalar basis functions phi_j that are known at rest, and one weight vector w_j each.
+   The kinds that are built in:
+
+   - static: J = 0, nothing is evaluated;
+   - csrbf: phi_j is Wendland's C2 function of |x - c_j| / support (paper section 4);
+   - modes: displacement vectors of all vertices with one scalar weight s for each mode. A mode
+     is three basis functions, its x, y and z column, with the weights (s, 0, 0), (0, s, 0) and
+     (0, 0, s).
+
+   A field is immutable once made. A new kind is a new source file that fills the struct below;
+   field_maker.h gives it a name in scenarios. */
 #ifndef MOTE_CORE_FIELD_H
 #define MOTE_CORE_FIELD_H
 

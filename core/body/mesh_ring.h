@@ -1,4 +1,4 @@
-/* Ordered one-rings from the faces of a mesh; used by mesh.c only. */
+/* Ordered one-rings from the faces of a mesh; used by mesh_create.c only. */
 #ifndef MOTE_CORE_MESH_RING_H
 #define MOTE_CORE_MESH_RING_H
 

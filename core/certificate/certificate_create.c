@@ -1,5 +1,6 @@
 /* Rooms for what one query deforms, of a certificate with trees of its own or of a workspace
    for the trees of others. */
+#include "core/certificate/certificate_shared.h"
 #include "core/certificate/certificate_state.h"
 
 #include <stdlib.h>

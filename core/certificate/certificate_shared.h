@@ -8,23 +8,12 @@
 #define MOTE_CORE_CERTIFICATE_SHARED_H
 
 #include "core/certificate/certificate.h"
+#include "core/certificate/certificate_memory.h"
 #include "core/certificate/certificate_tree.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* What a pair keeps between queries; zeroed for a pair that was not asked about yet. */
-typedef struct mote_cert_memory {
-    uint32_t last[2][3]; /* faces of the last query's witnesses */
-    double leap;         /* a distance of them that tells of a leap */
-    bool has_last;
-    bool steady; /* the last query ended at the faces it began with: the next one is likely to,
-                    too, so that it is not refined at first */
-    bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
-    bool has_direction;
-    float direction[3]; /* the latest that separated two leaves */
-} mote_cert_memory;
 
 /* Makes a workspace for queries of any two of count >= 1 trees, which are borrowed, were made
    with options->length, and have one scale. MOTE_ENOMEM. About 0.4 MB for meshes of 12,000

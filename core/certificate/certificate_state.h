@@ -2,7 +2,9 @@
 #ifndef MOTE_CORE_CERTIFICATE_STATE_H
 #define MOTE_CORE_CERTIFICATE_STATE_H
 
-#include "core/certificate/certificate_shared.h"
+#include "core/certificate/certificate.h"
+#include "core/certificate/certificate_memory.h"
+#include "core/certificate/certificate_tree.h"
 #include "core/body/lazy.h"
 #include "core/particle/refine.h"
 
@@ -221,7 +223,7 @@ void mote_cert_traverse(mote_certificate *c);
 /* A pair of vertices that are near each other, by the trees alone. */
 void mote_cert_descend(mote_certificate *c, uint32_t vertex[2]);
 
-/* certificate.c */
+/* certificate_query.c */
 
 /* Takes over an upper bound that improved. */
 void mote_cert_set_best(mote_certificate *c, double squared);

@@ -1,7 +1,5 @@
 /* Balanced binary splits at the median along the main axis, collapsed to blocks of eight from
    the leaves up, so that only the root is underfull. */
-#include "core/certificate/certificate_tree.h"
-
 #include "core/certificate/certificate_fit.h"
 
 #include <float.h>

@@ -1,5 +1,4 @@
-#include "core/body/mesh.h"
-
+/* Checking the faces and vertices of a mesh, and measuring it. */
 #include "core/body/mesh_ring.h"
 
 #include <float.h>

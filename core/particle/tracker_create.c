@@ -1,24 +1,11 @@
-#include "core/particle/tracker.h"
-
+/* Making a tracker: its seeds, its levels, and the particles where forces move the seeds. */
 #include "core/particle/tracker_state.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Seeds live on the finest level that has at most this many nodes, or five times their number:
    descents that start on coarse levels take fewer steps, and end at least as near. */
 #define SEED_NODES_MAX 200
-
-/* Relative motion since the last query, in units of L, after which nothing of it is used but
-   its minima. */
-#define COLD_MOTION 0.1
-
-/* Relative motion, in units of L, in which n seeds of each body are launched. */
-#define ROUND_MOTION 0.2
-
-/* Relative motion in which all of the nodes around the nearest pair are leapt to, in units of
-   their mean distance. */
-#define LEAP_MOTION 0.75
 
 /* Vertices that a query is likely to visit on one body. */
 #define EXPECTED_VERTICES 512
@@ -213,91 +200,4 @@ void mote_tracker_destroy(mote_tracker *tracker)
     mote_coherence_free(&tracker->coherence);
     mote_particles_destroy(tracker->particles);
     free(tracker);
-}
-
-/* Adds the motion since the last query to what was travelled and to the launches that are due.
- */
-static void travel(mote_request *r, double motion)
-{
-    mote_tracker *t = r->tracker;
-    const double part = motion / (ROUND_MOTION * t->length);
-    r->cold = motion >= COLD_MOTION * t->length;
-    t->travelled += motion;
-    for (int b = 0; b < 2; ++b) {
-        mote_tracked_body *body = &t->body[b];
-        body->due = fmin(body->due + part * body->count, body->count);
-        const double spacing = LEAP_MOTION * body->levels->level[body->seed_level].spacing;
-        body->leaps_due =
-            fmin(body->leaps_due + motion / spacing * MOTE_NEAR_MAX, MOTE_NEAR_MAX);
-    }
-}
-
-static void remember(mote_request *r)
-{
-    mote_tracker *t = r->tracker;
-    if (r->best->squared < HUGE_VAL) {
-        t->last.known = true;
-        memcpy(t->last.triangle, r->best->triangle, sizeof t->last.triangle);
-        memcpy(t->last.vertex, r->best->vertex, sizeof t->last.vertex);
-    }
-    if (mote_found_enough(r))
-        return; /* the minima of the last full search are still the best that is known */
-    t->pair_count = 0;
-    for (uint32_t i = 0; i < t->pairs.count && i < t->options.track; ++i)
-        t->pair[t->pair_count++] = t->pairs.list[i];
-}
-
-void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use_given,
-                        double worth_squared, double enough_squared, mote_counters *counters,
-                        mote_refined *best)
-{
-    mote_request r = {.tracker = tracker,
-                      .worth_squared = worth_squared,
-                      .enough_squared = enough_squared,
-                      .nearest_squared = HUGE_VAL,
-                      .counters = counters,
-                      .best = best};
-    uint64_t before = 0;
-    if (tracker->particles)
-        mote_particles_begin(tracker->particles, frame, use_given);
-    for (int b = 0; b < 2; ++b) {
-        mote_tracked_body *body = &tracker->body[b];
-        before += body->lazy->evaluated;
-        if (!tracker->particles)
-            mote_lazy_begin(body->lazy, &frame->body[b], use_given);
-        r.lazy[b] = body->lazy;
-        r.ground[b] = mote_ground_of(body->lazy, body->levels);
-    }
-    *best = (mote_refined){.squared = HUGE_VAL};
-    tracker->pairs.count = 0;
-    travel(&r, mote_coherence_motion(&tracker->coherence, frame, use_given));
-    if (tracker->last.known && !r.cold)
-        mote_tracker_refine_last(&r);
-    if (!mote_found_enough(&r))
-        mote_tracker_search(&r);
-    remember(&r);
-    counters->positions +=
-        tracker->body[0].lazy->evaluated + tracker->body[1].lazy->evaluated - before;
-}
-
-size_t mote_tracker_particles(const mote_tracker *tracker, int body, mote_vec3 *positions,
-                              size_t capacity)
-{
-    const mote_nearest_pair *last = &tracker->last;
-    mote_lazy *lazy = tracker->body[body].lazy;
-    size_t count = 0;
-    if (last->known) {
-        if (count < capacity)
-            positions[count] = mote_lazy_position(lazy, last->vertex[body]);
-        ++count;
-    }
-    for (uint32_t i = 0; i < tracker->pair_count; ++i) {
-        const mote_pair *pair = &tracker->pair[i];
-        if (last->known && memcmp(pair->vertex, last->vertex, sizeof pair->vertex) == 0)
-            continue;
-        if (count < capacity)
-            positions[count] = mote_lazy_position(lazy, pair->vertex[body]);
-        ++count;
-    }
-    return count;
 }

@@ -1,5 +1,5 @@
-#include "core/certificate/certificate.h"
-
+/* One certified query: a first upper bound, then the proof that nothing is nearer, started again
+   whenever something is. */
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
