@@ -1,5 +1,5 @@
 /* World positions that are computed when first looked at in a frame and remembered for the
-   frame, in a hash sized by what is visited, not by the mesh (DESIGN: lazy deformation). */
+   frame, in a hash sized by what is visited, not by the mesh (docs/architecture.md). */
 #ifndef MOTE_CORE_LAZY_H
 #define MOTE_CORE_LAZY_H
 

@@ -1,5 +1,5 @@
 /* Certified mode: the exact distance of two deforming bodies, and a proof of it, from two rest
-   trees that are deformed node by node (DESIGN section 5).
+   trees that are deformed node by node (docs/architecture.md).
 
    A query keeps an upper bound, the nearest pair of points found, and shows that nothing is
    nearer: first by a plane across the gap (whatever of A is below it and of B above it is far

@@ -1,5 +1,6 @@
 /* The rest tree of certified mode: boxes that are deformed node by node, on demand, without
-   evaluating the field (DESIGN section 5; James and Pai's BD-tree with boxes for spheres).
+   evaluating the field (docs/architecture.md, "The certified query"; James and
+   Pai's BD-tree with boxes for spheres).
 
    For a child box with centre c and half axes h_k let z_k = h_k.(x - c) / |h_k|^2, so that
    every rest vertex of the box is x = c + sum_k z_k h_k with |z_k| <= 1. Each basis function is

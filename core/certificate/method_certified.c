@@ -1,4 +1,4 @@
-/* The method certified: the exact distance with its proof (DESIGN section 5). */
+/* The method certified: the exact distance with its proof (docs/architecture.md). */
 #include "core/certificate/certificate.h"
 #include "core/particle/tracker.h"
 
