@@ -3,7 +3,7 @@
 #include "harness/command/command.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
-#include "harness/scene/mesh_import.h"
+#include "harness/mesh/mesh_import.h"
 #include "harness/scene/probe.h"
 #include "harness/base/record.h"
 

@@ -2,7 +2,7 @@
 #include "core/body/parts.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
-#include "harness/scene/mesh_import.h"
+#include "harness/mesh/mesh_import.h"
 #include "harness/base/record.h"
 
 #include <inttypes.h>

@@ -3,7 +3,7 @@
 
 #include "datasets/letter.h"
 #include "harness/base/file.h"
-#include "harness/scene/mesh_import.h"
+#include "harness/mesh/mesh_import.h"
 #include "harness/scene/reach.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Any text as an OBJ file, up to the rings and measures of its mesh; and as an OFF
    file, and as the text of a PLY or STL file. */
 #include "core/body/mesh.h"
-#include "harness/scene/mesh_soup.h"
+#include "harness/mesh/mesh_soup.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>

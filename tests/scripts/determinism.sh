@@ -15,7 +15,7 @@ printf '#define MOTE_SOURCE_DIR "%s"\n' "$PWD" >"$work/config.h"
 libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread -lm"
 cache=$(command -v ccache || true)
 
-sources=$(ls core/*/*.c datasets/*.c harness/scene/scenario*.c harness/scene/mesh_*.c |
+sources=$(ls core/*/*.c datasets/*.c harness/scene/scenario*.c harness/mesh/*.c |
     grep -v core/certificate/plain.c)
 for name in approach catalog child confine curve data file json_line json_memory json_print \
     json_read method_choice motion number_text options probe reach spread turn; do

@@ -32,7 +32,7 @@ typedef struct house {
 static const house houses[] = {
     {"core", {"base", "body", "method", "particle", "certificate", "motion"}},
     {"harness",
-     {"base", "scene", "run", "loop", "summary", "figure", "study", "report", "command"}},
+     {"base", "mesh", "scene", "run", "loop", "summary", "figure", "study", "report", "command"}},
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 
@@ -55,7 +55,7 @@ static const library libraries[] = {
     {"bullet/", {"core/body/parts"}},
     {"fcl/", {"baselines/fcl_"}},
     {"embree", {"baselines/embree_"}},
-    {"assimp/", {"harness/scene/mesh_assimp.c"}},
+    {"assimp/", {"harness/mesh/mesh_assimp.c"}},
 };
 
 /* An include line: both names are from the root; of another library: what stands in the line.

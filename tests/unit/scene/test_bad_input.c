@@ -1,7 +1,7 @@
 /* Bad input at the command line: an error within 5 seconds and 1 GiB, exit 4, one line that
    names the file; and what is only unusual is read. */
 #include "harness/base/file.h"
-#include "harness/scene/mesh_import.h"
+#include "harness/mesh/mesh_import.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"

@@ -1,4 +1,6 @@
-#include "harness/scene/mesh_soup.h"
+#include "harness/mesh/mesh_soup.h"
+
+#include "harness/mesh/polygon.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +52,50 @@ mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint
     at[1] = b;
     at[2] = c;
     return MOTE_OK;
+}
+
+static int compare_corners(const void *a, const void *b)
+{
+    const uint32_t first = *(const uint32_t *)a, second = *(const uint32_t *)b;
+    return (first > second) - (first < second);
+}
+
+static mote_status check_corners(const uint32_t *corners, size_t count, uint32_t *sorted)
+{
+    memcpy(sorted, corners, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, compare_corners);
+    for (size_t i = 1; i < count; ++i) {
+        if (sorted[i - 1] == sorted[i])
+            return mote_fail(MOTE_EINVAL, "a face with a vertex twice; give different ones");
+    }
+    return MOTE_OK;
+}
+
+/* places: room for the corners' coordinates; triangles: for three numbers a corner. */
+static mote_status add_polygon(mote_soup *soup, const uint32_t *corners, size_t count,
+                               double *places, uint32_t (*triangles)[3])
+{
+    mote_status status = check_corners(corners, count, triangles[0]);
+    for (size_t i = 0; i < count; ++i)
+        memcpy(places + 3 * i, soup->xyz + (size_t)3 * corners[i], 3 * sizeof *places);
+    if (status == MOTE_OK)
+        status = mote_polygon_triangulate(places, count, triangles);
+    for (size_t i = 0; i + 2 < count && status == MOTE_OK; ++i)
+        status = mote_soup_add_triangle(soup, corners[triangles[i][0]],
+                                        corners[triangles[i][1]], corners[triangles[i][2]]);
+    return status;
+}
+
+mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count)
+{
+    double *places = malloc(3 * count * sizeof *places);
+    uint32_t(*triangles)[3] = malloc(count * sizeof *triangles);
+    const mote_status status = places && triangles
+                                   ? add_polygon(soup, corners, count, places, triangles)
+                                   : no_memory();
+    free(places);
+    free(triangles);
+    return status;
 }
 
 void mote_soup_free(mote_soup *soup)

@@ -1,11 +1,12 @@
 /* Meshes by assimp: PLY, STL, glTF and what else it knows. The only file that includes it.
  */
-#include "harness/scene/mesh_soup.h"
+#include "harness/mesh/mesh_soup.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* parent * child, in double precision. */
@@ -43,23 +44,40 @@ static mote_status add_vertices(const char *path, const struct aiMesh *mesh, con
     return status;
 }
 
+/* corners: room for those of the face, whose vertices follow `base` others in the soup. */
+static mote_status add_face(const char *path, const struct aiMesh *mesh, unsigned f,
+                            uint32_t base, uint32_t *corners, mote_soup *soup)
+{
+    const struct aiFace *face = &mesh->mFaces[f];
+    for (unsigned i = 0; i < face->mNumIndices; ++i) {
+        if (face->mIndices[i] >= mesh->mNumVertices)
+            return mote_fail(MOTE_EINVAL, "%s: face %u has vertex %u of %u; use 0 to %u", path,
+                             f, face->mIndices[i], mesh->mNumVertices, mesh->mNumVertices - 1);
+        corners[i] = base + face->mIndices[i];
+    }
+    if (face->mNumIndices == 3)
+        return mote_soup_add_triangle(soup, corners[0], corners[1], corners[2]);
+    const mote_status status = mote_soup_add_polygon(soup, corners, face->mNumIndices);
+    return status == MOTE_OK ? status
+                             : mote_fail(status, "%s: face %u of mesh %.60s: %s", path, f,
+                                         mesh->mName.data, mote_error_text());
+}
+
 static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32_t base,
                              mote_soup *soup)
 {
+    size_t most = 0;
+    for (unsigned f = 0; f < mesh->mNumFaces; ++f)
+        most = mesh->mFaces[f].mNumIndices > most ? mesh->mFaces[f].mNumIndices : most;
+    uint32_t *corners = malloc((most + 1) * sizeof *corners);
+    if (!corners)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for a face of %zu corners", path, most);
     mote_status status = MOTE_OK;
     for (unsigned f = 0; f < mesh->mNumFaces && status == MOTE_OK; ++f) {
-        const struct aiFace *face = &mesh->mFaces[f];
-        if (face->mNumIndices != 3)
-            continue; /* points and lines */
-        for (int i = 0; i < 3; ++i) {
-            if (face->mIndices[i] >= mesh->mNumVertices)
-                return mote_fail(MOTE_EINVAL, "%s: face %u has vertex %u of %u; use 0 to %u",
-                                 path, f, face->mIndices[i], mesh->mNumVertices,
-                                 mesh->mNumVertices - 1);
-        }
-        status = mote_soup_add_triangle(soup, base + face->mIndices[0],
-                                        base + face->mIndices[1], base + face->mIndices[2]);
+        if (mesh->mFaces[f].mNumIndices >= 3) /* no points and lines */
+            status = add_face(path, mesh, f, base, corners, soup);
     }
+    free(corners);
     return status;
 }
 
@@ -101,8 +119,9 @@ mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
     char dropped = 0;
     const struct aiLogStream log = {note_dropped, &dropped};
     aiAttachLogStream(&log);
-    /* Vertices are joined by ourselves, after they were found finite. */
-    const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate);
+    /* Vertices are joined by ourselves, after they were found finite; so are polygons made
+       triangles, of which assimp makes wrong ones where a face is concave and not flat. */
+    const struct aiScene *scene = aiImportFile(path, 0);
     aiDetachLogStream(&log);
     if (!scene)
         return mote_fail(MOTE_EINVAL, "%s: %.200s; give a mesh in OBJ, PLY, STL, OFF or glTF",

@@ -22,6 +22,11 @@ typedef struct mote_soup {
 /* Adding to a zero-initialised soup; MOTE_ENOMEM. Free with mote_soup_free. */
 mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
 mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
+
+/* Adds a polygon as triangles, convex or not. corners: count >= 3 vertices of the soup, in
+   order around it. MOTE_EINVAL: a corner that stands twice, or what mote_polygon_triangulate
+   refuses; the text says what is wrong and what would be right, but not where. */
+mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count);
 void mote_soup_free(mote_soup *soup);
 
 /* Makes one vertex of all that have equal coordinates, and leaves out the faces that collapse.
@@ -32,15 +37,15 @@ mote_status mote_soup_weld(mote_soup *soup);
    in range. */
 mote_status mote_soup_compact(mote_soup *soup);
 
-/* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, polygons
-   as fans, indices from 1 or from the end; other lines are passed over. path is for messages:
-   MOTE_EINVAL with "FILE:LINE: what". */
+/* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, any
+   simple polygon, indices from 1 or from the end; other lines are passed over. path is for
+   messages: MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *soup);
 
 /* Reads an ASCII OFF text (ended by a 0 byte; OFF, COFF, NOFF, STOFF and their combinations,
    what follows a vertex's place or a face's corners being passed over) in double precision:
    assimp would round the coordinates to 32 bits, and put another vertex for an index out of
-   range. Polygons as fans. MOTE_EINVAL with "FILE:LINE: what". */
+   range. Any simple polygon. MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
                                mote_soup *soup);
 

@@ -1,6 +1,6 @@
 /* OFF, read in double precision and checked line by line: assimp would round the coordinates to
    32 bits, and put another vertex for an index out of range. */
-#include "harness/scene/mesh_text.h"
+#include "harness/mesh/mesh_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,7 +83,6 @@ static mote_status read_header(off_reader *reader)
 /* "3 0 1 2": how many corners, and vertices from 0. */
 static mote_status read_face(off_reader *reader, const char *at)
 {
-    mote_polygon polygon = {0};
     char *end;
     const long long corners = strtoll(at, &end, 10);
     mote_status status = MOTE_OK;
@@ -99,27 +98,35 @@ static mote_status read_face(off_reader *reader, const char *at)
             return mote_fail(MOTE_EINVAL, "%s:%zu: face with vertex %lld of %zu; use 0 to %zu",
                              reader->common.path, reader->common.line, index, reader->vertices,
                              reader->vertices - 1);
-        status = mote_polygon_add(&reader->common, &polygon, (uint32_t)index);
+        status = mote_mesh_add_corner(&reader->common, (uint32_t)index);
     }
-    return status == MOTE_OK ? mote_polygon_end(&reader->common, &polygon) : status;
+    return status == MOTE_OK ? mote_mesh_end_face(&reader->common) : status;
+}
+
+static mote_status read_all(off_reader *reader)
+{
+    mote_status status = read_header(reader);
+    for (size_t i = 0; status == MOTE_OK && i < reader->vertices + reader->faces; ++i) {
+        const bool is_vertex = i < reader->vertices;
+        const char *line = next_line(reader);
+        if (!line)
+            return mote_fail(
+                MOTE_EINVAL, "%s:%zu: ends after %zu of %zu %s; give all, or declare fewer",
+                reader->common.path, reader->common.line, is_vertex ? i : i - reader->vertices,
+                is_vertex ? reader->vertices : reader->faces, is_vertex ? "vertices" : "faces");
+        status = is_vertex ? mote_mesh_read_vertex(&reader->common, line, "write x y z")
+                           : read_face(reader, line);
+    }
+    if (status == MOTE_OK && reader->common.soup->triangle_count == 0)
+        status = fail_at(reader, "no face in it; give triangles");
+    return status;
 }
 
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size, mote_soup *soup)
 {
-    off_reader reader = {{path, 0, soup}, mote_skip_mark(text), size, 0, 0};
-    mote_status status = read_header(&reader);
-    for (size_t i = 0; status == MOTE_OK && i < reader.vertices + reader.faces; ++i) {
-        const bool is_vertex = i < reader.vertices;
-        const char *line = next_line(&reader);
-        if (!line)
-            return mote_fail(MOTE_EINVAL, "%s:%zu: ends after %zu of %zu %s", path,
-                             reader.common.line, is_vertex ? i : i - reader.vertices,
-                             is_vertex ? reader.vertices : reader.faces,
-                             is_vertex ? "vertices" : "faces");
-        status = is_vertex ? mote_mesh_read_vertex(&reader.common, line, "write x y z")
-                           : read_face(&reader, line);
-    }
-    if (status == MOTE_OK && soup->triangle_count == 0)
-        status = fail_at(&reader, "no face in it; give triangles");
+    off_reader reader = {
+        .common = {.path = path, .soup = soup}, .at = mote_skip_mark(text), .size = size};
+    const mote_status status = read_all(&reader);
+    mote_mesh_reader_free(&reader.common);
     return status;
 }

@@ -1,8 +1,8 @@
-#include "harness/scene/mesh_import.h"
+#include "harness/mesh/mesh_import.h"
 
 #include "harness/base/child.h"
 #include "harness/base/file.h"
-#include "harness/scene/mesh_soup.h"
+#include "harness/mesh/mesh_soup.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 /* Before assimp sees a file: what it would get wrong without a word. It believes declared
    counts, and loops or allocates for minutes; takes a comma for a decimal point; and takes an
    index modulo 2^32. */
-#include "harness/scene/mesh_text.h"
+#include "harness/mesh/mesh_text.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "harness/base/file.h"
-#include "harness/scene/mesh_import.h"
-#include "harness/scene/mesh_soup.h"
+#include "harness/mesh/mesh_import.h"
+#include "harness/mesh/mesh_soup.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/test.h"
 

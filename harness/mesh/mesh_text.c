@@ -1,0 +1,75 @@
+#include "harness/mesh/mesh_text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *mote_skip_mark(const char *text)
+{
+    return strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+}
+
+const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at)
+{
+    for (;;) {
+        at = mote_skip_blanks(at);
+        const size_t length = mote_continuation(reader, at);
+        if (length == 0)
+            return at;
+        at += length;
+        ++reader->line;
+    }
+}
+
+mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, const char *right)
+{
+    double xyz[3];
+    for (int i = 0; i < 3; ++i) {
+        at = mote_mesh_next_word(reader, at);
+        char *end;
+        /* strtod would go on to the next line for a number. */
+        xyz[i] = mote_is_end(*at) ? (double)NAN : strtod(at, &end);
+        if (mote_is_end(*at) || end == at || !mote_mesh_word_ends(reader, end))
+            return mote_fail(MOTE_EINVAL, "%s:%zu: a vertex without three numbers; %s",
+                             reader->path, reader->line, right);
+        if (!isfinite(xyz[i]))
+            return mote_fail(
+                MOTE_EINVAL,
+                "%s:%zu: a coordinate is not a finite double; give a smaller number",
+                reader->path, reader->line);
+        at = end;
+    }
+    return mote_soup_add_vertex(reader->soup, xyz[0], xyz[1], xyz[2]);
+}
+
+mote_status mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex)
+{
+    if (reader->corner_count == reader->corner_capacity) {
+        const size_t wanted = reader->corner_capacity ? 2 * reader->corner_capacity : 16;
+        uint32_t *grown = realloc(reader->corners, wanted * sizeof *grown);
+        if (!grown)
+            return mote_fail(MOTE_ENOMEM, "no memory for a face of %zu corners", wanted);
+        reader->corners = grown;
+        reader->corner_capacity = wanted;
+    }
+    reader->corners[reader->corner_count++] = vertex;
+    return MOTE_OK;
+}
+
+mote_status mote_mesh_end_face(mote_mesh_reader *reader)
+{
+    const size_t count = reader->corner_count;
+    reader->corner_count = 0;
+    if (count < 3)
+        return mote_fail(MOTE_EINVAL, "%s:%zu: a face of %zu vertices; give at least 3",
+                         reader->path, reader->line, count);
+    const mote_status status = mote_soup_add_polygon(reader->soup, reader->corners, count);
+    return status == MOTE_OK
+               ? status
+               : mote_fail(status, "%s:%zu: %s", reader->path, reader->line, mote_error_text());
+}
+
+void mote_mesh_reader_free(mote_mesh_reader *reader)
+{
+    free(reader->corners);
+}

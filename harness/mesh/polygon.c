@@ -1,0 +1,382 @@
+#include "harness/mesh/polygon.h"
+
+#include "harness/mesh/orientation.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+/* Thinner than this part of its length, and a polygon lies on a line: coordinates that went
+   through 32-bit floats are off by 6e-8 of it. */
+#define THIN 1e-6
+/* A quadrilateral no thicker than this part of its length is flat. */
+#define FLAT 1e-3
+/* A projection in which the polygon covers less than this part of what it covers in the best
+   one shows its edge, and mostly rounding. */
+#define EDGE_ON 1e-3
+
+typedef enum ear_state { EAR_UNKNOWN, EAR_YES, EAR_NO } ear_state;
+
+typedef struct span {
+    double low, high; /* of an edge, in the projection's first coordinate */
+    uint32_t edge;    /* the corner where it starts */
+} span;
+
+/* What is left of a polygon while corners are cut off; corners are numbers from 0. */
+typedef struct outline {
+    double (*at)[2]; /* projected; counterclockwise once orient() was called */
+    uint32_t *next, *previous;
+    uint32_t *obstacle; /* corners with an inner angle of 180 degrees or more, at first */
+    unsigned char *ear; /* ear_state */
+    span *spans;
+    uint32_t count, left, obstacle_count;
+    uint32_t (*triangles)[3]; /* those cut off so far */
+    uint32_t triangle_count;
+} outline;
+
+static void outline_free(outline *o)
+{
+    free(o->at);
+    free(o->next);
+    free(o->previous);
+    free(o->obstacle);
+    free(o->ear);
+    free(o->spans);
+}
+
+static mote_status outline_create(size_t count, outline *o)
+{
+    o->count = (uint32_t)count;
+    o->at = malloc(count * sizeof *o->at);
+    o->next = malloc(count * sizeof *o->next);
+    o->previous = malloc(count * sizeof *o->previous);
+    o->obstacle = malloc(count * sizeof *o->obstacle);
+    o->ear = malloc(count);
+    o->spans = malloc(count * sizeof *o->spans);
+    if (o->at && o->next && o->previous && o->obstacle && o->ear && o->spans)
+        return MOTE_OK;
+    outline_free(o);
+    return mote_fail(MOTE_ENOMEM, "no memory for a face of %zu corners", count);
+}
+
+/* The whole polygon, in the coordinates u and v of xyz, times unit. */
+static void outline_begin(outline *o, const double *xyz, double unit, int u, int v)
+{
+    for (uint32_t i = 0; i < o->count; ++i) {
+        o->at[i][0] = xyz[3 * (size_t)i + (size_t)u] * unit;
+        o->at[i][1] = xyz[3 * (size_t)i + (size_t)v] * unit;
+        o->next[i] = i + 1 < o->count ? i + 1 : 0;
+        o->previous[i] = i > 0 ? i - 1 : o->count - 1;
+        o->ear[i] = EAR_UNKNOWN;
+    }
+    o->left = o->count;
+    o->triangle_count = 0;
+}
+
+static int turn_at(const outline *o, uint32_t i)
+{
+    return mote_orientation(o->at[o->previous[i]], o->at[i], o->at[o->next[i]]);
+}
+
+static void cut(outline *o, uint32_t i)
+{
+    const uint32_t before = o->previous[i], after = o->next[i];
+    uint32_t *triangle = o->triangles[o->triangle_count++];
+    triangle[0] = before;
+    triangle[1] = i;
+    triangle[2] = after;
+    o->next[before] = after;
+    o->previous[after] = before;
+    o->ear[before] = o->ear[after] = EAR_UNKNOWN;
+    --o->left;
+}
+
+/* Whether the outline goes to corner i and back the same way, or stays where it is. */
+static bool is_spike(const outline *o, uint32_t i)
+{
+    if (turn_at(o, i) != 0)
+        return false;
+    const double *before = o->at[o->previous[i]], *at = o->at[i], *after = o->at[o->next[i]];
+    const int k = before[0] != at[0] || after[0] != at[0] ? 0 : 1;
+    return before[k] == at[k] || after[k] == at[k] || (before[k] < at[k]) == (after[k] < at[k]);
+}
+
+/* Cuts off what has no area; a corner of the rest. Fewer than three corners may be left. */
+static uint32_t cut_spikes(outline *o)
+{
+    uint32_t at = 1, checked = 0;
+    while (o->left >= 3 && checked < o->left) {
+        if (is_spike(o, at)) {
+            cut(o, at);
+            at = o->previous[at];
+            checked = checked > 2 ? checked - 2 : 0; /* both neighbours have changed */
+        } else {
+            at = o->next[at];
+            ++checked;
+        }
+    }
+    return at;
+}
+
+static bool is_between(double value, double a, double b)
+{
+    return (a <= value && value <= b) || (b <= value && value <= a);
+}
+
+/* Whether p, on the line through a and b, lies on the segment. */
+static bool is_on_segment(const double p[2], const double a[2], const double b[2])
+{
+    return is_between(p[0], a[0], b[0]) && is_between(p[1], a[1], b[1]);
+}
+
+/* Whether two segments have a point in common. */
+static bool segments_meet(const double a[2], const double b[2], const double c[2],
+                          const double d[2])
+{
+    const int ac = mote_orientation(a, b, c), ad = mote_orientation(a, b, d);
+    const int ca = mote_orientation(c, d, a), cb = mote_orientation(c, d, b);
+    if (ac * ad < 0 && ca * cb < 0)
+        return true;
+    return (ac == 0 && is_on_segment(c, a, b)) || (ad == 0 && is_on_segment(d, a, b)) ||
+           (ca == 0 && is_on_segment(a, c, d)) || (cb == 0 && is_on_segment(b, c, d));
+}
+
+/* Edges that follow one another meet in their corner, and there only: spikes are gone. */
+static bool edges_clash(const outline *o, uint32_t i, uint32_t j)
+{
+    if (o->next[i] == j || o->next[j] == i)
+        return false;
+    return segments_meet(o->at[i], o->at[o->next[i]], o->at[j], o->at[o->next[j]]);
+}
+
+static int compare_spans(const void *a, const void *b)
+{
+    const double first = ((const span *)a)->low, second = ((const span *)b)->low;
+    return (first > second) - (first < second);
+}
+
+/* Whether edges meet that do not follow one another: two of them. */
+static bool find_clash(outline *o, uint32_t start, uint32_t clash[2])
+{
+    uint32_t corner = start;
+    for (uint32_t i = 0; i < o->left; ++i, corner = o->next[corner]) {
+        const double a = o->at[corner][0], b = o->at[o->next[corner]][0];
+        o->spans[i] = (span){fmin(a, b), fmax(a, b), corner};
+    }
+    qsort(o->spans, o->left, sizeof *o->spans, compare_spans);
+    for (uint32_t i = 0; i < o->left; ++i) {
+        for (uint32_t j = i + 1; j < o->left && o->spans[j].low <= o->spans[i].high; ++j) {
+            if (!edges_clash(o, o->spans[i].edge, o->spans[j].edge))
+                continue;
+            clash[0] = o->spans[i].edge;
+            clash[1] = o->spans[j].edge;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Makes a simple outline counterclockwise, by a mirror if need be: at its lowest corner of the
+   leftmost it turns as a whole does. Notes the obstacles. */
+static void orient(outline *o, uint32_t start)
+{
+    uint32_t lowest = start, corner = start;
+    for (uint32_t i = 0; i < o->left; ++i, corner = o->next[corner]) {
+        const double *at = o->at[corner], *best = o->at[lowest];
+        if (at[0] < best[0] || (at[0] == best[0] && at[1] < best[1]))
+            lowest = corner;
+    }
+    if (turn_at(o, lowest) < 0) {
+        for (uint32_t i = 0; i < o->count; ++i)
+            o->at[i][0] = -o->at[i][0];
+    }
+    o->obstacle_count = 0;
+    for (uint32_t i = 0; i < o->left; ++i, corner = o->next[corner]) {
+        if (turn_at(o, corner) <= 0)
+            o->obstacle[o->obstacle_count++] = corner;
+    }
+}
+
+/* Whether the triangle at corner i is inside, and the diagonal opposite to i meets nothing.
+   Corners that turn left cannot be in its way, for then another corner would be, too. */
+static bool is_ear(const outline *o, uint32_t i)
+{
+    const uint32_t before = o->previous[i], after = o->next[i];
+    if (turn_at(o, i) <= 0)
+        return false;
+    for (uint32_t k = 0; k < o->obstacle_count; ++k) {
+        const uint32_t j = o->obstacle[k];
+        if (j != before && j != i && j != after &&
+            mote_orientation(o->at[before], o->at[i], o->at[j]) >= 0 &&
+            mote_orientation(o->at[i], o->at[after], o->at[j]) >= 0 &&
+            mote_orientation(o->at[after], o->at[before], o->at[j]) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/* Cuts off ears until nothing is left; false where none is found, which no simple polygon
+   gives. A cut changes what is an ear at its two neighbours only. */
+static bool cut_ears(outline *o, uint32_t start)
+{
+    uint32_t at = start, refused = 0;
+    while (o->left > 3 && refused <= o->left) {
+        const uint32_t after = o->next[at];
+        if (o->ear[at] == EAR_UNKNOWN)
+            o->ear[at] = is_ear(o, at) ? EAR_YES : EAR_NO;
+        if (o->ear[at] == EAR_YES)
+            cut(o, at);
+        refused = o->ear[at] == EAR_YES ? 0 : refused + 1;
+        at = after;
+    }
+    if (o->left == 3)
+        cut(o, at);
+    return o->left == 2;
+}
+
+typedef enum view { VIEW_SIMPLE, VIEW_NO_AREA, VIEW_CLASH } view;
+
+/* Triangulates one projection, if it can be. */
+static view triangulate_view(outline *o, uint32_t clash[2])
+{
+    const uint32_t start = cut_spikes(o);
+    if (o->left < 3)
+        return VIEW_NO_AREA;
+    if (find_clash(o, start, clash))
+        return VIEW_CLASH;
+    orient(o, start);
+    return cut_ears(o, start) ? VIEW_SIMPLE : VIEW_CLASH;
+}
+
+/* The polygon seen along each axis. */
+typedef struct areas {
+    double net[3];   /* Newell's normal: twice the area, less where it is covered backwards */
+    double total[3]; /* the same, of absolute values */
+    double best;     /* the largest of these */
+    double length_squared;
+} areas;
+
+static areas measure_areas(const double *xyz, size_t count, double unit)
+{
+    areas sum = {{0}, {0}, 0, 0};
+    double before[3] = {0};
+    for (size_t i = 1; i < count; ++i) {
+        double edge[3];
+        for (int k = 0; k < 3; ++k)
+            edge[k] = xyz[3 * i + (size_t)k] * unit - xyz[k] * unit;
+        for (int k = 0; k < 3; ++k) {
+            const int u = (k + 1) % 3, v = (k + 2) % 3;
+            const double area = before[u] * edge[v] - before[v] * edge[u];
+            sum.net[k] += area;
+            sum.total[k] += fabs(area);
+        }
+        sum.length_squared =
+            fmax(sum.length_squared, edge[0] * edge[0] + edge[1] * edge[1] + edge[2] * edge[2]);
+        for (int k = 0; k < 3; ++k)
+            before[k] = edge[k];
+    }
+    sum.best = fmax(sum.total[0], fmax(sum.total[1], sum.total[2]));
+    return sum;
+}
+
+/* The axes, that nearest to the normal first. */
+static void order_axes(const areas *sum, int axes[3])
+{
+    for (int k = 0; k < 3; ++k)
+        axes[k] = k;
+    for (int i = 0; i < 2; ++i) {
+        for (int k = 0; k < 2 - i; ++k) {
+            if (fabs(sum->net[axes[k]]) >= fabs(sum->net[axes[k + 1]]))
+                continue;
+            const int other = axes[k];
+            axes[k] = axes[k + 1];
+            axes[k + 1] = other;
+        }
+    }
+}
+
+/* Whether four corners do not lie in a plane: a line from one diagonal to the other then shows
+   the quadrilateral convex, and it is simple. */
+static bool is_skew(const double *xyz, double unit, const areas *sum)
+{
+    double edge[3][3];
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            edge[i][k] = xyz[3 * (i + 1) + k] * unit - xyz[k] * unit;
+    }
+    const double volume = edge[0][0] * (edge[1][1] * edge[2][2] - edge[1][2] * edge[2][1]) +
+                          edge[0][1] * (edge[1][2] * edge[2][0] - edge[1][0] * edge[2][2]) +
+                          edge[0][2] * (edge[1][0] * edge[2][1] - edge[1][1] * edge[2][0]);
+    return fabs(volume) > FLAT * sum->best * sqrt(sum->length_squared);
+}
+
+static void fan(size_t count, uint32_t (*triangles)[3])
+{
+    for (uint32_t i = 0; i + 2 < count; ++i) {
+        triangles[i][0] = 0;
+        triangles[i][1] = i + 1;
+        triangles[i][2] = i + 2;
+    }
+}
+
+/* The power of two that brings all coordinates into -2 .. 2, so that their products are in
+   range. */
+static double unit_of(const double *xyz, size_t count)
+{
+    double largest = 0;
+    for (size_t i = 0; i < 3 * count; ++i)
+        largest = fmax(largest, fabs(xyz[i]));
+    return largest > 0 ? ldexp(1, -ilogb(fmax(largest, DBL_MIN))) : 1;
+}
+
+/* Triangulates the first projection that can be, or else one without area; the edges that clash
+   in the best one otherwise. */
+static view triangulate_views(outline *o, const double *xyz, double unit, const areas *sum,
+                              uint32_t clash[2])
+{
+    view seen = VIEW_NO_AREA;
+    int axes[3];
+    order_axes(sum, axes);
+    for (int i = 0; i < 3; ++i) {
+        uint32_t edges[2] = {0, 2};
+        if (sum->total[axes[i]] < EDGE_ON * sum->best)
+            continue;
+        outline_begin(o, xyz, unit, (axes[i] + 1) % 3, (axes[i] + 2) % 3);
+        const view next = triangulate_view(o, edges);
+        if (next == VIEW_SIMPLE)
+            return next;
+        if (next == VIEW_CLASH && seen == VIEW_NO_AREA) {
+            clash[0] = edges[0] < edges[1] ? edges[0] : edges[1];
+            clash[1] = edges[0] < edges[1] ? edges[1] : edges[0];
+            seen = VIEW_CLASH;
+        }
+    }
+    return seen;
+}
+
+mote_status mote_polygon_triangulate(const double *xyz, size_t count, uint32_t (*triangles)[3])
+{
+    const double unit = unit_of(xyz, count);
+    const areas sum = measure_areas(xyz, count, unit);
+    if (count == 3 || sum.best == 0) {
+        fan(count, triangles);
+        return MOTE_OK;
+    }
+    outline o = {.triangles = triangles};
+    uint32_t clash[2];
+    mote_status status = outline_create(count, &o);
+    if (status != MOTE_OK)
+        return status;
+    const view seen = triangulate_views(&o, xyz, unit, &sum, clash);
+    outline_free(&o);
+    if (seen != VIEW_CLASH)
+        return MOTE_OK;
+    if (sum.best > THIN * sum.length_squared && !(count == 4 && is_skew(xyz, unit, &sum)))
+        return mote_fail(MOTE_EINVAL,
+                         "a face whose edges %u and %u cross or touch; give triangles, or a "
+                         "polygon whose edges meet in its corners only",
+                         clash[0] + 1, clash[1] + 1);
+    fan(count, triangles);
+    return MOTE_OK;
+}

@@ -1,0 +1,229 @@
+/* Prisms over concave polygons, read from files: area, volume and distance in closed form. */
+#include "core/body/mesh.h"
+#include "core/body/triangle.h"
+#include "harness/base/file.h"
+#include "harness/mesh/mesh_import.h"
+#include "tests/support/plain_file.h"
+#include "tests/support/polygons.h"
+#include "tests/support/test.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FOLDER "test_mesh_polygons_files"
+#define TEXT_MAX 8192
+
+static int make_folder(void)
+{
+    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_folder(void)
+{
+    return rmdir(FOLDER);
+}
+
+TEST_GROUP(make_folder, remove_folder);
+
+typedef struct text {
+    char at[TEXT_MAX];
+    size_t length;
+} text;
+
+static void add(text *out, const char *format, ...) MOTE_PRINTF(2, 3);
+static void add(text *out, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length =
+        vsnprintf(out->at + out->length, sizeof out->at - out->length, format, arguments);
+    va_end(arguments);
+    assert_true(length >= 0 && out->length + (size_t)length < sizeof out->at);
+    out->length += (size_t)length;
+}
+
+/* How a format writes a prism of n corners below and above. */
+typedef struct format {
+    const char *name, *head, *vertex, *face, *corner;
+    bool has_count; /* a face begins with its number of corners */
+    size_t first;   /* number of the first vertex */
+} format;
+
+static const format formats[] = {
+    {"p.obj", "# %zu vertices, %zu faces\n", "v %g %g %g\n", "f", " %zu", false, 1},
+    {"p.off", "OFF\n%zu %zu 0\n", "%g %g %g\n", "", " %zu", true, 0},
+    {"p.ply",
+     "ply\nformat ascii 1.0\nelement vertex %zu\nproperty double x\nproperty double y\n"
+     "property double z\nelement face %zu\nproperty list uchar int vertex_indices\n"
+     "end_header\n",
+     "%g %g %g\n", "", " %zu", true, 0},
+};
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+static void add_face(text *out, const format *f, size_t count, const size_t *corners)
+{
+    add(out, "%s", f->face);
+    if (f->has_count)
+        add(out, "%zu", count);
+    for (size_t i = 0; i < count; ++i)
+        add(out, f->corner, corners[i] + f->first);
+    add(out, "\n");
+}
+
+/* From height 0 to 1; the outline as written from corner `start` on. */
+static void write_prism(text *out, const format *f, const polygon_shape *shape, size_t start)
+{
+    const size_t n = shape->count;
+    size_t below[POLYGON_CORNERS_MAX], above[POLYGON_CORNERS_MAX];
+    out->length = 0;
+    add(out, f->head, 2 * n, n + 2);
+    for (size_t i = 0; i < 2 * n; ++i) {
+        const double *at = polygon_corner(shape, start, i % n);
+        add(out, f->vertex, at[0], at[1], i < n ? 0.0 : 1.0);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        below[i] = n - 1 - i;
+        above[i] = n + i;
+    }
+    add_face(out, f, n, below);
+    add_face(out, f, n, above);
+    for (size_t i = 0; i < n; ++i) {
+        const size_t next = (i + 1) % n;
+        add_face(out, f, 4, (const size_t[4]){i, next, n + next, n + i});
+    }
+}
+#pragma GCC diagnostic pop
+
+typedef struct measures {
+    double area, volume, distance;
+} measures;
+
+static measures measure(const mote_mesh *mesh, mote_vec3 dot)
+{
+    measures m = {0, 0, HUGE_VAL};
+    for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
+        mote_vec3 t[3], closest;
+        for (int k = 0; k < 3; ++k)
+            t[k] = mesh->positions[mesh->triangles[f][k]];
+        m.area += mote_length(mote_cross(mote_sub(t[1], t[0]), mote_sub(t[2], t[0]))) / 2;
+        m.volume += mote_dot(t[0], mote_cross(t[1], t[2])) / 6;
+        m.distance = fmin(m.distance, sqrt(mote_point_triangle(dot, t, &closest)));
+    }
+    return m;
+}
+
+static void check_prism(const format *f, const polygon_shape *shape, size_t start)
+{
+    static text out;
+    mote_mesh *mesh = NULL;
+    char *path = mote_format("%s/%s", FOLDER, f->name);
+    assert_non_null(path);
+    write_prism(&out, f, shape, start);
+    assert_true(plain_file_write(path, out.at, out.length));
+    if (mote_mesh_import(path, &mesh, NULL) != MOTE_OK)
+        fail_msg("%s from corner %zu: %s", shape->name, start, mote_error_text());
+    assert_int_equal(unlink(path), 0);
+    free(path);
+    const measures m = measure(mesh, mote_vec3_make(shape->dot[0], shape->dot[1], 1));
+    if (fabs(m.area - 2 * shape->area - shape->length) > 1e-12 * m.area ||
+        fabs(fabs(m.volume) - shape->area) > 1e-12 * shape->area ||
+        fabs(m.distance - shape->distance) > 1e-15)
+        fail_msg("%s from corner %zu in %s: area %.17g, volume %.17g, distance %.17g",
+                 shape->name, start, f->name, m.area, m.volume, m.distance);
+    assert_true((m.volume > 0) == (start < shape->count));
+    assert_int_equal(mesh->open_edge_count, 0);
+    assert_int_equal(mote_mesh_euler(mesh), 2);
+    mote_mesh_destroy(mesh);
+}
+
+TEST(prism_has_its_area_volume_and_distance_in_every_format)
+{
+    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; ++f) {
+        for (size_t s = 0; s < polygon_shape_count; ++s) {
+            for (size_t start = 0; start < 2 * polygon_shapes[s].count; ++start)
+                check_prism(&formats[f], &polygon_shapes[s], start);
+        }
+    }
+}
+
+static mote_status import_text(const char *name, const char *written, mote_mesh **mesh)
+{
+    char *path = mote_format("%s/%s", FOLDER, name);
+    assert_non_null(path);
+    assert_true(plain_file_write(path, written, strlen(written)));
+    const mote_status status = mote_mesh_import(path, mesh, NULL);
+    assert_int_equal(unlink(path), 0);
+    free(path);
+    return status;
+}
+
+#define PLY_HEAD                                                                               \
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"            \
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+
+TEST(polygon_that_is_not_simple_names_its_place)
+{
+    static const struct {
+        const char *name, *written, *says;
+    } wrong[] = {
+        {"w.obj", "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n",
+         "w.obj:5: a face whose edges 1 and 3 cross or touch; give triangles"},
+        {"w.off", "OFF\n4 1 0\n0 0 0\n2 2 0\n2 0 0\n0 2 0\n4 0 1 2 3\n",
+         "w.off:7: a face whose edges 1 and 3 cross or touch; give triangles"},
+        {"w.ply", PLY_HEAD "0 0 0\n2 2 0\n2 0 0\n0 2 0\n4 0 1 2 3\n",
+         "w.ply: face 0 of mesh : a face whose edges 1 and 3 cross"},
+        {"w.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 1 4\n",
+         "w.obj:5: a face with a vertex twice; give different ones"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        mote_mesh *mesh = NULL;
+        assert_int_equal(import_text(wrong[i].name, wrong[i].written, &mesh), MOTE_EINVAL);
+        assert_null(mesh);
+        if (!strstr(mote_error_text(), wrong[i].says))
+            fail_msg("case %zu: %s", i, mote_error_text());
+    }
+}
+
+/* A backslash at the end of a line of OBJ joins the next one to it. */
+TEST(obj_lines_go_on_after_a_backslash)
+{
+    static const char written[] =
+        "# no join here \\\nv 0 0 \\\n0\nv 1 \\\r\n 0 0\nv \\\n\\\n0 1 0\n"
+        "v 0 0 1\\\n\nf 1/1/1 2/2/2\\\n 3\nf\\\n1 2 4\nf 1 3 4\n";
+    mote_mesh *mesh = NULL;
+    if (import_text("c.obj", written, &mesh) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(mesh->vertex_count, 4);
+    assert_int_equal(mesh->triangle_count, 3);
+    assert_true(mesh->high.x == 1 && mesh->high.y == 1 && mesh->high.z == 1);
+    mote_mesh_destroy(mesh);
+}
+
+TEST(obj_errors_after_a_backslash_name_the_right_line)
+{
+    static const struct {
+        const char *written, *says;
+    } wrong[] = {
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\\n7\n", "c.obj:6: face with vertex 7"},
+        {"v 0 0 0\nv 1 \\\r\n0 0\nv 0 1 0\nf 1 2 \\\n3\nf 1 2 9\n",
+         "c.obj:7: face with vertex 9"},
+        {"v 0 0 \\\nx\n", "c.obj:2: a vertex without three numbers"},
+        {"v 0 0 \\ 0\n", "c.obj:1: a vertex without three numbers"},
+        {"v 0 0 0 # \\\nv 1 0\n", "c.obj:2: a vertex without three numbers"},
+        {"v 0 0 \\", "c.obj:1: a vertex without three numbers"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+        mote_mesh *mesh = NULL;
+        assert_int_equal(import_text("c.obj", wrong[i].written, &mesh), MOTE_EINVAL);
+        if (!strstr(mote_error_text(), wrong[i].says))
+            fail_msg("case %zu: %s", i, mote_error_text());
+    }
+}
