@@ -115,6 +115,26 @@ void mote_escape_drawing(mote_text *text, const char *svg)
     }
 }
 
+void mote_escape_csv(mote_text *text, const char *value, bool quoted)
+{
+    if (!value)
+        return;
+    if (!quoted && value[strcspn(value, ",\"\n\r")] == '\0') {
+        mote_text_add(text, "%s", value);
+        return;
+    }
+    mote_text_add(text, "\"");
+    for (; *value; ++value)
+        mote_text_add(text, "%s%c", *value == '"' ? "\"" : "", *value);
+    mote_text_add(text, "\"");
+}
+
+void mote_csv_number(mote_text *text, double value)
+{
+    if (value == value)
+        mote_text_add(text, "%.17g", value);
+}
+
 void mote_base64(mote_text *text, const void *data, size_t size)
 {
     static const char digits[] =

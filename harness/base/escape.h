@@ -1,4 +1,5 @@
-/* Text from elsewhere (names of scenarios, files, commands) made harmless in a page. */
+/* Text from elsewhere (names of scenarios, files, commands) made harmless in a page or a
+   table. */
 #ifndef MOTE_HARNESS_ESCAPE_H
 #define MOTE_HARNESS_ESCAPE_H
 
@@ -23,6 +24,13 @@ void mote_escape_script(mote_text *text, const char *json);
 /* Appends an SVG drawing as the rest of a "data:image/svg+xml;charset=utf-8," address within a
    quoted attribute. */
 void mote_escape_drawing(mote_text *text, const char *svg);
+
+/* Appends a field of a CSV file, quoted where it has to be or where `quoted` says so; quotes
+   inside are doubled. NULL is an empty field. */
+void mote_escape_csv(mote_text *text, const char *value, bool quoted);
+
+/* Appends a number as a field that is read back the same; an empty one for a NaN. */
+void mote_csv_number(mote_text *text, double value);
 
 /* Appends size bytes in base 64, padded. */
 void mote_base64(mote_text *text, const void *data, size_t size);

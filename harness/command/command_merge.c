@@ -2,7 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/merge.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "harness/base/file.h"
 #include "harness/run/run.h"
 #include "harness/scene/scenario.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 
 #include <stdio.h>

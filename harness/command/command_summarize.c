@@ -3,10 +3,11 @@
 #include "harness/base/options.h"
 #include "harness/summary/front.h"
 #include "harness/base/record.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const formats[] = {"table", "json", "csv", "gbench", "gha", "bencher"};
@@ -40,6 +41,20 @@ static int print_gbench(const mote_summary *summary, const char *directory)
     return code;
 }
 
+static int print_csv(const mote_summary *summary)
+{
+    mote_text text = {0};
+    mote_table_csv(summary, &text);
+    if (text.failed) {
+        free(text.data);
+        (void)mote_fail(MOTE_ENOMEM, "no memory for a table");
+        return mote_command_fail();
+    }
+    (void)fputs(text.data, stdout);
+    free(text.data);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
 static int print(const mote_summary *summary, const char *directory, size_t format)
 {
     switch (format) {
@@ -52,8 +67,7 @@ static int print(const mote_summary *summary, const char *directory, size_t form
     case FORMAT_BENCHER:
         return print_json(mote_bencher_json(summary));
     case FORMAT_CSV:
-        mote_table_print_csv(summary, stdout);
-        break;
+        return print_csv(summary);
     default:
         mote_table_print(summary, stdout);
         if (print_fronts(summary) != MOTE_OK)

@@ -1,6 +1,7 @@
 #include "harness/base/record.h"
 #include "harness/base/data.h"
 #include "harness/report/report.h"
+#include "harness/summary/summary_json.h"
 
 #include <errno.h>
 #include <stdlib.h>

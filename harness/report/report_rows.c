@@ -121,14 +121,24 @@ static bool is_right(const json_t *row)
            (max != max || max <= MOTE_EXACT_ERROR);
 }
 
+/* Whether a row was given all vertices at no charge: it is not compared with those that pay. */
+static bool is_given(const json_t *row)
+{
+    return strcmp(mote_report_text(row, "accounting"), "given") == 0;
+}
+
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first, size_t end)
 {
     mote_report_glance glance = {SIZE_MAX, SIZE_MAX};
+    bool only_given = true;
+    for (size_t i = first; i < end; ++i)
+        only_given = only_given && is_given(mote_report_row(report, i));
     double least_right = 0, least = 0;
     for (size_t i = first; i < end; ++i) {
         const json_t *row = mote_report_row(report, i);
         const double time = mote_report_number(row, "total_ns", "median");
         if (strcmp(mote_report_text(row, "status"), "ok") != 0 || time != time ||
+            is_given(row) != only_given ||
             json_is_false(json_object_get(row, "times_comparable")))
             continue;
         if (glance.fastest == SIZE_MAX || time < least) {

@@ -15,16 +15,31 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size)
         n = strstr(title, ",n=");
     if (!n)
         return;
-    const char *rest = n + 3 + strcspn(n + 3, ",");
-    /* Both moves take the 0 byte along. */
-    if (*rest == ',' && *n == ':')
+    const char *after = n + 3 + strcspn(n + 3, ",");
+    /* Both moves include the 0 byte. */
+    if (*after == ',' && *n == ':')
         // NOLINTNEXTLINE(bugprone-not-null-terminated-result)
-        memmove(n + 1, rest + 1, strlen(rest));
+        memmove(n + 1, after + 1, strlen(after));
     else
-        memmove(n, rest, strlen(rest) + 1);
+        memmove(n, after, strlen(after) + 1);
 }
 
-double mote_front_time(const double *times, const double *errors, size_t count, double error)
+/* Whether a row is a point of a front: it has a time and an error. */
+static bool has_point(const mote_summary_row *row)
+{
+    return mote_summary_row_measured(row) && row->error.p99 == row->error.p99;
+}
+
+/* How points reach an error: at `at`, or a share of the way from there to the faster `towards`,
+   on logarithmic scales. */
+typedef struct route {
+    size_t at, towards;
+    double share;
+} route;
+
+/* False when no point has an error of at most `error`. */
+static bool find_route(const double *times, const double *errors, size_t count, double error,
+                       route *found)
 {
     size_t good = SIZE_MAX, next = SIZE_MAX;
     for (size_t i = 0; i < count; ++i) {
@@ -32,208 +47,224 @@ double mote_front_time(const double *times, const double *errors, size_t count, 
             good = i;
     }
     if (good == SIZE_MAX)
-        return MOTE_NONE;
+        return false;
     for (size_t i = 0; i < count; ++i) {
         if (errors[i] > error && times[i] < times[good] &&
             (next == SIZE_MAX || errors[i] < errors[next]))
             next = i;
     }
+    const route direct = {good, good, 0};
+    *found = direct;
     if (next == SIZE_MAX || errors[good] <= MOTE_EXACT_ERROR)
-        return times[good];
-    double share = log(error / errors[good]) / log(errors[next] / errors[good]);
-    return times[good] * pow(times[next] / times[good], share);
+        return true;
+    found->towards = next;
+    found->share = log(error / errors[good]) / log(errors[next] / errors[good]);
+    return true;
 }
 
-static bool has_point(const mote_summary_row *row)
+static double time_between(double at, double towards, double share)
 {
-    return row->status == MOTE_CELL_OK && row->jobs == 1 && row->error.p99 == row->error.p99 &&
-           row->total.median > 0;
+    return at * pow(towards / at, share);
 }
 
-static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
+double mote_front_time(const double *times, const double *errors, size_t count, double error)
 {
-    return mote_stored_by_scene(a->first, b->first) == 0 &&
-           mote_stored_by_frames(a->first, b->first) == 0;
+    route way;
+    if (!find_route(times, errors, count, error, &way))
+        return MOTE_NONE;
+    return time_between(times[way.at], times[way.towards], way.share);
 }
 
-static bool is_fcl(const mote_summary_row *row)
-{
-    return strncmp(row->first->method, "fcl-", 4) == 0;
-}
-
-/* The points of a row in every process: [replicates of the run], MOTE_NONE where it has none.
- */
-typedef struct track {
-    double *time, *error;
-} track;
-
-/* What an interval is computed from: the rows of a family and of FCL, process by process. */
-typedef struct comparison {
-    const track *tracks;           /* [rows] */
-    const size_t *rows, *others;   /* of the family; of FCL */
-    size_t row_count, other_count; /* 0 others: only the time is asked for */
-    double level;
-    double *times, *errors, *work; /* [rows], [rows], [replicates] */
-} comparison;
-
-/* Median of the drawn processes that there are. */
-static double drawn_median(const double *values, const size_t *drawn, size_t count,
-                           double *work)
-{
-    size_t known = 0;
-    for (size_t i = 0; i < count; ++i) {
-        if (values[drawn[i]] == values[drawn[i]])
-            work[known++] = values[drawn[i]];
-    }
-    return mote_statistics_median(work, known);
-}
-
-static double time_of(const comparison *c, const size_t *rows, size_t row_count,
-                      const size_t *drawn, size_t count)
-{
-    size_t points = 0;
-    for (size_t i = 0; i < row_count; ++i) {
-        const track *t = &c->tracks[rows[i]];
-        c->times[points] = drawn_median(t->time, drawn, count, c->work);
-        c->errors[points] = drawn_median(t->error, drawn, count, c->work);
-        points += c->times[points] == c->times[points] ? 1 : 0;
-    }
-    return mote_front_time(c->times, c->errors, points, c->level);
-}
-
-/* How many times faster than FCL, given which processes. */
-static double faster(void *context, const size_t *drawn, size_t count)
-{
-    const comparison *c = context;
-    double mine = time_of(c, c->rows, c->row_count, drawn, count);
-    double theirs = time_of(c, c->others, c->other_count, drawn, count);
-    return theirs / mine;
-}
-
-/* All that the making of fronts needs; processes counts the replicates of the run. */
+/* What fronts are computed with. */
 typedef struct workshop {
     const mote_summary *summary;
-    size_t processes;
-    track *tracks;
-    double *values; /* what tracks point into */
-    size_t *rows, *others;
-    double *times, *errors, *work;
+    size_t processes;       /* replicates of the run */
+    double *total, *given;  /* [rows][processes] medians: of all, and of all but deformation;
+                               MOTE_NONE where a row has none */
+    size_t *rows, *others;  /* of a family, and of FCL */
+    double *times, *errors; /* [rows] */
+    double *drawn;          /* [processes] */
 } workshop;
 
-/* The time at which rows reach an error, from their own figures: those over all processes. */
-static double whole_time(const workshop *w, const size_t *rows, size_t row_count, double level)
+/* The rows of one side at one level: how they reach its error. */
+typedef struct side {
+    const size_t *rows;
+    size_t count;
+    route way;
+    double time; /* from the figures of the rows, those over all processes; or MOTE_NONE */
+} side;
+
+/* One family against FCL at one level. */
+typedef struct comparison {
+    const workshop *shop;
+    bool given; /* times leave deformation out */
+    side mine, theirs;
+} comparison;
+
+static void find_side(const workshop *w, bool given, double level, side *s)
 {
-    for (size_t i = 0; i < row_count; ++i) {
-        w->times[i] = w->summary->rows[rows[i]].total.median;
-        w->errors[i] = w->summary->rows[rows[i]].error.p99;
+    for (size_t i = 0; i < s->count; ++i) {
+        const mote_summary_row *row = &w->summary->rows[s->rows[i]];
+        w->times[i] = given ? row->given_total.median : row->total.median;
+        /* Exact is what is exact in every frame. */
+        w->errors[i] = level <= MOTE_EXACT_ERROR ? row->error.max : row->error.p99;
     }
-    return mote_front_time(w->times, w->errors, row_count, level);
+    s->time = MOTE_NONE;
+    if (find_route(w->times, w->errors, s->count, level, &s->way))
+        s->time = time_between(w->times[s->way.at], w->times[s->way.towards], s->way.share);
 }
 
-static void close_workshop(workshop *w)
+/* Median of a row's times in the drawn processes that there are. */
+static double drawn_median(const comparison *c, size_t row, const size_t *drawn, size_t count)
 {
-    free(w->tracks);
-    free(w->values);
+    const workshop *w = c->shop;
+    const double *times = (c->given ? w->given : w->total) + row * w->processes;
+    size_t known = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (times[drawn[i]] == times[drawn[i]])
+            w->drawn[known++] = times[drawn[i]];
+    }
+    return mote_statistics_median(w->drawn, known);
+}
+
+static double drawn_time(const comparison *c, const side *s, const size_t *drawn, size_t count)
+{
+    const double at = drawn_median(c, s->rows[s->way.at], drawn, count);
+    const double towards = drawn_median(c, s->rows[s->way.towards], drawn, count);
+    return time_between(at, towards, s->way.share);
+}
+
+/* How many times faster than FCL in the drawn processes. Which configurations reach the error
+   is decided by all processes together and not drawn again: a process in which fewer particles
+   happen to suffice would otherwise answer another question than the estimate does. */
+static double drawn_speed(void *context, const size_t *drawn, size_t count)
+{
+    const comparison *c = context;
+    return drawn_time(c, &c->theirs, drawn, count) / drawn_time(c, &c->mine, drawn, count);
+}
+
+static void free_workshop(workshop *w)
+{
+    free(w->total);
     free(w->rows);
     free(w->times);
 }
 
-static double process_error(const mote_stored_cell *cell, double *work)
+/* Fills the processes of one row; work holds the frames of each. */
+static void fill_row(const workshop *w, size_t index, double *work)
 {
-    size_t count = 0;
-    for (size_t k = 0; k < cell->frames; ++k) {
-        if (cell->error[k] == cell->error[k])
-            work[count++] = fabs(cell->error[k]);
+    const mote_summary_row *row = &w->summary->rows[index];
+    double *total = w->total + index * w->processes, *given = w->given + index * w->processes;
+    for (size_t k = 0; k < w->processes; ++k)
+        total[k] = given[k] = MOTE_NONE;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (cell->status != MOTE_CELL_OK || cell->frames == 0)
+            continue;
+        for (size_t k = 0; k < cell->frames; ++k)
+            work[k] = cell->update_ns[k] + cell->query_ns[k];
+        total[cell->replicate - 1] = row->processes[r].median;
+        given[cell->replicate - 1] = mote_statistics_median(work, cell->frames);
     }
-    mote_statistics_sort(work, count);
-    return mote_statistics_quantile(work, count, 0.99);
 }
 
-static mote_status fill_tracks(workshop *w)
+static mote_status fill_rows(const workshop *w)
 {
+    const mote_stored *stored = &w->summary->stored;
     size_t frames = 0;
-    for (size_t i = 0; i < w->summary->stored.count; ++i)
-        frames = w->summary->stored.cells[i].frames > frames
-                     ? w->summary->stored.cells[i].frames
-                     : frames;
+    for (size_t i = 0; i < stored->count; ++i)
+        frames = stored->cells[i].frames > frames ? stored->cells[i].frames : frames;
     double *work = malloc((frames + 1) * sizeof *work);
     if (!work)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
-    for (size_t i = 0; i < w->summary->count; ++i) {
-        const mote_summary_row *row = &w->summary->rows[i];
-        track *t = &w->tracks[i];
-        t->time = w->values + 2 * i * w->processes;
-        t->error = t->time + w->processes;
-        for (size_t k = 0; k < w->processes; ++k)
-            t->time[k] = t->error[k] = MOTE_NONE;
-        for (size_t r = 0; r < row->replicates; ++r) {
-            const mote_stored_cell *cell = &row->cells[r];
-            if (cell->status != MOTE_CELL_OK || cell->frames == 0)
-                continue;
-            t->time[cell->replicate - 1] = row->processes[r].median;
-            t->error[cell->replicate - 1] = process_error(cell, work);
-        }
-    }
+    for (size_t i = 0; i < w->summary->count; ++i)
+        fill_row(w, i, work);
     free(work);
     return MOTE_OK;
 }
 
-static mote_status open_workshop(const mote_summary *summary, workshop *w)
+static mote_status make_workshop(const mote_summary *summary, workshop *w)
 {
     w->summary = summary;
     for (size_t i = 0; i < summary->stored.count; ++i) {
         size_t number = summary->stored.cells[i].replicate;
         w->processes = number > w->processes ? number : w->processes;
     }
-    const size_t rows = summary->count + 1;
-    w->tracks = calloc(rows, sizeof *w->tracks);
-    w->values = malloc(2 * rows * (w->processes + 1) * sizeof *w->values);
+    const size_t rows = summary->count + 1, times = rows * (w->processes + 1);
+    w->total = malloc(2 * times * sizeof *w->total);
     w->rows = malloc(2 * rows * sizeof *w->rows);
     w->times = malloc((2 * rows + w->processes) * sizeof *w->times);
-    if (!w->tracks || !w->values || !w->rows || !w->times)
+    if (!w->total || !w->rows || !w->times)
         return mote_fail(MOTE_ENOMEM, "no memory for the fronts of %zu rows", rows);
+    w->given = w->total + times;
     w->others = w->rows + rows;
     w->errors = w->times + rows;
-    w->work = w->errors + rows;
-    return fill_tracks(w);
+    w->drawn = w->errors + rows;
+    return fill_rows(w);
 }
 
-/* Fills one family; FCL's rows are w->others. */
+/* The interval of the speed: how far processes spread around their own centre, laid around the
+   estimate, which is of the frames of all of them. */
+static mote_status find_interval(const comparison *c, mote_front_speed *speed)
+{
+    const size_t processes = c->shop->processes;
+    mote_confidence spread;
+    comparison context = *c;
+    mote_status status = mote_statistics_process_interval(drawn_speed, &context, processes,
+                                                          BOOTSTRAP_SEED, &spread);
+    if (status != MOTE_OK)
+        return status;
+    double centre = sqrt(spread.low * spread.high); /* of Student's interval */
+    if (processes >= MOTE_BOOTSTRAP_REPLICATES) {
+        size_t *all = malloc(processes * sizeof *all);
+        if (!all)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu processes", processes);
+        for (size_t k = 0; k < processes; ++k)
+            all[k] = k;
+        centre = drawn_speed(&context, all, processes);
+        free(all);
+    }
+    speed->interval.low = speed->faster * (spread.low / centre);
+    speed->interval.high = speed->faster * (spread.high / centre);
+    return MOTE_OK;
+}
+
+/* Fills one family; its rows are w->rows, those of FCL w->others. */
 static mote_status make_front(const workshop *w, size_t row_count, size_t other_count,
                               mote_front *front)
 {
+    const bool given = w->summary->rows[front->first].given;
     mote_status status = MOTE_OK;
     for (size_t k = 0; k < MOTE_FRONT_LEVELS && status == MOTE_OK; ++k) {
         mote_front_speed *speed = &front->speed[k];
-        comparison c = {w->tracks, w->rows,     w->others,
-                        row_count, other_count, mote_front_levels[k],
-                        w->times,  w->errors,   w->work};
-        speed->time_ns = whole_time(w, w->rows, row_count, c.level);
-        speed->faster = whole_time(w, w->others, other_count, c.level) / speed->time_ns;
+        comparison c = {.shop = w,
+                        .given = given,
+                        .mine = {.rows = w->rows, .count = row_count},
+                        .theirs = {.rows = w->others, .count = other_count}};
+        find_side(w, given, mote_front_levels[k], &c.mine);
+        find_side(w, given, mote_front_levels[k], &c.theirs);
         const mote_confidence none = {MOTE_NONE, MOTE_NONE};
+        speed->time_ns = c.mine.time;
+        speed->faster = c.theirs.time / c.mine.time;
         speed->interval = none;
         if (speed->faster == speed->faster)
-            status = mote_statistics_process_interval(faster, &c, w->processes, BOOTSTRAP_SEED,
-                                                      &speed->interval);
-        /* What single processes reach need not be what all of them together do. */
-        if (speed->interval.low == speed->interval.low) {
-            speed->interval.low = fmin(speed->interval.low, speed->faster);
-            speed->interval.high = fmax(speed->interval.high, speed->faster);
-        }
+            status = find_interval(&c, speed);
     }
     return status;
 }
 
-/* Collects the rows of one family, and FCL's at the same place; false when a row before first
+/* Collects the rows of one family, and those of FCL's in the same block that are accounted for
+   in the same way: without deformation where positions are given. False when a row before first
    is of that family. */
 static bool collect(const workshop *w, size_t first, const char *title, size_t *row_count,
                     size_t *other_count)
 {
+    const mote_summary_row *of = &w->summary->rows[first];
     *row_count = *other_count = 0;
     for (size_t i = 0; i < w->summary->count; ++i) {
         const mote_summary_row *row = &w->summary->rows[i];
-        char name[256];
-        if (!has_point(row) || !same_place(row, &w->summary->rows[first]))
+        char name[MOTE_FRONT_TITLE];
+        if (!has_point(row) || !mote_summary_same_block(row, of))
             continue;
         mote_front_title(row, name, sizeof name);
         bool member = strcmp(name, title) == 0;
@@ -241,13 +272,13 @@ static bool collect(const workshop *w, size_t first, const char *title, size_t *
             return false;
         if (member)
             w->rows[(*row_count)++] = i;
-        if (is_fcl(row))
+        if (mote_summary_is_fcl(row) && (of->given || !row->given))
             w->others[(*other_count)++] = i;
     }
     return true;
 }
 
-static mote_status make_fronts(const workshop *w, mote_fronts *fronts)
+static mote_status make_families(const workshop *w, mote_fronts *fronts)
 {
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < w->summary->count && status == MOTE_OK; ++i) {
@@ -265,60 +296,26 @@ static mote_status make_fronts(const workshop *w, mote_fronts *fronts)
     return status;
 }
 
-/* Errors that are exact for every purpose are equal. */
-static double shown_error(const mote_summary_row *row)
-{
-    return fmax(row->error.p99, MOTE_EXACT_ERROR);
-}
-
-/* Never without intervals: one replicate says nothing sure. */
-static bool dominates(const mote_summary_row *a, const mote_summary_row *b)
-{
-    return same_place(a, b) && a->total.high < b->total.low && shown_error(a) <= shown_error(b);
-}
-
-static void find_dominators(mote_fronts *fronts)
-{
-    const mote_summary *summary = fronts->summary;
-    for (size_t i = 0; i < summary->count; ++i) {
-        fronts->dominator[i] = SIZE_MAX;
-        for (size_t k = 0; has_point(&summary->rows[i]) && k < summary->count; ++k) {
-            size_t best = fronts->dominator[i];
-            if (has_point(&summary->rows[k]) &&
-                dominates(&summary->rows[k], &summary->rows[i]) &&
-                (best == SIZE_MAX ||
-                 summary->rows[k].total.median < summary->rows[best].total.median))
-                fronts->dominator[i] = k;
-        }
-    }
-}
-
 mote_status mote_fronts_make(const mote_summary *summary, mote_fronts *fronts)
 {
     mote_fronts made = {.summary = summary};
     workshop w = {0};
     made.items = calloc(summary->count + 1, sizeof *made.items);
-    made.dominator = malloc((summary->count + 1) * sizeof *made.dominator);
-    mote_status status = made.items && made.dominator
-                             ? open_workshop(summary, &w)
-                             : mote_fail(MOTE_ENOMEM, "no memory for fronts");
+    mote_status status = made.items ? make_workshop(summary, &w)
+                                    : mote_fail(MOTE_ENOMEM, "no memory for fronts");
     if (status == MOTE_OK)
-        status = make_fronts(&w, &made);
-    close_workshop(&w);
-    if (status == MOTE_OK) {
-        find_dominators(&made);
+        status = make_families(&w, &made);
+    free_workshop(&w);
+    if (status == MOTE_OK)
         *fronts = made;
-    } else {
+    else
         mote_fronts_free(&made);
-    }
     return status;
 }
 
 void mote_fronts_free(mote_fronts *fronts)
 {
     free(fronts->items);
-    free(fronts->dominator);
     fronts->items = NULL;
-    fronts->dominator = NULL;
     fronts->count = 0;
 }

@@ -1,5 +1,7 @@
 #include "harness/summary/front.h"
+#include "harness/base/escape.h"
 #include "harness/base/record.h"
+#include "harness/summary/dominance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -7,12 +9,6 @@
 static const mote_summary_row *row_of(const mote_fronts *fronts, size_t family)
 {
     return &fronts->summary->rows[fronts->items[family].first];
-}
-
-static bool same_place(const mote_summary_row *a, const mote_summary_row *b)
-{
-    return mote_stored_by_scene(a->first, b->first) == 0 &&
-           mote_stored_by_frames(a->first, b->first) == 0;
 }
 
 static void print_speed(const mote_front_speed *speed, FILE *out)
@@ -52,7 +48,8 @@ static void print_place(const mote_fronts *fronts, size_t first, int width, FILE
     for (size_t k = 1; k < MOTE_FRONT_LEVELS; ++k)
         (void)fprintf(out, " %20g L", mote_front_levels[k]);
     (void)fprintf(out, "\n");
-    for (size_t i = first; i < fronts->count && same_place(place, row_of(fronts, i)); ++i) {
+    for (size_t i = first;
+         i < fronts->count && mote_summary_same_block(place, row_of(fronts, i)); ++i) {
         (void)fprintf(out, "%-*s", width, fronts->items[i].title);
         for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
             print_speed(&fronts->items[i].speed[k], out);
@@ -60,34 +57,33 @@ static void print_place(const mote_fronts *fronts, size_t first, int width, FILE
     }
 }
 
-/* Whom a row dominates, when it is the fastest that does. */
-static void print_dominated(const mote_fronts *fronts, size_t dominator, FILE *out)
+static int by_time(const void *a, const void *b)
 {
-    const mote_summary_row *rows = fronts->summary->rows;
-    bool any = false;
-    for (size_t i = 0; i < fronts->summary->count; ++i) {
-        if (fronts->dominator[i] != dominator)
-            continue;
-        (void)fprintf(out, "%s %s (%.3g times slower)", any ? "," : "", rows[i].label,
-                      rows[i].total.median / rows[dominator].total.median);
-        any = true;
-    }
+    const mote_summary_row *const *first = a, *const *second = b;
+    const double x = (*first)->total.median, y = (*second)->total.median;
+    return (x > y) - (x < y);
 }
 
-static void print_dominators(const mote_fronts *fronts, const mote_summary_row *place,
-                             FILE *out)
+/* Lists the rows on the front of a block, fastest first: those of one accounting. */
+static void print_members(const mote_fronts *fronts, const mote_summary_row *block, bool given,
+                          FILE *out)
 {
     const mote_summary *summary = fronts->summary;
-    for (size_t i = 0; i < summary->count; ++i) {
-        bool dominates = false;
-        for (size_t k = 0; k < summary->count && same_place(place, &summary->rows[i]); ++k)
-            dominates = dominates || fronts->dominator[k] == i;
-        if (!dominates)
-            continue;
-        (void)fprintf(out, "%s is faster, and no less exact, than:", summary->rows[i].label);
-        print_dominated(fronts, i, out);
+    const mote_summary_row **members = malloc((summary->count + 1) * sizeof *members);
+    size_t count = 0;
+    for (size_t i = 0; members && i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (mote_summary_same_block(block, row) && mote_on_front(row) && row->given == given)
+            members[count++] = row;
+    }
+    if (count > 0) {
+        qsort(members, count, sizeof *members, by_time);
+        (void)fprintf(out, "front of time against error%s:", given ? ", positions given" : "");
+        for (size_t i = 0; i < count; ++i)
+            (void)fprintf(out, "%s %s", i ? "," : "", members[i]->label);
         (void)fprintf(out, "\n");
     }
+    free(members);
 }
 
 void mote_fronts_print(const mote_fronts *fronts, FILE *out)
@@ -98,16 +94,18 @@ void mote_fronts_print(const mote_fronts *fronts, FILE *out)
         width = length > width ? length : width;
     }
     for (size_t i = 0; i < fronts->count; ++i) {
-        if (i > 0 && same_place(row_of(fronts, i - 1), row_of(fronts, i)))
+        if (i > 0 && mote_summary_same_block(row_of(fronts, i - 1), row_of(fronts, i)))
             continue;
         bool has_fcl = false;
         for (size_t k = i;
-             k < fronts->count && same_place(row_of(fronts, i), row_of(fronts, k)); ++k)
+             k < fronts->count && mote_summary_same_block(row_of(fronts, i), row_of(fronts, k));
+             ++k)
             has_fcl = has_fcl || fronts->items[k].speed[MOTE_FRONT_LEVELS - 1].faster ==
                                      fronts->items[k].speed[MOTE_FRONT_LEVELS - 1].faster;
         if (has_fcl)
             print_place(fronts, i, width, out);
-        print_dominators(fronts, row_of(fronts, i), out);
+        print_members(fronts, row_of(fronts, i), false, out);
+        print_members(fronts, row_of(fronts, i), true, out);
     }
 }
 
@@ -131,9 +129,11 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
     json_t *list = json_array();
     for (size_t i = 0; list && i < fronts->count; ++i) {
         const mote_summary_row *row = row_of(fronts, i);
-        json_t *front = json_pack("{s:s, s:s, s:s, s:o}", "scenario", row->first->scenario,
-                                  "cache", row->first->cache, "family", fronts->items[i].title,
-                                  "speed", speeds_json(&fronts->items[i]));
+        json_t *front =
+            json_pack("{s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->first->scenario,
+                      "fingerprint", row->first->fingerprint, "cache", row->first->cache,
+                      "accounting", row->given ? "given" : "charged", "family",
+                      fronts->items[i].title, "speed", speeds_json(&fronts->items[i]));
         if (json_array_append_new(list, front) != 0) {
             json_decref(list);
             return NULL;
@@ -142,81 +142,64 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
     return list;
 }
 
-static void add_number(mote_text *text, double value)
+/* "scenario,cache,family" */
+static void add_family(const mote_summary_row *row, const char *title, mote_text *text)
 {
-    if (value == value)
-        mote_text_add(text, ",%.17g", value);
-    else
+    mote_escape_csv(text, row->first->scenario, false);
+    mote_text_add(text, ",");
+    mote_escape_csv(text, row->first->cache, false);
+    mote_text_add(text, ",");
+    mote_escape_csv(text, title, true);
+}
+
+static void add_numbers(const double *numbers, size_t count, mote_text *text)
+{
+    for (size_t i = 0; i < count; ++i) {
         mote_text_add(text, ",");
-}
-
-/* A quoted field; quotes inside are doubled. */
-static void add_quoted(mote_text *text, const char *value)
-{
-    mote_text_add(text, "\"");
-    for (; *value; ++value)
-        mote_text_add(text, "%s%c", *value == '"' ? "\"" : "", *value);
-    mote_text_add(text, "\"");
-}
-
-/* A field, quoted where it has to be. */
-static void add_plain(mote_text *text, const char *value)
-{
-    if (value[strcspn(value, ",\"\n\r")])
-        add_quoted(text, value);
-    else
-        mote_text_add(text, "%s", value);
+        mote_csv_number(text, numbers[i]);
+    }
 }
 
 static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
 {
     const mote_summary_row *rows = fronts->summary->rows, *row = &rows[index];
-    char title[256];
-    if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->error.p99 != row->error.p99)
-        return;
-    mote_front_title(row, title, sizeof title);
-    add_plain(text, row->first->scenario);
-    mote_text_add(text, ",");
-    add_plain(text, row->first->cache);
-    mote_text_add(text, ",");
-    add_quoted(text, title);
-    mote_text_add(text, ",");
-    add_quoted(text, row->label);
     const double numbers[] = {row->n, row->error.p99, row->total.median, row->total.low,
                               row->total.high};
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
-        add_number(text, numbers[i]);
-    size_t by = fronts->dominator[index];
+    const size_t by = row->dominated_by;
+    char title[MOTE_FRONT_TITLE];
+    if (!mote_summary_row_measured(row) || row->error.p99 != row->error.p99)
+        return;
+    mote_front_title(row, title, sizeof title);
+    add_family(row, title, text);
     mote_text_add(text, ",");
-    add_quoted(text, by == SIZE_MAX ? "" : rows[by].label);
-    mote_text_add(text, "\n");
+    mote_escape_csv(text, row->label, true);
+    add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
+    mote_text_add(text, ",");
+    mote_escape_csv(text, by == SIZE_MAX ? "" : rows[by].label, true);
+    mote_text_add(text, ",%d,%s\n", mote_on_front(row) ? 1 : 0, row->first->fingerprint);
 }
 
 static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mote_text *text)
 {
     const mote_summary_row *row = row_of(fronts, index);
     const mote_front_speed *speed = &fronts->items[index].speed[level];
-    add_plain(text, row->first->scenario);
-    mote_text_add(text, ",");
-    add_plain(text, row->first->cache);
-    mote_text_add(text, ",");
-    add_quoted(text, fronts->items[index].title);
+    const double numbers[] = {speed->time_ns, speed->faster, speed->interval.low,
+                              speed->interval.high};
+    add_family(row, fronts->items[index].title, text);
     mote_text_add(text, ",%g", mote_front_levels[level]);
-    add_number(text, speed->time_ns);
-    add_number(text, speed->faster);
-    add_number(text, speed->interval.low);
-    add_number(text, speed->interval.high);
-    mote_text_add(text, "\n");
+    add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
+    mote_text_add(text, ",%s\n", row->first->fingerprint);
 }
 
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
 {
     mote_text rows = {0}, speeds = {0};
     mote_text_add(&rows, "scenario,cache,family,label,n,error_p99,total_ns,total_ci_low,"
-                         "total_ci_high,dominated_by\n");
+                         "total_ci_high,dominated_by,on_front,fingerprint\n");
     for (size_t i = 0; i < fronts->summary->count; ++i)
         add_row(fronts, i, &rows);
-    mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high\n");
+    mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high,"
+                           "fingerprint\n");
     for (size_t i = 0; i < fronts->count; ++i) {
         for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
             add_speed(fronts, i, k, &speeds);

@@ -22,9 +22,10 @@ static uint32_t group_of(uint32_t replicate, uint32_t last, uint32_t groups)
     return (uint32_t)((uint64_t)(replicate - 1) * groups / last);
 }
 
-/* Of each frame the fastest of the replicates of a group of 1 .. last; returns how many
-   replicates there were. times holds row->frames. */
-static size_t fastest(const mote_summary_row *row, uint32_t last, uint32_t groups,
+/* Of each frame the fastest of the replicates of a group of 1 .. last, without deformation
+   where positions are given; returns how many replicates there were. times holds row->frames.
+ */
+static size_t fastest(const mote_summary_row *row, bool given, uint32_t last, uint32_t groups,
                       uint32_t group, double *times)
 {
     size_t count = 0;
@@ -34,8 +35,9 @@ static size_t fastest(const mote_summary_row *row, uint32_t last, uint32_t group
             cell->frames != row->frames)
             continue;
         for (size_t k = 0; k < row->frames; ++k) {
-            if (count == 0 || cell->total_ns[k] < times[k])
-                times[k] = cell->total_ns[k];
+            const double time = cell->total_ns[k] - (given ? cell->deform_ns[k] : 0);
+            if (count == 0 || time < times[k])
+                times[k] = time;
         }
         ++count;
     }
@@ -54,8 +56,9 @@ static mote_status quiet_group(const mote_summary_row *row, const mote_summary_r
     if (!mine)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
     double *ratios = mine + frames, *theirs = ratios + frames;
-    bool measured = fastest(row, last, groups, group, mine) > 0;
-    if (measured && reference && fastest(reference, last, groups, group, theirs) > 0) {
+    bool measured = fastest(row, row->given, last, groups, group, mine) > 0;
+    if (measured && reference &&
+        fastest(reference, row->given, last, groups, group, theirs) > 0) {
         const uint32_t *a = row->first->frame, *b = reference->first->frame;
         size_t count = 0;
         for (size_t i = 0, k = 0; i < frames && k < others;) {
@@ -159,7 +162,7 @@ mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count,
 }
 
 /* The logarithms of what comparisons are made from; returns how many. */
-static size_t take_logs(const mote_summary_row *row, double *logs)
+static size_t comparable_logs(const mote_summary_row *row, double *logs)
 {
     size_t count = 0;
     bool quiet = row->finished >= MOTE_QUIET_REPLICATES, relative = is_relative(row);
@@ -189,7 +192,7 @@ mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count, d
         rows[i].smallest_change = MOTE_NONE;
         if (is_compared(rows, i))
             rows[i].smallest_change =
-                mote_statistics_detectable(logs, take_logs(&rows[i], logs), compared) - 1;
+                mote_statistics_detectable(logs, comparable_logs(&rows[i], logs), compared) - 1;
         if (rows[i].smallest_change == rows[i].smallest_change)
             changes[known++] = rows[i].smallest_change;
     }

@@ -123,11 +123,16 @@ static mote_status make_times(mote_summary_row *row)
     return status;
 }
 
+static value_of value_of_part(mote_part part)
+{
+    return part == MOTE_PART_TOTAL ? total_of : given_of;
+}
+
 mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
-                                       uint32_t last, double *median)
+                                       uint32_t last, mote_part part, double *median)
 {
     slice s = {0};
-    const mote_status status = gather(row, total_of, first, last, &s);
+    const mote_status status = gather(row, value_of_part(part), first, last, &s);
     if (status == MOTE_OK)
         *median = mote_statistics_median(s.all, s.total);
     free_slice(&s);
@@ -286,6 +291,22 @@ static mote_status make_processes(mote_summary_row *row)
     return MOTE_OK;
 }
 
+bool mote_summary_row_measured(const mote_summary_row *row)
+{
+    return row->status == MOTE_CELL_OK && row->jobs == 1 && row->total.median > 0;
+}
+
+bool mote_summary_is_fcl(const mote_summary_row *row)
+{
+    return strncmp(row->first->method, "fcl-", 4) == 0;
+}
+
+bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *b)
+{
+    return mote_stored_by_scene(a->first, b->first) == 0 &&
+           mote_stored_by_frames(a->first, b->first) == 0;
+}
+
 void mote_summary_row_free(mote_summary_row *row)
 {
     free(row->label);
@@ -298,6 +319,13 @@ static const mote_ratio no_ratio = {SIZE_MAX, MOTE_NONE, MOTE_NONE, MOTE_NONE};
 static int badness(mote_cell_status status)
 {
     return status == MOTE_CELL_OK ? 0 : MOTE_CELL_STATUSES - (int)status;
+}
+
+/* Whether the method was given the positions of all vertices at no charge. */
+static bool is_given(const mote_stored_cell *cell)
+{
+    const char *positions = json_string_value(json_object_get(cell->parameters, "positions"));
+    return positions && strcmp(positions, "given") == 0;
 }
 
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
@@ -314,6 +342,8 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
     made.status = made.first->status;
     made.frames = made.first->frames;
     made.jobs = made.first->jobs;
+    made.given = is_given(made.first);
+    made.dominated_by = SIZE_MAX;
     made.smallest_change = MOTE_NONE;
     made.label = make_label(made.first);
     if (!made.label)
@@ -385,8 +415,7 @@ mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_r
             continue;
         mote_replicate *replicate = &s.replicas[s.count];
         replicate->values = s.all + s.total;
-        replicate->count = pair_frames(
-            mine, theirs, part == MOTE_PART_TOTAL ? total_of : given_of, s.all + s.total);
+        replicate->count = pair_frames(mine, theirs, value_of_part(part), s.all + s.total);
         s.total += replicate->count;
         s.count += replicate->count ? 1 : 0;
     }
@@ -402,7 +431,8 @@ mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_r
     return status;
 }
 
-mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other)
+mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
+                                        mote_part part)
 {
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
@@ -412,7 +442,7 @@ mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summar
         double *ratios = malloc(mine->frames * sizeof *ratios);
         if (!ratios)
             return mote_fail(MOTE_ENOMEM, "no memory for %zu ratios", mine->frames);
-        size_t count = pair_frames(mine, theirs, total_of, ratios);
+        size_t count = pair_frames(mine, theirs, value_of_part(part), ratios);
         row->processes[r].ratio = mote_statistics_median(ratios, count);
         free(ratios);
     }

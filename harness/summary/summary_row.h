@@ -1,25 +1,116 @@
-/* The figures of one row of a summary; used by summary.c. */
+/* One row of a summary: the figures of the replicates of one configuration. */
 #ifndef MOTE_HARNESS_SUMMARY_ROW_H
 #define MOTE_HARNESS_SUMMARY_ROW_H
 
-#include "harness/summary/summary.h"
+#include "harness/base/statistics.h"
+#include "harness/summary/stored.h"
+
+/* A time over frames and replicates, in nanoseconds. median, p95 and max are over all frames of
+   all replicates; the interval is the median's (mote_statistics_median_interval); sum is the
+   mean over replicates of the sum over frames. */
+typedef struct mote_time {
+    double median, low, high, mean, p95, max, sum;
+} mote_time;
+
+/* How many times slower another row is: median over common frames and replicates of (the
+   other's time / this time). Time is the total, or, for a row with positions given, what is
+   left without deformation: nobody is charged for it on either side. */
+typedef struct mote_ratio {
+    size_t to; /* index of the other row; SIZE_MAX: there is none */
+    double value, low, high;
+} mote_ratio;
+
+/* One process of a row, in the order of its cells; MOTE_NONE where it did not end well. */
+typedef struct mote_process {
+    double median; /* of the total, nanoseconds */
+    double ratio;  /* paired median of (reference's total / this total), as in row.ratio */
+} mote_process;
+
+/* Times with the disturbances of a shared machine taken out as far as replicates allow: of each
+   frame the fastest of a group of replicates, then the median over frames. Groups are
+   blocks of consecutive replicates; with fewer than MOTE_QUIET_REPLICATES all is MOTE_NONE. */
+#define MOTE_QUIET_GROUPS 5
+#define MOTE_QUIET_REPLICATES 10
+typedef struct mote_quiet {
+    double total[MOTE_QUIET_GROUPS]; /* nanoseconds */
+    double
+        ratio[MOTE_QUIET_GROUPS]; /* median over frames of (reference's / this), or MOTE_NONE */
+} mote_quiet;
+
+/* Errors are in L; MOTE_NONE where no frame has an answer. */
+typedef struct mote_error_summary {
+    double median, p95, p99, max; /* of the absolute error */
+    double min_signed, max_signed;
+    double exact_rate;           /* share of frames with absolute error <= 1e-9 */
+    double exact_rate_separated; /* the same where truth > 0 */
+} mote_error_summary;
+
+#define MOTE_EXACT_ERROR 1e-9
+
+/* The times of a row, X(name, JSON key). given leaves deformation out: nobody is charged for
+ * it. */
+#define MOTE_TIMES(X)                                                                          \
+    X(total, "total_ns")                                                                       \
+    X(deform, "deform_ns")                                                                     \
+    X(update, "update_ns")                                                                     \
+    X(query, "query_ns")                                                                       \
+    X(active_total, "active_total_ns")                                                         \
+    X(given_total, "given_total_ns")
+
+typedef struct mote_summary_row {
+    const mote_stored_cell *cells; /* [replicates], in the summary's stored */
+    size_t replicates;             /* that ran, whatever their end */
+    size_t finished;               /* of these, with status ok; they come first in no order */
+    const mote_stored_cell *first; /* one with status ok, or else one of the row's status */
+    mote_cell_status status; /* ok when any replicate is, else the worst: crashed, timeout */
+    char *label;             /* "particle-paper:n=5": parameters that are not default */
+    double n;                /* the parameter n, or MOTE_NONE */
+    size_t frames;           /* of one replicate */
+    bool given;              /* positions=given: its own time leaves deformation out */
+    uint32_t jobs; /* cells that ran at the same time; from 2 on times are not comparable */
+    double smallest_change;  /* mote_statistics_detectable - 1 of its times, or MOTE_NONE */
+    mote_process *processes; /* [replicates] */
+    mote_quiet quiet;
+#define MOTE_TIME_FIELD(name, key) mote_time name;
+    MOTE_TIMES(MOTE_TIME_FIELD)
+#undef MOTE_TIME_FIELD
+    mote_ratio ratio;       /* to fcl-aabb:seed=none,queue=2, or the first fcl-aabb there is, of
+                               those that were measured on all of this row's frames */
+    mote_ratio ratio_given; /* the same where nobody is charged for deformation */
+    mote_ratio ratio_best;  /* to the row of FCL that is the fastest over this row's frames */
+    mote_error_summary error;
+    double contacts, missed, false_contacts; /* frames, mean over replicates */
+    size_t
+        dominated_by; /* the fastest row that is better in all (dominance.h); SIZE_MAX: none */
+    double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
+} mote_summary_row;
 
 /* Fills a row from its cells [replicates], all but the ratios. */
 mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
                                   mote_summary_row *row);
 
-/* Median total over the frames first .. last of all replicates; MOTE_NONE without any. */
-mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
-                                       uint32_t last, double *median);
-
-/* Which part of a frame's time is compared. */
+/* Which part of a frame's time is compared: all of it, or all but deformation. */
 typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
+
+/* Median time over the frames first .. last of all replicates; MOTE_NONE without any. */
+mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
+                                       uint32_t last, mote_part part, double *median);
+
+/* Whether the row's method is one of FCL's. */
+bool mote_summary_is_fcl(const mote_summary_row *row);
+
+/* Whether a row has a time that may be compared with those of other rows. */
+bool mote_summary_row_measured(const mote_summary_row *row);
+
+/* Whether two rows stand in one block: the same frames, asked the same, on one machine. */
+bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *b);
 
 /* Frees what the row holds. */
 void mote_summary_row_free(mote_summary_row *row);
 
 /* Fills the ratios of the row's processes to other's, replicate by replicate. */
-mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other);
+mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
+                                        mote_part part);
 
 /* The paired ratio of other's time to row's, frame by frame within a replicate; both have
  * status ok. */

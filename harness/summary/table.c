@@ -1,19 +1,12 @@
 #include "harness/summary/table.h"
 
-#include "harness/base/number_text.h"
+#include "harness/base/escape.h"
+#include "harness/summary/column.h"
 
 #include <string.h>
 
-typedef char field[MOTE_NUMBER_TEXT];
-
 /* A change that is larger than this says nothing. */
 #define CHANGE_MAX 10.0
-
-static bool same_block(const mote_summary_row *a, const mote_summary_row *b)
-{
-    return mote_stored_by_scene(a->first, b->first) == 0 &&
-           mote_stored_by_frames(a->first, b->first) == 0;
-}
 
 static size_t label_width(const mote_summary *summary)
 {
@@ -25,12 +18,42 @@ static size_t label_width(const mote_summary *summary)
     return width;
 }
 
+/* Characters that a column's numbers need. */
+static int column_width(const mote_column *column)
+{
+    if (column->show == mote_show_count)
+        return 6;
+    if (column->show == mote_show_percent)
+        return 7;
+    return column->show == mote_show_time || column->show == mote_show_bytes ? 9 : 8;
+}
+
+/* Two lines: what belongs together, each above its columns, and the columns. */
+static void print_column_heads(int width, FILE *out)
+{
+    const mote_column *columns[MOTE_VIEW_MAX];
+    const size_t count = mote_column_view(MOTE_VIEW_TABLE, columns);
+    (void)fprintf(out, "%-*s", width, "");
+    for (size_t k = 0; k < count;) {
+        const char *group = columns[k]->group ? columns[k]->group : "";
+        int span = -1;
+        for (; k < count && strcmp(columns[k]->group ? columns[k]->group : "", group) == 0; ++k)
+            span += column_width(columns[k]) + 1;
+        (void)fprintf(out, " %*s", span, group);
+    }
+    (void)fprintf(out, "\n%-*s", width, "method");
+    for (size_t k = 0; k < count; ++k)
+        (void)fprintf(out, " %*s", column_width(columns[k]), columns[k]->head);
+    (void)fprintf(out, "\n");
+}
+
 /* The largest number of frames and of replicates in the block that starts at a row. */
 static void print_head(const mote_summary *summary, size_t start, int width, FILE *out)
 {
     const mote_summary_row *row = &summary->rows[start];
     size_t frames = 0, replicates = 0;
-    for (size_t i = start; i < summary->count && same_block(row, &summary->rows[i]); ++i) {
+    for (size_t i = start;
+         i < summary->count && mote_summary_same_block(row, &summary->rows[i]); ++i) {
         const mote_summary_row *other = &summary->rows[i];
         frames = other->frames > frames ? other->frames : frames;
         replicates = other->replicates > replicates ? other->replicates : replicates;
@@ -43,35 +66,25 @@ static void print_head(const mote_summary *summary, size_t start, int width, FIL
                   (int)json_integer_value(json_array_get(triangles, 1)), frames, replicates,
                   row->first->cache, several ? ", on " : "",
                   several ? row->first->machine : "");
-    (void)fprintf(out, "%-*s %5s %9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %7s %6s %6s %9s\n",
-                  width, "", "", "total", "", "deform", "update", "query", "fcl-aabb", "given",
-                  "best FCL", "error/L", "", "", "exact", "missed", "false", "heap");
-    (void)fprintf(out, "%-*s %5s %9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %7s %6s %6s %9s\n",
-                  width, "method", "n", "median", "p95", "median", "median", "median", "/ this",
-                  "/ this", "median", "p99", "max", "", "", "", "");
+    print_column_heads(width, out);
 }
 
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
-    field f[16];
-    (void)fprintf(out, "%-*s %5s ", width, row->label, mote_show_count(row->n, f[0]));
+    const mote_column *columns[MOTE_VIEW_MAX];
+    const size_t count = mote_column_view(MOTE_VIEW_TABLE, columns);
+    (void)fprintf(out, "%-*s", width, row->label);
     if (row->status != MOTE_CELL_OK) {
         const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
-        (void)fprintf(out, "%s: %s\n", mote_cell_status_names[row->status],
+        (void)fprintf(out, " %s: %s\n", mote_cell_status_names[row->status],
                       reason ? reason : "");
         return;
     }
-    (void)fprintf(
-        out, "%9s %9s %9s %9s %9s %8s %8s %8s %8s %8s %8s %7s %6s %6s %9s",
-        mote_show_time(row->total.median, f[1]), mote_show_time(row->total.p95, f[2]),
-        mote_show_time(row->deform.median, f[3]), mote_show_time(row->update.median, f[4]),
-        mote_show_time(row->query.median, f[5]), mote_show_ratio(row->ratio.value, f[6]),
-        mote_show_ratio(row->ratio_given.value, f[15]),
-        mote_show_ratio(row->ratio_best.value, f[7]), mote_show_error(row->error.median, f[8]),
-        mote_show_error(row->error.p99, f[9]), mote_show_error(row->error.max, f[10]),
-        mote_show_percent(row->error.exact_rate, f[11]), mote_show_count(row->missed, f[12]),
-        mote_show_count(row->false_contacts, f[13]),
-        mote_show_bytes(row->heap_live_bytes, f[14]));
+    for (size_t k = 0; k < count; ++k) {
+        char shown[MOTE_NUMBER_TEXT];
+        (void)fprintf(out, " %*s", column_width(columns[k]),
+                      columns[k]->show(mote_column_number(columns[k], row), shown));
+    }
     if (row->first->stride > 1)
         (void)fprintf(out, "  every %uth frame", row->first->stride);
     if (row->jobs > 1)
@@ -121,7 +134,8 @@ void mote_table_print(const mote_summary *summary, FILE *out)
         size_t start = i;
         const mote_summary_row *measured = &summary->rows[i];
         print_head(summary, i, width, out);
-        for (; i < summary->count && same_block(&summary->rows[start], &summary->rows[i]);
+        for (; i < summary->count &&
+               mote_summary_same_block(&summary->rows[start], &summary->rows[i]);
              ++i) {
             print_row(&summary->rows[i], width, out);
             if (summary->rows[i].status == MOTE_CELL_OK)
@@ -135,70 +149,30 @@ void mote_table_print(const mote_summary *summary, FILE *out)
                       summary->stored.left_out);
 }
 
-static void csv_number(double value, FILE *out)
+void mote_table_csv(const mote_summary *summary, mote_text *text)
 {
-    if (value == value)
-        (void)fprintf(out, ",%.17g", value);
-    else
-        (void)fputc(',', out);
-}
-
-/* A quoted field. */
-static void csv_text(const char *text, FILE *out)
-{
-    (void)fputc('"', out);
-    for (; *text; ++text) {
-        if (*text == '"')
-            (void)fputc('"', out);
-        (void)fputc(*text, out);
+    const char *separator = "";
+    for (size_t k = 0; k < mote_column_count; ++k) {
+        if (!mote_columns[k].csv)
+            continue;
+        mote_text_add(text, "%s%s", separator, mote_columns[k].csv);
+        separator = ",";
     }
-    (void)fputc('"', out);
-}
-
-static void csv_time(const mote_time *time, FILE *out)
-{
-    csv_number(time->median, out);
-    csv_number(time->low, out);
-    csv_number(time->high, out);
-    csv_number(time->mean, out);
-    csv_number(time->p95, out);
-    csv_number(time->max, out);
-}
-
-void mote_table_print_csv(const mote_summary *summary, FILE *out)
-{
-    (void)fprintf(out, "scenario,cache,method,label,n,stride,frames,replicates,status");
-#define PRINT_NAMES(name, key)                                                                 \
-    (void)fprintf(out, ",%s_median,%s_ci_low,%s_ci_high,%s_mean,%s_p95,%s_max", key, key, key, \
-                  key, key, key);
-    MOTE_TIMES(PRINT_NAMES)
-#undef PRINT_NAMES
-    (void)fprintf(out, ",ratio,ratio_ci_low,ratio_ci_high,ratio_best,error_median,error_p95,"
-                       "error_p99,error_max,exact_rate,contacts,missed,false_contacts,"
-                       "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,machine,"
-                       "replicates_failed,jobs\n");
+    mote_text_add(text, "\n");
     for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        csv_text(row->first->scenario, out);
-        (void)fprintf(out, ",%s,%s,", row->first->cache, row->first->method);
-        csv_text(row->label, out);
-        csv_number(row->n, out);
-        (void)fprintf(out, ",%u,%zu,%zu,%s", row->first->stride, row->frames, row->finished,
-                      mote_cell_status_names[row->status]);
-#define PRINT_TIME(name, key) csv_time(&row->name, out);
-        MOTE_TIMES(PRINT_TIME)
-#undef PRINT_TIME
-        const double rest[] = {
-            row->ratio.value,      row->ratio.low,       row->ratio.high,
-            row->ratio_best.value, row->error.median,    row->error.p95,
-            row->error.p99,        row->error.max,       row->error.exact_rate,
-            row->contacts,         row->missed,          row->false_contacts,
-            row->heap_live_bytes,  row->heap_peak_bytes, row->rss_peak_bytes};
-        for (size_t k = 0; k < sizeof rest / sizeof rest[0]; ++k)
-            csv_number(rest[k], out);
-        (void)fputc(',', out);
-        if (row->first->machine[0])
-            csv_text(row->first->machine, out);
-        (void)fprintf(out, ",%zu,%u\n", row->replicates - row->finished, row->jobs);
+        separator = "";
+        for (size_t k = 0; k < mote_column_count; ++k) {
+            const mote_column *column = &mote_columns[k];
+            if (!column->csv)
+                continue;
+            mote_text_add(text, "%s", separator);
+            if (column->type == MOTE_COLUMN_TEXT)
+                mote_escape_csv(text, mote_column_text(column, summary, &summary->rows[i]),
+                                column->quoted);
+            else
+                mote_csv_number(text, mote_column_number(column, &summary->rows[i]));
+            separator = ",";
+        }
+        mote_text_add(text, "\n");
     }
 }

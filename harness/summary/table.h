@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_TABLE_H
 #define MOTE_HARNESS_TABLE_H
 
+#include "harness/base/file.h"
 #include "harness/summary/summary.h"
 
 #include <stdio.h>
@@ -9,8 +10,9 @@
 /* A block a scenario and caches, a line a configuration. */
 void mote_table_print(const mote_summary *summary, FILE *out);
 
-/* One line a configuration, times in nanoseconds, an empty field for what there is not. */
-void mote_table_print_csv(const mote_summary *summary, FILE *out);
+/* A line of names, then one line a configuration, times in nanoseconds, an empty field for what
+   there is not. */
+void mote_table_csv(const mote_summary *summary, mote_text *text);
 
 /* What benchmark trackers read. NULL when memory ran out; the caller decrefs. */
 json_t *mote_gha_json(const mote_summary *summary);     /* github-action-benchmark */

@@ -7,7 +7,7 @@
 #include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/run/run.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/summary_json.h"
 
 #include <stdio.h>
 #include <stdlib.h>

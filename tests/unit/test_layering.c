@@ -169,8 +169,6 @@ static const char *const ties[] = {
     "harness/run/run",
     "harness/run/bodies_record",
     "harness/run/bodies_measure",
-    "harness/summary/summary",
-    "harness/summary/front",
 };
 
 static bool is_tie(const char *file)

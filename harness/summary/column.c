@@ -1,0 +1,582 @@
+#include "harness/summary/column.h"
+
+#include "harness/base/record.h"
+#include "harness/summary/dominance.h"
+
+#include <string.h>
+
+#define DEFINE_TEXT(name, expression)                                                          \
+    static const char *name(const mote_summary *summary, const mote_summary_row *row)          \
+    {                                                                                          \
+        (void)summary;                                                                         \
+        return expression;                                                                     \
+    }
+#define DEFINE_NUMBER(name, expression)                                                        \
+    static double name(const mote_summary_row *row)                                            \
+    {                                                                                          \
+        return (double)(expression);                                                           \
+    }
+/* A value that stands in the row's cells as it is. */
+#define DEFINE_STORED(name, key)                                                               \
+    static json_t *name(const mote_summary_row *row)                                           \
+    {                                                                                          \
+        return json_incref(json_object_get(row->first->json, key));                            \
+    }
+
+static const char *label_of(const mote_summary *summary, size_t index)
+{
+    return index == SIZE_MAX ? NULL : summary->rows[index].label;
+}
+
+DEFINE_TEXT(scenario, row->first->scenario)
+DEFINE_TEXT(fingerprint, row->first->fingerprint)
+DEFINE_TEXT(cache, row->first->cache)
+DEFINE_TEXT(method, row->first->method)
+DEFINE_TEXT(label, row->label)
+DEFINE_TEXT(status, mote_cell_status_names[row->status])
+DEFINE_TEXT(machine, row->first->machine[0] ? row->first->machine : NULL)
+DEFINE_TEXT(ask, row->first->ask[0] ? row->first->ask : NULL)
+DEFINE_TEXT(reason, json_string_value(json_object_get(row->first->json, "reason")))
+DEFINE_TEXT(accounting, row->given ? "given" : "charged")
+DEFINE_TEXT(ratio_to, label_of(summary, row->ratio.to))
+DEFINE_TEXT(ratio_given_to, label_of(summary, row->ratio_given.to))
+DEFINE_TEXT(ratio_best_to, label_of(summary, row->ratio_best.to))
+DEFINE_TEXT(dominated_by, label_of(summary, row->dominated_by))
+
+DEFINE_NUMBER(stride, row->first->stride)
+DEFINE_NUMBER(seed, row->first->seed)
+DEFINE_NUMBER(frames, row->frames)
+DEFINE_NUMBER(replicates, row->finished)
+DEFINE_NUMBER(replicates_failed, row->replicates - row->finished)
+DEFINE_NUMBER(jobs, row->jobs)
+DEFINE_NUMBER(times_comparable, row->jobs == 1)
+DEFINE_NUMBER(on_front, mote_on_front(row))
+
+DEFINE_STORED(parameters, "parameters")
+DEFINE_STORED(triangles, "triangles")
+DEFINE_STORED(vertices, "vertices")
+DEFINE_STORED(tolerance, "tolerance")
+
+static json_t *frame_range(const mote_summary_row *row)
+{
+    return json_pack("[I,I]", (json_int_t)row->first->first, (json_int_t)row->first->last);
+}
+
+/* Heap over the vertices of both bodies. */
+static double heap_bytes_per_vertex(const mote_summary_row *row)
+{
+    const json_t *both = json_object_get(row->first->json, "vertices");
+    const double count =
+        json_number_value(json_array_get(both, 0)) + json_number_value(json_array_get(both, 1));
+    return count > 0 ? row->heap_live_bytes / count : MOTE_NONE;
+}
+
+/* Mean and largest of each count over the frames of all replicates. */
+static json_t *counters(const mote_summary_row *row)
+{
+    json_t *object = json_object();
+    for (int k = 0; k < MOTE_STORED_COUNTS && row->finished > 0; ++k) {
+        double sum = 0, max = 0, all = 0;
+        for (size_t r = 0; r < row->replicates; ++r) {
+            sum += row->cells[r].counts[k].sum;
+            max = row->cells[r].counts[k].max > max ? row->cells[r].counts[k].max : max;
+            all += (double)row->cells[r].frames;
+        }
+        (void)json_object_set_new(object, mote_stored_count_names[k],
+                                  json_pack("{s:f, s:f}", "mean", sum / all, "max", max));
+    }
+    return object;
+}
+
+/* What comparisons with another run are made from. */
+static json_t *processes(const mote_summary_row *row)
+{
+    json_t *list = json_array();
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (cell->status != MOTE_CELL_OK)
+            continue;
+        json_t *counts = json_object();
+        for (int k = 0; k < MOTE_STORED_COUNTS; ++k)
+            (void)json_object_set_new(counts, mote_stored_count_names[k],
+                                      json_real(cell->counts[k].sum));
+        (void)json_array_append_new(
+            list, json_pack("{s:i, s:o, s:o, s:o}", "replicate", (int)cell->replicate,
+                            "median_ns", mote_json_number(row->processes[r].median), "ratio",
+                            mote_json_number(row->processes[r].ratio), "counters", counts));
+    }
+    return list;
+}
+
+static json_t *quiet(const mote_summary_row *row)
+{
+    json_t *totals = json_array(), *ratios = json_array();
+    for (int k = 0; k < MOTE_QUIET_GROUPS; ++k) {
+        (void)json_array_append_new(totals, mote_json_number(row->quiet.total[k]));
+        (void)json_array_append_new(ratios, mote_json_number(row->quiet.ratio[k]));
+    }
+    return json_pack("{s:o, s:o}", "total_ns", totals, "ratio", ratios);
+}
+
+#define TWO_WHOLE                                                                              \
+    "{\"type\": \"array\", \"items\": {\"type\": \"integer\", \"minimum\": 0}, "               \
+    "\"minItems\": 2, \"maxItems\": 2}"
+
+static const char counters_schema[] =
+    "{\"type\": \"object\", \"additionalProperties\": {\"type\": \"object\", \"properties\": "
+    "{\"mean\": {\"type\": \"number\"}, \"max\": {\"type\": \"number\"}}, \"required\": "
+    "[\"mean\", \"max\"]}}";
+
+static const char processes_schema[] =
+    "{\"type\": \"array\", \"items\": {\"type\": \"object\", \"properties\": {\"replicate\": "
+    "{\"type\": \"integer\"}, \"median_ns\": {\"type\": [\"number\", \"null\"]}, \"ratio\": "
+    "{\"type\": [\"number\", \"null\"]}, \"counters\": {\"type\": \"object\", "
+    "\"additionalProperties\": {\"type\": \"number\"}}}, \"required\": [\"replicate\", "
+    "\"median_ns\", \"ratio\", \"counters\"]}}";
+
+static const char quiet_schema[] =
+    "{\"type\": \"object\", \"properties\": {\"total_ns\": {\"type\": \"array\", \"items\": "
+    "{\"type\": [\"number\", \"null\"]}, \"minItems\": 5, \"maxItems\": 5}, \"ratio\": "
+    "{\"type\": "
+    "\"array\", \"items\": {\"type\": [\"number\", \"null\"]}, \"minItems\": 5, \"maxItems\": "
+    "5}}, \"required\": [\"total_ns\", \"ratio\"]}";
+
+#define AT(member) .offset = offsetof(mote_summary_row, member)
+#define PLACE(table, report, brief)                                                            \
+    {                                                                                          \
+        table, report, brief                                                                   \
+    }
+
+/* A member of a time without a place in a table. */
+#define TIME_MEMBER(time, name, member, kept)                                                  \
+    {                                                                                          \
+        .object = name, .key = kept, .csv = name "_" kept, .type = MOTE_COLUMN_REAL,           \
+        .unit = "ns", AT(time.member)                                                          \
+    }
+
+/* A time: what of it, and where its median and 95th percentile stand in the tables. */
+#define TIME(time, name, above, says, in_report, places, p95_places)                           \
+    {.object = name,                                                                           \
+     .key = "median",                                                                          \
+     .csv = name "_median",                                                                    \
+     .type = MOTE_COLUMN_REAL,                                                                 \
+     .unit = "ns",                                                                             \
+     .meaning = says,                                                                          \
+     AT(time.median),                                                                          \
+     .group = above,                                                                           \
+     .head = "median",                                                                         \
+     .brief = in_report,                                                                       \
+     .show = mote_show_time,                                                                   \
+     .interval = true,                                                                         \
+     .place = places},                                                                         \
+        TIME_MEMBER(time, name, low, "ci_low"), TIME_MEMBER(time, name, high, "ci_high"),      \
+        TIME_MEMBER(time, name, mean, "mean"),                                                 \
+        {.object = name,                                                                       \
+         .key = "p95",                                                                         \
+         .csv = name "_p95",                                                                   \
+         .type = MOTE_COLUMN_REAL,                                                             \
+         .unit = "ns",                                                                         \
+         AT(time.p95),                                                                         \
+         .group = above,                                                                       \
+         .head = "p95",                                                                        \
+         .show = mote_show_time,                                                               \
+         .place = p95_places},                                                                 \
+        TIME_MEMBER(time, name, max, "max"),                                                   \
+    {                                                                                          \
+        .object = name, .key = "sum", .type = MOTE_COLUMN_REAL, .unit = "ns", AT(time.sum)     \
+    }
+
+/* A ratio: csv names it and csv_ends its interval; NULL: not in the CSV. */
+#define RATIO(ratio, name, reader, csv_name, csv_low, csv_high, above, says, in_report,        \
+              places)                                                                          \
+    {.object = name,                                                                           \
+     .key = "to",                                                                              \
+     .type = MOTE_COLUMN_TEXT,                                                                 \
+     .optional = true,                                                                         \
+     .unit = "",                                                                               \
+     .meaning = says,                                                                          \
+     .text = reader},                                                                          \
+        {.object = name,                                                                       \
+         .key = "value",                                                                       \
+         .csv = csv_name,                                                                      \
+         .type = MOTE_COLUMN_REAL,                                                             \
+         .unit = "",                                                                           \
+         AT(ratio.value),                                                                      \
+         .group = above,                                                                       \
+         .head = "/ this",                                                                     \
+         .brief = in_report,                                                                   \
+         .show = mote_show_ratio,                                                              \
+         .interval = true,                                                                     \
+         .place = places},                                                                     \
+        {.object = name,                                                                       \
+         .key = "ci_low",                                                                      \
+         .csv = csv_low,                                                                       \
+         .type = MOTE_COLUMN_REAL,                                                             \
+         .unit = "",                                                                           \
+         AT(ratio.low)},                                                                       \
+    {                                                                                          \
+        .object = name, .key = "ci_high", .csv = csv_high, .type = MOTE_COLUMN_REAL,           \
+        .unit = "", AT(ratio.high)                                                             \
+    }
+
+/* Errors below this are rounding. */
+#define ROUNDING 1e-12
+/* Figures that are the same in every run of one program differ by at most this share. */
+#define SAME 1e-9
+/* Heap may grow by this share: the allocator rounds. */
+#define HEAP_SHARE 0.01
+
+#define ERROR(member, name, says, below, in_report, compared, places)                          \
+    {                                                                                          \
+        .object = "error", .key = name, .csv = "error_" name, .type = MOTE_COLUMN_REAL,        \
+        .unit = "L", .meaning = says, AT(error.member), .group = "error / L", .head = below,   \
+        .brief = in_report, .show = mote_show_error, .place = places, .rule = {                \
+            compared,                                                                          \
+            SAME,                                                                              \
+            ROUNDING,                                                                          \
+            false,                                                                             \
+            false                                                                              \
+        }                                                                                      \
+    }
+
+#define CONTACTS(member, says, below, in_report, compared, places)                             \
+    {                                                                                          \
+        .key = #member, .csv = #member, .type = MOTE_COLUMN_REAL, .unit = "frames",            \
+        .meaning = says, AT(member), .group = "contacts", .head = below, .brief = in_report,   \
+        .show = mote_show_count, .place = places, .rule = {                                    \
+            compared,                                                                          \
+            SAME,                                                                              \
+            0,                                                                                 \
+            false,                                                                             \
+            false                                                                              \
+        }                                                                                      \
+    }
+
+#define BYTES(member, says, in_report, compared, places)                                       \
+    {                                                                                          \
+        .key = #member, .csv = #member, .type = MOTE_COLUMN_WHOLE, .unit = "bytes",            \
+        .meaning = says, AT(member), .group = "heap", .head = "live", .brief = in_report,      \
+        .show = mote_show_bytes, .place = places, .rule = {                                    \
+            compared,                                                                          \
+            HEAP_SHARE,                                                                        \
+            0,                                                                                 \
+            false,                                                                             \
+            false                                                                              \
+        }                                                                                      \
+    }
+
+const mote_column mote_columns[] = {
+    {.key = "scenario",
+     .csv = "scenario",
+     .quoted = true,
+     .unit = "",
+     .meaning = "The scenario's name",
+     .text = scenario},
+    {.key = "cache",
+     .csv = "cache",
+     .unit = "",
+     .meaning = "Caches: `hot`, or `evict`, where 32 MB are walked between two frames",
+     .text = cache,
+     .schema = "{\"enum\": [\"hot\", \"evict\"]}"},
+    {.key = "method",
+     .csv = "method",
+     .unit = "",
+     .meaning = "The method's name",
+     .text = method},
+    {.key = "label",
+     .csv = "label",
+     .quoted = true,
+     .unit = "",
+     .meaning = "method:key=value,... with the parameters that are not at their default",
+     .text = label},
+    {.key = "n",
+     .csv = "n",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "particles",
+     .meaning = "The parameter n, of methods that have it",
+     AT(n),
+     .head = "n",
+     .show = mote_show_count,
+     .place = PLACE(1, 0, 0)},
+    {.key = "stride",
+     .csv = "stride",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "frames",
+     .meaning = "Every how manieth frame was measured",
+     .number = stride,
+     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+    {.key = "frames",
+     .csv = "frames",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "frames",
+     .meaning = "Measured in each replicate",
+     .number = frames},
+    {.key = "replicates",
+     .csv = "replicates",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "processes",
+     .meaning = "That ran to their end",
+     .number = replicates},
+    {.key = "status",
+     .csv = "status",
+     .unit = "",
+     .meaning = "`ok` where any replicate ended well, else how the worst ended",
+     .text = status,
+     .schema = "{\"enum\": [\"ok\", \"crashed\", \"timeout\", \"unsupported\"]}"},
+    TIME(total, "total_ns", "total", "Deform, update and query together", "total",
+         PLACE(10, 10, 10), PLACE(11, 11, 0)),
+    TIME(deform, "deform_ns", "deform", "Deforming all vertices, for methods that need them",
+         NULL, PLACE(12, 93, 0), PLACE(0, 0, 0)),
+    TIME(update, "update_ns", "update", "Refit", NULL, PLACE(13, 94, 0), PLACE(0, 0, 0)),
+    TIME(query, "query_ns", "query", "The query", NULL, PLACE(14, 95, 0), PLACE(0, 0, 0)),
+    TIME(active_total, "active_total_ns", "active",
+         "The total within the scenario's active interval: near contact", NULL, PLACE(0, 91, 0),
+         PLACE(0, 0, 0)),
+    TIME(given_total, "given_total_ns", "given",
+         "The total where nobody is charged for deforming all vertices", NULL, PLACE(0, 92, 0),
+         PLACE(0, 0, 0)),
+    RATIO(ratio, "ratio", ratio_to, "ratio", "ratio_ci_low", "ratio_ci_high", "fcl-aabb",
+          "How many times slower FCL's AABB tree is (the row `to`), paired frame by frame; for "
+          "positions=given, without deformation on both sides",
+          "FCL/this", PLACE(20, 20, 0)),
+    RATIO(ratio_given, "ratio_given", ratio_given_to, NULL, NULL, NULL, "given",
+          "The same where nobody is charged for deforming all vertices", NULL, PLACE(21, 0, 0)),
+    RATIO(ratio_best, "ratio_best", ratio_best_to, "ratio_best", NULL, NULL, "best FCL",
+          "How many times slower the fastest configuration of FCL is, in the same way",
+          "best/this", PLACE(22, 22, 20)),
+    ERROR(median, "median", "Absolute error: median over frames and replicates", "median", NULL,
+          "median", PLACE(30, 30, 0)),
+    ERROR(p95, "p95", "Its 95th percentile", "p95", NULL, NULL, PLACE(0, 0, 0)),
+    ERROR(p99, "p99", "Its 99th percentile", "p99", "p99 error", "p99", PLACE(31, 31, 0)),
+    ERROR(max, "max", "The largest", "max", NULL, "max", PLACE(32, 32, 30)),
+    {.object = "error",
+     .key = "min_signed",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "L",
+     .meaning = "How far the method's distance is below the truth, or the least above it",
+     AT(error.min_signed)},
+    {.object = "error",
+     .key = "max_signed",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "L",
+     .meaning = "How far it is above the truth",
+     AT(error.max_signed)},
+    {.object = "error",
+     .key = "exact_rate",
+     .csv = "exact_rate",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "share",
+     .meaning = "Share of frames with an error of at most 1e-9 L",
+     AT(error.exact_rate),
+     .group = "exact",
+     .head = "frames",
+     .brief = "exact",
+     .show = mote_show_percent,
+     .place = PLACE(40, 40, 40),
+     .rule = {"inexact rate", SAME, 0, true, false}},
+    {.object = "error",
+     .key = "exact_rate_separated",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "share",
+     .meaning = "The same of frames where the bodies are apart",
+     AT(error.exact_rate_separated)},
+    CONTACTS(contacts, "Frames in contact; mean over replicates", "", NULL, NULL,
+             PLACE(0, 0, 0)),
+    CONTACTS(missed, "Frames in contact that the method says are not; mean over replicates",
+             "missed", "missed", "missed", PLACE(50, 50, 50)),
+    CONTACTS(false_contacts,
+             "Frames not in contact that the method says are; mean over replicates", "false",
+             "false", "false contacts", PLACE(51, 51, 51)),
+    BYTES(heap_live_bytes, "Heap held by the method; the shared rest mesh and field left out",
+          "heap", "heap", PLACE(60, 60, 60)),
+    BYTES(heap_peak_bytes, "The most it held", NULL, "heap peak", PLACE(0, 0, 0)),
+    BYTES(rss_peak_bytes, "The most memory of the process", NULL, NULL, PLACE(0, 0, 0)),
+    {.key = "machine",
+     .csv = "machine",
+     .quoted = true,
+     .optional = true,
+     .unit = "",
+     .meaning = "That measured; rows of different machines are never compared",
+     .text = machine},
+    {.key = "replicates_failed",
+     .csv = "replicates_failed",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "processes",
+     .meaning = "That did not run to their end; they are in no figure of the row",
+     .number = replicates_failed,
+     .schema = "{\"type\": \"integer\", \"minimum\": 0}",
+     .rule = {"failed replicates", 0, 0, false, true}},
+    {.key = "jobs",
+     .csv = "jobs",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "processes",
+     .meaning = "Cells that ran at the same time",
+     .number = jobs,
+     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+    {.key = "fingerprint",
+     .csv = "fingerprint",
+     .unit = "",
+     .meaning = "Hash of the deformed vertices of all frames: which scene was measured",
+     .text = fingerprint},
+    {.key = "accounting",
+     .csv = "accounting",
+     .unit = "",
+     .meaning =
+         "`charged` for deformation as far as the method needs it, or `given` all vertices "
+         "at no charge (positions=given); only rows of one accounting are compared",
+     .text = accounting,
+     .schema = "{\"enum\": [\"charged\", \"given\"]}"},
+    {.key = "on_front",
+     .csv = "on_front",
+     .type = MOTE_COLUMN_FLAG,
+     .unit = "",
+     .meaning =
+         "No other row is surely faster and no worse in p99, in the largest error, in the "
+         "share of exact frames, in missed and in false contacts",
+     .number = on_front},
+    {.key = "dominated_by",
+     .csv = "dominated_by",
+     .quoted = true,
+     .optional = true,
+     .unit = "",
+     .meaning = "Label of the fastest row that is",
+     .text = dominated_by},
+    {.key = "parameters",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "Every parameter with its value, defaults included",
+     .json = parameters,
+     .schema = "{\"type\": \"object\"}"},
+    {.key = "triangles",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "Of each body",
+     .json = triangles,
+     .schema = TWO_WHOLE},
+    {.key = "vertices",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "Of each body",
+     .json = vertices,
+     .schema = TWO_WHOLE},
+    {.key = "seed",
+     .type = MOTE_COLUMN_WHOLE,
+     .unit = "",
+     .meaning = "The run's seed",
+     .number = seed},
+    {.key = "frame_range",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "First and last frame asked for; 0 for what is no frame's number",
+     .json = frame_range,
+     .schema = TWO_WHOLE},
+    {.key = "ask",
+     .optional = true,
+     .unit = "",
+     .meaning = "What each frame is asked: `distance` or `contact`",
+     .text = ask,
+     .schema = "{\"enum\": [\"distance\", \"contact\"]}"},
+    {.key = "tolerance",
+     .type = MOTE_COLUMN_OBJECT,
+     .optional = true,
+     .unit = "",
+     .meaning = "How far apart bodies in contact may be",
+     .json = tolerance,
+     .schema = "{\"type\": \"number\"}"},
+    {.key = "reason",
+     .optional = true,
+     .unit = "",
+     .meaning = "Why there are no figures, where the status is not `ok`",
+     .text = reason},
+    {.key = "times_comparable",
+     .type = MOTE_COLUMN_FLAG,
+     .unit = "",
+     .meaning =
+         "False where cells ran at the same time (`--jobs`): no ratio is made of such times",
+     .number = times_comparable},
+    {.key = "smallest_change",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "share",
+     .meaning = "The smallest change of its time that a comparison with a run like this one "
+                "detects four times in five",
+     AT(smallest_change)},
+    {.key = "heap_bytes_per_vertex",
+     .type = MOTE_COLUMN_REAL,
+     .unit = "bytes",
+     .meaning = "Heap held by the method over the vertices of both bodies",
+     .number = heap_bytes_per_vertex},
+    {.key = "counters",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "Mean and largest of each deterministic count over the frames",
+     .json = counters,
+     .schema = counters_schema},
+    {.key = "processes",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning =
+         "Each replicate: the median of its total, its paired ratio to fcl-aabb, the sums of "
+         "its counts",
+     .json = processes,
+     .schema = processes_schema},
+    {.key = "quiet",
+     .type = MOTE_COLUMN_OBJECT,
+     .unit = "",
+     .meaning = "Of each frame the fastest of a fifth of the replicates, then the median over "
+                "frames; null below ten replicates",
+     .json = quiet,
+     .schema = quiet_schema},
+};
+const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
+
+static bool same_name(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+const mote_column *mote_column_find(const char *object, const char *key)
+{
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        if (same_name(mote_columns[i].object, object) && strcmp(mote_columns[i].key, key) == 0)
+            return &mote_columns[i];
+    }
+    return NULL;
+}
+
+double mote_column_number(const mote_column *column, const mote_summary_row *row)
+{
+    if (column->number)
+        return column->number(row);
+    double value = MOTE_NONE;
+    if (column->offset > 0)
+        memcpy(&value, (const char *)row + column->offset, sizeof value);
+    return value;
+}
+
+const char *mote_column_text(const mote_column *column, const mote_summary *summary,
+                             const mote_summary_row *row)
+{
+    return column->text ? column->text(summary, row) : NULL;
+}
+
+size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < mote_column_count && count < MOTE_VIEW_MAX; ++i) {
+        const mote_column *column = &mote_columns[i];
+        if (column->place[view] == 0)
+            continue;
+        size_t k = count++;
+        for (; k > 0 && columns[k - 1]->place[view] > column->place[view]; --k)
+            columns[k] = columns[k - 1];
+        columns[k] = column;
+    }
+    return count;
+}
+
+double mote_column_stored(const mote_column *column, const json_t *row)
+{
+    const json_t *value = json_object_get(
+        column->object ? json_object_get(row, column->object) : row, column->key);
+    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
+}

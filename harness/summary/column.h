@@ -1,0 +1,84 @@
+/* The columns of a summary's rows, each declared once: its name, its unit, what it says, where
+   its value comes from, how it is shown and how two runs are compared by it. summary.json, its
+   schema, the CSV, the tables of the terminal, the report and the documents follow from this
+   list, in its order. A new column is one entry in column.c. */
+#ifndef MOTE_HARNESS_COLUMN_H
+#define MOTE_HARNESS_COLUMN_H
+
+#include "harness/base/number_text.h"
+#include "harness/summary/summary.h"
+
+#include <jansson.h>
+
+typedef enum mote_column_type {
+    MOTE_COLUMN_TEXT,
+    MOTE_COLUMN_WHOLE, /* a whole number */
+    MOTE_COLUMN_REAL,
+    MOTE_COLUMN_FLAG,  /* true or false; a number: 1 or 0 */
+    MOTE_COLUMN_OBJECT /* anything else, in JSON only */
+} mote_column_type;
+
+/* The tables that show a choice of columns. */
+typedef enum mote_view {
+    MOTE_VIEW_TABLE,  /* `mote summarize` */
+    MOTE_VIEW_REPORT, /* report.html; report.md has those with `brief` */
+    MOTE_VIEW_SCREEN, /* the screen at the end of `make bench` */
+    MOTE_VIEWS
+} mote_view;
+
+/* How two runs are compared by a column. Values are equal when they differ by at most `share`
+   of the larger one, or are both at most `negligible`. */
+typedef struct mote_column_rule {
+    const char *name; /* what a comparison calls it; NULL: it is not compared in this way */
+    double share, negligible;
+    bool complement; /* more is better: what is missing to 1 is compared */
+    bool assumed;    /* 0 where a run of an older build does not say */
+} mote_column_rule;
+
+typedef struct mote_column {
+    const char *object, *key; /* its place in a row of summary.json: row[object][key], or
+                                 row[key] where object is NULL */
+    const char *csv;          /* its name in the CSV; NULL: not there */
+    mote_column_type type;
+    bool quoted;         /* TEXT: always quoted in the CSV */
+    bool optional;       /* left out of JSON where there is no value; else null */
+    const char *unit;    /* "ns", "L", "bytes", "frames", "share"; "" for none */
+    const char *meaning; /* NULL: as in the column before, whose object it shares */
+
+    /* Where the value comes from: for numbers, a double at an offset in mote_summary_row, or a
+       function. MOTE_NONE and NULL: there is none. */
+    size_t offset;
+    double (*number)(const mote_summary_row *row);
+    const char *(*text)(const mote_summary *summary, const mote_summary_row *row);
+    json_t *(*json)(const mote_summary_row *row); /* new reference */
+    const char *schema; /* JSON of its schema, where the type does not say enough */
+
+    /* How it is shown, for those in a view. */
+    const char *group, *head; /* the two lines above it: "total", "median" */
+    const char *brief;        /* one line instead; NULL: not in report.md */
+    mote_number_show show;
+    bool interval;         /* ci_low and ci_high of the same object are its interval */
+    int place[MOTE_VIEWS]; /* rising from left to right; 0: not there */
+
+    mote_column_rule rule;
+} mote_column;
+
+extern const mote_column mote_columns[];
+extern const size_t mote_column_count;
+
+/* row[object][key], or row[key] where object is NULL; NULL where there is no such column. */
+const mote_column *mote_column_find(const char *object, const char *key);
+
+/* The value of a number or flag in a row, or MOTE_NONE; the text of a text, or NULL. */
+double mote_column_number(const mote_column *column, const mote_summary_row *row);
+const char *mote_column_text(const mote_column *column, const mote_summary *summary,
+                             const mote_summary_row *row);
+
+/* The columns of a view from left to right; returns how many. columns holds MOTE_VIEW_MAX. */
+#define MOTE_VIEW_MAX 40
+size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX]);
+
+/* The same value from a row of a stored summary.json; MOTE_NONE where it is no number. */
+double mote_column_stored(const mote_column *column, const json_t *row);
+
+#endif

@@ -1,0 +1,143 @@
+#include "harness/summary/column_docs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const type_names[] = {"text", "whole", "real", "flag", "object"};
+
+/* The schema of a column's value by its type; null stands for a number that there is not. */
+static json_t *type_schema(const mote_column *column)
+{
+    if (column->schema)
+        return json_loads(column->schema, 0, NULL);
+    switch (column->type) {
+    case MOTE_COLUMN_TEXT:
+        return json_pack("{s:s}", "type", "string");
+    case MOTE_COLUMN_WHOLE:
+        return json_pack("{s:[s,s]}", "type", "integer", "null");
+    case MOTE_COLUMN_REAL:
+        return json_pack("{s:[s,s]}", "type", "number", "null");
+    case MOTE_COLUMN_FLAG:
+        return json_pack("{s:s}", "type", "boolean");
+    default:
+        return json_object();
+    }
+}
+
+static json_t *value_schema(const mote_column *column)
+{
+    json_t *schema = type_schema(column);
+    char *says = column->meaning ? mote_format("%s%s%s", column->meaning,
+                                               column->unit[0] ? "; in " : "", column->unit)
+                                 : NULL;
+    if (schema && says)
+        (void)json_object_set_new(schema, "description", json_string(says));
+    free(says);
+    return schema;
+}
+
+/* Adds a member to an object's schema, required unless it may be left out. */
+static void add_member(json_t *schema, const char *key, json_t *member, bool required)
+{
+    (void)json_object_set_new(json_object_get(schema, "properties"), key, member);
+    if (required)
+        (void)json_array_append_new(json_object_get(schema, "required"), json_string(key));
+}
+
+/* The schema of the object that a column stands in, made if it is the first. An object that
+   begins with an optional member is null without it. */
+static json_t *object_schema(json_t *row, const mote_column *column)
+{
+    json_t *properties = json_object_get(row, "properties");
+    json_t *object = json_object_get(properties, column->object);
+    if (object)
+        return object;
+    object = column->optional
+                 ? json_pack("{s:[s,s], s:{}, s:[]}", "type", "object", "null", "properties",
+                             "required")
+                 : json_pack("{s:s, s:{}, s:[]}", "type", "object", "properties", "required");
+    add_member(row, column->object, object, true);
+    return object;
+}
+
+json_t *mote_columns_schema(void)
+{
+    json_t *row = json_pack("{s:s, s:{}, s:[]}", "type", "object", "properties", "required");
+    for (size_t i = 0; row && i < mote_column_count; ++i) {
+        const mote_column *column = &mote_columns[i];
+        if (column->object)
+            add_member(object_schema(row, column), column->key, value_schema(column), true);
+        else
+            add_member(row, column->key, value_schema(column), !column->optional);
+    }
+    return row;
+}
+
+static const char *show_name(mote_number_show show)
+{
+    static const struct {
+        mote_number_show show;
+        const char *name;
+    } names[] = {{mote_show_time, "time"},       {mote_show_ratio, "ratio"},
+                 {mote_show_percent, "percent"}, {mote_show_error, "error"},
+                 {mote_show_count, "count"},     {mote_show_bytes, "bytes"}};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        if (names[i].show == show)
+            return names[i].name;
+    }
+    return NULL;
+}
+
+/* Times are compared, too, by rules of their own. */
+static json_t *less_is_better(const mote_column *column)
+{
+    if (column->rule.name)
+        return json_boolean(!column->rule.complement);
+    if (strcmp(column->unit, "ns") == 0)
+        return json_true();
+    return column->show == mote_show_ratio ? json_false() : json_null();
+}
+
+json_t *mote_columns_json(void)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; list && i < mote_column_count; ++i) {
+        const mote_column *column = &mote_columns[i];
+        json_t *entry = json_pack(
+            "{s:s?, s:s, s:s?, s:s, s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:i, s:i, s:i, "
+            "s:o}",
+            "object", column->object, "key", column->key, "csv", column->csv, "type",
+            type_names[column->type], "unit", column->unit, "meaning", column->meaning, "group",
+            column->group, "head", column->head, "brief", column->brief, "show",
+            show_name(column->show), "interval", column->interval, "table",
+            column->place[MOTE_VIEW_TABLE], "report", column->place[MOTE_VIEW_REPORT], "screen",
+            column->place[MOTE_VIEW_SCREEN], "less_is_better", less_is_better(column));
+        if (json_array_append_new(list, entry) != 0) {
+            json_decref(list);
+            return NULL;
+        }
+    }
+    return list;
+}
+
+static void add_name(const mote_column *column, mote_text *text)
+{
+    mote_text_add(text, "`%s%s%s`", column->object ? column->object : "",
+                  column->object ? "." : "", column->key);
+}
+
+void mote_columns_markdown(mote_text *text)
+{
+    mote_text_add(text, "| column | unit | meaning |\n| --- | --- | --- |\n");
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        const mote_column *column = &mote_columns[i];
+        if (!column->meaning)
+            continue;
+        mote_text_add(text, "| ");
+        add_name(column, text);
+        /* Members without a meaning of their own stand with the one before them. */
+        for (size_t k = i + 1; k < mote_column_count && !mote_columns[k].meaning; ++k)
+            mote_text_add(text, ", `.%s`", mote_columns[k].key);
+        mote_text_add(text, " | %s | %s |\n", column->unit, column->meaning);
+    }
+}

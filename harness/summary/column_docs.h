@@ -1,0 +1,23 @@
+/* What the list of columns says of itself: for other programs, for the page, for the documents.
+ */
+#ifndef MOTE_HARNESS_COLUMN_DOCS_H
+#define MOTE_HARNESS_COLUMN_DOCS_H
+
+#include "harness/base/file.h"
+#include "harness/summary/column.h"
+
+/* The JSON schema of a row of summary.json; NULL when memory ran out.
+   results/schema/summary.json holds it as $defs.row. */
+json_t *mote_columns_schema(void);
+
+/* The columns as data, one object a column: {"object" (or null), "key", "csv" (or null),
+   "type": "text|whole|real|flag|object", "unit", "meaning", "group", "head", "brief" (or null),
+   "show": "time|ratio|percent|error|count|bytes" (or null), "interval", "table", "report",
+   "screen" (its place there, rising from left to right; 0: not there), "less_is_better" (or
+   null where neither is)}; NULL when memory ran out. */
+json_t *mote_columns_json(void);
+
+/* The columns as a table in Markdown, which results/README.md holds. */
+void mote_columns_markdown(mote_text *text);
+
+#endif

@@ -1,0 +1,21 @@
+/* Which rows of a summary another row beats in everything. */
+#ifndef MOTE_HARNESS_DOMINANCE_H
+#define MOTE_HARNESS_DOMINANCE_H
+
+#include "harness/summary/summary_row.h"
+
+/* Whether a dominates b. Both are measured (mote_summary_row_measured) on the same frames of
+   one scene, with deformation accounted for in the same way; a is surely faster: its interval
+   lies below that of b, so there are two replicates or more; and a is no worse in the 99th
+   percentile of the error, in the largest error, in the share of exact frames, in missed and in
+   false contacts. Errors up to MOTE_EXACT_ERROR are equal. */
+bool mote_dominates(const mote_summary_row *a, const mote_summary_row *b);
+
+/* Sets dominated_by of each row: the fastest row that dominates it. Part of mote_summary_make.
+   Cost O(count^2). */
+void mote_find_dominated(mote_summary_row *rows, size_t count);
+
+/* Whether a row stands on the front of its block: measured, and no other row dominates it. */
+bool mote_on_front(const mote_summary_row *row);
+
+#endif

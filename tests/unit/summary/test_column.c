@@ -1,0 +1,193 @@
+/* The list of columns against what is made from it: the schema and the document in the
+   repository, a run's summary.json and CSV. */
+#include "harness/base/data.h"
+#include "harness/summary/column_docs.h"
+#include "harness/summary/summary_json.h"
+#include "harness/summary/table.h"
+#include "tests/support/program.h"
+#include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
+
+#define SCHEMA MOTE_SOURCE_DIR "/results/schema/summary.json"
+#define DOCUMENT MOTE_SOURCE_DIR "/results/README.md"
+
+static char base[] = "/tmp/mote-test-column-XXXXXX";
+static mote_summary summary;
+
+static int make_run(void)
+{
+    if (!mkdtemp(base))
+        return -1;
+    for (int r = 1; r <= 2; ++r) {
+        const stored_cell cells[] = {
+            {.replicate = r, .rows = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0.1,0,1,7\n"},
+            {.method = "odd, \\\"name\\\"",
+             .id = r == 1 ? "o1" : "o2",
+             .replicate = r,
+             .status = "crashed",
+             .more = ", \"reason\": \"a signal\""}};
+        for (size_t i = 0; i < 2; ++i) {
+            if (!stored_cell_write(base, &cells[i]))
+                return -1;
+        }
+    }
+    return mote_summary_make(base, &summary) == MOTE_OK ? 0 : -1;
+}
+
+static int remove_run(void)
+{
+    mote_summary_free(&summary);
+    return program_remove(base);
+}
+
+TEST_GROUP(make_run, remove_run);
+
+static bool is_null_object(const json_t *row, const mote_column *column)
+{
+    return column->object && json_is_null(json_object_get(row, column->object));
+}
+
+static const json_t *value_of(const json_t *row, const mote_column *column)
+{
+    return json_object_get(column->object ? json_object_get(row, column->object) : row,
+                           column->key);
+}
+
+TEST(columns_have_names_that_differ_and_a_source_each)
+{
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        const mote_column *column = &mote_columns[i];
+        const int sources = (column->offset > 0) + (column->number != NULL) +
+                            (column->text != NULL) + (column->json != NULL);
+        assert_ptr_equal(mote_column_find(column->object, column->key), column);
+        assert_int_equal(sources, 1);
+        assert_non_null(column->unit);
+        assert_true(column->meaning ||
+                    (i > 0 && column->object && mote_columns[i - 1].object &&
+                     strcmp(column->object, mote_columns[i - 1].object) == 0));
+        for (size_t k = 0; k < i; ++k)
+            assert_true(!column->csv || !mote_columns[k].csv ||
+                        strcmp(column->csv, mote_columns[k].csv) != 0);
+        for (int view = 0; view < MOTE_VIEWS; ++view)
+            assert_true(column->place[view] == 0 || (column->show && column->head));
+    }
+}
+
+TEST(views_are_sorted_by_place)
+{
+    for (int view = 0; view < MOTE_VIEWS; ++view) {
+        const mote_column *columns[MOTE_VIEW_MAX];
+        const size_t count = mote_column_view((mote_view)view, columns);
+        assert_true(count >= 6 && count < MOTE_VIEW_MAX);
+        for (size_t k = 1; k < count; ++k)
+            assert_true(columns[k - 1]->place[view] < columns[k]->place[view]);
+    }
+}
+
+/* Every column stands in every row of summary.json, but for those that may be left out, with
+   the number that the CSV has, too. */
+TEST(rows_hold_the_values_of_their_columns)
+{
+    assert_int_equal(summary.count, 2);
+    for (size_t i = 0; i < summary.count; ++i) {
+        json_t *row = mote_summary_row_json(&summary, &summary.rows[i]);
+        size_t known = 0;
+        for (size_t k = 0; k < mote_column_count; ++k) {
+            const mote_column *column = &mote_columns[k];
+            const json_t *value = value_of(row, column);
+            if (!value && !column->optional && !is_null_object(row, column))
+                fail_msg("no %s.%s", column->object ? column->object : "", column->key);
+            const double number = mote_column_number(column, &summary.rows[i]);
+            if (json_is_number(value) && column->type != MOTE_COLUMN_OBJECT) {
+                assert_true(mote_column_stored(column, row) == number);
+                ++known;
+            }
+        }
+        assert_true(known > 5);
+        json_decref(row);
+    }
+    const mote_column *max = mote_column_find("error", "max");
+    assert_true(mote_column_number(max, &summary.rows[0]) == 0.1);
+    assert_null(mote_column_find(NULL, "max"));
+}
+
+/* The number of fields of a line of a CSV; quotes inside fields are doubled. */
+static size_t count_fields(const char *line)
+{
+    size_t fields = 1;
+    bool quoted = false;
+    for (; *line && (*line != '\n' || quoted); ++line) {
+        quoted = quoted != (*line == '"');
+        fields += *line == ',' && !quoted ? 1 : 0;
+    }
+    return fields;
+}
+
+TEST(csv_has_a_field_a_column_whatever_names_hold)
+{
+    mote_text text = {0};
+    mote_table_csv(&summary, &text);
+    assert_int_equal(strncmp(text.data, "scenario,cache,method,label,n,", 30), 0);
+    const size_t fields = count_fields(text.data);
+    size_t lines = 0;
+    for (const char *line = text.data; *line; line = strchr(line, '\n') + 1, ++lines)
+        assert_int_equal(count_fields(line), fields);
+    assert_int_equal(lines, 1 + summary.count);
+    assert_non_null(strstr(text.data, "\"odd, \"\"name\"\"\""));
+    free(text.data);
+}
+
+/* Leaves what should be there beside the tests, and says so. */
+static void differs(const char *file, const char *expected)
+{
+    char path[512];
+    const char *name = strrchr(file, '/') + 1;
+    (void)snprintf(path, sizeof path, "%s.expected", name);
+    assert_true(plain_file_put(path, expected));
+    fail_msg("%s is not what harness/summary/column.c says; what it says is in %s of the "
+             "folder of this test",
+             file, path);
+}
+
+TEST(schema_of_a_row_is_that_of_the_columns)
+{
+    json_t *schema = json_load_file(SCHEMA, 0, NULL), *expected = mote_columns_schema();
+    assert_non_null(schema);
+    json_t *definitions = json_object_get(schema, "$defs");
+    if (!json_equal(json_object_get(definitions, "row"), expected)) {
+        assert_int_equal(json_object_set(definitions, "row", expected), 0);
+        char *text = json_dumps(schema, JSON_INDENT(1));
+        differs(SCHEMA, text);
+    }
+    json_decref(expected);
+    json_decref(schema);
+}
+
+TEST(document_holds_the_table_of_the_columns)
+{
+    mote_text expected = {0};
+    char *document = NULL;
+    size_t size = 0;
+    mote_columns_markdown(&expected);
+    assert_int_equal(mote_file_read(DOCUMENT, 1 << 20, &document, &size), MOTE_OK);
+    if (!strstr(document, expected.data))
+        differs(DOCUMENT, expected.data);
+    free(document);
+    free(expected.data);
+}
+
+/* What a page needs to draw a table from rows alone. */
+TEST(columns_as_data_say_where_a_value_is_and_how_it_is_shown)
+{
+    json_t *list = mote_columns_json();
+    assert_int_equal(json_array_size(list), mote_column_count);
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        const json_t *entry = json_array_get(list, i);
+        const char *object = json_string_value(json_object_get(entry, "object"));
+        const char *key = json_string_value(json_object_get(entry, "key"));
+        assert_ptr_equal(mote_column_find(object, key), &mote_columns[i]);
+        assert_int_equal(json_is_string(json_object_get(entry, "show")),
+                         mote_columns[i].show != NULL);
+    }
+    json_decref(list);
+}

@@ -1,0 +1,244 @@
+/* Which rows dominate others, which are on the front, and what is compared with what: runs that
+   the test writes itself. */
+#include "harness/summary/dominance.h"
+#include "harness/summary/front.h"
+#include "tests/support/program.h"
+#include "tests/support/stored_cells.h"
+#include "tests/support/test.h"
+
+#include <math.h>
+
+static char base[] = "/tmp/mote-test-dominance-XXXXXX";
+static char directory[64];
+static int directories;
+static mote_summary summary;
+
+static int make_base(void)
+{
+    return mkdtemp(base) ? 0 : -1;
+}
+
+static int remove_base(void)
+{
+    return program_remove(base);
+}
+
+static int next_directory(void)
+{
+    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories++);
+    return 0;
+}
+
+static int free_summary(void)
+{
+    mote_summary_free(&summary);
+    return 0;
+}
+
+TEST_GROUP(make_base, remove_base);
+TEST_EACH(next_directory, free_summary);
+
+#define FRAMES 200
+
+/* What a method's answers are like over FRAMES frames, of which the first 100 are contacts. */
+typedef struct answers {
+    double deform_ns, query_ns;
+    double error;      /* of the frames that are not exact */
+    int inexact;       /* how many these are */
+    int missed, wrong; /* contacts missed, and false ones */
+} answers;
+
+static void write_answers(stored_cell cell, answers a)
+{
+    static char rows[FRAMES * 64];
+    size_t used = 0;
+    for (int k = 1; k <= FRAMES; ++k) {
+        const bool truth = k <= 100;
+        const bool contact = truth ? k > a.missed : k - 100 <= a.wrong;
+        used += (size_t)snprintf(rows + used, sizeof rows - used, "%d,%g,0,%g,0.5,%g,%d,%d,7\n",
+                                 k, a.deform_ns, a.query_ns, k <= a.inexact ? a.error : 0,
+                                 contact, truth);
+    }
+    cell.rows = rows;
+    cell.frames = "[1, 200]";
+    assert_true(stored_cell_write(directory, &cell));
+}
+
+/* Three replicates that differ by 1 % in time. */
+static void write_row(stored_cell cell, answers a)
+{
+    const double query_ns = a.query_ns;
+    char id[64];
+    for (cell.replicate = 1; cell.replicate <= 3; ++cell.replicate) {
+        (void)snprintf(id, sizeof id, "%s-%s-%d", cell.method,
+                       cell.parameters && strstr(cell.parameters, "given") ? "given" : "",
+                       cell.replicate);
+        cell.id = id;
+        a.query_ns = query_ns * (1 + 0.01 * cell.replicate);
+        write_answers(cell, a);
+    }
+}
+
+static void make_summary(void)
+{
+    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+}
+
+static const mote_summary_row *row_of(const char *method, bool given)
+{
+    for (size_t i = 0; i < summary.count; ++i) {
+        if (strcmp(summary.rows[i].first->method, method) == 0 &&
+            summary.rows[i].given == given)
+            return &summary.rows[i];
+    }
+    fail_msg("no row of %s", method);
+    return NULL;
+}
+
+/* A row that is faster and worse in a single figure, the others being equal. */
+TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
+{
+    static const struct {
+        const char *figure;
+        answers slow, fast;
+        bool dominated;
+    } cases[] = {
+        {"nothing", {0, 1000, 0, 0, 0, 0}, {0, 10, 0, 0, 0, 0}, true},
+        {"nothing, though neither is exact",
+         {0, 1000, 0.1, 50, 3, 3},
+         {0, 10, 0.1, 50, 3, 3},
+         true},
+        {"time", {0, 10, 0, 0, 0, 0}, {0, 10.05, 0, 0, 0, 0}, false},
+        {"the 99th percentile", {0, 1000, 0.1, 50, 0, 0}, {0, 10, 0.2, 50, 0, 0}, false},
+        /* One frame in 200: the 99th percentile does not see it. */
+        {"the largest error", {0, 1000, 0, 0, 0, 0}, {0, 10, 8.7e-3, 1, 0, 0}, false},
+        {"the exact share", {0, 1000, 0.1, 50, 0, 0}, {0, 10, 0.1, 51, 0, 0}, false},
+        {"missed contacts", {0, 1000, 0, 0, 3, 3}, {0, 10, 0, 0, 4, 3}, false},
+        {"false contacts", {0, 1000, 0, 0, 3, 3}, {0, 10, 0, 0, 3, 4}, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        (void)next_directory();
+        write_row((stored_cell){.method = "slow"}, cases[i].slow);
+        write_row((stored_cell){.method = "fast"}, cases[i].fast);
+        make_summary();
+        const mote_summary_row *slow = row_of("slow", false), *fast = row_of("fast", false);
+        if ((slow->dominated_by != SIZE_MAX) != cases[i].dominated ||
+            mote_on_front(slow) == cases[i].dominated || !mote_on_front(fast))
+            fail_msg("worse in %s: dominated %d, on the front %d and %d", cases[i].figure,
+                     slow->dominated_by != SIZE_MAX, mote_on_front(slow), mote_on_front(fast));
+        mote_summary_free(&summary);
+    }
+}
+
+/* A scene that asks for contacts only: some methods give a distance beside, others none. */
+TEST(distances_do_not_count_where_contacts_are_asked_for)
+{
+    static const char contact[] = ", \"ask\": \"contact\", \"tolerance\": 0.0";
+    write_row((stored_cell){.method = "fast", .more = contact}, (answers){.query_ns = 10});
+    write_row((stored_cell){.method = "wrong", .more = contact},
+              (answers){.query_ns = 5, .missed = 1});
+    write_row((stored_cell){.method = "slow", .more = contact},
+              (answers){.query_ns = 1000, .error = 0.5, .inexact = 9});
+    make_summary();
+    assert_true(mote_on_front(row_of("fast", false)));
+    assert_true(mote_on_front(row_of("wrong", false)));
+    assert_false(mote_on_front(row_of("slow", false)));
+    mote_summary_row silent = *row_of("fast", false);
+    silent.error.p99 = silent.error.max = silent.error.exact_rate = MOTE_NONE;
+    assert_true(mote_dominates(&silent, row_of("slow", false)));
+}
+
+/* 998 of 1,000 frames exact is not "exact", though the 99th percentile is. */
+TEST(speed_at_exact_is_of_rows_exact_in_every_frame)
+{
+    write_row((stored_cell){.method = "fcl-aabb"}, (answers){.query_ns = 1000});
+    write_row((stored_cell){.method = "almost"},
+              (answers){.query_ns = 10, .error = 8.7e-3, .inexact = 1});
+    write_row((stored_cell){.method = "certified"}, (answers){.query_ns = 20});
+    make_summary();
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    assert_int_equal(fronts.count, 3);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        const mote_front *front = &fronts.items[i];
+        const double exact = front->speed[0].faster, next = front->speed[1].faster;
+        if (strcmp(front->title, "almost") == 0)
+            assert_true(isnan(exact) && fabs(next - 100) < 1e-9);
+        else if (strcmp(front->title, "certified") == 0)
+            assert_true(fabs(exact - 50) < 1e-9 && fabs(next - 50) < 1e-9);
+    }
+    mote_fronts_free(&fronts);
+}
+
+/* FCL needs 200 ns and 800 ns for deformation; with positions given it needs 250. */
+TEST(rows_with_positions_given_are_compared_without_deformation)
+{
+    static const char given[] = "{\"positions\": \"given\"}";
+    write_row((stored_cell){.method = "fcl-aabb"},
+              (answers){.deform_ns = 800, .query_ns = 200});
+    write_row((stored_cell){.method = "ours"}, (answers){.deform_ns = 100, .query_ns = 20});
+    write_row((stored_cell){.method = "ours", .parameters = given}, (answers){.query_ns = 20});
+    make_summary();
+    const mote_summary_row *charged = row_of("ours", false), *ours = row_of("ours", true);
+    assert_true(fabs(ours->ratio.value - 10) < 1e-9 &&
+                fabs(ours->ratio_best.value - 10) < 1e-9);
+    assert_true(fabs(charged->ratio.value - 1002.0 / 120.2) < 0.1);
+    assert_true(fabs(charged->ratio_given.value - 10) < 1e-9);
+    /* Faster than all, and exact; yet it dominates only its like. */
+    assert_true(mote_on_front(charged) && mote_on_front(ours));
+    mote_fronts fronts;
+    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        if (&summary.rows[fronts.items[i].first] == ours)
+            assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
+    }
+    mote_fronts_free(&fronts);
+    mote_summary_free(&summary);
+    write_row((stored_cell){.method = "fcl-aabb", .parameters = given},
+              (answers){.query_ns = 250});
+    make_summary();
+    ours = row_of("ours", true);
+    assert_true(&summary.rows[ours->ratio.to] == row_of("fcl-aabb", true));
+    assert_true(fabs(ours->ratio.value - 12.5) < 1e-9);
+    assert_true(&summary.rows[ours->ratio_best.to] == row_of("fcl-aabb", false));
+    assert_true(&summary.rows[row_of("ours", false)->ratio.to] == row_of("fcl-aabb", false));
+}
+
+/* In three processes of five the fewer particles happen to be exact, in all together they are
+   not: the interval is of those that are, and the estimate lies within it. */
+TEST(interval_of_a_speed_lies_on_both_sides_of_it)
+{
+    static const double noise[] = {1, 1.03, 0.98, 1.01, 0.99, 1.02, 1.005, 0.97, 1.015, 0.995};
+    static const int processes[] = {5, 10}; /* Student's t, and resampling */
+    for (size_t i = 0; i < 2; ++i) {
+        (void)next_directory();
+        for (int r = 0; r < processes[i]; ++r) {
+            char id[3][16];
+            for (int k = 0; k < 3; ++k)
+                (void)snprintf(id[k], sizeof id[k], "%c-%d", "abc"[k], r + 1);
+            write_answers((stored_cell){.id = id[0], .replicate = r + 1},
+                          (answers){.query_ns = 1000 * noise[r]});
+            write_answers(
+                (stored_cell){.id = id[1],
+                              .method = "ours",
+                              .parameters = "{\"n\": 8}",
+                              .replicate = r + 1},
+                (answers){.query_ns = 10, .error = 0.09, .inexact = r % 5 > 2 ? 9 : 0});
+            write_answers((stored_cell){.id = id[2],
+                                        .method = "ours",
+                                        .parameters = "{\"n\": 16}",
+                                        .replicate = r + 1},
+                          (answers){.query_ns = 50});
+        }
+        make_summary();
+        mote_fronts fronts;
+        assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+        const mote_front_speed *speed = &fronts.items[1].speed[0];
+        if (!(speed->interval.low < speed->faster && speed->interval.high > speed->faster &&
+              speed->interval.low > 19 && speed->interval.high < 21))
+            fail_msg("%d processes: %g [%g, %g]", processes[i], speed->faster,
+                     speed->interval.low, speed->interval.high);
+        mote_fronts_free(&fronts);
+        mote_summary_free(&summary);
+    }
+}
