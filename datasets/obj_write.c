@@ -28,7 +28,7 @@ static bool write_body(FILE *file, const mote_vec3 *positions, const mote_mesh *
         if (fprintf(file, "f %u %u %u\n", v[0] + 1, v[1] + 1, v[2] + 1) < 0)
             return false;
     }
-    return fflush(file) == 0 && fsync(fileno(file)) == 0;
+    return fflush(file) == 0;
 }
 
 /* A decimal point whatever the locale of the program that uses us. */
@@ -55,7 +55,7 @@ static mote_status write_partial(const char *path, const char *partial,
                          "%s: cannot be created: %s; name a file in a folder that exists "
                          "and can be written",
                          partial, strerror(errno));
-    bool written = write_in_c_locale(file, positions, mesh);
+    bool written = write_in_c_locale(file, positions, mesh) && fsync(fileno(file)) == 0;
     int error = errno;
     if (fclose(file) != 0 && written) {
         written = false;
@@ -69,6 +69,15 @@ static mote_status write_partial(const char *path, const char *partial,
         return MOTE_OK;
     (void)remove(partial);
     return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
+}
+
+mote_status mote_obj_print(FILE *file, const mote_vec3 *positions, const mote_mesh *mesh)
+{
+    const mote_vec3 *points = positions ? positions : mesh->positions;
+    const mote_status status = check_positions(points, mesh->vertex_count);
+    if (status != MOTE_OK || write_in_c_locale(file, points, mesh))
+        return status;
+    return mote_fail(MOTE_EIO, "obj: cannot be written: %s", strerror(errno));
 }
 
 mote_status mote_obj_write(const char *path, const mote_vec3 *positions, const mote_mesh *mesh)

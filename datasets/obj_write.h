@@ -5,6 +5,8 @@
 #include "core/body/mesh.h"
 #include "core/base/status.h"
 
+#include <stdio.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -15,6 +17,9 @@ extern "C" {
    then. MOTE_EINVAL: a position that is not finite. MOTE_EIO: the folder or file cannot be
    written; nothing is left behind. Cost O(v + t). */
 mote_status mote_obj_write(const char *path, const mote_vec3 *positions, const mote_mesh *mesh);
+
+/* The same to an open file, which stays open. MOTE_EINVAL before anything is written. MOTE_EIO. */
+mote_status mote_obj_print(FILE *file, const mote_vec3 *positions, const mote_mesh *mesh);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define LINKS_MAX 40 /* followed from one path, as by the kernel */
+
 static mote_status read_descriptor(int descriptor, const char *path, size_t limit, char **text,
                                    size_t *size)
 {
@@ -86,12 +88,69 @@ static bool sync_directory(const char *path)
     return synced;
 }
 
-mote_status mote_file_write(const char *path, const void *data, size_t size)
+/* Standard output or error, where it is this file; else -1. */
+static int own_stream(const struct stat *file)
 {
-    char *beside = mote_format("%s.%ld.part", path, (long)getpid());
-    if (!beside)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
-    mote_status status = MOTE_OK;
+    for (int descriptor = STDOUT_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+        struct stat own;
+        if (fstat(descriptor, &own) == 0 && own.st_dev == file->st_dev &&
+            own.st_ino == file->st_ino)
+            return descriptor;
+    }
+    return -1;
+}
+
+bool mote_path_is_stream(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && !S_ISDIR(info.st_mode) &&
+           (!S_ISREG(info.st_mode) || own_stream(&info) >= 0);
+}
+
+int mote_stream_open(const char *path)
+{
+    struct stat info;
+    const int own = stat(path, &info) == 0 ? own_stream(&info) : -1;
+    if (own < 0)
+        return open(path, O_WRONLY | O_CLOEXEC);
+    /* Opened again, a file would be written from its start. */
+    (void)fflush(own == STDOUT_FILENO ? stdout : stderr);
+    return fcntl(own, F_DUPFD_CLOEXEC, 0);
+}
+
+char *mote_path_follow(const char *path)
+{
+    char *at = mote_format("%s", path);
+    for (int links = 0; at; ++links) {
+        char target[4096];
+        const ssize_t length = readlink(at, target, sizeof target - 1);
+        if (length < 0)
+            return at;
+        target[length] = '\0';
+        char *next = links < LINKS_MAX ? mote_path_beside(at, target) : NULL;
+        free(at);
+        at = next;
+        errno = links < LINKS_MAX ? errno : ELOOP;
+    }
+    return NULL;
+}
+
+static mote_status write_stream(const char *path, const void *data, size_t size)
+{
+    const int descriptor = mote_stream_open(path);
+    bool written = descriptor >= 0 && write_all(descriptor, data, size);
+    int error = errno;
+    if (descriptor >= 0 && close(descriptor) != 0 && written) {
+        error = errno;
+        written = false;
+    }
+    return written ? MOTE_OK
+                   : mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
+}
+
+/* Writes the file beside `target`, where no link is at the end, and renames it. */
+static bool replace_file(const char *target, const char *beside, const void *data, size_t size)
+{
     int descriptor = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     bool whole = descriptor >= 0 && write_all(descriptor, data, size) && fsync(descriptor) == 0;
     int error = errno;
@@ -99,15 +158,30 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
         error = errno;
         whole = false;
     }
-    if (whole && (rename(beside, path) != 0 || !sync_directory(path))) {
+    if (whole && (rename(beside, target) != 0 || !sync_directory(target))) {
         error = errno;
         whole = false;
     }
-    if (!whole) {
-        if (descriptor >= 0)
-            (void)unlink(beside);
-        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
-    }
+    if (!whole && descriptor >= 0)
+        (void)unlink(beside);
+    errno = error;
+    return whole;
+}
+
+mote_status mote_file_write(const char *path, const void *data, size_t size)
+{
+    if (mote_path_is_stream(path))
+        return write_stream(path, data, size);
+    char *target = mote_path_follow(path);
+    if (!target && errno == ELOOP)
+        return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+    char *beside = target ? mote_format("%s.%ld.part", target, (long)getpid()) : NULL;
+    mote_status status = MOTE_OK;
+    if (!beside)
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
+    else if (!replace_file(target, beside, data, size))
+        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+    free(target);
     free(beside);
     return status;
 }

@@ -14,9 +14,21 @@
    frees *text. */
 mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size);
 
-/* Writes a file beside its final name, syncs and renames it: what has the name is whole.
-   MOTE_EIO with a text. */
+/* Writes a file beside its final name, syncs and renames it: what has the name is whole. Links
+   at the end of path are followed and stay. A stream is written to and never replaced. MOTE_EIO
+   with a text. */
 mote_status mote_file_write(const char *path, const void *data, size_t size);
+
+/* Whether a path is that of a stream: a device, a FIFO or a socket, or whatever this program's
+   standard output or error goes to. Nothing can be put in its place, nor beside it. */
+bool mote_path_is_stream(const char *path);
+
+/* A descriptor for writing to a stream, which the caller closes; -1 with errno. */
+int mote_stream_open(const char *path);
+
+/* path with the links at its end followed, also to where there is no file yet. NULL when memory
+   ran out, and, with errno ELOOP, where links go round. The caller frees it. */
+char *mote_path_follow(const char *path);
 
 /* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no
    directory, or cannot be written to; errno then says why. */

@@ -13,6 +13,7 @@ typedef struct mote_json_file {
     char *path;
     char *text;
     json_t *root;
+    bool own; /* made by this program of files that its user named: it may name any */
 } mote_json_file;
 
 /* A value in a file. value is NULL where an optional key is absent. */

@@ -1,16 +1,17 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
-#include "harness/scene/approach.h"
-#include "harness/command/command.h"
-#include "harness/base/options.h"
 #include "harness/base/curve.h"
-#include "harness/base/file.h"
-#include "harness/base/json_print.h"
-#include "harness/base/json_read.h"
+#include "harness/base/options.h"
 #include "harness/base/record.h"
+#include "harness/command/command.h"
+#include "harness/run/scenario_save.h"
+#include "harness/scene/approach.h"
+#include "harness/scene/scenario_read.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define DIGITS 15 /* of a number in the file: 0.1 is 0.1 */
 
 typedef struct request {
     const char *scenario, *gaps, *output;
@@ -56,14 +57,19 @@ static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **cur
     return mote_curve_create(at, gap, count, 1, curve);
 }
 
-/* Frames 1, 1 + every, ..., and the last. */
-static uint32_t list_frames(uint32_t frames, uint32_t every, uint32_t *list)
+/* Frames 1, 1 + every, ..., the last, and each that a gap is wished for, in order. */
+static uint32_t list_frames(uint32_t frames, uint32_t every, const mote_curve *wished,
+                            uint32_t *list)
 {
-    uint32_t count = 0;
-    for (uint32_t frame = 1; frame < frames; frame += every)
+    uint32_t count = 0, next = 0;
+    for (uint32_t frame = 1;; frame = frame + every < frames ? frame + every : frames) {
+        for (; next < wished->count && wished->frames[next] < frame; ++next)
+            list[count++] = wished->frames[next];
+        next += next < wished->count && wished->frames[next] == frame;
         list[count++] = frame;
-    list[count++] = frames;
-    return count;
+        if (frame == frames)
+            return count;
+    }
 }
 
 /* Body 1's keys without their positions, then the positions found. */
@@ -72,11 +78,10 @@ static mote_status replace_positions(json_t *root, const mote_scenario *scenario
                                      uint32_t count)
 {
     json_t *body = json_array_get(json_object_get(root, "bodies"), 1);
-    if (!body || json_object_get(root, "pace") || json_object_get(root, "start") ||
-        json_object_get(root, "like"))
+    if (!body || json_object_get(root, "pace") || json_object_get(root, "start"))
         return mote_fail(MOTE_EINVAL,
-                         "%s: its path is not its own; name a scenario with bodies, "
-                         "without like, start and pace",
+                         "%s: start and pace cannot be kept with new positions; name a "
+                         "scenario without them",
                          scenario->path);
     json_t *keys = json_array();
     size_t index;
@@ -97,52 +102,58 @@ static mote_status replace_positions(json_t *root, const mote_scenario *scenario
     return MOTE_OK;
 }
 
+static mote_status verify(void *context, const mote_scenario *scenario)
+{
+    const mote_curve *wished = context;
+    return mote_approach_verify(scenario, wished->frames, wished->values, wished->count);
+}
+
 static mote_status write_result(const request *wish, const mote_scenario *scenario,
-                                const uint32_t *frames, const mote_vec3 *positions,
-                                uint32_t count)
+                                const mote_curve *wished, const mote_approach_plan *plan,
+                                const mote_vec3 *positions)
 {
     mote_json_file file;
-    mote_status status = mote_json_open(scenario->path, &file);
+    mote_status status = mote_scenario_open(scenario->path, &file);
     if (status != MOTE_OK)
         return status;
-    mote_text text = {0};
-    status = replace_positions(file.root, scenario, frames, positions, count);
-    if (status == MOTE_OK) {
-        mote_json_print(file.root, 6, &text);
-        status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for a scenario's text")
-                             : mote_file_write(wish->output, text.data, text.size);
-    }
-    free(text.data);
+    status = replace_positions(file.root, scenario, plan->frames, positions, plan->count);
+    if (status == MOTE_OK)
+        status =
+            mote_scenario_save(&file, DIGITS, verify, (void *)(uintptr_t)wished, wish->output);
     mote_json_close(&file);
     return status;
 }
 
 static mote_status approach(const request *wish, const mote_scenario *scenario)
 {
-    mote_curve *curve = NULL;
-    mote_status status = read_gaps(wish->gaps, scenario->frames, &curve);
+    mote_curve *wished = NULL;
+    mote_status status = read_gaps(wish->gaps, scenario->frames, &wished);
     if (status != MOTE_OK)
         return status;
-    const size_t most = scenario->frames / wish->every + 2;
+    const size_t most = scenario->frames / wish->every + 2 + wished->count;
     uint32_t *frames = malloc(most * sizeof *frames);
     double *gaps = malloc(most * sizeof *gaps);
     mote_vec3 *positions = malloc(most * sizeof *positions);
     if (!frames || !gaps || !positions) {
         status = mote_fail(MOTE_ENOMEM, "no memory for %zu frames", most);
     } else {
-        uint32_t count = list_frames(scenario->frames, (uint32_t)wish->every, frames);
+        const uint32_t count =
+            list_frames(scenario->frames, (uint32_t)wish->every, wished, frames);
         for (uint32_t k = 0; k < count; ++k)
-            mote_curve_evaluate(curve, frames[k], &gaps[k]);
+            mote_curve_evaluate(wished, frames[k], &gaps[k]);
         const double *u = wish->direction;
-        mote_approach_plan plan = {mote_vec3_make(u[0], u[1], u[2]), frames, gaps, count};
+        const mote_approach_plan plan = {.direction = mote_vec3_make(u[0], u[1], u[2]),
+                                         .frames = frames,
+                                         .gaps = gaps,
+                                         .count = count};
         status = mote_approach_solve(scenario, &plan, positions);
         if (status == MOTE_OK)
-            status = write_result(wish, scenario, frames, positions, count);
+            status = write_result(wish, scenario, wished, &plan, positions);
     }
     free(frames);
     free(gaps);
     free(positions);
-    mote_curve_destroy(curve);
+    mote_curve_destroy(wished);
     return status;
 }
 
@@ -178,5 +189,9 @@ int mote_command_approach(int argc, char **argv)
         return mote_command_fail();
     mote_status status = approach(&wish, scenario);
     mote_scenario_destroy(scenario);
-    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
+    if (status == MOTE_OK)
+        return mote_command_finish(MOTE_EXIT_DONE);
+    const int code = mote_command_fail();
+    /* The bodies were placed; that a gap is not as wished is a failed check. */
+    return status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
 }

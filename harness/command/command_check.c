@@ -2,15 +2,12 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
-#include "harness/run/truth.h"
+#include "harness/run/active.h"
 
 #include <inttypes.h>
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#define NEAR 0.1 /* of L: a scenario's active frames are nearer than this */
-#define NEAR_SHARE 0.9
 
 typedef struct findings {
     uint64_t fingerprint;
@@ -18,30 +15,11 @@ typedef struct findings {
     uint32_t active_frames;   /* 0: none named */
     uint32_t active_contacts; /* of them */
     uint32_t active_near;
+    bool active_holds;
     uint32_t checked;
     double smallest, largest; /* distance, of L */
     mote_interval longest;    /* the longest run of frames that could be called active */
 } findings;
-
-/* The longest run of which at least NEAR_SHARE are near: of prefix sums of (near - share), the
-   farthest pair that does not fall. O(frames^2) at worst, of additions. */
-static mote_interval longest_active(const mote_scenario *scenario, const mote_truth *truth)
-{
-    mote_interval best = {0, 0};
-    uint32_t best_size = 0;
-    for (uint32_t first = 0; first + best_size < truth->frames; ++first) {
-        uint32_t near = 0;
-        for (uint32_t k = first; k < truth->frames; ++k) {
-            const uint32_t size = k - first + 1;
-            near += truth->distance[k] <= NEAR * scenario->length;
-            if (size > best_size && near >= NEAR_SHARE * size) {
-                best_size = size;
-                best = (mote_interval){first + 1, k + 1};
-            }
-        }
-    }
-    return best;
-}
 
 static void look(const mote_scenario *scenario, const mote_truth *truth, findings *found)
 {
@@ -56,14 +34,10 @@ static void look(const mote_scenario *scenario, const mote_truth *truth, finding
             continue;
         ++found->active_frames;
         found->active_contacts += truth->contact[k];
-        found->active_near += distance <= NEAR;
     }
-    found->longest = longest_active(scenario, truth);
-}
-
-static bool active_holds(const findings *found)
-{
-    return found->active_near >= NEAR_SHARE * found->active_frames;
+    found->active_near = mote_active_near(scenario, truth, scenario->active);
+    found->active_holds = mote_active_holds(scenario, truth, scenario->active);
+    found->longest = mote_active_longest(scenario, truth);
 }
 
 static int print_json(const mote_scenario *scenario, const findings *found)
@@ -80,7 +54,7 @@ static int print_json(const mote_scenario *scenario, const findings *found)
         (void)json_object_set_new(root, "active_contacts",
                                   json_integer(found->active_contacts));
         (void)json_object_set_new(root, "active_near", json_integer(found->active_near));
-        (void)json_object_set_new(root, "active_holds", json_boolean(active_holds(found)));
+        (void)json_object_set_new(root, "active_holds", json_boolean(found->active_holds));
     }
     return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
                                                                   : mote_command_fail();
@@ -97,8 +71,8 @@ static void print_lines(const mote_scenario *scenario, const findings *found)
         (void)printf(
             "active %u-%u: truth <= %g L in %.1f %% of frames (needed: %g %%), contact "
             "in %.1f %%\n",
-            scenario->active.first, scenario->active.last, NEAR,
-            100.0 * found->active_near / found->active_frames, 100 * NEAR_SHARE,
+            scenario->active.first, scenario->active.last, MOTE_ACTIVE_NEAR,
+            100.0 * found->active_near / found->active_frames, 100 * MOTE_ACTIVE_SHARE,
             100.0 * found->active_contacts / found->active_frames);
     if (found->longest.first > 0)
         (void)printf("longest interval that is active: %u-%u\n", found->longest.first,
@@ -135,12 +109,13 @@ static int check(const char *name, bool json, const char *directory)
             code = print_json(scenario, &found);
         else
             print_lines(scenario, &found);
-        if (code == MOTE_EXIT_DONE && !active_holds(&found)) {
+        if (code == MOTE_EXIT_DONE && !found.active_holds) {
             (void)fprintf(stderr,
                           "mote: %s: active %u-%u: only %u of %u frames have truth <= %g L; "
                           "name an interval in which at least %g %% have\n",
                           scenario->path, scenario->active.first, scenario->active.last,
-                          found.active_near, found.active_frames, NEAR, 100 * NEAR_SHARE);
+                          found.active_near, found.active_frames, MOTE_ACTIVE_NEAR,
+                          100 * MOTE_ACTIVE_SHARE);
             code = MOTE_EXIT_CHECK_FAILED;
         }
     } else {

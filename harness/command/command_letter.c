@@ -2,9 +2,36 @@
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
 #include "harness/command/command.h"
+#include "harness/base/file.h"
 #include "harness/base/options.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* To a stream. */
+static mote_status print_mesh(const char *path, const mote_mesh *mesh)
+{
+    const int descriptor = mote_stream_open(path);
+    FILE *file = descriptor >= 0 ? fdopen(descriptor, "w") : NULL;
+    if (!file)
+        return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+    mote_status status = mote_obj_print(file, NULL, mesh);
+    if (fclose(file) != 0 && status == MOTE_OK)
+        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+    return status;
+}
+
+static mote_status write_mesh(const char *path, const mote_mesh *mesh)
+{
+    char *target = mote_path_follow(path);
+    if (!target)
+        return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+    const mote_status status = mote_obj_write(target, NULL, mesh);
+    free(target);
+    return status;
+}
 
 int mote_command_letter(int argc, char **argv)
 {
@@ -34,10 +61,13 @@ int mote_command_letter(int argc, char **argv)
     mote_mesh *mesh;
     if (mote_letter_create(letter[0], triangles, &mesh) != MOTE_OK)
         return mote_command_fail();
-    mote_status status = mote_obj_write(path, NULL, mesh);
+    /* What is said of the mesh must not stand in it. */
+    const bool is_stream = mote_path_is_stream(path);
+    mote_status status = is_stream ? print_mesh(path, mesh) : write_mesh(path, mesh);
     if (status == MOTE_OK)
-        (void)printf("%s: %u vertices, %u triangles, smallest angle %.1f degrees\n", path,
-                     mesh->vertex_count, mesh->triangle_count, mote_mesh_smallest_angle(mesh));
+        (void)fprintf(is_stream ? stderr : stdout,
+                      "%s: %u vertices, %u triangles, smallest angle %.1f degrees\n", path,
+                      mesh->vertex_count, mesh->triangle_count, mote_mesh_smallest_angle(mesh));
     mote_mesh_destroy(mesh);
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }

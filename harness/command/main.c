@@ -2,7 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
-#include "harness/scene/reach.h"
+#include "harness/scene/fence.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -53,7 +53,7 @@ int main(int argc, char **argv)
     (void)signal(SIGPIPE, SIG_IGN);
     mote_json_heed_memory();
     for (; argc > 2 && strcmp(argv[1], "--allow") == 0; argc -= 2, argv += 2) {
-        if (mote_reach_allow(argv[2]) != MOTE_OK)
+        if (mote_fence_allow(argv[2]) != MOTE_OK)
             return mote_command_fail();
     }
     if (argc < 2) {

@@ -4,7 +4,6 @@
 #include "harness/base/gnuplot.h"
 #include "harness/base/record.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +35,9 @@ mote_status mote_film_create(const mote_scenario *scenario, const char *method, 
     made->scenario = scenario;
     made->method = mote_format("%s", method);
     made->path = mote_format("%s", path);
-    made->folder = mote_format("%s.frames", path);
+    made->folder = mote_path_is_stream(path)
+                       ? mote_format("/tmp/mote.%ld.frames", (long)getpid())
+                       : mote_format("%s.frames", path);
     made->every = steps / MOTE_FILM_PICTURES + 1;
     made->box[0] = made->box[2] = HUGE_VAL;
     made->box[1] = made->box[3] = -HUGE_VAL;
@@ -221,8 +222,13 @@ mote_status mote_film_draw(const mote_film *film)
         heading && made ? write_index(film) : mote_fail(MOTE_ENOMEM, "no memory for a film");
     if (status == MOTE_OK)
         status = mote_gnuplot_draw(film->folder, "simulation", "film", heading, "", "gif");
-    if (status == MOTE_OK && rename(made, film->path) != 0)
-        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", film->path, strerror(errno));
+    char *picture = NULL;
+    size_t size = 0;
+    if (status == MOTE_OK)
+        status = mote_file_read(made, SIZE_MAX, &picture, &size);
+    if (status == MOTE_OK)
+        status = mote_file_write(film->path, picture, size);
+    free(picture);
     free(heading);
     free(made);
     return status;

@@ -1,13 +1,11 @@
 #include "harness/loop/trace.h"
 
-#include "harness/base/json_print.h"
+#include "harness/base/file.h"
+#include "harness/run/scenario_save.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario_read.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 /* The key poses of body i. */
 static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
@@ -27,31 +25,10 @@ static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
     return keys;
 }
 
-/* Paths of meshes count from the scenario's folder, and the trace may be in another one. */
-static mote_status anchor_mesh(json_t *body, const char *path)
-{
-    const char *file = json_string_value(json_object_get(body, "file"));
-    if (!file || file[0] == '/')
-        return MOTE_OK;
-    char here[4096] = "";
-    if (path[0] != '/' && !getcwd(here, sizeof here))
-        return mote_fail(MOTE_EIO, "%s: the working directory cannot be told: %s", path,
-                         strerror(errno));
-    char *beside = mote_path_beside(path, file);
-    char *whole = beside ? mote_format("%s%s%s", here, here[0] ? "/" : "", beside) : NULL;
-    free(beside);
-    if (!whole)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", path);
-    (void)json_object_set_new(body, "file", json_string(whole));
-    free(whole);
-    return MOTE_OK;
-}
-
 static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mote_mass mass[2],
                            const mote_rigid_state (*states)[2], uint32_t count)
 {
     (void)json_object_del(root, "warmup");
-    (void)json_object_del(root, "active");
     (void)json_object_set_new(root, "frames", json_integer(count));
     (void)json_object_set_new(root, "ask", json_string("distance"));
     char *purpose = mote_format("A simulated run of %s, recorded.", scenario->name);
@@ -72,7 +49,6 @@ static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mo
         (void)json_object_del(body, "spin");
         (void)json_object_set_new(body, "motion",
                                   motion_json(scenario, &mass[i], states, count, i));
-        status = anchor_mesh(body, scenario->path);
     }
     return status;
 }
@@ -97,22 +73,13 @@ mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass
     mote_json_file file;
     mote_status status = check_deformation(scenario, count, options->time_step);
     if (status == MOTE_OK)
-        status = mote_json_open(scenario->path, &file);
+        status = mote_scenario_open(scenario->path, &file);
     if (status != MOTE_OK)
         return status;
-    status = mote_scenario_merge_like(&file);
+    (void)json_object_set_new(file.root, "tolerance", json_real(options->tolerance));
+    status = rewrite(file.root, scenario, mass, states, count);
     if (status == MOTE_OK)
-        (void)json_object_set_new(file.root, "tolerance", json_real(options->tolerance));
-    if (status == MOTE_OK)
-        status = rewrite(file.root, scenario, mass, states, count);
-    mote_text text = {0};
-    if (status == MOTE_OK) {
-        mote_json_print(file.root, 17, &text);
-        status = text.failed
-                     ? mote_fail(MOTE_ENOMEM, "no memory for a trace of %u frames", count)
-                     : mote_file_write(path, text.data, text.size);
-    }
-    free(text.data);
+        status = mote_scenario_save(&file, 17, NULL, NULL, path);
     mote_json_close(&file);
     return status;
 }

@@ -6,17 +6,33 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define ORACLE "fcl-aabb"
-#define STEPS_MAX 2000
-#define PRECISION 1e-4 /* of L */
+#define SEARCH "certified" /* exact, and the fastest where only the place changes */
+#define ORACLE "fcl-aabb"  /* another one to verify with */
+#define STEPS_MAX 2000     /* queries a frame */
+#define PRECISION 1e-4     /* of the smaller body's L */
+#define ROUNDING 1e-13     /* of L of the pair: distances are not closer to the truth */
+#define VERIFIED 1e-3      /* of L of the pair */
 
 typedef struct approach {
     const mote_scenario *scenario;
+    const mote_approach_plan *plan;
     mote_probe *probe;
     mote_frame frame;
     mote_vec3 direction, base; /* body 1's centre is at base + offset * direction */
     mote_vec3 still;           /* its translation with the centre at the origin */
+    double precision;          /* absolute */
 } approach;
+
+static mote_status make_probe(const mote_scenario *scenario, const char *method,
+                              mote_probe **probe)
+{
+    mote_method_choice choice;
+    mote_status status = mote_method_choice_read(method, &choice);
+    if (status == MOTE_OK)
+        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
+                                   MOTE_ASK_DISTANCE, 0, 0, probe);
+    return status;
+}
 
 static mote_status distance_at(approach *a, double offset, double *distance)
 {
@@ -29,21 +45,43 @@ static mote_status distance_at(approach *a, double offset, double *distance)
     return status;
 }
 
-/* An offset at which the deformed bodies cannot be closer than the gap. */
-static double far_offset(approach *a, double gap)
+/* Sets base, and an offset from there at which the deformed bodies cannot be closer than the
+   gap. */
+static double start_far(approach *a, double gap)
 {
     const mote_frame *frame = &a->frame;
     const mote_body_motion *motion = a->scenario->motion->body;
+    mote_vec3 centres[2], tips[2];
     double radius = gap;
     for (int i = 0; i < 2; ++i) {
         const mote_vec3 *world = mote_probe_vertices(a->probe, frame, i);
-        const mote_vec3 centre = mote_pose_apply(&frame->body[i].pose, motion[i].centre);
         double square = 0;
+        centres[i] = mote_pose_apply(&frame->body[i].pose, motion[i].centre);
+        tips[i] = a->plan->tips ? world[a->plan->tips[i]] : centres[i];
         for (uint32_t v = 0; v < a->scenario->body[i].mesh->vertex_count; ++v)
-            square = fmax(square, mote_distance_squared(world[v], centre));
+            square = fmax(square, mote_distance_squared(world[v], centres[i]));
         radius += sqrt(square);
     }
-    return radius;
+    a->base = mote_add(tips[0], mote_sub(centres[1], tips[1]));
+    return radius + mote_length(mote_sub(a->base, centres[0]));
+}
+
+/* Pushes body 1 on from first contact; by less and less, where the surfaces must cross. */
+static mote_status push(approach *a, double first, double depth, double *offset)
+{
+    /* A push that is hardly longer than what was left before contact may not cross. */
+    double pushed = a->plan->must_touch ? fmax(depth, 16 * a->precision) : depth;
+    double distance = 0;
+    mote_status status = MOTE_OK;
+    do {
+        *offset = first - pushed;
+        if (a->plan->must_touch)
+            status = distance_at(a, *offset, &distance);
+        pushed = pushed / 2;
+    } while (status == MOTE_OK && distance > 0 && pushed > a->precision / 16);
+    if (status == MOTE_OK && distance > 0)
+        status = mote_fail(MOTE_EINVAL, "the bodies touch without crossing");
+    return status;
 }
 
 /* A body moved by x comes closer by x at most, so that each step is safe, and the steps end at
@@ -52,20 +90,20 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
 {
     const double length = a->scenario->length;
     const double wished = fmax(gap, 0) * length;
-    double at = far_offset(a, wished);
+    double at = start_far(a, wished);
+    const double end = -at - 4 * length;
     for (int step = 0; step < STEPS_MAX; ++step) {
         double distance;
         mote_status status = distance_at(a, at, &distance);
         if (status != MOTE_OK)
             return status;
         const double left = distance - wished;
-        /* A touch of zero is met only in the limit: stop just short of it. */
-        if (left <= PRECISION * length) {
-            *offset = at + fmin(gap, 0) * length;
-            return MOTE_OK;
-        }
+        *offset = at;
+        /* A contact is met only in the limit: stop just short of it. */
+        if (left <= a->precision)
+            return gap < 0 ? push(a, at, -gap * length, offset) : MOTE_OK;
         at -= left;
-        if (at < -4 * length)
+        if (at < end)
             return mote_fail(MOTE_EINVAL,
                              "the bodies pass each other without coming as close as "
                              "%g L; aim body 1 at body 0",
@@ -77,34 +115,72 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
                      gap);
 }
 
+/* Body 1's centre at frame k of the plan. */
+static mote_status solve(approach *a, mote_frame_buffer *buffer, uint32_t k,
+                         mote_vec3 *position)
+{
+    const mote_body_motion *motion = a->scenario->motion->body;
+    double offset = 0;
+    a->frame = *mote_scenario_frame(a->scenario, buffer, a->plan->frames[k], 0);
+    a->frame.number = k + 1;
+    a->still = mote_scale(mote_rotate(&a->frame.body[1].pose.rotation, motion[1].centre), -1);
+    mote_status status = solve_frame(a, a->plan->gaps[k], &offset);
+    if (status == MOTE_OK)
+        *position = mote_add_scaled(a->base, offset, a->direction);
+    else
+        status = mote_fail(status, "frame %u: %s", a->plan->frames[k], mote_error_text());
+    return status;
+}
+
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions)
 {
-    approach a = {.scenario = scenario};
-    mote_method_choice choice;
+    const double smaller =
+        fmin(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
+    approach a = {.scenario = scenario,
+                  .plan = plan,
+                  .precision = fmax(PRECISION * smaller, ROUNDING * scenario->length)};
     mote_frame_buffer *buffer = NULL;
-    const double norm = mote_length(plan->direction);
-    a.direction = mote_scale(plan->direction, 1 / norm);
-    mote_status status = mote_method_choice_read(ORACLE, &choice);
-    if (status == MOTE_OK)
-        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
-                                   MOTE_ASK_DISTANCE, 0, 0, &a.probe);
+    a.direction = mote_scale(plan->direction, 1 / mote_length(plan->direction));
+    mote_status status = make_probe(scenario, SEARCH, &a.probe);
     if (status == MOTE_OK)
         status = mote_frame_buffer_create(scenario, &buffer);
-    const mote_body_motion *motion = scenario->motion->body;
-    for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k) {
-        a.frame = *mote_scenario_frame(scenario, buffer, plan->frames[k], 0);
-        a.frame.number = k + 1;
-        a.base = mote_pose_apply(&a.frame.body[0].pose, motion[0].centre);
-        a.still = mote_scale(mote_rotate(&a.frame.body[1].pose.rotation, motion[1].centre), -1);
-        double offset = 0;
-        status = solve_frame(&a, plan->gaps[k], &offset);
-        if (status == MOTE_OK)
-            positions[k] = mote_add_scaled(a.base, offset, a.direction);
-        else
-            status = mote_fail(status, "frame %u: %s", plan->frames[k], mote_error_text());
-    }
+    for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k)
+        status = solve(&a, buffer, k, &positions[k]);
     mote_frame_buffer_destroy(buffer);
     mote_probe_destroy(a.probe);
+    return status;
+}
+
+static mote_status verify_frame(const mote_scenario *scenario, mote_probe *probe,
+                                const mote_frame *frame, double gap)
+{
+    mote_answer answer;
+    mote_status status = mote_probe_answer(probe, frame, &answer);
+    if (status != MOTE_OK)
+        return status;
+    const double found = answer.distance / scenario->length;
+    const bool met =
+        gap > -VERIFIED ? fabs(found - fmax(gap, 0)) <= VERIFIED : answer.distance == 0;
+    return met ? MOTE_OK
+               : mote_fail(MOTE_ENUMERIC,
+                           "frame %u: the distance is %g L where a gap of %g was wished; wish "
+                           "another gap there, or another --direction",
+                           (unsigned)frame->number, found, gap);
+}
+
+mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *frames,
+                                 const double *gaps, uint32_t count)
+{
+    mote_probe *probe = NULL;
+    mote_frame_buffer *buffer = NULL;
+    mote_status status = make_probe(scenario, ORACLE, &probe);
+    if (status == MOTE_OK)
+        status = mote_frame_buffer_create(scenario, &buffer);
+    for (uint32_t k = 0; k < count && status == MOTE_OK; ++k)
+        status = verify_frame(scenario, probe,
+                              mote_scenario_frame(scenario, buffer, frames[k], 0), gaps[k]);
+    mote_frame_buffer_destroy(buffer);
+    mote_probe_destroy(probe);
     return status;
 }

@@ -1,5 +1,5 @@
-/* Finds a motion with a wished gap: for an author of scenarios, and for pairs of meshes that
-   come without one. */
+/* Finds a motion with wished gaps: for an author of scenarios, and for pairs of meshes that come
+   without a motion. */
 #ifndef MOTE_HARNESS_APPROACH_H
 #define MOTE_HARNESS_APPROACH_H
 
@@ -11,15 +11,28 @@ typedef struct mote_approach_plan {
     const double *gaps;     /* [count], of L: the distance wished at each frame; below 0, how
                                far body 1 is pushed on from first contact, along direction */
     uint32_t count;
+    const uint32_t *tips; /* [2]: a vertex of each body, which are brought onto one line along
+                             direction, so that the bodies cannot pass each other; or NULL: the
+                             middles of their boxes are */
+    bool must_touch;      /* where the gap is below 0, body 1 is pushed on by less, down to
+                             nothing, until the surfaces cross: thin bodies pass through each
+                             other otherwise */
 } mote_approach_plan;
 
 /* For each frame of the plan, comes from far away along direction and stops at the first place
-   with the wished distance (to 1e-4 L), by exact distances of fcl-aabb; rotations and
-   deformations are the scenario's, as is body 0's place. Writes where body 1's centre is then:
-   positions[count], absolute. Some twenty queries a frame. MOTE_EINVAL with frame and reason
-   where the bodies pass without coming so close, or slide along each other at hardly more than
-   that distance, so that the first place is not found in 2,000 queries. */
+   with the wished distance (to 1e-4 of the smaller body's L), by exact distances of certified;
+   rotations and deformations are the scenario's, as is body 0's place. Writes where body 1's
+   centre is then: positions[count], absolute. Some twenty queries a frame. MOTE_EINVAL with
+   frame and reason where the bodies pass without coming so close, slide along each other at
+   hardly more than that distance, so that the first place is not found in 2,000 queries, or do
+   not cross although they must touch. */
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions);
+
+/* Whether a scenario as it stands has the wished gaps at these frames, to 1e-3 L, by exact
+   distances of fcl-aabb; a gap of -1e-3 or less must be a contact. MOTE_ENUMERIC names the first
+   frame where it has not. */
+mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *frames,
+                                 const double *gaps, uint32_t count);
 
 #endif

@@ -189,8 +189,7 @@ static mote_status read_bodies(const mote_json_file *file, mote_bodies *bodies)
 bool mote_bodies_is(const char *name_or_path)
 {
     mote_json_file file;
-    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0 ||
-        mote_scenario_open(name_or_path, &file) != MOTE_OK)
+    if (mote_scenario_is_pair(name_or_path) || mote_scenario_open(name_or_path, &file) != MOTE_OK)
         return false;
     const bool is = mote_scenario_of_bodies(&file);
     mote_json_close(&file);

@@ -11,7 +11,7 @@ typedef struct mote_interval {
 typedef struct mote_scenario {
     char *name;    /* "ww" */
     char *purpose; /* one sentence */
-    char *path;    /* the file it came from */
+    char *path;    /* the file it came from, or the name of a pair */
     mote_body body[2];
     uint32_t frames;
     mote_interval warmup, active;

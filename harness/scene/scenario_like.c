@@ -5,7 +5,7 @@
 
 #include "harness/scene/catalog.h"
 #include "harness/base/file.h"
-#include "harness/scene/reach.h"
+#include "harness/scene/fence.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -70,7 +70,7 @@ static bool move_meshes(json_t *root, const char *path)
 static mote_status open_base(const mote_json_file *file, const char *name, mote_json_file *base)
 {
     char *path = base_path(file->path, name);
-    mote_status status = path ? mote_reach_check(file->path, path)
+    mote_status status = path ? mote_fence_check(file->path, path)
                               : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
     if (status == MOTE_OK)
         status = mote_json_open(path, base);

@@ -4,7 +4,7 @@
 #include "datasets/letter.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
-#include "harness/scene/reach.h"
+#include "harness/scene/fence.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,17 +25,19 @@ static mote_status read_letter(const mote_json *letter, const mote_json *body, m
     return mote_json_blame(letter, status);
 }
 
-/* A path that is not absolute starts from the scenario's folder. */
+/* A path that is not absolute starts from the scenario's folder, or from the working directory
+   where no file named it. */
 static mote_status read_file(const mote_json *file, mote_mesh **mesh)
 {
     const char *name;
     mote_status status = mote_json_string(file, &name);
     if (status != MOTE_OK)
         return status;
-    char *path = mote_path_beside(file->file->path, name);
+    const bool own = file->file->own;
+    char *path = own ? mote_format("%s", name) : mote_path_beside(file->file->path, name);
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
-    status = mote_reach_check(file->file->path, path);
+    status = own ? MOTE_OK : mote_fence_check(file->file->path, path);
     if (status == MOTE_OK)
         status = mote_mesh_import(path, mesh, NULL);
     free(path);

@@ -2,27 +2,79 @@
  */
 #include "harness/scene/scenario_read.h"
 
-#include "harness/scene/approach.h"
-#include "harness/base/file.h"
 #include "harness/base/json_print.h"
+#include "harness/base/options.h"
+#include "harness/mesh/mesh_import.h"
+#include "harness/scene/pair_motion.h"
+#include "harness/scene/spread.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define FRAMES 1000
-#define EVERY 9 /* frames a key pose */
-#define KEYS ((FRAMES - 1) / EVERY + 1)
+#define CONTROLS 12         /* of each body, where its mesh has so many places for them */
+#define CONTROLS_APART 0.02 /* of the mesh's diagonal: closer ones make a poor fit */
 
-/* The wished gaps, of L: some fifteen frames in a hundred are touches. */
-static const struct {
-    uint32_t frame;
-    double gap;
-} wished[] = {{1, 0.3},      {60, 0.15},    {120, 0.03},   {155, -0.012}, {205, 0.05},
-              {255, 0.004},  {305, 0.07},   {355, -0.012}, {405, 0.05},   {455, -0.004},
-              {505, 0.06},   {555, -0.015}, {605, 0.05},   {655, 0.001},  {705, 0.07},
-              {755, -0.012}, {805, 0.04},   {845, -0.012}, {900, 0.1},    {1000, 0.4}};
+/* What "pair:A:B" or "pair:A:B:X,Y,Z" names. */
+typedef struct pair_name {
+    char *file[2];
+    mote_vec3 direction; /* 0, 0, 0: none is given */
+} pair_name;
 
-#define WISHED (sizeof wished / sizeof wished[0])
+static void free_name(pair_name *pair)
+{
+    free(pair->file[0]);
+    free(pair->file[1]);
+}
+
+bool mote_scenario_is_pair(const char *name)
+{
+    return strncmp(name, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0;
+}
+
+/* Takes ":X,Y,Z" off the end of a name. */
+static void split_direction(char *files, mote_vec3 *direction)
+{
+    double xyz[3];
+    char *colon = strrchr(files, ':');
+    if (!colon || !mote_read_triple(colon + 1, xyz) || access(colon + 1, F_OK) == 0)
+        return;
+    *direction = mote_vec3_make(xyz[0], xyz[1], xyz[2]);
+    *colon = '\0';
+}
+
+/* Splits "A:B" at the first ':' that has a file on either side, or else at the first. */
+static mote_status split_files(const char *name, const char *files, pair_name *pair)
+{
+    const char *first = strchr(files, ':');
+    if (!first || first == files || first[1] == '\0')
+        return mote_fail(MOTE_EINVAL,
+                         "%s: not two files; write " MOTE_PAIR_PREFIX "A.obj:B.obj", name);
+    for (const char *colon = first;; colon = strchr(colon + 1, ':')) {
+        const bool none = !colon;
+        const char *at = none ? first : colon;
+        pair->file[0] = mote_format("%.*s", (int)(at - files), files);
+        pair->file[1] = mote_format("%s", at + 1);
+        if (!pair->file[0] || !pair->file[1])
+            return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
+        if (none || (access(pair->file[0], F_OK) == 0 && access(pair->file[1], F_OK) == 0))
+            return MOTE_OK;
+        free_name(pair);
+        pair->file[0] = pair->file[1] = NULL;
+    }
+}
+
+static mote_status read_name(const char *name, pair_name *pair)
+{
+    char *files = mote_format("%s", name + strlen(MOTE_PAIR_PREFIX));
+    if (!files)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
+    split_direction(files, &pair->direction);
+    const mote_status status = split_files(name, files, pair);
+    free(files);
+    return status;
+}
 
 /* A turn about an axis, a key every quarter of it. */
 static json_t *turn_json(double x, double y, double z, double degrees)
@@ -35,11 +87,49 @@ static json_t *turn_json(double x, double y, double z, double degrees)
     return keys;
 }
 
-static json_t *body_json(const char *path, int seed, json_t *motion)
+static json_t *body_json(const char *path, uint32_t controls, int seed, json_t *motion)
 {
     return json_pack("{s:s, s:{s:i, s:f, s:{s:{s:i, s:f, s:[i,i]}}}, s:o}", "file", path,
-                     "field", "count", 12, "support", 0.5, "displacement", "random", "seed",
-                     seed, "amplitude", 0.05, "periods", 250, 600, "motion", motion);
+                     "field", "count", (int)controls, "support", 0.5, "displacement", "random",
+                     "seed", seed, "amplitude", 0.05, "periods", 250, 600, "motion", motion);
+}
+
+/* How many controls a mesh has places for: a cube of eight vertices has eight. */
+static mote_status count_controls(const char *path, uint32_t *count)
+{
+    mote_mesh *mesh;
+    mote_vec3 places[CONTROLS];
+    mote_status status = mote_mesh_import(path, &mesh, NULL);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_spread_apart(mesh, CONTROLS, CONTROLS_APART * mesh->diagonal, places, count);
+    mote_mesh_destroy(mesh);
+    return status;
+}
+
+/* The scenario without the positions of body 1. */
+static mote_status make_file(const char *name, const pair_name *pair, mote_json_file *file)
+{
+    uint32_t controls[2];
+    for (int i = 0; i < 2; ++i) {
+        mote_status status = count_controls(pair->file[i], &controls[i]);
+        if (status != MOTE_OK)
+            return status;
+    }
+    file->own = true;
+    file->root =
+        json_pack("{s:s, s:i, s:s, s:[o,o]}", "purpose",
+                  "Two meshes that approach, touch and part, turning and deforming.", "frames",
+                  FRAMES, "ask", "distance", "bodies",
+                  body_json(pair->file[0], controls[0], 1, turn_json(0.3, 1, 0.2, 200)),
+                  body_json(pair->file[1], controls[1], 2, turn_json(1, 0.4, 0.6, -200)));
+    if (!file->root)
+        return mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them",
+                         pair->file[0], pair->file[1]);
+    file->path = mote_format("%s", name);
+    file->text = mote_json_text(file->root, JSON_COMPACT);
+    return file->path && file->text ? MOTE_OK
+                                    : mote_fail(MOTE_ENOMEM, "no memory for a pair of meshes");
 }
 
 /* What stands between the last slash and the last dot of a path. */
@@ -52,78 +142,66 @@ static char *stem(const char *path)
                        base);
 }
 
-/* The scenario's file, as if it stood in the working directory. */
-static mote_status make_file(const char *a, const char *b, mote_json_file *file)
+/* "a-b" of "x/a.obj" and "y/b.obj". */
+static mote_status rename_scenario(const pair_name *pair, mote_scenario *scenario)
 {
-    char *stems[2] = {stem(a), stem(b)};
-    json_t *root = json_pack("{s:s, s:i, s:s, s:[o,o]}", "purpose",
-                             "Two meshes that approach, touch and part, turning and deforming.",
-                             "frames", FRAMES, "ask", "distance", "bodies",
-                             body_json(a, 1, turn_json(0.3, 1, 0.2, 200)),
-                             body_json(b, 2, turn_json(1, 0.4, 0.6, -200)));
-    mote_status status = MOTE_OK;
-    *file = (mote_json_file){NULL, NULL, root};
-    if (stems[0] && stems[1] && root) {
-        file->path = mote_format("%s-%s.json", stems[0], stems[1]);
-        file->text = mote_json_text(root, JSON_COMPACT);
-    }
-    if (!root)
-        status = mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them", a, b);
-    else if (!file->path || !file->text)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a pair of meshes");
+    char *stems[2] = {stem(pair->file[0]), stem(pair->file[1])};
+    char *name = stems[0] && stems[1] ? mote_format("%s-%s", stems[0], stems[1]) : NULL;
     free(stems[0]);
     free(stems[1]);
-    return status;
+    if (!name)
+        return mote_fail(MOTE_ENOMEM, "no memory for the name of a pair");
+    free(scenario->name);
+    scenario->name = name;
+    return MOTE_OK;
 }
 
-static mote_status find_motion(mote_scenario *scenario)
+/* Finds where body 1 goes, and sets it in the scenario and in its file. */
+static mote_status set_motion(const pair_name *pair, mote_json_file *file,
+                              mote_scenario *scenario)
 {
-    uint32_t frames[KEYS], wished_frames[WISHED];
-    double gaps[KEYS], wished_gaps[WISHED];
-    mote_vec3 positions[KEYS];
-    mote_curve *curve = NULL;
-    for (size_t i = 0; i < WISHED; ++i) {
-        wished_frames[i] = wished[i].frame;
-        wished_gaps[i] = wished[i].gap;
-    }
-    mote_status status = mote_curve_create(wished_frames, wished_gaps, WISHED, 1, &curve);
+    mote_vec3 positions[FRAMES];
+    mote_status status = mote_pair_motion_find(scenario, pair->direction, positions);
     if (status != MOTE_OK)
-        return status;
-    for (uint32_t k = 0; k < KEYS; ++k) {
-        frames[k] = 1 + k * EVERY;
-        mote_curve_evaluate(curve, frames[k], &gaps[k]);
+        return mote_fail(status, "%s: %s", scenario->path, mote_error_text());
+    uint32_t frames[FRAMES];
+    json_t *body = json_array_get(json_object_get(file->root, "bodies"), 1);
+    json_t *keys = json_object_get(body, "motion");
+    for (uint32_t k = 0; k < FRAMES; ++k) {
+        const mote_vec3 p = mote_scale(positions[k], 1 / scenario->length);
+        frames[k] = k + 1;
+        (void)json_array_append_new(keys, json_pack("{s:i, s:[f,f,f]}", "frame", (int)k + 1,
+                                                    "position", p.x, p.y, p.z));
+        /* As they are when the file is read. */
+        positions[k] = mote_scale(p, scenario->length);
     }
-    mote_curve_destroy(curve);
-    const mote_approach_plan plan = {{1, 0, 0}, frames, gaps, KEYS};
-    status = mote_approach_solve(scenario, &plan, positions);
-    if (status == MOTE_OK)
-        status = mote_curve_create(frames, &positions->x, KEYS, 3,
-                                   &scenario->motion->body[1].position);
-    return status;
+    return mote_curve_create(frames, &positions->x, FRAMES, 3,
+                             &scenario->motion->body[1].position);
 }
 
-mote_status mote_scenario_make_pair(const char *name, mote_scenario **scenario)
+mote_status mote_scenario_make_pair(const char *name, mote_json_file *file,
+                                    mote_scenario **scenario)
 {
-    const char *a = name + strlen(MOTE_PAIR_PREFIX);
-    const char *colon = strchr(a, ':');
-    if (!colon || colon == a || colon[1] == '\0')
-        return mote_fail(MOTE_EINVAL,
-                         "%s: not two files; write " MOTE_PAIR_PREFIX "A.obj:B.obj", name);
-    char *first = mote_format("%.*s", (int)(colon - a), a);
-    if (!first)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
-    mote_json_file file = {0};
+    pair_name pair = {0};
+    mote_json_file made_file = {0};
     mote_scenario *made = NULL;
-    mote_status status = make_file(first, colon + 1, &file);
+    mote_status status = read_name(name, &pair);
     if (status == MOTE_OK)
-        status = mote_scenario_read(&file, &made);
+        status = make_file(name, &pair, &made_file);
     if (status == MOTE_OK)
-        status = find_motion(made);
+        status = mote_scenario_read(&made_file, &made);
+    if (status == MOTE_OK)
+        status = set_motion(&pair, &made_file, made);
+    if (status == MOTE_OK)
+        status = rename_scenario(&pair, made);
     if (status == MOTE_OK)
         *scenario = made;
     else
         mote_scenario_destroy(made);
-    free(first);
-    mote_json_close(&file);
+    if (status == MOTE_OK && file)
+        *file = made_file;
+    else
+        mote_json_close(&made_file);
+    free_name(&pair);
     return status;
 }

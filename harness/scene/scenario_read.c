@@ -208,9 +208,20 @@ bool mote_scenario_of_bodies(const mote_json_file *file)
     return json_is_object(json_object_get(file->root, "bodies"));
 }
 
+static mote_status open_pair(const char *name, mote_json_file *file)
+{
+    mote_scenario *scenario;
+    mote_status status = mote_scenario_make_pair(name, file, &scenario);
+    if (status == MOTE_OK)
+        mote_scenario_destroy(scenario);
+    return status;
+}
+
 mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file)
 {
     char *path;
+    if (mote_scenario_is_pair(name_or_path))
+        return open_pair(name_or_path, file);
     if (is_path(name_or_path))
         path = mote_format("%s", name_or_path);
     else if (!is_listed(name_or_path))
@@ -234,8 +245,8 @@ mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file)
 
 mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenario)
 {
-    if (strncmp(name_or_path, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0)
-        return mote_scenario_make_pair(name_or_path, scenario);
+    if (mote_scenario_is_pair(name_or_path))
+        return mote_scenario_make_pair(name_or_path, NULL, scenario);
     mote_json_file file = {0};
     mote_status status = mote_scenario_open(name_or_path, &file);
     if (status != MOTE_OK)

@@ -13,7 +13,8 @@
    does nothing without that key. */
 mote_status mote_scenario_merge_like(mote_json_file *file);
 
-/* Opens the file of a built-in scenario's name or of a path, merged with the one it is like.
+/* Opens the file of a built-in scenario's name or of a path, merged with the one it is like, or
+   makes that of a pair. mote_scenario.path opens the scenario again.
    MOTE_EIO with the names that there are for an unknown one. Close with mote_json_close. */
 mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file);
 
@@ -30,8 +31,14 @@ char *mote_scenario_name_of(const char *path);
 /* Makes a scenario of a file's root; its name comes from the file's path. */
 mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario);
 
-/* Makes the default scenario of two mesh files, named "pair:FILE:FILE". */
-mote_status mote_scenario_make_pair(const char *name, mote_scenario **scenario);
+/* Whether a name is "pair:FILE:FILE", a scenario that is made of two mesh files. */
+bool mote_scenario_is_pair(const char *name);
+
+/* Makes the default scenario of two mesh files: a name of MOTE_PAIR_PREFIX. *file (unless NULL)
+   is the same as a scenario file, motion and all; close it with mote_json_close. A ':' in a
+   file's name is told from the one between them by which files there are. */
+mote_status mote_scenario_make_pair(const char *name, mote_json_file *file,
+                                    mote_scenario **scenario);
 
 /* Reads a body's mesh: {"letter", "triangles"} or {"file"}, and "scale". */
 mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh);

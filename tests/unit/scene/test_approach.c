@@ -52,7 +52,8 @@ static mote_status come(double distance, mote_vec3 *place)
 {
     static const uint32_t frames[] = {1};
     const double gap = distance / scenario->length;
-    const mote_approach_plan plan = {mote_vec3_make(1, 0, 0), frames, &gap, 1};
+    const mote_approach_plan plan = {
+        .direction = mote_vec3_make(1, 0, 0), .frames = frames, .gaps = &gap, .count = 1};
     return mote_approach_solve(scenario, &plan, place);
 }
 

@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE /* realpath */
-#include "harness/scene/reach.h"
+#include "harness/scene/fence.h"
 
 #include "harness/base/data.h"
 #include "harness/base/file.h"
@@ -11,10 +11,10 @@
 
 enum { ALLOWED_MAX = 16 };
 
-static char *allowed[ALLOWED_MAX]; /* without links; live on */
+static char *allowed[ALLOWED_MAX]; /* without links; never freed */
 static size_t allowed_count;
 
-mote_status mote_reach_allow(const char *folder)
+mote_status mote_fence_allow(const char *folder)
 {
     if (allowed_count == ALLOWED_MAX)
         return mote_fail(MOTE_EINVAL, "%s: %d folders are allowed at most", folder,
@@ -26,7 +26,7 @@ mote_status mote_reach_allow(const char *folder)
     return MOTE_OK;
 }
 
-/* Both without links. */
+/* Both paths are without links. */
 static bool is_below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
@@ -34,7 +34,8 @@ static bool is_below(const char *folder, const char *path)
            (path[length] == '/' || folder[length - 1] == '/');
 }
 
-/* Whether path lies in folder, whose links are followed; false where it cannot be found. */
+/* Whether path, without links, lies in folder, which is freed; false where that does not exist.
+ */
 static bool lies_in(char *folder, const char *path)
 {
     char *whole = folder ? realpath(folder, NULL) : NULL;
@@ -44,26 +45,49 @@ static bool lies_in(char *folder, const char *path)
     return lies;
 }
 
-static bool may_be_named(const char *scenario, const char *path)
+/* Whether no part of a relative path leads up. */
+static bool goes_down(const char *path)
+{
+    for (const char *part = path; *part; part += strspn(part, "/")) {
+        const size_t length = strcspn(part, "/");
+        if (length == 2 && strncmp(part, "..", 2) == 0)
+            return false;
+        part += length;
+    }
+    return true;
+}
+
+/* Whether file, as it is written, starts in the scenario's folder and never leads up. */
+static bool is_written_below(const char *scenario, const char *file)
 {
     const char *slash = strrchr(scenario, '/');
+    const size_t length = slash ? (size_t)(slash - scenario) + 1 : 0;
+    return strncmp(scenario, file, length) == 0 && file[length] != '/' &&
+           goes_down(file + length);
+}
+
+static bool may_be_named(const char *scenario, const char *file, const char *without_links)
+{
+    const char *slash = strrchr(scenario, '/');
+    if (is_written_below(scenario, file))
+        return true;
     for (size_t k = 0; k < allowed_count; ++k) {
-        if (is_below(allowed[k], path))
+        if (is_below(allowed[k], without_links))
             return true;
     }
     return lies_in(slash ? mote_format("%.*s/", (int)(slash - scenario), scenario)
                          : mote_format("."),
-                   path) ||
-           lies_in(mote_format("%s/datasets", mote_data_directory()), path);
+                   without_links) ||
+           lies_in(mote_format("%s/datasets", mote_data_directory()), without_links);
 }
 
-mote_status mote_reach_check(const char *scenario, const char *file)
+mote_status mote_fence_check(const char *scenario, const char *file)
 {
-    char *whole = realpath(file, NULL);
-    if (!whole)
+    char *without_links = realpath(file, NULL);
+    if (!without_links)
         return MOTE_OK;
-    const bool may = may_be_named(scenario, whole);
-    free(whole);
+    const bool may = may_be_named(scenario, file, without_links);
+    free(without_links);
     return may ? MOTE_OK
                : mote_fail(MOTE_EINVAL,
                            "%s lies outside of the scenario's folder; put it there, or allow "

@@ -1,0 +1,134 @@
+#define _DEFAULT_SOURCE /* realpath */
+#include "harness/scene/scenario_move.h"
+
+#include "datasets/obj_write.h"
+#include "harness/base/data.h"
+#include "harness/base/file.h"
+#include "harness/mesh/mesh_import.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The folder of a file, without links and without a '/' at its end; the caller frees it. */
+static mote_status folder_of(const char *file, char **folder)
+{
+    const char *slash = strrchr(file, '/');
+    char *name = slash ? mote_format("%.*s/", (int)(slash - file), file) : mote_format(".");
+    if (!name)
+        return mote_fail(MOTE_ENOMEM, "%s: no memory for its folder", file);
+    *folder = realpath(name, NULL);
+    mote_status status = MOTE_OK;
+    if (!*folder)
+        status =
+            mote_fail(MOTE_EIO, "%s: %s; name a folder that there is", name, strerror(errno));
+    else if (strcmp(*folder, "/") == 0)
+        **folder = '\0';
+    free(name);
+    return status;
+}
+
+/* What path is called from folder, or NULL where it does not lie in it. */
+static const char *below(const char *folder, const char *path)
+{
+    const size_t length = strlen(folder);
+    return strncmp(folder, path, length) == 0 && path[length] == '/' ? path + length + 1 : NULL;
+}
+
+/* Writes the mesh beside `to`; *name is what it is called from there. */
+static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body, char **name)
+{
+    const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
+    mote_mesh *mesh = NULL;
+    char *path = mote_format("%.*s-body%zu.obj", (int)(strlen(to) - ending), to, body);
+    mote_status status = path ? mote_mesh_import(mesh_path, &mesh, NULL)
+                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", to);
+    if (status == MOTE_OK)
+        status = mote_obj_write(path, NULL, mesh);
+    mote_mesh_destroy(mesh);
+    if (status == MOTE_OK) {
+        const char *slash = strrchr(path, '/');
+        *name = mote_format("%s", slash ? slash + 1 : path);
+    }
+    free(path);
+    return status;
+}
+
+/* *name: what the mesh at path (of body number `body`) is called in a scenario at `to`. */
+static mote_status new_name(const char *path, const char *to, size_t body, char **name)
+{
+    char *folder = NULL, *datasets = mote_format("%s/datasets", mote_data_directory());
+    char *known = datasets ? realpath(datasets, NULL) : NULL;
+    char *whole = realpath(path, NULL);
+    mote_status status = MOTE_OK;
+    *name = NULL;
+    if (!whole)
+        status = mote_fail(MOTE_EIO, "%s: %s", path, strerror(errno));
+    else
+        status = folder_of(to, &folder);
+    if (status == MOTE_OK) {
+        const char *inside = below(folder, whole);
+        if (mote_path_is_stream(to) || (known && below(known, whole)))
+            *name = mote_format("%s", whole);
+        else if (inside)
+            *name = mote_format("%s", inside);
+        else
+            status = copy_mesh(whole, to, body, name);
+    }
+    if (status == MOTE_OK && !*name)
+        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", path);
+    free(folder);
+    free(datasets);
+    free(known);
+    free(whole);
+    return status;
+}
+
+/* Whether the files at both paths are in one folder, so that names stay as they are. */
+static bool same_folder(const mote_json_file *file, const char *to)
+{
+    char *from_folder = NULL, *to_folder = NULL;
+    const bool same = !file->own && !mote_path_is_stream(to) &&
+                      folder_of(file->path, &from_folder) == MOTE_OK &&
+                      folder_of(to, &to_folder) == MOTE_OK &&
+                      strcmp(from_folder, to_folder) == 0;
+    free(from_folder);
+    free(to_folder);
+    return same;
+}
+
+static mote_status move_mesh(const mote_json_file *file, json_t *body, size_t number,
+                             const char *to)
+{
+    const char *old = json_string_value(json_object_get(body, "file"));
+    char *path = file->own ? mote_format("%s", old) : mote_path_beside(file->path, old);
+    char *name = NULL;
+    mote_status status = path ? new_name(path, to, number, &name)
+                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", old);
+    if (status == MOTE_OK && json_object_set_new(body, "file", json_string(name)) != 0)
+        status = mote_fail(MOTE_EINVAL, "%s: not UTF-8; rename it", name);
+    free(path);
+    free(name);
+    return status;
+}
+
+mote_status mote_scenario_move(mote_json_file *file, const char *to)
+{
+    json_t *bodies = json_object_get(file->root, "bodies");
+    if (same_folder(file, to))
+        return MOTE_OK;
+    json_t *first = json_array_get(bodies, 0);
+    json_t *first_file = json_deep_copy(json_object_get(first, "file"));
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < json_array_size(bodies) && status == MOTE_OK; ++i) {
+        json_t *body = json_array_get(bodies, i);
+        json_t *named = json_object_get(body, "file");
+        /* Bodies of one mesh go on sharing it. */
+        if (i > 0 && named && json_equal(named, first_file))
+            (void)json_object_set(body, "file", json_object_get(first, "file"));
+        else if (named)
+            status = move_mesh(file, body, i, to);
+    }
+    json_decref(first_file);
+    return status;
+}
