@@ -88,7 +88,7 @@ mote_status mote_eigen_symmetric(const mote_mat3 *matrix, mote_vec3 *values, mot
     for (int i = 0; i < 9; ++i) {
         entries[i] = matrix->m[i / 3][i % 3];
         if (!isfinite(entries[i]))
-            return mote_fail(MOTE_ENUMERIC, "a matrix whose main axes are asked is not finite");
+            return mote_fail(MOTE_ENUMERIC, "the matrix is not finite; its eigenvectors do not exist");
     }
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     gsl_matrix_view view = gsl_matrix_view_array(entries, 3, 3);

@@ -1,11 +1,12 @@
 /* Certified mode: the exact distance of two deforming bodies, and a proof of it, from two rest
    trees that are deformed node by node (docs/architecture.md).
 
-   A query keeps an upper bound, the nearest pair of points found, and shows that nothing is
-   nearer: first by a plane across the gap (whatever of A is below it and of B above it is far
-   enough), then by a traversal of both trees for what is not clear of the plane. Everything
-   that decides the answer is computed in double precision from the positions that
-   mote_body_position gives; floats only rule out what is far, by margins that hold. */
+   A query keeps an upper bound, the nearest pair of points found so far, and shows that nothing
+   is nearer: first by a plane across the gap, since parts of the bodies on their own sides of
+   it are far enough apart, then by traversing both trees for the parts that cross it. Whatever
+   decides the answer is computed in double precision from the positions that
+   mote_body_position gives; single precision only rules out pairs that are far apart, with
+   proven margins. */
 #ifndef MOTE_CORE_CERTIFICATE_H
 #define MOTE_CORE_CERTIFICATE_H
 
@@ -19,23 +20,23 @@ typedef struct mote_certificate mote_certificate;
 
 /* Where a query's first upper bound comes from. */
 typedef enum mote_cert_seed {
-    MOTE_CERT_SEED_NONE,   /* found anew: no state is kept between queries */
-    MOTE_CERT_SEED_PAIR,   /* the last query's pair of faces as it is now */
-    MOTE_CERT_SEED_WITNESS /* the same, refined downhill over the faces around; found anew where
-                              the two have leapt apart */
+    MOTE_CERT_SEED_NONE,   /* from the trees alone: no state is kept between queries */
+    MOTE_CERT_SEED_PAIR,   /* the last query's pair of faces, measured where they are now */
+    MOTE_CERT_SEED_WITNESS /* the same, slid downhill over the faces around; from the trees
+                              where the two have leapt apart */
 } mote_cert_seed;
 
 typedef struct mote_certificate_options {
     double length; /* > 0: L of the pair */
     mote_cert_seed seed;
     double slack;    /* >= 0: a query stops when upper - lower <= slack * length */
-    uint64_t budget; /* pairs of boxes after which a query stops and returns its bracket */
-    /* What a single step brings is measured by leaving it out: */
-    uint32_t width;    /* children a block: 2, 4 or 8 */
+    uint64_t budget; /* box tests after which a query stops and returns its bracket */
+    /* Each of these can be switched off, to measure what it contributes: */
+    uint32_t width;    /* children of a block: 2, 4 or 8 */
     bool linear_fits;  /* boxes follow the gradient of the field, not only its mean */
     bool plane;        /* the plane pass */
     bool directions;   /* leaf pairs are tested along directions before their triangles */
-    uint32_t restarts; /* at most this many, each after the upper bound improved */
+    uint32_t restarts; /* the traversal starts again at most this often after an improvement */
 } mote_certificate_options;
 
 mote_certificate_options mote_default_certificate_options(double length);

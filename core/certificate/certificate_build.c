@@ -1,5 +1,5 @@
-/* Balanced binary splits at the median along the main axis, collapsed to blocks of eight from
-   the leaves up, so that only the root is underfull. */
+/* Building the tree: balanced binary splits at the median along the main axis, collapsed from
+   the leaves up to blocks of eight, so that only the root may have fewer children. */
 #include "core/certificate/certificate_fit.h"
 
 #include <float.h>
@@ -18,8 +18,8 @@ typedef struct builder {
     mote_cert_tree_options options;
     item *items;         /* [triangle_count], in the order of the tree */
     float (*centres)[3]; /* [triangle_count] */
-    uint32_t *seen;      /* [vertex_count] stamp of the last list a vertex was put in */
-    uint32_t *place;     /* [vertex_count] where in that list */
+    uint32_t *seen;      /* [vertex_count] stamp of the last list that a vertex was put in */
+    uint32_t *place;     /* [vertex_count] its index in that list */
     uint32_t *list;      /* [vertex_count] the vertices of one range */
     uint32_t stamp;
     double *phi;
@@ -27,7 +27,7 @@ typedef struct builder {
     draft *draft;
     size_t block_room, leaf_room, row_room, vertex_room, group_room;
     uint32_t corner_count;
-    uint32_t bits; /* binary levels a block */
+    uint32_t bits; /* binary levels in a block */
     mote_status status;
 } builder;
 
@@ -113,7 +113,7 @@ static mote_vec3 main_axis(const builder *b, range r)
     return axes[0];
 }
 
-/* Sorts a range into halves and returns where the second begins. */
+/* Splits a range at the median along its main axis; returns where the second half begins. */
 static uint32_t split(builder *b, range r)
 {
     const mote_vec3 axis = main_axis(b, r);
@@ -165,7 +165,7 @@ static void *make_room(builder *b, void *array, size_t *room, size_t used, size_
     return moved;
 }
 
-/* Appends the places of the vertices in b->list in their box. */
+/* Appends the coordinates, in their box, of the vertices in b->list. */
 static bool add_groups(builder *b, const mote_cert_box *box, uint32_t vertex_count)
 {
     mote_cert_tree *tree = b->tree;
@@ -257,7 +257,7 @@ static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box
     }
 }
 
-/* What a block's children need until they are all known. */
+/* A block's children before the block is written. */
 struct draft {
     mote_cert_box box[MOTE_CERT_WIDTH];
     mote_cert_row row[MOTE_FIELD_MAX];
@@ -277,7 +277,7 @@ static void append_rows(builder *b, const draft *d, mote_cert_block *block)
     size_t room = b->row_room;
     void *moved = make_room(b, tree->rows, &room, tree->row_count, count, sizeof *tree->rows);
     if (!moved)
-        return; /* none are needed, or there is no room */
+        return; /* no rows are needed, or memory ran out */
     tree->rows = moved;
     if (room != b->row_room) {
         void *active = realloc(tree->active, room);
@@ -318,13 +318,13 @@ static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d
         }
     }
     for (uint32_t lane = count; lane < MOTE_CERT_WIDTH; ++lane) {
-        for (int k = 0; k < 3; ++k) /* an empty lane's axes are not 0 either */
+        for (int k = 0; k < 3; ++k) /* axes are never 0, not even in an empty lane */
             block->half[k][k][lane] = 0x1p-23F;
     }
 }
 
-/* Offsets and rests of the functions over one part, whose vertices are in b->list. */
-static void draft_rests(builder *b, uint32_t lane, uint32_t vertices, draft *d)
+/* Offsets and residuals of the functions over one part, whose vertices are in b->list. */
+static void draft_residuals(builder *b, uint32_t lane, uint32_t vertices, draft *d)
 {
     const uint32_t functions = b->tree->body->field->count;
     mote_cert_fit *fit = &b->fit;
@@ -333,17 +333,18 @@ static void draft_rests(builder *b, uint32_t lane, uint32_t vertices, draft *d)
         for (int k = 0; k < 3; ++k)
             fit->slope[k][j] = (double)row->slope[k][lane];
     }
-    mote_cert_fit_rests(b->tree, b->list, vertices, &d->box[lane], b->phi, fit);
+    mote_cert_fit_residuals(b->tree, b->list, vertices, &d->box[lane], b->phi, fit);
     for (uint32_t j = 0; j < functions; ++j) {
         if (!fit->active[j])
             continue;
         d->active[j] = true;
         d->row[j].offset[lane] = fit->offset[j];
-        d->row[j].rest[lane] = fit->rest[j];
+        d->row[j].residual[lane] = fit->residual[j];
     }
 }
 
-/* Fills boxes, rows and leaves of a block; parts that need a block of their own are left. */
+/* Fills boxes, rows and leaves of a block. Parts that need a block of their own are left to the
+   caller. */
 static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count, draft *d)
 {
     const uint32_t functions = b->tree->body->field->count;
@@ -354,7 +355,7 @@ static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t cou
     for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
         const uint32_t vertices = list_vertices(b, parts[lane]);
         if (functions > 0)
-            draft_rests(b, lane, vertices, d);
+            draft_residuals(b, lane, vertices, d);
         if (parts[lane].levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
             block.child[lane] = add_leaf(b, parts[lane], vertices, &d->box[lane]);
     }
@@ -377,7 +378,7 @@ static int32_t build_block(builder *b, range whole, uint32_t depth)
     if (levels == 0 && whole.levels > 0)
         levels = b->bits;
     else if (whole.levels == 0 && depth > 1)
-        levels = 1; /* what would be a leaf has too many vertices */
+        levels = 1; /* it has a leaf's triangles, but too many vertices for one */
     range parts[MOTE_CERT_WIDTH];
     const uint32_t count = split_levels(b, whole, levels, parts);
     fill_block(b, id, parts, count, b->draft);
@@ -451,7 +452,7 @@ static uint32_t levels_of(uint32_t triangles)
     return levels;
 }
 
-/* Gives back what growing left over; a failure to shrink does no harm. */
+/* Frees the unused end of an array. Where that fails, the array is simply kept. */
 static void *shrunk(void *array, size_t count, size_t size)
 {
     void *moved = count > 0 ? realloc(array, count * size) : NULL;

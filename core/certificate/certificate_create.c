@@ -1,5 +1,5 @@
-/* Rooms for what one query deforms, of a certificate with trees of its own or of a workspace
-   for the trees of others. */
+/* Allocating what one query needs: for a certificate with trees of its own, or for a workspace
+   that works on the trees of others. */
 #include "core/certificate/certificate_shared.h"
 #include "core/certificate/certificate_state.h"
 
@@ -22,32 +22,32 @@ static void *allocate_aligned(size_t count, size_t size)
     return aligned_alloc(64, (count * size + 63) / 64 * 64);
 }
 
-/* What the rooms of one side have to hold: any of some trees. */
-typedef struct rooms {
-    const mote_body *widest; /* of most vertices */
-    uint32_t blocks, depth;  /* of the tree that has most */
-} rooms;
+/* What one side must have room for: the largest of several trees. */
+typedef struct capacity {
+    const mote_body *largest; /* the body with the most vertices */
+    uint32_t blocks, depth;   /* the most blocks, and the greatest depth, of any tree */
+} capacity;
 
-static rooms rooms_for(mote_cert_tree *const *trees, uint32_t count)
+static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
 {
-    rooms most = {.widest = trees[0]->body};
+    capacity most = {.largest = trees[0]->body};
     for (uint32_t i = 0; i < count; ++i) {
         const mote_body *body = trees[i]->body;
-        if (body->mesh->vertex_count > most.widest->mesh->vertex_count)
-            most.widest = body;
+        if (body->mesh->vertex_count > most.largest->mesh->vertex_count)
+            most.largest = body;
         most.blocks = larger(most.blocks, trees[i]->block_count);
         most.depth = larger(most.depth, trees[i]->depth);
     }
     return most;
 }
 
-/* A query that needs more computes it again instead of allocating: rooms grow with the mesh up
-   to a size that does not. */
-static mote_status side_create(mote_cert_side *side, const rooms *most)
+/* The capacity grows with the mesh up to a fixed limit. A query that needs more computes things
+   again instead of allocating. */
+static mote_status side_create(mote_cert_side *side, const capacity *most)
 {
-    const uint32_t vertices = most->widest->mesh->vertex_count;
+    const uint32_t vertices = most->largest->mesh->vertex_count;
     const uint32_t expected = at_most(128 + vertices / 8, 2048);
-    mote_status status = mote_lazy_init(&side->lazy, most->widest, expected);
+    mote_status status = mote_lazy_init(&side->lazy, most->largest, expected);
     if (status != MOTE_OK)
         return status;
     side->lazy.fixed = true;
@@ -58,7 +58,7 @@ static mote_status side_create(mote_cert_side *side, const rooms *most)
 
 /* A workspace for trees of one scale. */
 static mote_status create(const mote_certificate_options *options, double scale,
-                          const rooms most[2], mote_certificate **made)
+                          const capacity most[2], mote_certificate **made)
 {
     mote_certificate *c = allocate_aligned(1, sizeof *c);
     if (!c)
@@ -92,7 +92,7 @@ mote_status mote_certificate_create(const mote_body *const body[2],
     if (status == MOTE_OK)
         status = mote_cert_tree_create(body[1], &plan, &trees[1]);
     if (status == MOTE_OK) {
-        const rooms own[2] = {rooms_for(&trees[0], 1), rooms_for(&trees[1], 1)};
+        const capacity own[2] = {capacity_for(&trees[0], 1), capacity_for(&trees[1], 1)};
         status = create(options, trees[0]->scale, own, &made);
     }
     if (status != MOTE_OK) {
@@ -110,8 +110,8 @@ mote_status mote_cert_workspace_create(mote_cert_tree *const *trees, uint32_t co
                                        const mote_certificate_options *options,
                                        mote_certificate **workspace)
 {
-    const rooms any = rooms_for(trees, count);
-    return create(options, trees[0]->scale, (const rooms[2]){any, any}, workspace);
+    const capacity any = capacity_for(trees, count);
+    return create(options, trees[0]->scale, (const capacity[2]){any, any}, workspace);
 }
 
 void mote_cert_workspace_destroy(mote_certificate *workspace)

@@ -4,15 +4,15 @@
    bound |t| + |c| + sum |h_k| + sum_j reach_j |w_j| in each coordinate, t being the translation
    relative to the query's origin: a bound of the sum of the absolute values of all terms of a
    box's centre, half axes and half width together.
-   - Each of these is a sum of at most n + 4 terms, n the functions that reach the block; a term
-     is a product of two factors, of which one was rounded twice. So every coordinate of a
+   - Each of these is a sum of at most n + 4 terms, where n functions are active in the block; a
+     term is a product of two factors, of which one was rounded twice. So every coordinate of a
      point of the box is wrong by at most (n + 7) u B, and its projection on a direction by
      sqrt(3) as much.
-   - A projection onto a direction of length <= 1 + 6 u adds up at most 9 roundings of terms
-   whose absolute values sum up to at most sqrt(3) B: 16 u B; the difference of two projections
+   - A projection onto a direction of length <= 1 + 6 u has at most 9 roundings of terms whose
+     absolute values sum up to at most sqrt(3) B: 16 u B. The difference of two projections
      rounds once more: 2 u B for each box.
-   - The empty corners that a reach is shortened by are stored a 25,000th too small, which is
-   more than the three roundings of their product.
+   - The empty corners that are subtracted from a reach are stored too small by 1 part in
+   25,000, which is more than the three roundings of their product.
    - Dividing a gap, at most 2 sqrt(3) B, by a length of 1 + 6 u changes it by 21 u B, half of
    it for each box. Along a line that is not divided by its length, all of this is multiplied by
    the length, and a root and two products more are 4 u of what it is compared with. A direction
@@ -28,8 +28,8 @@
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
-/* A box that crosses the plane by more than this part of its extent is not worth opening: most
-   of what is inside crosses it too. Leaves cost less to open. */
+/* A box that crosses the plane by more than this part of its extent is not worth opening, since
+   most of what is inside crosses the plane too. Leaves are cheaper to open. */
 #define CROSSING 0.4F
 #define CROSSING_LEAF 0.5F
 
@@ -77,9 +77,9 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
         side->single[1][j] = (float)(w.y * own);
         side->single[2][j] = (float)(w.z * own);
         sum = mote_add(sum, mote_vec3_make(fabs(w.x) * own, fabs(w.y) * own, fabs(w.z) * own));
-        field.x += fabs(w.x) * tree->reach[j];
-        field.y += fabs(w.y) * tree->reach[j];
-        field.z += fabs(w.z) * tree->reach[j];
+        field.x += fabs(w.x) * tree->row_bound[j];
+        field.y += fabs(w.y) * tree->row_bound[j];
+        field.z += fabs(w.z) * tree->row_bound[j];
     }
     side->bound = largest(t) + tree->radius + largest(field);
     const double world = (largest(pose->translation) + largest(moved)) * tree->scale;
@@ -102,11 +102,11 @@ void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshol
 {
     const mote_cert_tree *tree = side->tree;
     const mote_weights *w = &side->state->weights;
-    const mote_vec3 rest = mote_rotate_back(&side->state->pose.rotation, facing);
+    const mote_vec3 local = mote_rotate_back(&side->state->pose.rotation, facing);
     side->facing = facing;
-    side->facing_f[0] = (float)rest.x;
-    side->facing_f[1] = (float)rest.y;
-    side->facing_f[2] = (float)rest.z;
+    side->facing_f[0] = (float)local.x;
+    side->facing_f[1] = (float)local.y;
+    side->facing_f[2] = (float)local.z;
     side->facing_world[0] = (float)facing.x;
     side->facing_world[1] = (float)facing.y;
     side->facing_world[2] = (float)facing.z;
@@ -154,7 +154,7 @@ static void project_block(const mote_cert_side *restrict side,
             axis0[l] += row->slope[0][l] * w;
             axis1[l] += row->slope[1][l] * w;
             axis2[l] += row->slope[2][l] * w;
-            width[l] += row->rest[l] * size;
+            width[l] += row->residual[l] * size;
         }
     }
     const float shift = side->shift;
@@ -222,7 +222,7 @@ MOTE_INLINE void move(const mote_cert_side *restrict side,
     }
 }
 
-/* Adds what the field does to a block's boxes, all sums in registers. */
+/* Adds the field's effect to a block's boxes; all sums are kept in registers. */
 MOTE_INLINE void add_field(const mote_cert_side *restrict side,
                            const mote_cert_block *restrict block, mote_cert_node *restrict node)
 {
@@ -247,7 +247,7 @@ MOTE_INLINE void add_field(const mote_cert_side *restrict side,
             const float g0 = row->slope[0][l];
             const float g1 = row->slope[1][l];
             const float g2 = row->slope[2][l];
-            const float m = row->rest[l];
+            const float m = row->residual[l];
             cx[l] += f * x;
             cy[l] += f * y;
             cz[l] += f * z;
@@ -322,7 +322,7 @@ static mote_cert_node *new_node(mote_certificate *c, int s, const mote_cert_bloc
     return face_node(c, s, node);
 }
 
-/* Brings a node that is known up to date with the plane. */
+/* Projects a kept node again if the plane has changed since. */
 static mote_cert_node *known_node(mote_certificate *c, int s, mote_cert_node *node)
 {
     return node->generation == c->generation ? node : face_node(c, s, node);

@@ -54,7 +54,7 @@ void mote_cert_principal_axes(double matrix[3][3], mote_vec3 axes[3])
         axes[i] = mote_vec3_make(v[0][order[i]], v[1][order[i]], v[2][order[i]]);
 }
 
-/* Moments of the vertices about one of them. */
+/* The covariance matrix of the vertices' positions. */
 static void spread(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                    double matrix[3][3])
 {
@@ -129,7 +129,7 @@ void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices,
         uint32_t word = 0;
         for (int q = 0; q < 4; ++q) {
             const double empty = 2 - most[k][q];
-            /* a little less: what floats may add when it is used */
+            /* slightly less, so that float rounding cannot make it too large when used */
             const double whole = floor((empty < 1 ? empty : 1) * 255 - 0.01);
             word |= (whole > 0 ? (uint32_t)whole : 0) << (8 * q);
         }
@@ -137,7 +137,8 @@ void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices,
     }
 }
 
-/* What the rounding of the box's centre and axes leaves outside: measured, not estimated. */
+/* How far vertices stick out of the box since its centre and axes were rounded: measured, not
+   estimated. */
 static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                          const mote_cert_box *box)
 {
@@ -158,7 +159,7 @@ static void measure_leak(mote_cert_tree *tree, const uint32_t *vertices, size_t 
     tree->leak = worst > tree->leak ? worst : tree->leak;
 }
 
-/* The area of the rectangle along u and v around (some of) the vertices. */
+/* The area of the rectangle along u and v around the vertices, or around a sample of them. */
 static double area_along(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                          mote_vec3 u, mote_vec3 v)
 {
@@ -176,8 +177,8 @@ static double area_along(const mote_cert_tree *tree, const uint32_t *vertices, s
     return (high[0] - low[0]) * (high[1] - low[1]);
 }
 
-/* Turns the two main axes about the third to where the box is smallest: the main axes of a
-   patch that is about as wide as long point anywhere. */
+/* Turns the two main axes about the third so that the box is smallest: where a patch is about
+   as wide as it is long, its main axes point anywhere. */
 static void turn_axes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                       mote_vec3 axes[3])
 {
@@ -231,19 +232,19 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
         }
     }
     mote_cert_box box = {.centre = {0, 0, 0}};
-    double reach = 0;
+    double radius = 0;
     for (int i = 0; i < 3; ++i) {
         const int k = order[i];
         const double pad = 0x1p-23; /* so that no axis is 0 and little sticks out */
         const double length = 0.5 * (high[k] - low[k]) + pad;
         box.centre = mote_add_scaled(box.centre, 0.5 * (high[k] + low[k]), axes[k]);
         box.half[i] = mote_as_floats(mote_scale(axes[k], length));
-        reach += length;
+        radius += length;
     }
     box.centre = mote_as_floats(box.centre);
-    reach += mote_length(box.centre);
-    reach *= 1 + 0x1p-20;
-    tree->radius = reach > tree->radius ? reach : tree->radius;
+    radius += mote_length(box.centre);
+    radius *= 1 + 0x1p-20;
+    tree->radius = radius > tree->radius ? radius : tree->radius;
     measure_leak(tree, vertices, count, &box);
     return box;
 }
@@ -304,8 +305,8 @@ static void accumulate(normal_equations *e, const double z3[3], const double *ph
     }
 }
 
-/* A fit need only be good, its rests are taken over all vertices: where these are many, it is
-   made over a sample. */
+/* The slopes only decide how tight the boxes are, since residuals are measured at all vertices:
+   where there are many, a sample of them is fitted. */
 void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                           const mote_cert_box *box, double *phi, mote_cert_fit *fit)
 {
@@ -367,8 +368,8 @@ static float rounded_up(double x)
     return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
 }
 
-void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                         const mote_cert_box *box, double *phi, mote_cert_fit *fit)
+void mote_cert_fit_residuals(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                             const mote_cert_box *box, double *phi, mote_cert_fit *fit)
 {
     const size_t functions = tree->body->field->count;
     residuals r;
@@ -380,9 +381,9 @@ void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t 
         fit->offset[j] = (float)middle;
         const double above = r.high[j] - middle;
         const double below = middle - r.low[j];
-        fit->rest[j] = rounded_up(above > below ? above : below);
-        const double reach = fabs(middle) + fabs(fit->slope[0][j]) + fabs(fit->slope[1][j]) +
-                             fabs(fit->slope[2][j]) + (double)fit->rest[j];
-        tree->reach[j] = reach > tree->reach[j] ? reach : tree->reach[j];
+        fit->residual[j] = rounded_up(above > below ? above : below);
+        const double bound = fabs(middle) + fabs(fit->slope[0][j]) + fabs(fit->slope[1][j]) +
+                             fabs(fit->slope[2][j]) + (double)fit->residual[j];
+        tree->row_bound[j] = bound > tree->row_bound[j] ? bound : tree->row_bound[j];
     }
 }

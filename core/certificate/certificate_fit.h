@@ -1,5 +1,5 @@
-/* Boxes of sets of vertices and what the basis functions do to them; used to build the rest
-   tree. */
+/* Boxes around sets of vertices, and linear fits of the basis functions over them. Used to
+   build the tree. */
 #ifndef MOTE_CORE_CERTIFICATE_FIT_H
 #define MOTE_CORE_CERTIFICATE_FIT_H
 
@@ -15,7 +15,7 @@ typedef struct mote_cert_box {
 typedef struct mote_cert_fit {
     double slope[3][MOTE_FIELD_MAX];
     float offset[MOTE_FIELD_MAX];
-    float rest[MOTE_FIELD_MAX];
+    float residual[MOTE_FIELD_MAX];
     bool active[MOTE_FIELD_MAX]; /* not 0 at every vertex */
 } mote_cert_fit;
 
@@ -29,7 +29,8 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
 /* z of a vertex in a box, held within -1 .. 1. */
 void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3]);
 
-/* The corners of a box that its vertices leave empty, by pair of axes: see mote_cert_cut_of. */
+/* How much of the corners of a box its vertices leave empty, for each pair of axes: see
+   mote_cert_cut_of. */
 void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                            const mote_cert_box *box, int32_t cut[3]);
 
@@ -38,12 +39,12 @@ void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices,
 void mote_cert_fit_slopes(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                           const mote_cert_box *box, double *phi, mote_cert_fit *fit);
 
-/* Offsets and rests for the slopes in fit, whatever they are, and which functions are active.
-   Raises tree->reach. */
-void mote_cert_fit_rests(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
-                         const mote_cert_box *box, double *phi, mote_cert_fit *fit);
+/* Offsets and largest residuals for the slopes in fit, whatever they are, and which functions
+   are active. Raises tree->row_bound. */
+void mote_cert_fit_residuals(mote_cert_tree *tree, const uint32_t *vertices, size_t count,
+                             const mote_cert_box *box, double *phi, mote_cert_fit *fit);
 
-/* Vertices that a fit uses at most. */
+/* A fit uses at most this many vertices. */
 #define MOTE_CERT_FIT_CHUNK 512
 
 #endif

@@ -1,10 +1,11 @@
-/* Where the vertices of a leaf are: by the linear part of the field in its box, which costs a
-   few operations a vertex; by an estimate in floats; exactly.
+/* Positions of a leaf's vertices: by the linear fit of the field in its box, which costs a few
+   operations a vertex; by the field in single precision; exactly.
 
-   Margins. A place z in a box is rounded to a float, so that a sum over k of z_k a_k is wrong
-   by at most u sum |a_k|, which is at most u B in a coordinate (see certificate_deform.c). The
-   sums themselves have five roundings of terms whose absolute values add up to B in a
-   coordinate or sqrt(3) B along a direction: 9 u B. A projection on a direction of length <= 1
+   Margins. A vertex's coordinate z in its box is rounded to a float, so that a sum over k of
+   z_k a_k is wrong by at most u sum |a_k|, which is at most u B in a coordinate (see
+   certificate_deform.c). The sums themselves have five roundings of terms whose absolute values
+   add up to B in a coordinate or sqrt(3) B along a direction: 9 u B. A projection on a
+   direction of length <= 1
    + 6 u, of such sums or of what is added up, a difference of two of them, and the rounding of
    the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
    is 32 u B. */
@@ -118,7 +119,7 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
 
 /* Rest positions of MOTE_LANES vertices of a leaf from place `first` on, filled up with copies
    of the last, in the tree's units. */
-static void take_group(const mote_cert_tree *tree, const mote_cert_leaf *leaf, uint32_t first,
+static void load_group(const mote_cert_tree *tree, const mote_cert_leaf *leaf, uint32_t first,
                        uint32_t v[MOTE_LANES], float p[3][MOTE_LANES])
 {
     const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
@@ -132,7 +133,7 @@ static void take_group(const mote_cert_tree *tree, const mote_cert_leaf *leaf, u
     }
 }
 
-/* The rigid motion of a group plus what the field adds. */
+/* Moves a group rigidly and adds its displacements. */
 MOTE_CLONES
 static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANES],
                        float moved[3][MOTE_LANES], uint32_t first,
@@ -150,7 +151,7 @@ static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANE
     }
 }
 
-/* Where the near hull of a leaf is kept. */
+/* The slot for the near hull of a leaf. */
 static mote_cert_hull *hull_place(mote_cert_side *side, const mote_cert_node *node, size_t lane)
 {
     return &side->hulls[(uint32_t)~node->block->child[lane] % MOTE_CERT_HULLS];
@@ -181,7 +182,7 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
     for (uint32_t first = 0; first < leaf->vertex_count; first += MOTE_LANES) {
         uint32_t v[MOTE_LANES];
         float p[3][MOTE_LANES], moved[3][MOTE_LANES] = {{0}};
-        take_group(tree, leaf, first, v, p);
+        load_group(tree, leaf, first, v, p);
         if (block->active_count > 0) {
             const float f = body->field->kind->estimate(
                 body->field, body->mesh, v, tree->active + block->first_active,
@@ -203,8 +204,9 @@ static double exact_reach(mote_certificate *c, int s, uint32_t vertex)
     return mote_dot(mote_sub(p, c->origin), side->facing) * c->scale;
 }
 
-/* Where the field is linear in the box, a vertex at z reaches middle + sum_k z_k slant_k; what
-   it is not is in `loose`. Only vertices that this leaves in doubt are evaluated. */
+/* By the linear fit, the vertex at z has the coordinate middle + sum_k z_k slant_k, and `loose`
+   bounds the difference to the true one. Only vertices that this leaves undecided are
+   evaluated. */
 bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node, size_t lane,
                           double *reach)
 {

@@ -5,16 +5,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What a pair keeps between queries; zeroed for a pair that was not asked about yet. */
+/* Zeroed before a pair's first query. */
 typedef struct mote_cert_memory {
     uint32_t last[2][3]; /* faces of the last query's witnesses */
-    double leap;         /* a distance of them that tells of a leap */
+    double leap;         /* if these faces are now farther apart, the bodies have leapt */
     bool has_last;
-    bool steady; /* the last query ended at the faces it began with: the next one is likely to,
-                    too, so that it is not refined at first */
-    bool saddle; /* ... and the plane is crossed next to them, but descending does not help */
+    bool steady; /* the last query ended at the faces that it began with; the next one is likely
+                    to do so too and does not refine them first */
+    bool saddle; /* steady, and the plane is crossed next to the faces, but descending from them
+                    comes no nearer */
     bool has_direction;
-    float direction[3]; /* the latest that separated two leaves */
+    float direction[3]; /* the last that separated two leaves */
 } mote_cert_memory;
 
 #endif

@@ -1,4 +1,4 @@
-/* Two leaves: directions that keep them apart, then their triangles. */
+/* Two leaves: directions that separate them, then their triangles. */
 #include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 #include "core/body/triangle.h"
@@ -8,8 +8,8 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
-/* The traversal starts again where the upper bound falls below this part of itself: what it
-   still has to look at is then much less. */
+/* The traversal starts again when the upper bound falls below this part of its value: much less
+   is left to look at then. */
 #define WORTH_RESTART 0.95
 
 /* Steps of the search for a direction that separates two leaves. */
@@ -21,8 +21,7 @@ typedef struct pair {
     const mote_cert_leaf *leaf[2];
     const mote_cert_hull *hull[2];
     float loose[3];
-    float nearest[3]; /* about the direction from the first to the second where they are nearest
-                       */
+    float nearest[3]; /* about the direction from the first to the second at their nearest */
 } pair;
 
 /* The largest of eight, in a fixed order. */
@@ -38,8 +37,8 @@ MOTE_INLINE float largest_of(const float x[WIDTH])
     return two[0] > two[1] ? two[0] : two[1];
 }
 
-/* How far each lane of a hull reaches along a direction, and which group's vertex does; returns
-   the largest. */
+/* The largest coordinate along a direction in each lane of a hull, and the group that it is in;
+   returns the largest of all. */
 MOTE_INLINE float reach_along(const mote_cert_hull *restrict hull, const float d[3],
                               float most[WIDTH], uint32_t group[WIDTH])
 {
@@ -59,7 +58,7 @@ MOTE_INLINE float reach_along(const mote_cert_hull *restrict hull, const float d
     return largest_of(most);
 }
 
-/* A vertex that reaches as far as the farthest lane. */
+/* A vertex that attains the largest coordinate. */
 MOTE_INLINE size_t vertex_at(const float most[WIDTH], const uint32_t group[WIDTH],
                              float largest)
 {
@@ -71,21 +70,21 @@ MOTE_INLINE size_t vertex_at(const float most[WIDTH], const uint32_t group[WIDTH
     return group[lane] + lane;
 }
 
-/* A shorter vector is no direction: floats of its length squared lose their bits, and along
-   none at all everything is as far as anything else. Where hulls meet the search ends at such.
+/* A shorter vector is not used as a direction, since its squared length loses bits as a float,
+   and a zero vector separates nothing. Where hulls intersect, the search ends at such vectors.
  */
 #define SHORTEST_SQUARED 0x1p-100F
 
-/* Whether a gap along a vector is at least need times its length. Where the squares leave the
-   range of floats, from 10^9 L on, none is. */
+/* Whether a gap along a vector is at least need times its length. False where the squares leave
+   the range of floats, from 10^9 L on. */
 MOTE_INLINE bool far_enough(float gap, float need, float length_squared)
 {
     return gap > 0 && length_squared >= SHORTEST_SQUARED && gap * gap <= FLT_MAX &&
            gap * gap >= need * need * (1 + 0x1p-18F) * length_squared;
 }
 
-/* Along w, from body 0 to body 1: whether the gap, less what the hulls may be off, is at least
-   need times |w|; if not, the vertices that bound it. */
+/* Whether the gap along w, which points from body 0 to body 1, less the error of the hulls, is
+   at least need times |w|. If not, at[] are the vertices that bound it. */
 MOTE_INLINE bool apart_along(const pair *restrict p, const float w[3], float need, size_t at[2])
 {
     const float back[3] = {-w[0], -w[1], -w[2]};
@@ -132,9 +131,9 @@ static bool search_direction(const pair *restrict p, float need, float w[3])
     return false;
 }
 
-/* Looks for a direction that separates two leaves, starting from the nearest known; it is tried
-   first on the leaves that follow. */
-static bool found(mote_certificate *c, pair *p)
+/* Looks for a direction that separates two leaves, starting from p->nearest. One that is found
+   is tried first on the next leaves. */
+static bool find_direction(mote_certificate *c, pair *p)
 {
     if (!search_direction(p, c->need, p->nearest))
         return false;
@@ -144,8 +143,8 @@ static bool found(mote_certificate *c, pair *p)
     return true;
 }
 
-/* Whether the latest direction separates two leaves: most often it does, and to ask costs less
-   than hulls. */
+/* Whether the last direction found separates two leaves. It usually does, and testing it costs
+   less than making the hulls. */
 static bool latest_separates(mote_certificate *c, const mote_cert_node *const nodes[2],
                              const size_t lanes[2])
 {
@@ -202,7 +201,7 @@ static void place_faces(mote_certificate *c, int s, const pair *p, uint32_t want
     }
 }
 
-/* Measures two faces; true when they are nearer than any before. */
+/* Measures two faces; true when they are nearer than the best pair. */
 static bool measure(mote_certificate *c, const exact_face *s, const exact_face *t)
 {
     if (-(s->reach + t->reach) >= c->limit)
@@ -222,15 +221,15 @@ static bool measure(mote_certificate *c, const exact_face *s, const exact_face *
     return true;
 }
 
-/* Pairs of faces that are left: bit k of open[i] is face i of the first leaf and k of the
-   second. */
+/* Pairs of faces that may be near: bit k of undecided[i] stands for face i of the first leaf
+   and face k of the second. */
 typedef struct left_pairs {
-    uint32_t used; /* faces i that have any */
-    uint32_t open[MOTE_CERT_LEAF_TRIANGLES];
+    uint32_t used; /* bit i: undecided[i] is not 0 */
+    uint32_t undecided[MOTE_CERT_LEAF_TRIANGLES];
 } left_pairs;
 
-/* Keeps pairs that reach far enough towards each other along a direction from the first leaf to
-   the second: all, where there is no direction. */
+/* Drops pairs that are far enough apart along a direction from the first leaf to the second.
+   Keeps all where there is no direction. */
 static void filter_along(const mote_certificate *c, const pair *p, const float direction[3],
                          left_pairs *left)
 {
@@ -245,14 +244,14 @@ static void filter_along(const mote_certificate *c, const pair *p, const float d
     const float length = sqrtf(squared);
     const float slack =
         p->loose[0] * fabsf(d[0]) + p->loose[1] * fabsf(d[1]) + p->loose[2] * fabsf(d[2]);
-    /* the sum of two reaches that is not far yet */
+    /* pairs whose reaches add up to no more than this are far enough apart */
     const float least = -(c->need * length + slack) * (1 + 0x1p-19F);
     uint32_t used = left->used & mote_cert_reaching(&reaches[0], least - reaches[1].farthest);
     left->used = 0;
     for (; used; used &= used - 1) {
         const size_t i = mote_lowest_bit(used);
-        left->open[i] &= mote_cert_reaching(&reaches[1], least - reaches[0].reach[i]);
-        left->used |= left->open[i] ? 1u << i : 0;
+        left->undecided[i] &= mote_cert_reaching(&reaches[1], least - reaches[0].reach[i]);
+        left->used |= left->undecided[i] ? 1u << i : 0;
     }
 }
 
@@ -262,8 +261,9 @@ typedef struct gathered {
     uint32_t count;
 } gathered;
 
-/* Moves the near ones of the pairs gathered to `near`. */
-static void sift(const mote_certificate *c, const pair *p, gathered *pairs, left_pairs *near)
+/* Adds the gathered pairs that may be near to `near`, and empties the list. */
+static void test_gathered(const mote_certificate *c, const pair *p, gathered *pairs,
+                          left_pairs *near)
 {
     mote_cert_face_lanes lanes[2];
     if (pairs->count == 0)
@@ -271,34 +271,34 @@ static void sift(const mote_certificate *c, const pair *p, gathered *pairs, left
     for (int s = 0; s < 2; ++s) {
         for (uint32_t l = pairs->count; l < MOTE_CERT_FACE_LANES; ++l)
             pairs->face[s][l] = pairs->face[s][0];
-        mote_cert_take_faces(c->side[s].tree, p->hull[s], pairs->face[s], &lanes[s]);
+        mote_cert_load_faces(c->side[s].tree, p->hull[s], pairs->face[s], &lanes[s]);
     }
     uint32_t left =
         mote_cert_near_pairs(&lanes[0], &lanes[1], (1u << pairs->count) - 1, c->need, p->loose);
     for (; left; left &= left - 1) {
         const size_t l = mote_lowest_bit(left);
-        near->open[pairs->face[0][l]] |= 1u << pairs->face[1][l];
+        near->undecided[pairs->face[0][l]] |= 1u << pairs->face[1][l];
         near->used |= 1u << pairs->face[0][l];
     }
     pairs->count = 0;
 }
 
-/* The near ones of the pairs that are left. */
-static void sift_all(const mote_certificate *c, const pair *p, const left_pairs *left,
-                     left_pairs *near)
+/* Adds the pairs in `left` that may be near to `near`. */
+static void test_all_pairs(const mote_certificate *c, const pair *p, const left_pairs *left,
+                           left_pairs *near)
 {
     gathered pairs;
     pairs.count = 0;
     for (uint32_t used = left->used; used; used &= used - 1) {
         const size_t i = mote_lowest_bit(used);
-        for (uint32_t open = left->open[i]; open; open &= open - 1) {
+        for (uint32_t undecided = left->undecided[i]; undecided; undecided &= undecided - 1) {
             pairs.face[0][pairs.count] = (uint8_t)i;
-            pairs.face[1][pairs.count++] = (uint8_t)mote_lowest_bit(open);
+            pairs.face[1][pairs.count++] = (uint8_t)mote_lowest_bit(undecided);
             if (pairs.count == MOTE_CERT_FACE_LANES)
-                sift(c, p, &pairs, near);
+                test_gathered(c, p, &pairs, near);
         }
     }
-    sift(c, p, &pairs, near);
+    test_gathered(c, p, &pairs, near);
 }
 
 /* The pairs of faces of two leaves that may be nearer than the limit. */
@@ -309,14 +309,14 @@ static void find_near(const mote_certificate *c, const pair *p, left_pairs *near
     left.used = 0xffffffffu >> (32u - p->leaf[0]->triangle_count);
     near->used = 0;
     for (size_t i = 0; i < p->leaf[0]->triangle_count; ++i) {
-        left.open[i] = all;
-        near->open[i] = 0;
+        left.undecided[i] = all;
+        near->undecided[i] = 0;
     }
     filter_along(c, p, c->side[0].facing_world, &left);
     if (left.used)
         filter_along(c, p, p->nearest, &left);
     if (left.used)
-        sift_all(c, p, &left, near);
+        test_all_pairs(c, p, &left, near);
 }
 
 /* Measures the pairs of faces of two leaves that may be nearer than the limit; true when the
@@ -328,13 +328,13 @@ static bool measure_all(mote_certificate *c, const pair *p)
     find_near(c, p, &near);
     uint32_t wanted = 0;
     for (uint32_t left = near.used; left; left &= left - 1)
-        wanted |= near.open[mote_lowest_bit(left)];
+        wanted |= near.undecided[mote_lowest_bit(left)];
     place_faces(c, 0, p, near.used, exact[0]);
     place_faces(c, 1, p, wanted, exact[1]);
     bool improved = false;
     for (; near.used; near.used &= near.used - 1) {
         const size_t i = mote_lowest_bit(near.used);
-        for (uint32_t left = near.open[i]; left && !c->done; left &= left - 1)
+        for (uint32_t left = near.undecided[i]; left && !c->done; left &= left - 1)
             improved = measure(c, &exact[0][i], &exact[1][mote_lowest_bit(left)]) || improved;
     }
     return improved;
@@ -346,9 +346,9 @@ static void set_loose(pair *p)
         p->loose[r] = (p->hull[0]->width[r] + p->hull[1]->width[r]) * (1 + 0x1p-22F);
 }
 
-/* Takes the hulls with the field evaluated; false when there are none. */
-static bool take_near_hulls(mote_certificate *c, pair *p, const mote_cert_node *const nodes[2],
-                            const size_t lanes[2])
+/* Replaces the hulls by those with the field evaluated; false when the field offers none. */
+static bool use_evaluated_hulls(mote_certificate *c, pair *p,
+                                const mote_cert_node *const nodes[2], const size_t lanes[2])
 {
     for (int s = 0; s < 2; ++s) {
         const mote_cert_hull *hull = mote_cert_leaf_near_hull(&c->side[s], nodes[s], lanes[s]);
@@ -381,9 +381,10 @@ void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[
     set_loose(&p);
     for (size_t r = 0; r < 3; ++r)
         p.nearest[r] = nodes[1]->centre[r][lanes[1]] - nodes[0]->centre[r][lanes[0]];
-    if (c->options.directions && found(c, &p))
+    if (c->options.directions && find_direction(c, &p))
         return;
-    if (!near && take_near_hulls(c, &p, nodes, lanes) && c->options.directions && found(c, &p))
+    if (!near && use_evaluated_hulls(c, &p, nodes, lanes) && c->options.directions &&
+        find_direction(c, &p))
         return;
     const double before = c->upper;
     if (measure_all(c, &p) && c->upper < WORTH_RESTART * before &&

@@ -1,5 +1,5 @@
-/* One certified query: a first upper bound, then the proof that nothing is nearer, started again
-   whenever something is. */
+/* One certified query: a first upper bound, then the proof that nothing is nearer, started
+   again whenever something is. */
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
@@ -18,24 +18,24 @@ mote_certificate_options mote_default_certificate_options(double length)
                                       .restarts = 6};
 }
 
-/* Where the last faces have moved apart by more than this part of L, others are sought in the
-   trees: refining from far off takes longer. */
+/* Where the last faces have moved apart by more than this part of L, others are looked for in
+   the trees: sliding from that far away takes longer. */
 #define LEAP 0.1
 
-/* What has to be proven: that nothing is nearer than the limit. Pairs whose bound is at least
-   the limit are left out, so that the distance is proven to 1e-13 of itself. */
+/* To be proven: nothing is nearer than the limit. Pairs whose bound is at least the limit are
+   skipped, so that the distance is proven to 1e-13 of itself. */
 void mote_cert_set_best(mote_certificate *c, double squared)
 {
     c->best.squared = squared;
     c->upper = sqrt(squared);
     double limit = (c->upper - c->slack) * c->scale * (1 - 1e-13);
     if (c->enough >= 0) {
-        /* just above the tolerance, so that a pair exactly as far is found */
+        /* just above the tolerance, so that a pair exactly at the tolerance is found */
         const double enough = c->enough * c->scale * (1 + 1e-13) + 4 * c->noise;
         limit = enough < limit ? enough : limit;
     }
-    /* Where the bodies all but touch, rounding decides no bound: all pairs that might touch are
-       measured, so that contact is found whatever the query started from. */
+    /* Where the bodies nearly touch, no bound may depend on rounding: all pairs that might
+       touch are measured, so that contact is found whatever the query started from. */
     if (limit > 0 && limit < 8 * c->noise)
         limit = 8 * c->noise;
     c->limit = limit;
@@ -44,7 +44,7 @@ void mote_cert_set_best(mote_certificate *c, double squared)
         c->done = true;
 }
 
-/* The distance of two faces, which becomes the best. */
+/* Measures two faces, which become the best pair. */
 static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
 {
     mote_vec3 t[2][3];
@@ -58,8 +58,8 @@ static void measure_first(mote_certificate *c, const uint32_t (*first)[3])
         mote_triangle_triangle(t[0], t[1], &c->best.witness[0], &c->best.witness[1]);
 }
 
-/* Descends from the best faces; true when it comes nearer. What is nearer still turns up in the
-   traversal, and seldom is: to look all around first takes longer. */
+/* Slides the best pair downhill; true when it comes nearer. Anything nearer that this misses is
+   found by the traversal, which is rare: checking all faces around first takes longer. */
 static bool slide_best(mote_certificate *c)
 {
     mote_lazy *const lazy[2] = {&c->side[0].lazy, &c->side[1].lazy};
@@ -71,7 +71,7 @@ static bool slide_best(mote_certificate *c)
     return c->best.squared < before;
 }
 
-/* Faces that are near each other, by the trees alone, and what is downhill from there. */
+/* Finds a near pair of faces by the trees alone, and slides it downhill. */
 static void find_anew(mote_certificate *c, const mote_frame *frame)
 {
     uint32_t vertex[2], face[2][3];
@@ -122,8 +122,8 @@ static bool same_face(const uint32_t a[3], const uint32_t b[3])
     return true;
 }
 
-/* The plane across the gap: nothing of body 0 should reach beyond it by more than threshold 0,
-   nothing of body 1 by more than threshold 1; two thresholds are the limit apart. */
+/* Sets two parallel planes across the gap, the limit apart: body 0 should lie behind the first,
+   body 1 behind the second. */
 static void set_plane(mote_certificate *c)
 {
     const mote_vec3 *w = c->best.witness;
@@ -137,8 +137,8 @@ static void set_plane(mote_certificate *c)
     ++c->generation;
 }
 
-/* Whether both bodies are clear of the plane. A pair of faces that was only measured is refined
-   when its plane is crossed: as long as it stays the nearest, that is never. */
+/* Whether both bodies are clear of the plane. A pair that was only measured is refined once its
+   plane is crossed, which does not happen as long as it stays the nearest. */
 static bool plane_clears(mote_certificate *c)
 {
     while (!c->done) {
@@ -157,11 +157,11 @@ static bool plane_clears(mote_certificate *c)
     return false;
 }
 
-/* Proves the limit, lowering the upper bound whenever something nearer turns up. */
+/* Proves the limit; lowers the upper bound whenever something nearer is found. */
 static void prove(mote_certificate *c)
 {
     while (!c->done) {
-        c->open = DBL_MAX;
+        c->unvisited = DBL_MAX;
         c->proven = true;
         set_plane(c);
         if (c->options.plane && plane_clears(c))
@@ -188,14 +188,14 @@ static void begin(mote_certificate *c, double enough)
     c->unrefined = c->crossed = false;
     if (c->options.seed == MOTE_CERT_SEED_NONE)
         c->memory.has_direction = false;
-    c->open = DBL_MAX;
+    c->unvisited = DBL_MAX;
 }
 
 static void write_answer(mote_certificate *c, uint64_t evaluated,
                          mote_certificate_answer *answer)
 {
     const double aim = (c->upper - c->slack) * c->scale * (1 - 1e-13);
-    double lower = c->open < c->limit ? c->open : c->limit;
+    double lower = c->unvisited < c->limit ? c->unvisited : c->limit;
     lower = lower < aim ? lower : aim;
     lower = (lower - 3 * c->noise) / c->scale;
     answer->distance = c->upper;

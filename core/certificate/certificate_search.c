@@ -8,8 +8,8 @@
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach);
 
-/* Whether a leaf has a vertex of the best pair's face: where such a leaf crosses the plane, a
-   descent from the pair is likely to come nearer. */
+/* Whether a leaf has a vertex of the best pair's face. Where such a leaf crosses the plane,
+   sliding the pair is likely to come nearer. */
 static bool touches_witness(const mote_certificate *c, int s, const mote_cert_node *node,
                             size_t lane)
 {
@@ -48,7 +48,7 @@ static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t 
         node->reach[lane] = reach;
 }
 
-/* The child that reaches farthest; the first of equals. */
+/* The child that reaches farthest; the first among equals. */
 static size_t farthest_child(const mote_cert_node *node)
 {
     size_t best = 0;
@@ -57,8 +57,8 @@ static size_t farthest_child(const mote_cert_node *node)
     return best;
 }
 
-/* Whether all of a node is clear of the plane; *reach is then or otherwise its reach. Where the
-   first crossing ends the pass, the child that reaches farthest is looked at first. */
+/* Whether all of a node is clear of the plane. *reach is its reach in either case. Where the
+   first crossing ends the pass, the child that reaches farthest is opened first. */
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
                        float *reach)
 {
@@ -116,34 +116,35 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
     }
 }
 
-/* Pairs that the budget leaves unvisited bound the distance from below. */
-static void leave_open(mote_certificate *c, const float bound[WIDTH], uint32_t open)
+/* Keeps the smallest bound of the pairs that the budget leaves unvisited: a lower bound of the
+   distance. */
+static void bound_unvisited(mote_certificate *c, const float bound[WIDTH], uint32_t undecided)
 {
     for (size_t l = 0; l < WIDTH; ++l) {
-        if (open >> l & 1 && (double)bound[l] < c->open)
-            c->open = (double)bound[l];
+        if (undecided >> l & 1 && (double)bound[l] < c->unvisited)
+            c->unvisited = (double)bound[l];
     }
 }
 
 static void visit_row(mote_certificate *c, row r, uint32_t depth)
 {
     float bound[WIDTH];
-    uint32_t open = mote_cert_row_plane(r.node, r.lane, r.other, c->need, bound);
-    if (open) {
+    uint32_t undecided = mote_cert_row_plane(r.node, r.lane, r.other, c->need, bound);
+    if (undecided) {
         mote_cert_make_boxes(c, r.s, r.node);
         mote_cert_make_boxes(c, 1 - r.s, r.other);
-        open = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, open, bound);
+        undecided = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, undecided, bound);
     }
     ++c->counters.rows;
     c->counters.box_tests += r.other->block->children;
-    while (open && !c->done) {
+    while (undecided && !c->done) {
         if (c->counters.box_tests >= c->options.budget) {
             c->stopped = true;
-            leave_open(c, bound, open);
+            bound_unvisited(c, bound, undecided);
             return;
         }
-        const size_t k = mote_lowest_bit(open);
-        open &= ~(1u << k);
+        const size_t k = mote_lowest_bit(undecided);
+        undecided &= ~(1u << k);
         if (bound[k] < c->need)
             visit_pair(c, r, k, depth);
     }

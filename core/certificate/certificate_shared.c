@@ -17,13 +17,13 @@ void mote_cert_workspace_query(mote_certificate *workspace, mote_cert_tree *cons
     *memory = workspace->memory;
 }
 
-/* The margins of a box's coordinates hold for its half width as well, and for the rounding of
-   world coordinates (certificate_deform.c); sums here are in double precision. */
+/* The margin of a box covers the rounding of its half width and of world coordinates too
+   (certificate_deform.c); the sums here are in double precision. */
 void mote_cert_workspace_bounds(mote_certificate *workspace, mote_cert_tree *tree,
                                 const mote_body_state *state, mote_vec3 *low, mote_vec3 *high)
 {
     mote_cert_side *side = &workspace->side[0];
-    /* Near the middle of the body, where single precision is finest. */
+    /* Relative to the middle of the body, where single precision loses least. */
     const mote_vec3 origin = mote_pose_apply(&state->pose, tree->origin);
     side->tree = tree;
     mote_cert_side_begin(side, state, origin);
@@ -37,7 +37,7 @@ void mote_cert_workspace_bounds(mote_certificate *workspace, mote_cert_tree *tre
             const double half = fabs((double)root->axis[0][k][l]) +
                                 fabs((double)root->axis[1][k][l]) +
                                 fabs((double)root->axis[2][k][l]) + (double)root->width[k][l];
-            /* A number that is no number is in every lane: none is passed over. */
+            /* A NaN would stand in every lane, so that no comparison can hide it. */
             least[k] = centre - half >= least[k] ? least[k] : centre - half;
             most[k] = centre + half <= most[k] ? most[k] : centre + half;
         }

@@ -9,29 +9,31 @@
 #include "core/particle/refine.h"
 
 /* A block deformed for this frame, relative to the query's origin, in the trees' units. The
-   plane needs reach, extent and clear only, which take a fifth of the time of the boxes. */
+   plane pass needs reach, extent and clear only, which take a fifth of the time of the boxes.
+ */
 typedef struct mote_cert_node {
     float centre[3][MOTE_CERT_WIDTH];
     float axis[3][3][MOTE_CERT_WIDTH]; /* half axes [axis][coordinate][child] */
     float width[3][MOTE_CERT_WIDTH];   /* half widths of the box to be added, margin included */
     float size[MOTE_CERT_WIDTH];       /* squares of the two longest half axes, added up */
-    float reach[MOTE_CERT_WIDTH];      /* largest coordinate towards the other body */
+    float reach[MOTE_CERT_WIDTH];      /* the box's largest coordinate towards the other body */
     float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
     /* reach = middle + sum |slant| + loose: the parts of the box along the plane's normal */
     float middle[MOTE_CERT_WIDTH];
     float slant[3][MOTE_CERT_WIDTH]; /* of the half axes */
     float loose[MOTE_CERT_WIDTH];    /* half width of the box to be added */
-    int32_t child[MOTE_CERT_WIDTH];  /* place of the deformed child; -1: not deformed yet */
+    int32_t child[MOTE_CERT_WIDTH];  /* index of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
-    bool boxes;          /* centre .. size are known */
-    uint32_t clear;      /* bit l: child l is wholly on its side of the plane */
-    uint32_t crossing;   /* bit l: child l crosses the plane by little: worth opening */
+    bool boxes;          /* centre .. size have been computed */
+    uint32_t clear;      /* bit l: child l is wholly on its own side of the plane */
+    uint32_t crossing;   /* bit l: child l crosses the plane by so little that it is worth
+                            opening */
     uint32_t generation; /* the plane that reach, extent and clear belong to */
 } mote_cert_node;
 
-/* A leaf's vertices at this frame as far as the field is linear in its box, relative to the
-   query's origin, in the trees' units. In each coordinate no vertex is farther than `width`
-   from its place here, rounding included. */
+/* Approximate positions of a leaf's vertices at this frame, relative to the query's origin, in
+   the trees' units: by the linear fit of the field, or by the field in single precision. In
+   each coordinate a vertex is within `width` of its position here, rounding included. */
 typedef struct mote_cert_hull {
     float x[3][MOTE_CERT_LEAF_VERTICES]; /* filled up with copies of the last */
     float width[3];
@@ -39,7 +41,7 @@ typedef struct mote_cert_hull {
     const mote_cert_leaf *leaf;
 } mote_cert_hull;
 
-/* Hulls of leaves kept in a query, each in the place that its leaf's number gives. */
+/* Hulls of leaves kept during a query, each at its leaf's number modulo this. */
 #define MOTE_CERT_HULLS 16
 
 /* One body of a query. Its coordinate "towards the other body" is along u on body 0 and along
@@ -53,11 +55,11 @@ typedef struct mote_cert_side {
     float translation[3];
     float weight[3][MOTE_FIELD_MAX];
     mote_vec3 exact_translation; /* relative to the origin, in the trees' units */
-    double exact;                /* rounding of positions in double precision */
-    double bound;                /* bound of every coordinate that occurs */
-    float margin_unit; /* margin of a box: margin_base + margin_unit * its functions */
+    double exact;                /* rounding error of positions in double precision */
+    double bound;                /* bound on every coordinate that occurs */
+    float margin_unit; /* a box's margin: margin_base + margin_unit * its active functions */
     float margin_base;
-    float leaf_margin;  /* for what is added up from places in a leaf's box */
+    float leaf_margin;  /* for sums over a vertex's coordinates in its leaf's box */
     float reach_margin; /* for a reach that was computed in double precision */
     mote_vec3 facing;   /* u or -u */
     float facing_f[3];  /* the same in the rest mesh's axes */
@@ -71,7 +73,8 @@ typedef struct mote_cert_side {
     mote_cert_hull hulls[MOTE_CERT_HULLS]; /* with the field evaluated */
     mote_cert_node *nodes;                 /* [node_room]; the root is the first */
     uint32_t node_room, node_count;
-    const mote_cert_leaf *reached; /* mote_cert_leaf_reach's last, and what it was */
+    /* the last result of mote_cert_leaf_reach: its leaf, direction and value */
+    const mote_cert_leaf *reached;
     uint32_t reached_stamp;
     float reached_at;
 } mote_cert_side;
@@ -84,23 +87,23 @@ struct mote_certificate {
     uint32_t spare_room;
     mote_vec3 origin; /* world; the middle of the first witnesses */
     mote_refined best;
-    double upper;  /* distance of best */
-    double enough; /* a contact question's tolerance, or negative */
-    double slack;  /* absolute */
-    double limit;  /* what has to be proven, in the trees' units: pairs as far are left out */
-    double noise;  /* rounding of double precision coordinates, in the trees' units */
-    float need;    /* limit, rounded up */
-    double open;   /* least bound of what was left when the budget was spent */
+    double upper;     /* distance of best */
+    double enough;    /* a contact question's tolerance, or negative */
+    double slack;     /* absolute */
+    double limit;     /* to be proven, in the trees' units: no pair is nearer than this */
+    double noise;     /* rounding error of double precision coordinates, in the trees' units */
+    float need;       /* limit, rounded up */
+    double unvisited; /* smallest bound of the pairs left when the budget was spent */
     uint32_t generation;
     uint32_t restarts;
     bool done;      /* the traversal ends */
     bool improved;  /* ... because the upper bound improved */
     bool stopped;   /* the budget is spent */
-    bool proven;    /* all pairs were ruled out or measured, or are in `open` */
-    bool unrefined; /* best was measured only: the plane pass ends where it is crossed */
-    bool crossed;   /* ... which it was */
+    bool proven;    /* all pairs were ruled out, measured, or bounded by `unvisited` */
+    bool unrefined; /* best was measured, not refined: the plane pass ends at a crossing */
+    bool crossed;   /* the plane pass has ended at a crossing */
     mote_cert_memory memory;
-    uint32_t direction_stamp; /* of the direction remembered */
+    uint32_t direction_stamp; /* of memory.direction */
     mote_counters counters;
 };
 
@@ -119,7 +122,7 @@ static inline size_t mote_lowest_bit(uint32_t bits)
 
 /* certificate_deform.c */
 
-/* Takes over the frame's pose and weights, relative to the query's origin. */
+/* Converts the frame's pose and weights to the side's units, relative to the query's origin. */
 void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mote_vec3 origin);
 
 /* Sets the plane of a side: facing, and threshold as a coordinate along it. */
@@ -128,36 +131,36 @@ void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshol
 /* The root of a side. */
 mote_cert_node *mote_cert_root(mote_certificate *c, int s);
 
-/* The deformed block that is child `lane` of a node. depth: of the recursion, for the place of
-   a node that has to be forgotten again. */
+/* The deformed block that is child `lane` of a node. depth: of the recursion; it says which
+   spare node is used where no node can be kept. */
 mote_cert_node *mote_cert_child(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                                 uint32_t depth);
 
-/* Makes the boxes of a node known. */
+/* Computes the boxes of a node, once a frame. */
 void mote_cert_make_boxes(mote_certificate *c, int s, mote_cert_node *node);
 
 /* certificate_leaf.c */
 
-/* Whether leaf `lane` of a node is clear of the plane, by the cheapest means that decides.
- *reach: what it reaches at most. */
+/* Whether leaf `lane` of a node is clear of the plane, by the cheapest test that decides.
+ *reach: an upper bound on its coordinate towards the other body. */
 bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node, size_t lane,
                           double *reach);
 
-/* The hull of leaf `lane` of a node whose boxes are known. */
+/* The hull of leaf `lane` of a node whose boxes have been computed, by the linear fit. */
 void mote_cert_leaf_hull(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
                          mote_cert_hull *hull);
 
-/* How far the same hull reaches along a direction, without its width. The last answer is kept:
-   stamp tells directions apart. */
+/* The largest coordinate of that hull's points along a direction, without its width. The last
+   result is kept; stamp identifies the direction. */
 float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, size_t lane,
                            const float direction[3], uint32_t stamp);
 
-/* The hull with the field evaluated, to the precision of floats: NULL when its kind does not
+/* The hull with the field evaluated in single precision; NULL where the kind of field does not
    offer that. Valid until another leaf of the side is asked for. */
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane);
 
-/* The last if it is still kept, else NULL. */
+/* The hull that the last function would return if it is still kept, else NULL. */
 const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
                                                 const mote_cert_node *node, size_t lane);
 
@@ -168,22 +171,22 @@ const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
 uint32_t mote_cert_row_plane(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
                              float need, float bound[MOTE_CERT_WIDTH]);
 
-/* The same for those in `open` by the boxes of both nodes; raises the bounds. */
+/* The same for the lanes in `undecided`, by the boxes of both nodes; raises the bounds. */
 uint32_t mote_cert_row_boxes(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
-                             float need, uint32_t open, float bound[MOTE_CERT_WIDTH]);
+                             float need, uint32_t undecided, float bound[MOTE_CERT_WIDTH]);
 
 /* certificate_pair.c */
 
-/* Measures what two leaves, children `lanes` of nodes whose boxes are known, leave open; lowers
-   the upper bound where they are nearer. */
+/* Decides about two leaves, children `lanes` of nodes whose boxes have been computed: shows
+   that they are far enough apart, or measures their faces and lowers the upper bound. */
 void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[2],
                          const size_t lanes[2]);
 
 /* certificate_triangles.c */
 
-/* How far the faces of a leaf reach along a direction. */
+/* The largest coordinate of each face of a leaf along a direction. */
 typedef struct mote_cert_reaches {
-    float reach[MOTE_CERT_LEAF_TRIANGLES]; /* filled up with the least of floats */
+    float reach[MOTE_CERT_LEAF_TRIANGLES]; /* padded with -FLT_MAX */
     float farthest;
     size_t lanes; /* in use: a multiple of 8 */
 } mote_cert_reaches;
@@ -191,7 +194,7 @@ typedef struct mote_cert_reaches {
 void mote_cert_reach_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
                            const float direction[3], mote_cert_reaches *reaches);
 
-/* Which faces reach farther than `least`. */
+/* Bit i: face i has a reach above `least`. */
 uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least);
 
 /* Faces in lanes: twice the width of boxes, since each step of the search for their distance
@@ -202,15 +205,15 @@ typedef struct mote_cert_face_lanes {
     float corner[3][3][MOTE_CERT_FACE_LANES]; /* [corner][coordinate][lane] */
 } mote_cert_face_lanes;
 
-/* Takes faces of a hull's leaf, given by their numbers. */
-void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+/* Loads the corners of faces of a hull's leaf, given by their numbers. */
+void mote_cert_load_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
                           const uint8_t faces[MOTE_CERT_FACE_LANES],
                           mote_cert_face_lanes *lanes);
 
-/* Of the lanes in `open`, which are not proven to be at least `need` apart. loose: half width
-   of the box by which a difference of two corners may be wrong. */
+/* Which of the lanes in `undecided` are not proven to be at least `need` apart. loose: by how
+   much a difference of two corners may be wrong in each coordinate. */
 uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *s, const mote_cert_face_lanes *t,
-                              uint32_t open, float need, const float loose[3]);
+                              uint32_t undecided, float need, const float loose[3]);
 
 /* certificate_search.c */
 
@@ -225,7 +228,7 @@ void mote_cert_descend(mote_certificate *c, uint32_t vertex[2]);
 
 /* certificate_query.c */
 
-/* Takes over an upper bound that improved. */
+/* Sets the upper bound, and from it the limit to be proven. */
 void mote_cert_set_best(mote_certificate *c, double squared);
 
 #endif

@@ -4,8 +4,8 @@
 
    For a child box with centre c and half axes h_k let z_k = h_k.(x - c) / |h_k|^2, so that
    every rest vertex of the box is x = c + sum_k z_k h_k with |z_k| <= 1. Each basis function is
-   fitted by phi_j(x) = f_j + sum_k g_jk z_k + r, |r| <= m_j, over the box's vertices. With
-   weights w_j the deformed vertices are then inside the sum of
+   fitted by phi_j(x) = f_j + sum_k g_jk z_k + r over the box's vertices, with residuals
+   |r| <= m_j. With weights w_j the deformed vertices then lie in the sum of
        the centre R c + t + sum_j f_j w_j,
        three half axes R h_k + sum_j g_jk w_j, and
        an axis-aligned half width sum_j m_j |w_j|,
@@ -25,13 +25,13 @@
 #define MOTE_CERT_LEAF_TRIANGLES 32
 #define MOTE_CERT_LEAF_VERTICES 40
 
-/* What one basis function that reaches a block does to its children: offset f, slopes g by
-   axis, and m >= 0. The rests are taken with the slopes as they are stored, so that nothing is
-   lost by their rounding. */
+/* What one basis function does to the children of a block: offset f, slopes g by axis, and the
+   largest residual m >= 0. Residuals are measured with the slopes as they are stored, so that
+   rounding the slopes loses nothing. */
 typedef struct mote_cert_row {
     float offset[MOTE_CERT_WIDTH];
     float slope[3][MOTE_CERT_WIDTH];
-    float rest[MOTE_CERT_WIDTH];
+    float residual[MOTE_CERT_WIDTH];
 } mote_cert_row;
 
 typedef struct mote_cert_block {
@@ -39,8 +39,8 @@ typedef struct mote_cert_block {
     float half[3][3][MOTE_CERT_WIDTH]; /* [axis, longest first][coordinate][child] */
     int32_t cut[3][MOTE_CERT_WIDTH];   /* [pair of axes: 01, 02, 12]: see mote_cert_cut_of */
     int32_t child[MOTE_CERT_WIDTH];    /* >= 0: a block; < 0: the leaf ~child */
-    uint32_t first_row;                /* its rows, one for each of its basis functions */
-    uint32_t first_active;             /* which these are, in ascending order */
+    uint32_t first_row;                /* its rows, one for each active basis function */
+    uint32_t first_active;             /* numbers of these functions, ascending */
     uint32_t active_count;
     uint32_t children;
     uint32_t mask; /* bit l: lane l has a child; the first `children` bits */
@@ -54,8 +54,8 @@ typedef struct mote_cert_leaf {
     uint8_t triangle_count;
 } mote_cert_leaf;
 
-/* Where MOTE_CERT_WIDTH vertices of a leaf are in its box. The last group of a leaf is filled
-   up with copies of its last vertex. */
+/* Coordinates of MOTE_CERT_WIDTH vertices of a leaf in its box. The last group of a leaf is
+   filled up with copies of its last vertex. */
 typedef struct mote_cert_group {
     float z[3][MOTE_CERT_WIDTH];
 } mote_cert_group;
@@ -70,13 +70,13 @@ typedef struct mote_cert_tree {
     mote_cert_leaf *leaves;  /* [leaf_count] */
     uint32_t *leaf_vertices; /* [leaf_vertex_count] */
     mote_cert_group *groups; /* [group_count] */
-    uint8_t (*corners)[3];   /* [triangle_count], places in the leaf's vertices */
+    uint8_t (*corners)[3];   /* [triangle_count], indices into the leaf's vertices */
     uint32_t block_count, leaf_count, leaf_vertex_count, group_count;
     uint32_t row_count;
-    uint32_t depth;                     /* blocks on the longest way down */
+    uint32_t depth;                     /* blocks on the longest path from the root */
     double basis_scale[MOTE_FIELD_MAX]; /* powers of two */
-    double reach[MOTE_FIELD_MAX]; /* bound of |f| + |g_1| + |g_2| + |g_3| + m in any row */
-    double radius;                /* bound of |c| + |h_1| + |h_2| + |h_3| of any box */
+    double row_bound[MOTE_FIELD_MAX]; /* bound of |f| + |g_1| + |g_2| + |g_3| + m in any row */
+    double radius;                    /* bound of |c| + |h_1| + |h_2| + |h_3| of any box */
     double leak; /* how far a vertex sticks out of its box by the rounding of boxes */
 } mote_cert_tree;
 
@@ -96,7 +96,7 @@ void mote_cert_tree_destroy(mote_cert_tree *tree);
 /* Bytes of heap that a tree holds. */
 size_t mote_cert_tree_bytes(const mote_cert_tree *tree);
 
-/* Corners of a box that are empty. For axes i < j and signs s, t let d be the largest
+/* How much of the corners of a box is empty. For axes i < j and signs s, t let d be the largest
    s z_i + t z_j of the vertices; 2 - d, held within 0 .. 1, is stored rounded down to a whole
    number of 255ths, in one byte of a word for each pair of signs: ++ lowest, then +-, -+, --.
    For any a, b of these signs, a z_i + b z_j <= |a| + |b| - (2 - d) min(|a|, |b|). */

@@ -1,4 +1,4 @@
-/* Faces of two leaves: which pairs of them may be near. */
+/* Which pairs of faces of two leaves may be near. */
 #include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
 
@@ -13,7 +13,7 @@ static inline const uint8_t (*corners_of(const mote_cert_tree *tree,
     return (const uint8_t(*)[3])tree->corners + hull->leaf->first_corner;
 }
 
-void mote_cert_take_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+void mote_cert_load_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
                           const uint8_t faces[MOTE_CERT_FACE_LANES],
                           mote_cert_face_lanes *lanes)
 {
@@ -82,10 +82,10 @@ uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least)
     return bits;
 }
 
-/* What a step of the search for the nearest points of two triangles knows, in lanes. */
+/* State of the search for the nearest points of two triangles, one pair a lane. */
 typedef struct search {
-    float w[3][LANES];      /* the difference of a point on each */
-    float clearance[LANES]; /* >= 0: the pair is far */
+    float w[3][LANES];      /* difference of a point on each triangle */
+    float clearance[LANES]; /* >= 0: the pair is far enough apart */
 } search;
 
 /* Projects both triangles on w, and moves w towards the difference of the corners that are
@@ -141,13 +141,13 @@ MOTE_INLINE void step(const mote_cert_face_lanes *restrict s,
     }
 }
 
-/* Steps of the search: most pairs that are far are shown to be by the first. */
+/* Steps of the search. Most pairs that are far apart are shown to be so by the first. */
 #define STEPS 4
 
 MOTE_CLONES
 uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *restrict s,
-                              const mote_cert_face_lanes *restrict t, uint32_t open, float need,
-                              const float loose[3])
+                              const mote_cert_face_lanes *restrict t, uint32_t undecided,
+                              float need, const float loose[3])
 {
     search g;
     for (size_t r = 0; r < 3; ++r) {
@@ -157,13 +157,13 @@ uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *restrict s,
                          (s->corner[0][r][l] + s->corner[1][r][l] + s->corner[2][r][l])) *
                         (1.0F / 3);
     }
-    for (int i = 0; i < STEPS && open; ++i) {
+    for (int i = 0; i < STEPS && undecided; ++i) {
         step(s, t, need, loose, &g);
         uint32_t far = 0;
         MOTE_LANE_LOOP
         for (size_t l = 0; l < LANES; ++l)
             far |= g.clearance[l] >= 0 ? 1u << l : 0;
-        open &= ~far;
+        undecided &= ~far;
     }
-    return open;
+    return undecided;
 }

@@ -12,46 +12,49 @@ static const mote_parameter parameters[] = {
                 .kind = MOTE_PARAMETER_CHOICE,
                 .choices = "witness|pair|none|tracked",
                 .fallback = "witness",
-                .help = "first upper bound: the last faces, refined or not; none: no state is "
-                        "kept; or tracked particles"},
+                .help = "first upper bound: the last faces, refined (witness) or as they are "
+                        "(pair); none: no state is kept; tracked: from tracked particles"},
     [P_SLACK] = {.key = "slack",
                  .kind = MOTE_PARAMETER_REAL,
                  .minimum = 0,
                  .maximum = 1,
                  .fallback = "0",
-                 .help = "stop when upper - lower <= slack L, and return both"},
+                 .help = "stop when upper - lower <= slack L, and return both bounds"},
     [P_BUDGET] = {.key = "budget",
                   .kind = MOTE_PARAMETER_REAL,
                   .minimum = 0,
                   .maximum = HUGE_VAL,
                   .fallback = "inf",
-                  .help = "stop after so many pairs of boxes, and return the bracket"},
+                  .help = "stop after this many box tests, and return both bounds"},
     [P_WIDTH] = {.key = "width",
                  .kind = MOTE_PARAMETER_CHOICE,
                  .choices = "8|4|2",
                  .fallback = "8",
-                 .help = "children a block of the tree"},
+                 .help = "children of a block of the tree"},
     [P_FITS] = {.key = "fits",
                 .kind = MOTE_PARAMETER_CHOICE,
                 .choices = "linear|constant",
                 .fallback = "linear",
-                .help = "how boxes follow the field: its gradient or its mean"},
+                .help = "boxes follow the field's linear fit, or only its mean"},
     [P_PLANE] = {.key = "plane",
                  .kind = MOTE_PARAMETER_CHOICE,
                  .choices = "on|off",
                  .fallback = "on",
-                 .help = "rule out what is beyond a plane across the gap, tree by tree"},
+                 .help = "first rule out what lies on its own side of a plane across the gap"},
     [P_DIRECTIONS] = {.key = "directions",
                       .kind = MOTE_PARAMETER_CHOICE,
                       .choices = "on|off",
                       .fallback = "on",
-                      .help = "test leaf pairs along directions before their triangles"},
+                      .help =
+                          "look for a direction that separates two leaves before testing their "
+                          "triangles"},
     [P_RESTARTS] = {.key = "restarts",
                     .kind = MOTE_PARAMETER_INTEGER,
                     .minimum = 0,
                     .maximum = 100,
                     .fallback = "6",
-                    .help = "how often the traversal starts again after an improvement"},
+                    .help =
+                        "the traversal starts again at most this often after an improvement"},
 };
 
 /* The choices of seed, in the table's order. */
@@ -148,7 +151,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     answer->has_distance = !contact_only;
     answer->has_witness = !contact_only || answer->contact;
     answer->has_lower = true;
-    /* A bracket around the tolerance leaves the contact open. */
+    /* Where the tolerance lies between the bounds, contact is not decided. */
     answer->has_contact =
         answer->contact || found.lower > s->tolerance || (s->exact && !found.stopped);
     mote_counters *sum = &answer->counters;

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bodies and pairs that a thread takes at a time. */
+/* Bodies and pairs that a thread works on at a time. */
 #define GRAIN_BODIES 64
 #define GRAIN_PAIRS 4
 
-/* The pairs of a step and what their next queries begin with. */
+/* The pairs of a step, and what each keeps for its next query. */
 typedef struct pair_list {
     mote_scene_pair *pairs; /* [room] */
     mote_cert_memory *memories;
@@ -27,7 +27,7 @@ struct mote_scene {
     mote_pool *pool;
     mote_certificate **workspaces; /* [threads] */
     pair_list now, before;
-    /* Of the loop under way: */
+    /* Arguments of the loop that is running: */
     const mote_body_state *states;
     mote_scene_box *bounds;
 };
@@ -41,18 +41,22 @@ static mote_status check(uint32_t shape_count, const uint32_t *shape_of, uint32_
                          const mote_scene_options *options)
 {
     if (shape_count < 1 || body_count < 1)
-        return mote_fail(MOTE_EINVAL, "a scene of %u bodies of %u shapes; give at least one",
-                         body_count, shape_count);
+        return mote_fail(
+            MOTE_EINVAL,
+            "a scene needs at least one body and one shape; there are %u bodies and %u shapes",
+            body_count, shape_count);
     if (options->threads < 1 || options->threads > MOTE_POOL_MAX)
-        return mote_fail(MOTE_EINVAL, "%u threads; give 1 to %u", options->threads,
-                         MOTE_POOL_MAX);
+        return mote_fail(MOTE_EINVAL, "%u threads is out of range; give 1 to %u",
+                         options->threads, MOTE_POOL_MAX);
     if (!(options->tolerance >= 0) || !isfinite(options->tolerance))
-        return mote_fail(MOTE_EINVAL, "tolerance %g; give a finite number from 0 on",
+        return mote_fail(MOTE_EINVAL,
+                         "tolerance %g is not valid; it must be a finite number of at least 0",
                          options->tolerance);
     for (uint32_t i = 0; i < body_count; ++i) {
         if (shape_of[i] >= shape_count)
-            return mote_fail(MOTE_EINVAL, "body %u is of shape %u; there are %u", i,
-                             shape_of[i], shape_count);
+            return mote_fail(MOTE_EINVAL,
+                             "body %u has shape %u, which does not exist; there are %u shapes",
+                             i, shape_of[i], shape_count);
     }
     return MOTE_OK;
 }
@@ -191,16 +195,18 @@ static mote_status check_pairs(const mote_scene *s, const uint32_t (*pairs)[2], 
 {
     for (size_t k = 0; k < count; ++k) {
         if (pairs[k][0] >= pairs[k][1] || pairs[k][1] >= s->body_count)
-            return mote_fail(MOTE_EINVAL, "pair %u, %u; give i < j below %u bodies",
+            return mote_fail(MOTE_EINVAL,
+                             "pair %u, %u is not valid; give i < j, both below %u bodies",
                              pairs[k][0], pairs[k][1], s->body_count);
         if (k > 0 && mote_pair_order(pairs[k - 1], pairs[k]) >= 0)
-            return mote_fail(MOTE_EINVAL, "pair %u, %u after %u, %u; give them ascending",
+            return mote_fail(MOTE_EINVAL,
+                             "pair %u, %u follows %u, %u; give pairs in ascending order",
                              pairs[k][0], pairs[k][1], pairs[k - 1][0], pairs[k - 1][1]);
     }
     return MOTE_OK;
 }
 
-/* Room for count pairs; what was in the list is lost. */
+/* Makes room for count pairs; the contents of the list are lost. */
 static mote_status make_room(pair_list *list, size_t count)
 {
     if (count <= list->room)
@@ -218,9 +224,9 @@ static mote_status make_room(pair_list *list, size_t count)
     return MOTE_OK;
 }
 
-/* Fills the new list with the pairs, each with its state of the list before or none. */
-static void take_over(const pair_list *before, const uint32_t (*pairs)[2], size_t count,
-                      pair_list *list)
+/* Fills the new list with the pairs, each with its state from the last step, if it has one. */
+static void carry_over(const pair_list *before, const uint32_t (*pairs)[2], size_t count,
+                       pair_list *list)
 {
     size_t old = 0;
     list->count = count;
@@ -274,7 +280,7 @@ mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
         status = make_room(&scene->before, count);
     if (status != MOTE_OK)
         return status;
-    take_over(&scene->now, pairs, count, &scene->before);
+    carry_over(&scene->now, pairs, count, &scene->before);
     const pair_list swapped = scene->now;
     scene->now = scene->before;
     scene->before = swapped;

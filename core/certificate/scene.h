@@ -1,12 +1,12 @@
 /* Several bodies (paper section 6): certified queries for the near pairs of a scene.
 
-   Bodies of one shape share its rest mesh, its field and one tree; a body by itself is a pose
-   and weights, which the caller keeps. A pair has a state while it is near and no longer.
-   Memory grows with the shapes and the near pairs, not with the bodies times their triangles.
+   Bodies of one shape share its rest mesh, its field and one tree; a body of its own is only a
+   pose and weights, which the caller keeps. A pair has state only while it is near. Memory
+   grows with the shapes and the near pairs, not with the bodies times their triangles.
 
-   A step is: mote_scene_bounds, which tells where the bodies are without touching a vertex; the
-   caller's choice of pairs by these bounds (a broad phase: baselines/broad_phase.h wraps
-   FCL's); mote_scene_query, which answers for these pairs. */
+   A step has three parts: mote_scene_bounds gives a box around each body without touching a
+   vertex; the caller finds the pairs whose boxes are near (a broad phase: baselines/
+   broad_phase.h wraps FCL's); mote_scene_query answers for these pairs. */
 #ifndef MOTE_CORE_SCENE_H
 #define MOTE_CORE_SCENE_H
 
@@ -21,7 +21,7 @@ typedef struct mote_scene mote_scene;
 typedef struct mote_scene_options {
     mote_ask ask;
     double tolerance; /* absolute, >= 0: contact is distance <= tolerance */
-    uint32_t threads; /* 1 .. 256: that bounds and pairs are shared out to */
+    uint32_t threads; /* 1 .. 256, which share the bounds and pairs among them */
 } mote_scene_options;
 
 /* The distance, tolerance 0, one thread. */
@@ -32,8 +32,8 @@ typedef struct mote_scene_box {
     mote_vec3 low, high;
 } mote_scene_box;
 
-/* The order of pairs of bodies, by the first and then the second: < 0, 0, > 0 as a is before,
-   the same as or behind b. */
+/* Compares pairs of bodies by the first body, then by the second: < 0, 0 or > 0 where a comes
+   before b, is the same, or comes after it. */
 static inline int mote_pair_order(const uint32_t a[2], const uint32_t b[2])
 {
     if (a[0] != b[0])
@@ -43,11 +43,11 @@ static inline int mote_pair_order(const uint32_t a[2], const uint32_t b[2])
 
 /* What is known of a near pair. */
 typedef struct mote_scene_pair {
-    uint32_t body[2];     /* body[0] < body[1] */
-    uint32_t steps;       /* that it has been near for without a break, this one included */
-    bool contact;         /* distance <= tolerance, exactly */
-    double distance;      /* of the witnesses; with MOTE_ASK_CONTACT an upper bound */
-    double lower;         /* proven, <= distance */
+    uint32_t body[2]; /* body[0] < body[1] */
+    uint32_t steps;   /* for how many steps it has been near, up to and including this one */
+    bool contact;     /* distance <= tolerance, exactly */
+    double distance;  /* of the witnesses; with MOTE_ASK_CONTACT an upper bound */
+    double lower;     /* proven, <= distance */
     mote_vec3 witness[2]; /* world points on the two bodies */
     mote_counters counters;
 } mote_scene_pair;
@@ -79,10 +79,10 @@ mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
 mote_status mote_scene_bounds_of(mote_scene *scene, uint32_t i, const mote_body_state *state,
                                  mote_scene_box *bounds);
 
-/* Answers for pairs[count], i < j, ascending by i, then j, each once (else MOTE_EINVAL). Pairs
-   that were given in the last call too go on from their state; the state of others is dropped.
-   Answers are the same bits whatever the number of threads. Allocates only where there are more
-   pairs than ever before: MOTE_ENOMEM, and all states are kept. */
+/* Answers for pairs[count]: i < j in each, ascending by i, then j, each once, else MOTE_EINVAL.
+   Pairs that were also in the last call continue from their state; the state of others is
+   dropped. Answers are the same bits for any number of threads. Allocates only when there are
+   more pairs than ever before; on MOTE_ENOMEM all states are kept. */
 mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
                              const uint32_t (*pairs)[2], size_t count);
 

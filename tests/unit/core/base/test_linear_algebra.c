@@ -49,7 +49,7 @@ TEST(eigen_symmetric_not_finite_is_refused)
         m.m[k / 3][k % 3] = k % 2 ? NAN : HUGE_VAL;
         assert_int_equal(mote_eigen_symmetric(&m, &values, &vectors), MOTE_ENUMERIC);
         assert_string_equal(mote_error_text(),
-                            "a matrix whose main axes are asked is not finite");
+                            "the matrix is not finite; its eigenvectors do not exist");
         assert_true(values.x == 7);
     }
 }

@@ -384,7 +384,7 @@ TEST(mote_scene_create_bad_input_is_refused)
     check_refused(&c, 3, 0, &options, "at least one");
     check_refused(&c, 0, 4, &options, "at least one");
     c.shape_of[2] = 3;
-    check_refused(&c, 3, 4, &options, "body 2 is of shape 3");
+    check_refused(&c, 3, 4, &options, "body 2 has shape 3");
     c.shape_of[2] = 2;
     options.tolerance = NAN;
     check_refused(&c, 3, 4, &options, "tolerance");
