@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 static _Thread_local char error_text[1024];
+static _Thread_local mote_status error_status;
 
 const char *mote_status_text(mote_status status)
 {
@@ -34,7 +35,13 @@ mote_status mote_fail(mote_status status, const char *format, ...)
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     (void)snprintf(error_text, sizeof error_text, "%s", text);
+    error_status = status;
     return status;
+}
+
+mote_status mote_error_status(void)
+{
+    return error_status;
 }
 
 const char *mote_error_text(void)

@@ -32,6 +32,9 @@ mote_status mote_fail(mote_status status, const char *format, ...) MOTE_PRINTF(2
  */
 const char *mote_error_text(void);
 
+/* The status of this thread's last mote_fail, or MOTE_OK if there was none. */
+mote_status mote_error_status(void);
+
 #ifdef __cplusplus
 }
 #endif

@@ -6,8 +6,8 @@
    velocity of the contact points triples and the energy grows. With p = + n m_e v everything
    else as printed holds: dp_1 = -2 (v_1 - v_2) n / (1 / m_e1 + 1 / m_e2) = -dp_2 keeps
    momentum, angular momentum and energy, and the relative velocity along n is reversed. This
-   reading is used (tests/unit/core/motion/test_response.c shows both). The change w' = w + L_c / I_c
-   is right as printed. */
+   reading is used (tests/unit/core/motion/test_response.c shows both). The change
+   w' = w + L_c / I_c is right as printed. */
 #ifndef MOTE_CORE_RESPONSE_H
 #define MOTE_CORE_RESPONSE_H
 

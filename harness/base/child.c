@@ -1,6 +1,7 @@
 #include "harness/base/child.h"
 
 #include "harness/base/confine.h"
+#include "harness/base/memory.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -74,6 +75,24 @@ static size_t mapped_bytes(void)
     return got ? strtoul(line, NULL, 10) * (size_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
+static int parent_end; /* of a child: where the parent listens */
+
+static _Noreturn void say_last_words(mote_status status, const char *text)
+{
+    last_words last;
+    memset(&last, 0, sizeof last);
+    last.status = (uint32_t)status;
+    (void)snprintf(last.text, sizeof last.text, "%s", text);
+    (void)mote_child_put(parent_end, &last, sizeof last);
+    _exit(0);
+}
+
+/* Memory that runs out ends the child's work, as a status of it, and not the parent. */
+static void tell_parent(const char *text)
+{
+    say_last_words(MOTE_ENOMEM, text);
+}
+
 static _Noreturn void be_child(mote_child_work work, void *context,
                                const mote_child_limits *limits, pid_t parent, int output)
 {
@@ -93,13 +112,10 @@ static _Noreturn void be_child(mote_child_work work, void *context,
     }
     const struct rlimit no_core = {0, 0};
     (void)setrlimit(RLIMIT_CORE, &no_core);
-    last_words last;
-    memset(&last, 0, sizeof last);
-    last.status = (uint32_t)work(context, output);
-    if (last.status != MOTE_OK)
-        (void)snprintf(last.text, sizeof last.text, "%s", mote_error_text());
-    (void)mote_child_put(output, &last, sizeof last);
-    _exit(0);
+    parent_end = output;
+    mote_out_of_memory_tell(tell_parent);
+    const mote_status status = work(context, output);
+    say_last_words(status, status == MOTE_OK ? "" : mote_error_text());
 }
 
 static double seconds_now(void)

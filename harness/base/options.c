@@ -10,7 +10,7 @@
 int mote_command_fail(void)
 {
     (void)fprintf(stderr, "mote: %s\n", mote_error_text());
-    return MOTE_EXIT_BAD_INPUT;
+    return mote_error_status() == MOTE_ENOMEM ? MOTE_EXIT_OUT_OF_MEMORY : MOTE_EXIT_BAD_INPUT;
 }
 
 int mote_command_usage(const char *command, const char *format, ...)

@@ -15,10 +15,12 @@ typedef enum mote_exit {
     MOTE_EXIT_USAGE = 2,        /* the command line cannot be understood */
     MOTE_EXIT_UNDECIDED = 3,    /* a comparison that is neither */
     MOTE_EXIT_BAD_INPUT = 4,    /* bad input, or output that cannot be written */
-    MOTE_EXIT_CELL_FAILED = 5   /* a cell failed */
+    MOTE_EXIT_CELL_FAILED = 5,  /* a cell failed */
+    MOTE_EXIT_OUT_OF_MEMORY = 6 /* memory ran out; finished files are whole */
 } mote_exit;
 
-/* Prints "mote: TEXT" to stderr, TEXT being mote_error_text(); returns MOTE_EXIT_BAD_INPUT. */
+/* Prints "mote: TEXT" to stderr, TEXT being mote_error_text(); returns MOTE_EXIT_BAD_INPUT, or
+   MOTE_EXIT_OUT_OF_MEMORY where the failure was MOTE_ENOMEM. */
 int mote_command_fail(void);
 
 /* Prints "mote: COMMAND: TEXT" to stderr and returns MOTE_EXIT_USAGE. */

@@ -27,7 +27,7 @@ static int print_help(void)
         (void)printf("  mote %s\n        %s\n", commands[i].usage, commands[i].summary);
     (void)printf(
         "\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
-        "5 a cell failed.\n\n"
+        "5 a cell failed, 6 out of memory.\n\n"
         "Scenario files name only files of their own folder, unless others are allowed:\n"
         "mote --allow DIR COMMAND ... (before the command, as often as needed).\n");
     return mote_command_finish(MOTE_EXIT_DONE);
