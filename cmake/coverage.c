@@ -2,7 +2,7 @@
    another program, keeps its counts as one that ends by exit does. The linker puts the
    functions below in the place of those that they are named after (--wrap). */
 #define _GNU_SOURCE /* program_invocation_short_name */
-#include "harness/base/confine.h"
+#include "harness/process/confine.h"
 
 #include <errno.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 #include "harness/study/study_bodies.h"
 
 static mote_status study(const char *directory, bool quick, int argc, char **argv, bool *met)

@@ -2,7 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 #include "harness/study/study_dynamics.h"
 
 typedef struct request {

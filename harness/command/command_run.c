@@ -1,5 +1,5 @@
 #include "harness/run/bodies_run.h"
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"

@@ -2,7 +2,7 @@
 #ifndef MOTE_HARNESS_FIGURE_H
 #define MOTE_HARNESS_FIGURE_H
 
-#include "harness/base/gnuplot.h"
+#include "harness/process/gnuplot.h"
 #include "harness/summary/summary.h"
 
 /* What figures are made from. */

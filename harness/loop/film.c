@@ -1,7 +1,7 @@
 #include "harness/loop/film.h"
 
 #include "core/body/deform.h"
-#include "harness/base/gnuplot.h"
+#include "harness/process/gnuplot.h"
 #include "harness/base/record.h"
 
 #include <stdio.h>

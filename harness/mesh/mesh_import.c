@@ -1,6 +1,6 @@
 #include "harness/mesh/mesh_import.h"
 
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_soup.h"
 

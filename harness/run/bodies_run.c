@@ -1,6 +1,6 @@
 #include "harness/run/bodies_run.h"
 
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 #include "harness/base/record.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "harness/run/cell.h"
 
 #include "harness/base/hash.h"
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 #include "harness/base/record.h"
 
 #include <ctype.h>

@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "harness/run/cell_process.h"
 
-#include "harness/base/load.h"
+#include "harness/process/load.h"
 #include "harness/run/measure.h"
 #include "harness/base/statistics.h"
 

@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_CELL_PROCESS_H
 
 #include "harness/run/cell.h"
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 
 /* What a probe found: a few frames, nothing stored. */
 typedef struct mote_forecast {

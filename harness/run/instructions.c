@@ -2,7 +2,7 @@
 
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
-#include "harness/base/spawn.h"
+#include "harness/process/spawn.h"
 
 #include <stdio.h>
 #include <stdlib.h>

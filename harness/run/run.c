@@ -2,8 +2,8 @@
 #include "harness/run/run.h"
 
 #include "harness/run/cell_process.h"
-#include "harness/base/load.h"
-#include "harness/base/manifest.h"
+#include "harness/process/load.h"
+#include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary.h"

@@ -1,6 +1,6 @@
 #include "harness/run/truth.h"
 
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/base/file.h"
 #include "harness/scene/probe.h"
 

@@ -1,7 +1,7 @@
 /* A method on an extreme scene: its process, and the verdict. */
 #include "harness/study/extreme.h"
 
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/run/measure.h"
 #include "harness/scene/probe.h"
 #include "harness/base/statistics.h"

@@ -1,7 +1,7 @@
 #include "harness/summary/history.h"
 
 #include "harness/base/options.h"
-#include "harness/base/gnuplot.h"
+#include "harness/process/gnuplot.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary.h"

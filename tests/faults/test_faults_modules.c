@@ -4,8 +4,8 @@
 
 #include "harness/study/claim.h"
 #include "harness/base/file.h"
-#include "harness/base/load.h"
-#include "harness/base/manifest.h"
+#include "harness/process/load.h"
+#include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"

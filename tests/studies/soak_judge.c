@@ -1,6 +1,6 @@
 #include "tests/studies/soak_judge.h"
 
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"
 

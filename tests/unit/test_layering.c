@@ -32,7 +32,8 @@ typedef struct house {
 static const house houses[] = {
     {"core", {"base", "body", "method", "particle", "certificate", "motion"}},
     {"harness",
-     {"base", "mesh", "scene", "run", "loop", "summary", "figure", "study", "report", "command"}},
+     {"base", "process", "mesh", "scene", "run", "loop", "summary", "figure", "study", "report",
+      "command"}},
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 

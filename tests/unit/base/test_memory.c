@@ -1,7 +1,7 @@
 /* Memory that is there, and memory that is not: the process ends with one line and a status. */
 #include "harness/base/memory.h"
 
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/base/options.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"

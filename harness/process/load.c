@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE /* getloadavg */
-#include "harness/base/load.h"
+#include "harness/process/load.h"
 
 #include <stdbool.h>
 #include <stdio.h>

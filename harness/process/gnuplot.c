@@ -1,8 +1,8 @@
-#include "harness/base/gnuplot.h"
+#include "harness/process/gnuplot.h"
 
 #include "harness/base/data.h"
 #include "harness/base/file.h"
-#include "harness/base/spawn.h"
+#include "harness/process/spawn.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 #define _DEFAULT_SOURCE /* syscall */
-#include "harness/base/confine.h"
+#include "harness/process/confine.h"
 
 #include <linux/landlock.h>
 #include <signal.h>

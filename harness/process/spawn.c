@@ -1,4 +1,4 @@
-#include "harness/base/spawn.h"
+#include "harness/process/spawn.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 
-#include "harness/base/confine.h"
+#include "harness/process/confine.h"
 #include "harness/base/memory.h"
 
 #include <errno.h>

@@ -1,11 +1,11 @@
 /* Children that crash, hang, say rubbish or too much; that are confined; and files that a
    scenario may not name. */
 #define _DEFAULT_SOURCE /* mkdtemp, symlink */
-#include "harness/base/child.h"
-#include "harness/base/confine.h"
+#include "harness/process/child.h"
+#include "harness/process/confine.h"
 #include "harness/base/file.h"
+#include "harness/process/spawn.h"
 #include "harness/scene/fence.h"
-#include "harness/base/spawn.h"
 #include "tests/support/test.h"
 
 #include <fcntl.h>

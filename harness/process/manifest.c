@@ -1,8 +1,8 @@
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
-#include "harness/base/spawn.h"
+#include "harness/process/spawn.h"
 
 #include <inttypes.h>
 #include <stdbool.h>

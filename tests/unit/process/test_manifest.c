@@ -1,5 +1,5 @@
 /* The manifest of a directory that was there before, whatever its file says. */
-#include "harness/base/manifest.h"
+#include "harness/process/manifest.h"
 
 #include "harness/base/file.h"
 #include "harness/base/record.h"
