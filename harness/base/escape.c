@@ -95,26 +95,6 @@ void mote_escape_script(mote_text *text, const char *json)
     }
 }
 
-void mote_escape_drawing(mote_text *text, const char *svg)
-{
-    while (*svg) {
-        size_t length = plain_length(svg, "&<>\"#%");
-        mote_text_add(text, "%.*s", (int)length, svg);
-        svg += length;
-        if (*svg == '\0')
-            break;
-        /* Addresses lose their line ends and tabs: between a drawing's words they are blanks.
-         */
-        if (is_control(*svg))
-            mote_text_add(text, " ");
-        else if (*svg == '&')
-            mote_text_add(text, "&amp;");
-        else
-            mote_text_add(text, "%%%02X", (unsigned)(unsigned char)*svg);
-        ++svg;
-    }
-}
-
 void mote_escape_csv(mote_text *text, const char *value, bool quoted)
 {
     if (!value)

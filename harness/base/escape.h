@@ -21,10 +21,6 @@ void mote_escape_path(mote_text *text, const char *path);
    \u003c, which within JSON strings, the only place where it stands, is the same. */
 void mote_escape_script(mote_text *text, const char *json);
 
-/* Appends an SVG drawing as the rest of a "data:image/svg+xml;charset=utf-8," address within a
-   quoted attribute. */
-void mote_escape_drawing(mote_text *text, const char *svg);
-
 /* Appends a field of a CSV file, quoted where it has to be or where `quoted` says so; quotes
    inside are doubled. NULL is an empty field. */
 void mote_escape_csv(mote_text *text, const char *value, bool quoted);

@@ -1,10 +1,9 @@
 #include "harness/report/replay.h"
 
-#include "harness/base/escape.h"
-#include "harness/base/json_print.h"
 #include "harness/report/report_rows.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -154,6 +153,33 @@ static void fill_contacts(mote_replay_scene *scene)
     }
 }
 
+/* How bad the answers of a cell are: the largest absolute error, or, where the method tells no
+   distance, the number of wrong contacts. */
+static double badness_of(const mote_stored_cell *cell)
+{
+    double error = MOTE_NONE, wrong = 0;
+    for (size_t k = 0; k < cell->frames; ++k) {
+        const double here = fabs(cell->error[k]);
+        if (here == here && !(error >= here))
+            error = here;
+        wrong += cell->contact[k] >= 0 && cell->contact[k] != cell->contact_truth[k];
+    }
+    return error == error ? error : wrong;
+}
+
+/* The replicate with the worst answers, the first of equals. */
+static const mote_stored_cell *worst_cell(const mote_summary_row *row)
+{
+    const mote_stored_cell *worst = row->first;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (cell->status == MOTE_CELL_OK && cell->frames > 0 &&
+            badness_of(cell) > badness_of(worst))
+            worst = cell;
+    }
+    return worst;
+}
+
 static mote_status add_track(const mote_report *report, const mote_summary_row *row,
                              mote_replay_scene *scene)
 {
@@ -163,7 +189,7 @@ static mote_status add_track(const mote_report *report, const mote_summary_row *
         return mote_fail(MOTE_ENOMEM, "no memory for a replay");
     scene->tracks = tracks;
     mote_replay_track *track = &tracks[scene->count++];
-    *track = (mote_replay_track){.row = row, .cell = row->first};
+    *track = (mote_replay_track){.row = row, .cell = worst_cell(row)};
     const uint32_t last = track->cell->frame[track->cell->frames - 1];
     if (scene->first == 0 || track->cell->frame[0] < scene->first)
         scene->first = track->cell->frame[0];
@@ -177,12 +203,12 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
     mote_replay_scene made = {.notes = json_array()};
     mote_status status = made.notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for notes");
     for (size_t i = first; i < end && status == MOTE_OK; ++i) {
-        if (is_shown(&report->cells.rows[i]))
-            status = add_track(report, &report->cells.rows[i], &made);
+        if (is_shown(mote_report_cells(report, i)))
+            status = add_track(report, mote_report_cells(report, i), &made);
     }
     if (status == MOTE_OK && made.count == 0)
         status = mote_fail(MOTE_EUNSUPPORTED, "%s: no answers with hot caches",
-                           report->cells.rows[first].first->scenario);
+                           mote_report_cells(report, first)->first->scenario);
     if (status == MOTE_OK)
         status = find_scenario(report, made.tracks[0].cell, &made.scenario);
     if (status == MOTE_OK)
@@ -222,54 +248,56 @@ static bool starts_block(const mote_report *report, size_t i)
            (i == 0 || !mote_report_same_block(row, mote_report_row(report, i - 1)));
 }
 
-static mote_status add_scene(const mote_report *report, size_t first, mote_text *text,
-                             size_t *shown, json_t *notes)
+/* What is left of the page's bytes, and for how many scenes. */
+typedef struct share {
+    size_t bytes, scenes;
+} share;
+
+/* Adds the scene of the block that begins at row first. */
+static mote_status add_scene(const mote_report *report, size_t first, share *left,
+                             json_t *scenes, json_t *notes)
 {
     mote_replay_scene scene;
-    size_t end = mote_report_block_end(report, first);
-    const size_t used = text->size;
-    size_t budget = used < MOTE_REPLAY_PAGE_BYTES ? MOTE_REPLAY_PAGE_BYTES - used : 0;
-    mote_text one = {0};
-    mote_status status = mote_replay_load(report, first, end, &scene);
+    json_t *data = NULL;
+    size_t used = 0;
+    mote_status status =
+        mote_replay_load(report, first, mote_report_block_end(report, first), &scene);
     if (status == MOTE_OK) {
-        if (budget > MOTE_REPLAY_SCENARIO_BYTES)
-            budget = MOTE_REPLAY_SCENARIO_BYTES;
-        status = mote_replay_write(&scene, budget, &one);
+        const size_t most = MOTE_REPLAY_SCENARIO_BYTES, fair = left->bytes / left->scenes;
+        status = mote_replay_write(&scene, fair < most ? fair : most, &data, &used);
         mote_replay_free(&scene);
     }
-    if (status == MOTE_OK) {
-        mote_text_add(text, "%s%s", *shown > 0 ? ",\n" : "", one.data);
-        ++*shown;
-    } else if (status == MOTE_EUNSUPPORTED) {
-        status = json_array_append_new(notes, json_string(mote_error_text())) == 0
-                     ? MOTE_OK
-                     : mote_fail(MOTE_ENOMEM, "no memory for a note");
-    }
-    free(one.data);
-    return status;
+    left->bytes -= used;
+    --left->scenes;
+    int added = 0;
+    if (status == MOTE_OK)
+        added = json_array_append_new(scenes, data);
+    else if (status == MOTE_EUNSUPPORTED)
+        added = json_array_append_new(notes, json_string(mote_error_text()));
+    else
+        return status;
+    return added == 0 ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
 }
 
-mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t *shown)
+mote_status mote_replay_json(const mote_report *report, json_t **data)
 {
-    json_t *notes = json_array();
-    mote_status status = notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
-    *shown = 0;
-    mote_text_add(text, "{\"scenes\": [\n");
-    for (size_t i = 0; report->has_cells && i < report->cells.count && status == MOTE_OK; ++i) {
+    json_t *scenes = json_array(), *notes = json_array();
+    const size_t count = report->has_cells ? report->cells.count : 0;
+    share left = {MOTE_REPLAY_PAGE_BYTES, 0};
+    mote_status status =
+        scenes && notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    for (size_t i = 0; i < count; ++i)
+        left.scenes += starts_block(report, i);
+    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
         if (starts_block(report, i))
-            status = add_scene(report, i, text, shown, notes);
+            status = add_scene(report, i, &left, scenes, notes);
     }
-    char *list = mote_json_text(notes, JSON_COMPACT);
-    if (status == MOTE_OK && !list)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
     if (status == MOTE_OK) {
-        mote_text_add(text, "],\n\"notes\": ");
-        mote_escape_script(text, list);
-        mote_text_add(text, "}\n");
+        *data = json_pack("{s:O, s:O}", "scenes", scenes, "notes", notes);
+        if (!*data)
+            status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
     }
-    if (status == MOTE_OK && text->failed)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
-    free(list);
+    json_decref(scenes);
     json_decref(notes);
     return status;
 }

@@ -7,15 +7,16 @@
 #include "harness/base/file.h"
 #include "harness/report/report.h"
 
-/* Base-64 bytes that one scenario may take, and all of a page. What does not fit is left out
-   and named. */
-#define MOTE_REPLAY_SCENARIO_BYTES 4500000u
-#define MOTE_REPLAY_PAGE_BYTES 13500000u
+/* Packed bytes that all scenarios of a page may take, and one. Each gets an equal share of what
+   those before it have left; what does not fit is left out and named. */
+#define MOTE_REPLAY_PAGE_BYTES 3100000u
+#define MOTE_REPLAY_SCENARIO_BYTES 1500000u
 
 /* Meshes above this are not replayed: indices have 16 bits. */
 #define MOTE_REPLAY_VERTICES 65535u
 
-/* The stored answers of one configuration, from its first cell that ended well. */
+/* The stored answers of one configuration: those of the replicate with the largest error, so
+   that the worst frame shown is that of all replicates. */
 typedef struct mote_replay_track {
     const mote_summary_row *row;  /* borrowed */
     const mote_stored_cell *cell; /* borrowed */
@@ -55,12 +56,14 @@ mote_status mote_replay_read_cell(const char *directory, mote_replay_track *trac
    a method that has none to show. */
 mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *track);
 
-/* Appends the scene as JSON: see plots/page/data.js, which reads it. Left out, and noted, is
-   what would exceed `budget` bytes. */
-mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, mote_text *text);
+/* The scene as JSON: see plots/page/data.js, which reads it. Left out, and noted, is what would
+   exceed `budget` packed bytes; *used are those that it takes. MOTE_EUNSUPPORTED where not even
+   the bodies fit. The caller decrefs *data. */
+mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
+                              size_t *used);
 
-/* Appends every scenario of the report that can be shown, {"scenes": [...], "notes": [...]}.
- *shown: how many. MOTE_ENOMEM when text cannot grow. */
-mote_status mote_replay_json(const mote_report *report, mote_text *text, size_t *shown);
+/* Every scenario of the report that can be shown, {"scenes": [...], "notes": [...]}. The caller
+   decrefs *data. */
+mote_status mote_replay_json(const mote_report *report, json_t **data);
 
 #endif

@@ -1,130 +1,62 @@
-/* A scene as JSON: small numbers as they are, arrays in base 64, lowest byte first. World
-   points have 16 bits a coordinate, on a grid over all that is shown; 65535: there is no point.
- */
-#include "harness/base/escape.h"
+/* A scene as JSON: small numbers as they are; arrays, packed, in texts that are JSON again. */
 #include "harness/base/json_print.h"
+#include "harness/report/packed.h"
 #include "harness/report/replay.h"
+#include "harness/report/replay_series.h"
 
 #include "core/base/quaternion.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#define GRID_MOST 65534.0
-#define GRID_NONE 65535u
+/* Steps of a rotation's entries, and of translations over L. */
+#define POSE_STEP 1e-6
 
-/* value = low + step * number */
-typedef struct grid {
-    mote_vec3 low;
-    double step;
-} grid;
+/* Errors over L below this are written as 0: rounding, of no use in a picture. */
+#define ERROR_LEAST 1e-12
 
 static mote_status no_memory(void)
 {
     return mote_fail(MOTE_ENOMEM, "no memory for a replay");
 }
 
-static void include(mote_vec3 *low, mote_vec3 *high, mote_vec3 p)
+/* {...} of a text that holds members, packed; members are freed. NULL when memory ran out. */
+static json_t *packed_object(mote_text *members)
 {
-    if (!(p.x - p.x == 0))
-        return;
-    *low = mote_vec3_make(fmin(low->x, p.x), fmin(low->y, p.y), fmin(low->z, p.z));
-    *high = mote_vec3_make(fmax(high->x, p.x), fmax(high->y, p.y), fmax(high->z, p.z));
-}
-
-static grid make_grid(mote_vec3 low, mote_vec3 high)
-{
-    const mote_vec3 size = mote_sub(high, low);
-    const double most = fmax(size.x, fmax(size.y, size.z));
-    grid g = {low, most > 0 ? most / GRID_MOST : 1};
-    return g;
-}
-
-static grid grid_over(const mote_vec3 *points, size_t count)
-{
-    mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (size_t i = 0; i < count; ++i)
-        include(&low, &high, points[i]);
-    return make_grid(low, high);
+    mote_text whole = {0}, packed = {0};
+    mote_text_add(&whole, "{%s}", members->data ? members->data : "");
+    if (!members->failed && !whole.failed)
+        mote_packed_add(&packed, whole.data, whole.size);
+    json_t *object =
+        packed.size > 0 && !packed.failed ? json_stringn(packed.data, packed.size) : NULL;
+    free(members->data);
+    free(whole.data);
+    free(packed.data);
+    return object;
 }
 
 /* Over every point of the scene that is not a vertex. */
-static grid scene_grid(const mote_replay_scene *scene)
+static mote_replay_grid scene_grid(const mote_replay_scene *scene)
 {
-    mote_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    mote_vec3 high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    const size_t frames = scene->last - scene->first + 1;
-    for (size_t k = 0; k < 2 * frames; ++k)
-        include(&low, &high, scene->pair[k]);
+    mote_replay_box box = mote_replay_box_none();
+    mote_replay_box_include(&box, scene->pair, 2 * (size_t)(scene->last - scene->first + 1));
     for (size_t t = 0; t < scene->count; ++t) {
         const mote_replay_track *track = &scene->tracks[t];
-        for (size_t k = 0; k < 2 * track->rows; ++k)
-            include(&low, &high, track->pair[k]);
-        for (size_t k = 0; k < track->rows * 2 * track->particles; ++k)
-            include(&low, &high, track->place[k]);
+        mote_replay_box_include(&box, track->pair, 2 * track->rows);
+        mote_replay_box_include(&box, track->place, track->rows * 2 * track->particles);
     }
-    if (!(low.x <= high.x))
-        low = high = mote_vec3_make(0, 0, 0);
-    return make_grid(low, high);
+    return mote_replay_box_grid(&box);
 }
 
-static uint16_t place_on(double low, double step, double value)
+static void add_numbers(mote_text *text, const char *key, const double *values, size_t count)
 {
-    return (uint16_t)fmax(0, fmin(GRID_MOST, floor((value - low) / step + 0.5)));
-}
-
-/* "KEY": "BASE64" of points on a grid. */
-static mote_status add_points(mote_text *text, const char *key, const grid *g,
-                              const mote_vec3 *points, size_t count)
-{
-    uint16_t *places = malloc((3 * count + 1) * sizeof *places);
-    if (!places)
-        return no_memory();
-    for (size_t i = 0; i < count; ++i) {
-        const mote_vec3 p = points[i];
-        uint16_t *here = places + 3 * i;
-        here[0] = here[1] = here[2] = GRID_NONE;
-        if (!(p.x - p.x == 0))
-            continue;
-        here[0] = place_on(g->low.x, g->step, p.x);
-        here[1] = place_on(g->low.y, g->step, p.y);
-        here[2] = place_on(g->low.z, g->step, p.z);
-    }
-    mote_text_add(text, "\"%s\": \"", key);
-    mote_base64(text, places, 3 * count * sizeof *places);
-    mote_text_add(text, "\"");
-    free(places);
-    return MOTE_OK;
-}
-
-static void add_bytes(mote_text *text, const char *key, const void *data, size_t size)
-{
-    mote_text_add(text, "\"%s\": \"", key);
-    mote_base64(text, data, size);
-    mote_text_add(text, "\"");
-}
-
-static void add_grid(mote_text *text, const grid *g)
-{
-    mote_text_add(text, "\"low\": [%.17g, %.17g, %.17g], \"step\": %.17g", g->low.x, g->low.y,
-                  g->low.z, g->step);
-}
-
-/* A string of JSON that cannot end a script element. */
-static void add_string(mote_text *text, const char *key, const char *value)
-{
-    json_t *string = json_string(value);
-    char *dump = mote_json_text(string, JSON_ENCODE_ANY);
-    mote_text_add(text, "\"%s\": ", key);
-    if (dump)
-        mote_escape_script(text, dump);
-    else
-        text->failed = 1;
-    free(dump);
-    json_decref(string);
+    mote_text_add(text, "\"%s\": [", key);
+    for (size_t i = 0; i < count; ++i)
+        mote_text_add(text, isfinite(values[i]) ? "%s%.17g" : "%snull", i > 0 ? "," : "",
+                      values[i]);
+    mote_text_add(text, "]");
 }
 
 /* The mesh at rest and the centres of its field. */
@@ -132,77 +64,105 @@ static mote_status add_mesh(mote_text *text, const mote_body *body)
 {
     const mote_mesh *mesh = body->mesh;
     const mote_field *field = body->field;
-    const grid g = grid_over(mesh->positions, mesh->vertex_count);
-    uint16_t *corners = malloc(3 * (size_t)mesh->triangle_count * sizeof *corners);
-    double *centres = malloc((3 * (size_t)field->count + 1) * sizeof *centres);
-    mote_status status = corners && centres ? MOTE_OK : no_memory();
-    if (status == MOTE_OK) {
-        for (size_t t = 0; t < mesh->triangle_count; ++t) {
-            for (size_t k = 0; k < 3; ++k)
-                corners[3 * t + k] = (uint16_t)mesh->triangles[t][k];
-        }
-        for (size_t j = 0; j < field->count; ++j) {
-            centres[3 * j] = field->centre_x[j];
-            centres[3 * j + 1] = field->centre_y[j];
-            centres[3 * j + 2] = field->centre_z[j];
-        }
-        add_grid(text, &g);
-        mote_text_add(text, ", ");
-        status = add_points(text, "vertices", &g, mesh->positions, mesh->vertex_count);
-    }
-    if (status == MOTE_OK) {
-        mote_text_add(text, ",\n");
-        add_bytes(text, "triangles", corners, 3 * mesh->triangle_count * sizeof *corners);
-        mote_text_add(text, ",\n\"support\": %.17g, ", field->support);
-        add_bytes(text, "centres", centres, 3 * field->count * sizeof *centres);
-    }
+    const size_t corner_count = 3 * (size_t)mesh->triangle_count;
+    mote_replay_box box = mote_replay_box_none();
+    int32_t *corners = malloc((corner_count + 1) * sizeof *corners);
+    if (!corners)
+        return no_memory();
+    for (size_t k = 0; k < corner_count; ++k)
+        corners[k] = (int32_t)mesh->triangles[k / 3][k % 3];
+    mote_replay_box_include(&box, mesh->positions, mesh->vertex_count);
+    const mote_replay_grid grid = mote_replay_box_grid(&box);
+    mote_replay_add_grid(text, &grid);
+    mote_text_add(text, ", ");
+    mote_replay_add_points(text, "vertices", &grid, mesh->positions, mesh->vertex_count, 1,
+                           NULL);
+    mote_text_add(text, ", ");
+    mote_replay_difference(corners, corner_count, 3);
+    mote_replay_add_series(text, "triangles", corners, corner_count);
+    mote_text_add(text, ", \"support\": %.17g, ", field->support);
+    add_numbers(text, "centreX", field->centre_x, field->count);
+    mote_text_add(text, ", ");
+    add_numbers(text, "centreY", field->centre_y, field->count);
+    mote_text_add(text, ", ");
+    add_numbers(text, "centreZ", field->centre_z, field->count);
     free(corners);
-    free(centres);
-    return status;
+    return MOTE_OK;
 }
 
-/* Poses as 12 floats (rows of the rotation, translation) and weights in rest axes, as signed
-   16 bits of the largest. */
+static int32_t in_steps(double value, double step)
+{
+    return (int32_t)floor(value / step + 0.5);
+}
+
+/* The rows of a pose's rotation and its translation over L, in steps. */
+static void pose_steps(const mote_pose *pose, double length, int32_t steps[12])
+{
+    const double translation[3] = {pose->translation.x, pose->translation.y,
+                                   pose->translation.z};
+    for (size_t c = 0; c < 9; ++c)
+        steps[c] = in_steps(pose->rotation.m[c / 3][c % 3], POSE_STEP);
+    for (size_t c = 0; c < 3; ++c)
+        steps[9 + c] = in_steps(translation[c] / length, POSE_STEP);
+}
+
+/* The weights of a frame in rest axes. */
+static void rest_weights(const mote_body_state *state, size_t count, double *weights)
+{
+    for (size_t j = 0; j < count; ++j) {
+        const mote_vec3 w = mote_rotate_back(
+            &state->pose.rotation,
+            mote_vec3_make(state->weights.x[j], state->weights.y[j], state->weights.z[j]));
+        weights[3 * j] = w.x;
+        weights[3 * j + 1] = w.y;
+        weights[3 * j + 2] = w.z;
+    }
+}
+
+/* Appends second differences: those of smooth motion are small. */
+static void add_smooth(mote_text *text, const char *key, int32_t *values, size_t count,
+                       size_t columns)
+{
+    mote_replay_difference(values, count, columns);
+    mote_replay_difference(values, count, columns);
+    mote_replay_add_series(text, key, values, count);
+}
+
+/* Writes poses, and weights as signed 16 bits of the largest. */
+static void write_motion(mote_text *text, int32_t *poses, const double *weights,
+                         int32_t *shares, size_t frames, size_t width)
+{
+    double most = 0;
+    for (size_t k = 0; k < width * frames; ++k)
+        most = fmax(most, fabs(weights[k]));
+    const double step = most > 0 ? most / 32767 : 1;
+    for (size_t k = 0; k < width * frames; ++k)
+        shares[k] = in_steps(weights[k], step);
+    mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
+    add_smooth(text, "poses", poses, 12 * frames, 12);
+    mote_text_add(text, ", \"weightStep\": %.17g, ", step);
+    add_smooth(text, "weights", shares, width * frames, width);
+}
+
 static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, int i)
 {
     const size_t frames = scene->last - scene->first + 1;
     const size_t width = 3 * (size_t)scene->scenario->body[i].field->count;
     mote_frame_buffer *buffer = NULL;
-    float *poses = malloc(12 * frames * sizeof *poses);
+    int32_t *poses = malloc(12 * frames * sizeof *poses);
+    int32_t *shares = malloc((width * frames + 1) * sizeof *shares);
     double *weights = malloc((width * frames + 1) * sizeof *weights);
-    int16_t *shares = malloc((width * frames + 1) * sizeof *shares);
     mote_status status = poses && weights && shares ? MOTE_OK : no_memory();
     if (status == MOTE_OK)
         status = mote_frame_buffer_create(scene->scenario, &buffer);
-    double most = 0;
     for (size_t k = 0; k < frames && status == MOTE_OK; ++k) {
         const mote_frame *frame =
             mote_scenario_frame(scene->scenario, buffer, scene->first + (uint32_t)k, 0);
-        const mote_body_state *state = &frame->body[i];
-        for (size_t c = 0; c < 9; ++c)
-            poses[12 * k + c] = (float)state->pose.rotation.m[c / 3][c % 3];
-        poses[12 * k + 9] = (float)state->pose.translation.x;
-        poses[12 * k + 10] = (float)state->pose.translation.y;
-        poses[12 * k + 11] = (float)state->pose.translation.z;
-        for (size_t j = 0; j < width / 3; ++j) {
-            const mote_vec3 w = mote_rotate_back(
-                &state->pose.rotation,
-                mote_vec3_make(state->weights.x[j], state->weights.y[j], state->weights.z[j]));
-            const double part[3] = {w.x, w.y, w.z};
-            for (size_t c = 0; c < 3; ++c) {
-                weights[width * k + 3 * j + c] = part[c];
-                most = fmax(most, fabs(part[c]));
-            }
-        }
+        pose_steps(&frame->body[i].pose, scene->scenario->length, poses + 12 * k);
+        rest_weights(&frame->body[i], width / 3, weights + width * k);
     }
-    if (status == MOTE_OK) {
-        const double step = most > 0 ? most / 32767 : 1;
-        for (size_t k = 0; k < width * frames; ++k)
-            shares[k] = (int16_t)floor(weights[k] / step + 0.5);
-        add_bytes(text, "poses", poses, 12 * frames * sizeof *poses);
-        mote_text_add(text, ",\n\"weightStep\": %.17g, ", step);
-        add_bytes(text, "weights", shares, width * frames * sizeof *shares);
-    }
+    if (status == MOTE_OK)
+        write_motion(text, poses, weights, shares, frames, width);
     mote_frame_buffer_destroy(buffer);
     free(poses);
     free(weights);
@@ -210,38 +170,89 @@ static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, i
     return status;
 }
 
-static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene)
+/* Both bodies with their motion, the truth and its points. */
+static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
+                              const mote_replay_grid *grid)
 {
-    mote_text_add(text, "\"bodies\": [");
+    const size_t frames = scene->last - scene->first + 1;
     mote_status status = MOTE_OK;
+    mote_text_add(text, "\"bodies\": [");
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
-        mote_text_add(text, "%s{", i ? ",\n" : "");
+        mote_text_add(text, "%s{", i ? ", " : "");
         status = add_mesh(text, &scene->scenario->body[i]);
-        mote_text_add(text, ",\n");
+        mote_text_add(text, ", ");
         if (status == MOTE_OK)
             status = add_motion(text, scene, i);
         mote_text_add(text, "}");
     }
-    mote_text_add(text, "],\n");
+    mote_text_add(text, "], ");
+    add_numbers(text, "truth", scene->truth, frames);
+    mote_text_add(text, ", ");
+    mote_replay_add_points(text, "pair", grid, scene->pair, 2 * frames, 2, NULL);
     return status;
 }
 
-static mote_status add_track(mote_text *text, const grid *g, const mote_replay_track *track)
+/* Errors over L with six digits: what the page computes distances from. */
+static void add_errors(mote_text *text, const mote_replay_track *track)
+{
+    mote_text_add(text, "\"error\": [");
+    for (size_t k = 0; k < track->rows; ++k) {
+        const double error = track->cell->error[k];
+        mote_text_add(text, "%s", k > 0 ? "," : "");
+        if (error != error)
+            mote_text_add(text, "null");
+        else
+            mote_text_add(text, "%.6g", fabs(error) < ERROR_LEAST ? 0 : error);
+    }
+    mote_text_add(text, "], \"contact\": [");
+    for (size_t k = 0; k < track->rows; ++k)
+        mote_text_add(text, k > 0 ? ",%d" : "%d", track->cell->contact[k]);
+    mote_text_add(text, "], ");
+}
+
+/* The truth's points at the frames that a track answers: what its own are told relative to. */
+static mote_vec3 *reference_of(const mote_replay_scene *scene, const mote_replay_track *track)
+{
+    mote_vec3 *reference = malloc((2 * track->rows + 1) * sizeof *reference);
+    for (size_t k = 0; reference && k < track->rows; ++k)
+        memcpy(reference + 2 * k, scene->pair + 2 * (track->cell->frame[k] - scene->first),
+               2 * sizeof *reference);
+    return reference;
+}
+
+/* A track without its particles; NULL when memory ran out. */
+static json_t *track_data(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                          const mote_replay_track *track)
 {
     const mote_stored_cell *cell = track->cell;
-    mote_text_add(text, "{");
-    add_string(text, "label", track->row->label);
-    mote_text_add(text, ", ");
-    add_string(text, "cell", cell->id);
-    if (track->row->n == track->row->n)
-        mote_text_add(text, ", \"n\": %.0f", track->row->n);
-    mote_text_add(text, ", \"first\": %u, \"stride\": %u, \"replicate\": %u,\n", cell->frame[0],
-                  cell->stride, cell->replicate);
-    add_bytes(text, "distance", track->distance, track->rows * sizeof *track->distance);
-    mote_text_add(text, ",\n");
-    add_bytes(text, "contact", cell->contact, track->rows);
-    mote_text_add(text, ",\n");
-    return add_points(text, "pair", g, track->pair, 2 * track->rows);
+    mote_vec3 *reference = reference_of(scene, track);
+    mote_text answers = {0};
+    if (!reference)
+        return NULL;
+    add_errors(&answers, track);
+    mote_replay_add_points(&answers, "pair", grid, track->pair, 2 * track->rows, 2, reference);
+    free(reference);
+    json_t *data =
+        json_pack("{s:s, s:s, s:i, s:i, s:i, s:I, s:o*}", "label", track->row->label, "cell",
+                  cell->id, "first", (int)cell->frame[0], "stride", (int)cell->stride,
+                  "replicate", (int)cell->replicate, "replicates",
+                  (json_int_t)track->row->finished, "answers", packed_object(&answers));
+    if (data && track->row->n == track->row->n)
+        (void)json_object_set_new(data, "n", json_real(track->row->n));
+    return json_object_get(data, "answers") ? data : NULL;
+}
+
+static size_t packed_size(const json_t *object, const char *key)
+{
+    return json_string_length(json_object_get(object, key));
+}
+
+static mote_status add_note(json_t *notes, const char *label, const char *what)
+{
+    char *note = mote_format("%s: %s", label, what);
+    int added = note ? json_array_append_new(notes, json_string(note)) : -1;
+    free(note);
+    return added == 0 ? MOTE_OK : no_memory();
 }
 
 /* The first track with the same particles as track t, t itself if there is none before. */
@@ -258,144 +269,134 @@ static size_t same_particles(const mote_replay_scene *scene, size_t t)
     return t;
 }
 
-/* Base-64 bytes of the particles of a track. */
-static size_t particle_bytes(const mote_replay_track *track)
+/* The tracks that fit. Track t names its particles by the first track that has the same. */
+static mote_status add_tracks(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                              size_t *room, json_t *data, json_t *notes)
 {
-    return track->rows * 2 * track->particles * 8;
-}
-
-/* Answers first: they are the results. Then particles, few first, while they fit. kept[t]: the
-   particles of track t are written. */
-static void choose_particles(const mote_replay_scene *scene, size_t room, bool *kept)
-{
-    for (size_t t = 0; t < scene->count; ++t)
-        kept[t] = false;
-    for (size_t round = 0; round < scene->count; ++round) {
-        size_t best = SIZE_MAX;
-        for (size_t t = 0; t < scene->count; ++t) {
-            const mote_replay_track *track = &scene->tracks[t];
-            if (track->particles == 0 || kept[t] || same_particles(scene, t) != t)
-                continue;
-            if (best == SIZE_MAX || track->particles < scene->tracks[best].particles)
-                best = t;
-        }
-        if (best == SIZE_MAX || particle_bytes(&scene->tracks[best]) > room)
-            return;
-        kept[best] = true;
-        room -= particle_bytes(&scene->tracks[best]);
-    }
-}
-
-static mote_status add_note(json_t *notes, const char *label, const char *what)
-{
-    char *note = mote_format("%s: %s", label, what);
-    int added = note ? json_array_append_new(notes, json_string(note)) : -1;
-    free(note);
-    return added == 0 ? MOTE_OK : no_memory();
-}
-
-/* The tracks, each first in a text of its own, so that what does not fit can be left out. Track
-   t names its particles by the first track that has the same. */
-static mote_status add_tracks(mote_text *text, const grid *g, const mote_replay_scene *scene,
-                              size_t budget, json_t *notes)
-{
+    json_t *tracks = json_array();
     mote_status status = MOTE_OK;
-    const char *separator = "";
-    mote_text_add(text, "\"tracks\": [");
     for (size_t t = 0; t < scene->count && status == MOTE_OK; ++t) {
         const mote_replay_track *track = &scene->tracks[t];
-        mote_text one = {0};
-        status = add_track(&one, g, track);
-        if (status == MOTE_OK && text->size + one.size > budget) {
+        json_t *one = track_data(scene, grid, track);
+        const size_t size = packed_size(one, "answers");
+        if (!one) {
+            status = no_memory();
+        } else if (size > *room) {
             status = add_note(notes, track->row->label, "left out, to keep the page small");
-        } else if (status == MOTE_OK) {
-            mote_text_add(text, "%s%s", separator, one.data);
+            json_decref(one);
+        } else {
+            *room -= size;
             if (track->particles > 0)
-                mote_text_add(text, ",\n\"particles\": %zu", same_particles(scene, t));
-            mote_text_add(text, "}");
-            separator = ",\n";
+                (void)json_object_set_new(one, "particles",
+                                          json_integer((json_int_t)same_particles(scene, t)));
+            (void)json_array_append_new(tracks, one);
         }
-        free(one.data);
     }
-    mote_text_add(text, "],\n");
+    (void)json_object_set_new(data, "tracks", tracks);
     return status;
 }
 
-/* The particles of those tracks for which there is room, by the tracks' numbers. */
-static mote_status add_particles(mote_text *text, const grid *g, const mote_replay_scene *scene,
-                                 size_t room, json_t *notes)
+/* The particles of track t, packed; NULL when memory ran out. */
+static json_t *particle_data(const mote_replay_track *track, const mote_replay_grid *grid)
 {
-    bool *kept = calloc(scene->count + 1, sizeof *kept);
-    mote_status status = kept ? MOTE_OK : no_memory();
-    const char *separator = "";
-    mote_text_add(text, "\"particles\": {");
-    if (kept)
-        choose_particles(scene, room, kept);
-    for (size_t t = 0; t < scene->count && status == MOTE_OK; ++t) {
-        const mote_replay_track *track = &scene->tracks[t];
-        if (kept[t]) {
-            char key[32];
-            (void)snprintf(key, sizeof key, "%zu", t);
-            mote_text_add(text, "%s", separator);
-            status = add_points(text, key, g, track->place, track->rows * 2 * track->particles);
-            separator = ",\n";
-        } else if (track->particles > 0 && same_particles(scene, t) == t) {
-            status = add_note(notes, track->row->label,
+    mote_text text = {0};
+    mote_text_add(&text, "\"perBody\": %zu, ", track->particles);
+    mote_replay_add_points(&text, "places", grid, track->place,
+                           track->rows * 2 * track->particles, 2 * track->particles, NULL);
+    return packed_object(&text);
+}
+
+/* The track with the fewest particles of those that are not done yet; count: there is none. */
+static size_t next_particles(const mote_replay_scene *scene, const bool *done)
+{
+    size_t best = scene->count;
+    for (size_t t = 0; t < scene->count; ++t) {
+        if (scene->tracks[t].particles > 0 && !done[t] && same_particles(scene, t) == t &&
+            (best == scene->count ||
+             scene->tracks[t].particles < scene->tracks[best].particles))
+            best = t;
+    }
+    return best;
+}
+
+/* Particles, few first, while they fit: by the number of their track. */
+static mote_status add_particles(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                                 size_t *room, json_t *data, json_t *notes)
+{
+    bool *done = calloc(scene->count + 1, sizeof *done);
+    json_t *sets = json_object();
+    mote_status status = done && sets ? MOTE_OK : no_memory();
+    while (status == MOTE_OK) {
+        const size_t t = next_particles(scene, done);
+        if (t == scene->count)
+            break;
+        done[t] = true;
+        char key[32];
+        (void)snprintf(key, sizeof key, "%zu", t);
+        json_t *packed = particle_data(&scene->tracks[t], grid);
+        const size_t size = json_string_length(packed);
+        if (!packed) {
+            status = no_memory();
+        } else if (size > *room) {
+            status = add_note(notes, scene->tracks[t].row->label,
                               "its particles are left out, to keep the page small");
+            json_decref(packed);
+        } else {
+            (void)json_object_set_new(sets, key, packed);
+            *room -= size;
         }
     }
-    mote_text_add(text, "},\n");
-    free(kept);
+    (void)json_object_set_new(data, "particles", sets);
+    free(done);
     return status;
 }
 
-static mote_status add_scene(mote_text *text, const mote_replay_scene *scene, size_t budget,
-                             json_t *notes)
+/* The scene without its tracks. */
+static mote_status begin_scene(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                               json_t **data)
 {
-    const grid g = scene_grid(scene);
     const mote_scenario *scenario = scene->scenario;
-    mote_text_add(text, "{");
-    add_string(text, "name", scenario->name);
-    mote_text_add(text,
-                  ", \"length\": %.17g, \"tolerance\": %.17g, \"first\": %u, \"last\": %u, "
-                  "\"active\": [%u, %u], ",
-                  scenario->length, scenario->tolerance, scene->first, scene->last,
-                  scenario->active.first, scenario->active.last);
-    add_grid(text, &g);
-    mote_text_add(text, ",\n");
-    mote_status status = add_bodies(text, scene);
-    if (status != MOTE_OK)
+    mote_text bodies = {0};
+    mote_status status = add_bodies(&bodies, scene, grid);
+    json_t *packed = packed_object(&bodies);
+    if (status == MOTE_OK && !packed)
+        status = no_memory();
+    if (status != MOTE_OK) {
+        json_decref(packed);
         return status;
-    const size_t frames = scene->last - scene->first + 1;
-    add_bytes(text, "truth", scene->truth, frames * sizeof *scene->truth);
-    mote_text_add(text, ",\n");
-    status = add_points(text, "pair", &g, scene->pair, 2 * frames);
-    mote_text_add(text, ",\n");
-    if (status == MOTE_OK && text->size > budget)
-        return mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page", scenario->name);
-    if (status == MOTE_OK)
-        status = add_tracks(text, &g, scene, budget, notes);
-    if (status == MOTE_OK)
-        status = add_particles(text, &g, scene, budget > text->size ? budget - text->size : 0,
-                               notes);
-    return status;
+    }
+    *data =
+        json_pack("{s:s, s:f, s:f, s:i, s:i, s:[i, i], s:[f, f, f], s:f, s:o}", "name",
+                  scenario->name, "length", scenario->length, "tolerance", scenario->tolerance,
+                  "first", (int)scene->first, "last", (int)scene->last, "active",
+                  (int)scenario->active.first, (int)scenario->active.last, "low", grid->low.x,
+                  grid->low.y, grid->low.z, "step", grid->step, "world", packed);
+    return *data ? MOTE_OK : no_memory();
 }
 
-mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, mote_text *text)
+mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
+                              size_t *used)
 {
-    json_t *notes = json_deep_copy(scene->notes);
-    mote_text one = {0};
-    mote_status status = notes ? add_scene(&one, scene, budget, notes) : no_memory();
-    char *list = status == MOTE_OK ? mote_json_text(notes, JSON_COMPACT) : NULL;
-    if (status == MOTE_OK && (!list || one.failed))
-        status = no_memory();
+    const mote_replay_grid grid = scene_grid(scene);
+    json_t *made = NULL, *notes = json_deep_copy(scene->notes);
+    size_t room = budget;
+    mote_status status = notes ? begin_scene(scene, &grid, &made) : no_memory();
+    if (status == MOTE_OK && packed_size(made, "world") > room)
+        status =
+            mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page", scene->scenario->name);
     if (status == MOTE_OK) {
-        mote_text_add(text, "%s\"notes\": ", one.data);
-        mote_escape_script(text, list);
-        mote_text_add(text, "}");
+        room -= packed_size(made, "world");
+        status = add_tracks(scene, &grid, &room, made, notes);
     }
-    free(list);
-    free(one.data);
-    json_decref(notes);
-    return status;
+    if (status == MOTE_OK)
+        status = add_particles(scene, &grid, &room, made, notes);
+    if (status != MOTE_OK) {
+        json_decref(made);
+        json_decref(notes);
+        return status;
+    }
+    (void)json_object_set_new(made, "notes", notes);
+    *used = budget - room;
+    *data = made;
+    return MOTE_OK;
 }

@@ -7,6 +7,8 @@
 #include "harness/base/file.h"
 #include "harness/summary/summary.h"
 
+#include <jansson.h>
+
 /* A drawn figure of the run. */
 typedef struct mote_report_figure {
     char *file;     /* "figures/front-ww.svg", relative to the run */
@@ -23,12 +25,14 @@ typedef struct mote_report {
     json_t *summary;       /* as summary.json; made from the cells where there are any */
     bool has_cells;
     mote_summary cells; /* where has_cells: row i is row i of summary */
+    size_t *order;      /* [rows of summary], as shown: see mote_report_sort */
     json_t *claims, *requirements;
     char *claims_folder; /* where they are, relative to the run: "" or "../claims/" */
     mote_report_figure *figures;
     size_t figure_count;
     char *defects;   /* Markdown: the known defects of the baselines */
-    json_t *missing; /* texts: what the run does not have, and how to get it */
+    json_t *damaged; /* texts: what is there and cannot be read */
+    json_t *missing; /* texts: what is not there, and which command adds it */
 } mote_report;
 
 /* Gathers what there is in a run's directory. MOTE_EIO when there is nothing to report: no such
@@ -36,7 +40,7 @@ typedef struct mote_report {
 mote_status mote_report_gather(const char *directory, mote_report *report);
 void mote_report_free(mote_report *report);
 
-/* Fills figures from directory/figures; adds to missing what its list names as missing. Part of
+/* Fills figures from directory/figures; adds to missing which commands draw more. Part of
    mote_report_gather. */
 mote_status mote_report_figures(mote_report *report);
 

@@ -1,6 +1,7 @@
 #include "harness/base/record.h"
 #include "harness/base/data.h"
 #include "harness/report/report.h"
+#include "harness/report/report_rows.h"
 #include "harness/summary/summary_json.h"
 
 #include <errno.h>
@@ -16,10 +17,10 @@ static mote_status no_memory(void)
     return mote_fail(MOTE_ENOMEM, "no memory for a report");
 }
 
-/* Adds a text to what is missing; takes it over. */
-static mote_status add_missing(mote_report *report, char *what)
+/* Adds a text to a list; takes it over. */
+static mote_status add_text(json_t *list, char *what)
 {
-    int added = what ? json_array_append_new(report->missing, json_string(what)) : -1;
+    int added = what ? json_array_append_new(list, json_string(what)) : -1;
     free(what);
     return added == 0 ? MOTE_OK : no_memory();
 }
@@ -33,19 +34,19 @@ static bool exists(const char *directory, const char *name)
     return found;
 }
 
-/* Reads directory/name; one that is not there or cannot be read is missing, no failure. */
+/* Reads directory/name. That it is not there, or cannot be read, is noted, and no failure. */
 static mote_status read_json(mote_report *report, const char *name, const char *remedy,
                              json_t **object)
 {
     if (!exists(report->directory, name))
-        return add_missing(report, mote_format("%s: not there; %s", name, remedy));
+        return add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
     mote_status status = mote_record_read_json(report->directory, name, object);
     if (status == MOTE_OK || status == MOTE_ENOMEM)
         return status;
-    return add_missing(report, mote_format("%s: %s", name, mote_error_text()));
+    return add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
 }
 
-/* A line of what is missing for each line of text. */
+/* A text of `damaged` for each line. */
 static mote_status add_lines(mote_report *report, const char *text)
 {
     mote_status status = MOTE_OK;
@@ -53,7 +54,7 @@ static mote_status add_lines(mote_report *report, const char *text)
         text += strncmp(text, "mote: ", 6) == 0 ? 6 : 0;
         size_t length = strcspn(text, "\n");
         if (length > 0)
-            status = add_missing(report, mote_format("a cell: %.*s", (int)length, text));
+            status = add_text(report->damaged, mote_format("a cell: %.*s", (int)length, text));
         text += length + 1; /* each line has an end */
     }
     return status;
@@ -76,11 +77,11 @@ static mote_status read_rows(mote_report *report)
     if (made)
         mote_summary_free(&report->cells);
     if (made && status == MOTE_OK)
-        status = add_missing(report, mote_format("cells: none that can be read; `mote run "
-                                                 "--out %s` measures some",
-                                                 report->directory));
+        status = add_text(report->missing, mote_format("cells: none that can be read; `mote "
+                                                       "run --out %s` measures some",
+                                                       report->directory));
     else if (status != MOTE_ENOMEM)
-        status = add_missing(report, mote_format("cells: %s", mote_error_text()));
+        status = add_text(report->missing, mote_format("cells: %s", mote_error_text()));
     if (status != MOTE_OK)
         return status;
     return read_json(report, "summary.json", "`mote summarize` writes it from the cells",
@@ -101,8 +102,8 @@ static mote_status read_claims(mote_report *report)
         ++k;
     }
     if (k == 2)
-        return add_missing(report, mote_format("claims.json: neither in the run nor in "
-                                               "../claims; `make claims` measures them"));
+        return add_text(report->missing, mote_format("claims.json: neither in the run nor in "
+                                                     "../claims; `make claims` measures them"));
     report->claims_folder = mote_format("%s", folders[k]);
     char claims[64], requirements[64];
     (void)snprintf(claims, sizeof claims, "%sclaims.json", folders[k]);
@@ -122,7 +123,7 @@ static mote_status read_defects(mote_report *report)
     if (mote_data_read("datasets/defects.md", DEFECTS_LIMIT, &report->defects, &size) ==
         MOTE_OK)
         return MOTE_OK;
-    return add_missing(report, mote_format("known defects: %s", mote_error_text()));
+    return add_text(report->missing, mote_format("known defects: %s", mote_error_text()));
 }
 
 /* The last part of a path; that of the working directory for ".". */
@@ -151,13 +152,16 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     if (!S_ISDIR(info.st_mode))
         return mote_fail(MOTE_EIO, "%s: not a directory; name the directory of a run",
                          directory);
+    made.damaged = json_array();
     made.missing = json_array();
     made.name = last_part(directory);
-    mote_status status = made.missing && made.name ? MOTE_OK : no_memory();
+    mote_status status = made.damaged && made.missing && made.name ? MOTE_OK : no_memory();
     if (status == MOTE_OK)
         status = read_json(&made, "manifest.json", "`mote run` writes it", &made.manifest);
     if (status == MOTE_OK)
         status = read_rows(&made);
+    if (status == MOTE_OK)
+        status = mote_report_sort(&made);
     if (status == MOTE_OK)
         status = mote_report_figures(&made);
     bool own_claims = exists(directory, "claims.json");
@@ -185,7 +189,9 @@ void mote_report_free(mote_report *report)
     json_decref(report->summary);
     json_decref(report->claims);
     json_decref(report->requirements);
+    json_decref(report->damaged);
     json_decref(report->missing);
+    free(report->order);
     for (size_t i = 0; i < report->figure_count; ++i) {
         free(report->figures[i].file);
         free(report->figures[i].title);

@@ -1,29 +1,42 @@
-/* The page: its frame, what was asked, the machine, the defects. */
-#include "harness/report/report_html.h"
-
+/* The page: a frame, the report's data, and the scripts that make its tables and draw its
+   replay. It may load nothing: what it needs is in it. */
 #include "harness/base/data.h"
 #include "harness/base/escape.h"
-#include "harness/report/markdown_html.h"
+#include "harness/base/json_print.h"
 #include "harness/base/record.h"
+#include "harness/report/replay.h"
+#include "harness/report/report_data.h"
 #include "harness/report/report_facts.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define STYLE_FILE "plots/page/report.css"
-#define STYLE_LIMIT ((size_t)1 << 20)
+#define SOURCE_LIMIT ((size_t)1 << 20)
+#define PROGRAM_LIMIT ((size_t)8 << 20)
 
-void mote_report_html_section(mote_text *text, const char *id, const char *title)
+/* Digits of the numbers in the page; tables show three, and sort by what is here. */
+#define DIGITS 10
+
+/* The page's own program, in this order; plain scripts, which need no bundling. */
+static const char *const scripts[] = {"plots/page/packed.js", "plots/page/numbers.js",
+                                      "plots/page/front.js", "plots/page/table.js",
+                                      "plots/page/report.js"};
+
+/* The bundled program of the replay: that of an installed mote, or what `make page` left in the
+   build. */
+static mote_status read_replay_program(char **program, size_t *size)
 {
-    mote_text_add(text, "<section aria-labelledby=\"%s\"><h2 id=\"%s\">%s</h2>\n", id, id,
-                  title);
+    if (mote_data_read("page/replay.js", PROGRAM_LIMIT, program, size) == MOTE_OK)
+        return MOTE_OK;
+    return mote_file_read(MOTE_PAGE_PROGRAM, PROGRAM_LIMIT, program, size);
 }
 
-/* The page may load nothing: what it needs is in it. */
 static mote_status add_head(const mote_report *report, mote_text *text)
 {
     char *style = NULL;
     size_t size;
-    mote_status status = mote_data_read(STYLE_FILE, STYLE_LIMIT, &style, &size);
+    mote_status status = mote_data_read(STYLE_FILE, SOURCE_LIMIT, &style, &size);
     if (status != MOTE_OK)
         return status;
     mote_text_add(text,
@@ -40,13 +53,7 @@ static mote_status add_head(const mote_report *report, mote_text *text)
     return MOTE_OK;
 }
 
-static void add_link(mote_text *text, bool wanted, const char *id, const char *title)
-{
-    if (wanted)
-        mote_text_add(text, "<a href=\"#%s\">%s</a>\n", id, title);
-}
-
-static mote_status add_top(const mote_report *report, mote_text *text)
+static mote_status add_frame(const mote_report *report, mote_text *text)
 {
     char *subtitle = mote_report_subtitle(report);
     if (!subtitle)
@@ -55,158 +62,78 @@ static mote_status add_top(const mote_report *report, mote_text *text)
     mote_escape_html(text, report->name);
     mote_text_add(text, "</h1>\n<p>");
     mote_escape_html(text, subtitle);
-    mote_text_add(text, "</p>\n</header>\n<nav aria-label=\"Sections\">\n");
+    mote_text_add(text, "</p>\n</header>\n<noscript><p class=\"notice\">The tables and figures "
+                        "of this page are made by JavaScript, which is off. <a "
+                        "href=\"report.md\">report.md</a> has them as plain text.</p>"
+                        "</noscript>\n<nav aria-label=\"Sections\"></nav>\n<main></main>\n");
     free(subtitle);
-    add_link(text, true, "asked", "Asked");
-    add_link(text, json_array_size(report->missing) > 0, "missing", "Missing");
-    add_link(text, report->has_cells, "replay", "Replay");
-    add_link(text, report->summary != NULL, "results", "Results");
-    add_link(text, report->figure_count > 0, "figures", "Figures");
-    add_link(text, report->claims || report->requirements, "claims", "Claims");
-    add_link(text, report->manifest != NULL, "machine", "Machine");
-    add_link(text, report->defects != NULL, "defects", "Known defects");
-    add_link(text, report->has_cells, "cells", "Raw cells");
-    mote_text_add(text, "</nav>\n<main>\n");
     return MOTE_OK;
 }
 
-static const char *pair_text(const json_t *pair, size_t index)
+/* A script element; `name` is what a message calls its source. */
+static mote_status add_script(const char *name, const char *source, size_t size,
+                              mote_text *text)
 {
-    return json_string_value(json_array_get(pair, index));
+    if (strstr(source, "</script") || strlen(source) != size)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: not a script that can stand in a page; `make page` "
+                         "writes it again",
+                         name);
+    mote_text_add(text, "<script>\n%s</script>\n", source);
+    return MOTE_OK;
 }
 
-static void add_scenarios(const json_t *scenarios, mote_text *text)
+static mote_status add_scripts(mote_text *text)
 {
-    size_t i;
-    const json_t *pair;
-    mote_text_add(text, "<dl>\n");
-    MOTE_EACH(i, pair, scenarios)
-    {
-        mote_text_add(text, "<dt>");
-        mote_escape_html(text, pair_text(pair, 0));
-        mote_text_add(text, "</dt><dd>");
-        mote_escape_html(text, pair_text(pair, 1));
-        mote_text_add(text, "</dd>\n");
-    }
-    mote_text_add(text, "</dl>\n");
-}
-
-static void add_commands(const json_t *commands, mote_text *text)
-{
-    size_t i;
-    const json_t *pair;
-    if (json_array_size(commands) == 0)
-        return;
-    mote_text_add(text, "<details><summary>Commands that measured it</summary>\n<pre><code>");
-    MOTE_EACH(i, pair, commands)
-    {
-        mote_text_add(text, "# ");
-        mote_escape_html(text, pair_text(pair, 0));
-        mote_text_add(text, "\n");
-        mote_escape_html(text, pair_text(pair, 1));
-        mote_text_add(text, "\n");
-    }
-    mote_text_add(text, "</code></pre></details>\n");
-}
-
-static mote_status add_asked(const mote_report *report, mote_text *text)
-{
-    json_t *scenarios = mote_report_scenarios(report);
-    json_t *commands = mote_report_commands(report);
     mote_status status = MOTE_OK;
-    if (scenarios && commands) {
-        mote_report_html_section(text, "asked", "What was asked");
-        mote_text_add(text, "<p>How much accuracy does a collision query by a few particles "
-                            "give up, and how much time and memory does it save, against "
-                            "bounding volume hierarchies, on deforming triangle meshes? Every "
-                            "method gets the same frames; its answers are compared with the "
-                            "exact distance.</p>\n");
-        add_scenarios(scenarios, text);
-        add_commands(commands, text);
-        mote_text_add(text, "</section>\n");
-    } else {
-        status = mote_fail(MOTE_ENOMEM, "no memory for a report");
+    for (size_t i = 0; i < sizeof scripts / sizeof scripts[0] && status == MOTE_OK; ++i) {
+        char *source = NULL;
+        size_t size;
+        status = mote_data_read(scripts[i], SOURCE_LIMIT, &source, &size);
+        if (status == MOTE_OK)
+            status = add_script(scripts[i], source, size, text);
+        free(source);
     }
-    json_decref(scenarios);
-    json_decref(commands);
     return status;
 }
 
-static void add_missing(const mote_report *report, mote_text *text)
+/* An element of data, which no text within it can end; data is taken over. */
+static mote_status add_data(const char *id, json_t *data, mote_text *text)
 {
-    size_t i;
-    const json_t *what;
-    if (json_array_size(report->missing) == 0)
-        return;
-    mote_report_html_section(text, "missing", "What this run does not have");
-    mote_text_add(text, "<ul>\n");
-    MOTE_EACH(i, what, report->missing)
-    {
-        mote_text_add(text, "<li>");
-        mote_markdown_inline(text, json_string_value(what));
-        mote_text_add(text, "</li>\n");
-    }
-    mote_text_add(text, "</ul>\n</section>\n");
-}
-
-static mote_status add_machine(const mote_report *report, mote_text *text)
-{
-    size_t i;
-    const json_t *pair;
-    if (!report->manifest)
-        return MOTE_OK;
-    json_t *facts = mote_report_machine(report);
-    if (!facts)
+    char *json = mote_json_text(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));
+    json_decref(data);
+    if (!json)
         return mote_fail(MOTE_ENOMEM, "no memory for a report");
-    mote_report_html_section(text, "machine", "The machine and the program");
-    mote_text_add(text, "<dl>\n");
-    MOTE_EACH(i, pair, facts)
-    {
-        mote_text_add(text, "<dt>");
-        mote_escape_html(text, pair_text(pair, 0));
-        mote_text_add(text, "</dt><dd>");
-        mote_escape_html(text, pair_text(pair, 1));
-        mote_text_add(text, "</dd>\n");
-    }
-    mote_text_add(text, "</dl>\n<p>From <a href=\"manifest.json\">manifest.json</a>.</p>\n"
-                        "</section>\n");
-    json_decref(facts);
+    mote_text_add(text, "<script type=\"application/json\" id=\"%s\">", id);
+    mote_escape_script(text, json);
+    mote_text_add(text, "</script>\n");
+    free(json);
     return MOTE_OK;
-}
-
-static void add_defects(const mote_report *report, mote_text *text)
-{
-    if (!report->defects)
-        return;
-    mote_report_html_section(text, "defects", "Known defects of the baselines");
-    mote_text_add(text, "<div class=\"prose\">\n");
-    mote_markdown_html(text, report->defects);
-    mote_text_add(text, "</div>\n</section>\n");
 }
 
 mote_status mote_report_html(const mote_report *report, mote_text *text)
 {
+    json_t *data = NULL, *replay = NULL;
+    char *program = NULL;
+    size_t size = 0;
     mote_status status = add_head(report, text);
     if (status == MOTE_OK)
-        status = add_top(report, text);
+        status = add_frame(report, text);
     if (status == MOTE_OK)
-        status = add_asked(report, text);
-    if (status == MOTE_OK) {
-        add_missing(report, text);
-        status = mote_report_html_replay(report, text);
-    }
-    if (status == MOTE_OK) {
-        mote_report_html_results(report, text);
-        status = mote_report_html_figures(report, text);
-    }
-    if (status == MOTE_OK) {
-        mote_report_html_claims(report, text);
-        status = add_machine(report, text);
-    }
-    if (status == MOTE_OK) {
-        add_defects(report, text);
-        mote_report_html_cells(report, text);
-        mote_text_add(text, "</main>\n</body>\n</html>\n");
-    }
+        status = mote_report_data(report, &data);
+    if (status == MOTE_OK)
+        status = add_data("report-data", data, text);
+    const bool bundled = status == MOTE_OK && report->has_cells &&
+                         read_replay_program(&program, &size) == MOTE_OK;
+    if (bundled)
+        status = mote_replay_json(report, &replay);
+    if (bundled && status == MOTE_OK)
+        status = add_data("replay-data", replay, text);
+    if (status == MOTE_OK)
+        status = add_scripts(text);
+    if (bundled && status == MOTE_OK)
+        status = add_script("page/replay.js", program, size, text);
+    free(program);
+    mote_text_add(text, "</body>\n</html>\n");
     return status;
 }

@@ -1,7 +1,6 @@
 /* The report as text that reads well in a terminal, and as Markdown on a forge: numbers stand
    in tables, and what they were computed from is linked at the end of each row. */
 #include "harness/base/escape.h"
-#include "harness/report/markdown_html.h"
 #include "harness/base/record.h"
 #include "harness/report/report_facts.h"
 #include "harness/report/report_rows.h"
@@ -55,18 +54,52 @@ static mote_status add_commands(const mote_report *report, mote_text *text)
     return MOTE_OK;
 }
 
+/* What cannot be read comes first: the tables lack it. */
+static void add_damaged(const mote_report *report, mote_text *text)
+{
+    size_t i;
+    const json_t *what;
+    if (json_array_size(report->damaged) == 0)
+        return;
+    mote_text_add(text, "\n## Not readable, and so not in this report\n\n");
+    MOTE_EACH(i, what, report->damaged)
+    {
+        mote_text_add(text, "- ");
+        mote_escape_markdown(text, json_string_value(what));
+        mote_text_add(text, "\n");
+    }
+}
+
+/* One line, after everything else. */
 static void add_missing(const mote_report *report, mote_text *text)
 {
     size_t i;
     const json_t *what;
     if (json_array_size(report->missing) == 0)
         return;
-    mote_text_add(text, "\n## What this run does not have\n\n");
+    mote_text_add(text, "\nNot in this report: ");
     MOTE_EACH(i, what, report->missing)
     {
-        mote_text_add(text, "- ");
+        mote_text_add(text, "%s", i > 0 ? "; " : "");
         mote_escape_markdown(text, json_string_value(what));
-        mote_text_add(text, "\n");
+    }
+    mote_text_add(text, ".\n");
+}
+
+/* The known defects, below a heading of level 2: every heading one level lower, the title left
+   out. */
+static void add_defects(const char *markdown, mote_text *text)
+{
+    bool first = true;
+    while (*markdown) {
+        size_t length = strcspn(markdown, "\n");
+        bool title = markdown[0] == '#' && markdown[1] != '#';
+        if (!title && (length > 0 || !first)) {
+            mote_text_add(text, "%s%.*s\n", markdown[0] == '#' ? "#" : "", (int)length,
+                          markdown);
+            first = false;
+        }
+        markdown += length + (markdown[length] ? 1 : 0);
     }
 }
 
@@ -118,11 +151,11 @@ static void add_head(int width, mote_text *text)
 /* "[1][c3-1] [2][c3-2]": the cells of row i. */
 static void add_cell_links(const mote_report *report, size_t i, mote_text *text)
 {
-    if (!report->has_cells) {
+    const mote_summary_row *row = mote_report_cells(report, i);
+    if (!row) {
         mote_text_add(text, " [summary](summary.json)");
         return;
     }
-    const mote_summary_row *row = &report->cells.rows[i];
     for (size_t r = 0; r < row->replicates; ++r)
         mote_text_add(text, " [%u][c%zu-%u]", row->cells[r].replicate, i + 1,
                       row->cells[r].replicate);
@@ -172,6 +205,26 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
     mote_text_add(text, "\n");
 }
 
+/* A table of the block's rows: of those that stand for their method, or of all. */
+static void add_table(const mote_report *report, size_t first, size_t end, bool all,
+                      mote_text *text)
+{
+    const int width = label_width(report, first, end);
+    add_head(width, text);
+    for (size_t i = first; i < end; ++i) {
+        if (all || mote_report_stands_for_method(report, first, end, i))
+            add_row(report, i, width, text);
+    }
+}
+
+static bool all_stand(const mote_report *report, size_t first, size_t end)
+{
+    size_t i = first;
+    while (i < end && mote_report_stands_for_method(report, first, end, i))
+        ++i;
+    return i == end;
+}
+
 static void add_block(const mote_report *report, size_t first, size_t end, mote_text *text)
 {
     const json_t *row = mote_report_row(report, first);
@@ -188,10 +241,11 @@ static void add_block(const mote_report *report, size_t first, size_t end, mote_
     mote_text_add(text, ": %s and %s triangles\n\n",
                   mote_show_whole(json_number_value(json_array_get(triangles, 0)), shown[0]),
                   mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]));
-    const int width = label_width(report, first, end);
-    add_head(width, text);
-    for (size_t i = first; i < end; ++i)
-        add_row(report, i, width, text);
+    add_table(report, first, end, false, text);
+    if (all_stand(report, first, end))
+        return;
+    mote_text_add(text, "\nAll configurations:\n\n");
+    add_table(report, first, end, true, text);
 }
 
 static void add_results(const mote_report *report, mote_text *text)
@@ -201,12 +255,15 @@ static void add_results(const mote_report *report, mote_text *text)
         return;
     mote_text_add(
         text,
-        "\n## Results\n\nTimes are medians over frames and replicates of deform, update and "
-        "query "
-        "together; `FCL/this`\nand `best/this`: how many times slower FCL's AABB tree and "
-        "its fastest configuration are;\nerrors are absolute, over L. The numbers in the "
-        "last column link to the cells that a row was\ncomputed from. Intervals and more "
-        "columns are in [report.html](report.html) and\n[summary.json](summary.json).\n");
+        "\n## Results\n\nThe first table of a scenario has one row a method: its fastest "
+        "configuration without a wrong\ncontact and with a p99 error of at most %g L, or else "
+        "its most accurate one. Times are medians over\nframes and replicates of deformation, "
+        "refit and query together; rows are sorted by them. `FCL/this`\nand `best/this`: how "
+        "many times slower FCL's AABB tree and FCL's fastest configuration are. Errors\nare "
+        "absolute, over L. The numbers in the last column link to the cells that a row was "
+        "computed\nfrom. Intervals and more columns are in [report.html](report.html) and "
+        "[summary.json](summary.json).\n",
+        MOTE_REPORT_CLOSE);
     for (size_t first = 0; first < count;) {
         size_t end = mote_report_block_end(report, first);
         add_block(report, first, end, text);
@@ -276,7 +333,7 @@ static void add_cells(const mote_report *report, mote_text *text)
         return;
     mote_text_add(text, "\n");
     for (size_t i = 0; i < report->cells.count; ++i) {
-        const mote_summary_row *row = &report->cells.rows[i];
+        const mote_summary_row *row = mote_report_cells(report, i);
         for (size_t r = 0; r < row->replicates; ++r) {
             const mote_stored_cell *cell = &row->cells[r];
             mote_text_add(text, "[c%zu-%u]: cells/", i + 1, cell->replicate);
@@ -307,7 +364,7 @@ mote_status mote_report_markdown(const mote_report *report, mote_text *text)
         status = add_commands(report, text);
     if (status != MOTE_OK)
         return status;
-    add_missing(report, text);
+    add_damaged(report, text);
     add_results(report, text);
     add_figures(report, text);
     add_claims(report, report->claims, "Claims of the paper", "claims.json", text);
@@ -319,8 +376,9 @@ mote_status mote_report_markdown(const mote_report *report, mote_text *text)
     }
     if (report->defects) {
         mote_text_add(text, "\n## Known defects of the baselines\n\n");
-        mote_markdown_nested(text, report->defects);
+        add_defects(report->defects, text);
     }
+    add_missing(report, text);
     add_cells(report, text);
     return status;
 }

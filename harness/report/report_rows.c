@@ -1,39 +1,43 @@
 #include "harness/report/report_rows.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const mote_report_column mote_report_columns[] = {
-    {"total", "median", "total_ns", "median", mote_show_time, true, "total",
-     "Deform, update and query together, with its 95 % interval"},
-    {"total", "p95", "total_ns", "p95", mote_show_time, false, NULL,
+    {"total", "median", "total_ns", "median", "time", mote_show_time, true, false, "total",
+     "Deformation, refit and query together, with its 95 % interval"},
+    {"total", "p95", "total_ns", "p95", "time", mote_show_time, false, false, NULL,
      "95th percentile over the frames of all replicates"},
-    {"fcl-aabb", "/ this", "ratio", "value", mote_show_ratio, true, "FCL/this",
+    {"FCL", "/ this", "ratio", "value", "ratio", mote_show_ratio, true, true, "FCL/this",
      "How many times slower FCL's AABB tree is, frame by frame"},
-    {"best FCL", "/ this", "ratio_best", "value", mote_show_ratio, true, "best/this",
-     "How many times slower the fastest configuration of FCL is, frame by frame"},
-    {"error / L", "median", "error", "median", mote_show_error, false, NULL,
-     "Absolute error over L"},
-    {"error / L", "p99", "error", "p99", mote_show_error, false, "p99 error",
+    {"best FCL", "/ this", "ratio_best", "value", "ratio", mote_show_ratio, true, false,
+     "best/this", "How many times slower the fastest configuration of FCL is, frame by frame"},
+    {"error / L", "median", "error", "median", "error", mote_show_error, false, true, NULL,
+     "Median of the absolute error over L"},
+    {"error / L", "p99", "error", "p99", "error", mote_show_error, false, false, "p99 error",
      "99th percentile of the absolute error over L"},
-    {"error / L", "max", "error", "max", mote_show_error, false, NULL,
+    {"error / L", "max", "error", "max", "error", mote_show_error, false, false, "max error",
      "Largest absolute error over L"},
-    {"exact", "frames", "error", "exact_rate", mote_show_percent, false, "exact",
-     "Share of frames with an error of at most 1e-9 L"},
-    {"contacts", "missed", NULL, "missed", mote_show_count, false, "missed",
-     "Frames in contact that the method says are not; mean over replicates"},
-    {"contacts", "false", NULL, "false_contacts", mote_show_count, false, "false",
-     "Frames not in contact that the method says are; mean over replicates"},
-    {"heap", "live", NULL, "heap_live_bytes", mote_show_bytes, false, "heap",
-     "Heap held by the method; the shared rest mesh and field left out"},
-    {"active", "median", "active_total_ns", "median", mote_show_time, true, NULL,
+    {"exact", "frames", "error", "exact_rate", "percent", mote_show_percent, false, false,
+     "exact", "Share of frames with an error of at most 1e-9 L"},
+    {"contacts", "missed", NULL, "missed", "count", mote_show_count, false, false, "missed",
+     "Frames in contact that the method reports as apart; mean over replicates"},
+    {"contacts", "false", NULL, "false_contacts", "count", mote_show_count, false, false,
+     "false", "Frames apart that the method reports as in contact; mean over replicates"},
+    {"heap", "live", NULL, "heap_live_bytes", "bytes", mote_show_bytes, false, false, "heap",
+     "Heap held by the method, without the rest mesh and field that all methods share"},
+    {"active", "median", "active_total_ns", "median", "time", mote_show_time, true, true, NULL,
      "The total within the scenario's active interval: near contact"},
-    {"given", "median", "given_total_ns", "median", mote_show_time, true, NULL,
-     "The total where nobody is charged for deforming all vertices"},
-    {"deform", "median", "deform_ns", "median", mote_show_time, false, NULL,
+    {"given", "median", "given_total_ns", "median", "time", mote_show_time, true, true, NULL,
+     "The total where no method is charged for deforming all vertices"},
+    {"deform", "median", "deform_ns", "median", "time", mote_show_time, false, true, NULL,
      "Deforming all vertices, for methods that need them"},
-    {"update", "median", "update_ns", "median", mote_show_time, false, NULL, "Refit"},
-    {"query", "median", "query_ns", "median", mote_show_time, false, NULL, "The query"},
+    {"refit", "median", "update_ns", "median", "time", mote_show_time, false, true, NULL,
+     "Refitting the bounding volumes to the deformed vertices"},
+    {"query", "median", "query_ns", "median", "time", mote_show_time, false, true, NULL,
+     "The query alone"},
 };
 const size_t mote_report_column_count =
     sizeof mote_report_columns / sizeof mote_report_columns[0];
@@ -45,7 +49,12 @@ size_t mote_report_row_count(const mote_report *report)
 
 const json_t *mote_report_row(const mote_report *report, size_t i)
 {
-    return json_array_get(json_object_get(report->summary, "rows"), i);
+    return json_array_get(json_object_get(report->summary, "rows"), report->order[i]);
+}
+
+const mote_summary_row *mote_report_cells(const mote_report *report, size_t i)
+{
+    return report->has_cells ? &report->cells.rows[report->order[i]] : NULL;
 }
 
 double mote_report_number(const json_t *row, const char *object, const char *key)
@@ -121,10 +130,50 @@ static bool is_right(const json_t *row)
            (max != max || max <= MOTE_EXACT_ERROR);
 }
 
+/* The median total time of a row that can be compared with others; else infinity. */
+static double time_of(const json_t *row)
+{
+    const double time = mote_report_number(row, "total_ns", "median");
+    const bool usable = strcmp(mote_report_text(row, "status"), "ok") == 0 && time == time &&
+                        !json_is_false(json_object_get(row, "times_comparable"));
+    return usable ? time : HUGE_VAL;
+}
+
 /* Whether a row was given all vertices at no charge: it is not compared with those that pay. */
 static bool is_given(const json_t *row)
 {
     return strcmp(mote_report_text(row, "accounting"), "given") == 0;
+}
+
+/* Insertion sort of the block: stable, and a block has some hundred rows at most. */
+static void sort_block(mote_report *report, size_t first, size_t end)
+{
+    for (size_t i = first + 1; i < end; ++i) {
+        const size_t moved = report->order[i];
+        const double time = time_of(mote_report_row(report, i));
+        size_t k = i;
+        while (k > first && time_of(mote_report_row(report, k - 1)) > time) {
+            report->order[k] = report->order[k - 1];
+            --k;
+        }
+        report->order[k] = moved;
+    }
+}
+
+mote_status mote_report_sort(mote_report *report)
+{
+    const size_t count = mote_report_row_count(report);
+    report->order = malloc((count + 1) * sizeof *report->order);
+    if (!report->order)
+        return mote_fail(MOTE_ENOMEM, "no memory for a report");
+    for (size_t i = 0; i < count; ++i)
+        report->order[i] = i;
+    for (size_t first = 0; first < count;) {
+        const size_t end = mote_report_block_end(report, first);
+        sort_block(report, first, end);
+        first = end;
+    }
+    return MOTE_OK;
 }
 
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first, size_t end)
@@ -133,24 +182,58 @@ mote_report_glance mote_report_block_glance(const mote_report *report, size_t fi
     bool only_given = true;
     for (size_t i = first; i < end; ++i)
         only_given = only_given && is_given(mote_report_row(report, i));
-    double least_right = 0, least = 0;
-    for (size_t i = first; i < end; ++i) {
+    for (size_t i = first; i < end && glance.right == SIZE_MAX; ++i) {
         const json_t *row = mote_report_row(report, i);
-        const double time = mote_report_number(row, "total_ns", "median");
-        if (strcmp(mote_report_text(row, "status"), "ok") != 0 || time != time ||
-            is_given(row) != only_given ||
-            json_is_false(json_object_get(row, "times_comparable")))
+        if (time_of(row) == HUGE_VAL || is_given(row) != only_given)
             continue;
-        if (glance.fastest == SIZE_MAX || time < least) {
+        if (glance.fastest == SIZE_MAX)
             glance.fastest = i;
-            least = time;
-        }
-        if (is_right(row) && (glance.right == SIZE_MAX || time < least_right)) {
+        if (is_right(row))
             glance.right = i;
-            least_right = time;
-        }
     }
     if (glance.fastest == glance.right)
         glance.fastest = SIZE_MAX;
     return glance;
+}
+
+/* Wrong contacts and error of a row; of rows that are good enough, its time decides. */
+typedef struct standing {
+    double wrong, error, time;
+} standing;
+
+static standing standing_of(const json_t *row)
+{
+    const double missed = mote_report_number(row, NULL, "missed");
+    const double invented = mote_report_number(row, NULL, "false_contacts");
+    const double error = mote_report_number(row, "error", "p99");
+    const double wrong = missed + invented;
+    const bool asked = strcmp(mote_report_text(row, "ask"), "contact") != 0;
+    return (standing){wrong == wrong ? wrong : HUGE_VAL,
+                      asked && error > MOTE_REPORT_CLOSE ? error : 0, time_of(row)};
+}
+
+static bool is_better(const standing *a, const standing *b)
+{
+    if (a->wrong < b->wrong || a->wrong > b->wrong)
+        return a->wrong < b->wrong;
+    if (a->error < b->error || a->error > b->error)
+        return a->error < b->error;
+    return a->time < b->time;
+}
+
+bool mote_report_stands_for_method(const mote_report *report, size_t first, size_t end,
+                                   size_t i)
+{
+    const json_t *row = mote_report_row(report, i);
+    const standing own = standing_of(row);
+    for (size_t k = first; k < end; ++k) {
+        const json_t *other = mote_report_row(report, k);
+        if (k == i || is_given(other) != is_given(row) ||
+            strcmp(mote_report_text(other, "method"), mote_report_text(row, "method")) != 0)
+            continue;
+        const standing theirs = standing_of(other);
+        if (is_better(&theirs, &own) || (k < i && !is_better(&own, &theirs)))
+            return false;
+    }
+    return true;
 }

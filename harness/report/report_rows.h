@@ -10,8 +10,10 @@ typedef struct mote_report_column {
     const char *group, *head; /* the two lines above it: "total", "median" */
     const char *object, *key; /* where its value is in a row: "total_ns", "median"; object NULL:
                                  at the top */
-    mote_number_show show;    /* how it is written */
+    const char *kind;         /* how the page writes it: "time", "ratio", ...; numbers.js */
+    mote_number_show show;    /* the same for plain text */
     bool interval;            /* the object has ci_low and ci_high for it */
+    bool extra;               /* the page shows it only with all columns */
     const char *brief;        /* its head in the plain text; NULL: not there */
     const char *meaning;      /* one sentence */
 } mote_report_column;
@@ -19,9 +21,16 @@ typedef struct mote_report_column {
 extern const mote_report_column mote_report_columns[];
 extern const size_t mote_report_column_count;
 
-/* Row i, i < mote_report_row_count; 0 rows where there is no summary. */
+/* The rows in the order in which they are shown: block by block, within a block by median total
+   time, rows without a time that can be compared last. Part of mote_report_gather. */
+mote_status mote_report_sort(mote_report *report);
+
+/* Row i as shown, i < mote_report_row_count; 0 rows where there is no summary. */
 size_t mote_report_row_count(const mote_report *report);
 const json_t *mote_report_row(const mote_report *report, size_t i);
+
+/* The cells of row i; NULL where the report has none. */
+const mote_summary_row *mote_report_cells(const mote_report *report, size_t i);
 
 /* row[object][key], or row[key] with object NULL; MOTE_NONE where it is no number. */
 double mote_report_number(const json_t *row, const char *object, const char *key);
@@ -46,7 +55,8 @@ bool mote_report_same_block(const json_t *a, const json_t *b);
 /* One after the last row of the block that starts at row first. */
 size_t mote_report_block_end(const mote_report *report, size_t first);
 
-/* What a block says first; SIZE_MAX where there is no such row. */
+/* What a block says first; SIZE_MAX where there is no such row. Rows with given positions
+   (nobody is charged for deformation) are not compared with the others. */
 typedef struct mote_report_glance {
     size_t right;   /* the fastest row without a wrong answer in any frame */
     size_t fastest; /* the fastest row; SIZE_MAX where it is `right` */
@@ -54,5 +64,15 @@ typedef struct mote_report_glance {
 
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first,
                                             size_t end);
+
+/* Whether row i of the block first .. end - 1 stands for its method where one row a method is
+   shown: of the method's rows the fastest without a wrong contact and with an error of at most
+   MOTE_REPORT_CLOSE at the 99th percentile, if distances were asked; where no row is so good,
+   the one with the fewest wrong contacts, then the smallest error. Methods whose positions are
+   given count as others.
+ */
+#define MOTE_REPORT_CLOSE 0.01
+bool mote_report_stands_for_method(const mote_report *report, size_t first, size_t end,
+                                   size_t i);
 
 #endif

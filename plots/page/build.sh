@@ -17,7 +17,7 @@ if [ ! -d node_modules ] || [ package-lock.json -nt node_modules/.package-lock.j
         fail "npm ci failed: $(tail -n 1 "$out/npm.log")"
 fi
 licence=$(sed 's/\*\// /' node_modules/three/LICENSE)
-node_modules/.bin/esbuild replay.js --bundle --minify --format=iife --target=es2021 --charset=utf8 \
+node_modules/.bin/esbuild start.js --bundle --minify --format=iife --target=es2021 --charset=utf8 \
     --legal-comments=inline --log-level=warning --banner:js="/* three.js:
 $licence */" --outfile="$out/replay.js.part" || fail 'esbuild failed'
 mv "$out/replay.js.part" "$out/replay.js"

@@ -1,70 +1,104 @@
-// The scenes that harness/report/replay_write.c put into the page: base 64 into typed arrays, numbers on
-// grids into coordinates, and what is asked of them frame by frame.
+/* global unpack */ // of packed.js, which the page has before this program
+// The scenes that harness/report/replay_write.c put into the page: packed texts into arrays, differences
+// and places on grids into coordinates, and what is asked of them frame by frame.
 
-const NONE = 65535; // on a grid: there is no point
-
-function bytes(text) {
-    const raw = atob(text);
-    const array = new Uint8Array(raw.length);
-    for (let i = 0; i < raw.length; ++i) array[i] = raw.charCodeAt(i);
-    return array.buffer;
+// From differences to the value `columns` before, taken `times` times.
+function sums(differences, columns, Kind, times = 1) {
+    const values = Kind.from(differences);
+    for (let k = 0; k < times; ++k)
+        for (let i = columns; i < values.length; ++i) values[i] += values[i - columns];
+    return values;
 }
 
-// Points on a grid, read one at a time.
+// Points of a text: three numbers each, or null where there is none. A point is told relative to the
+// reference's of the same index, or else to the last one in its column.
 class GridPoints {
-    constructor(text, grid) {
-        this.places = new Uint16Array(bytes(text));
+    constructor(numbers, grid, columns, reference = null) {
         this.low = grid.low;
         this.step = grid.step;
+        this.places = [];
+        const last = Array.from({ length: columns }, () => [0, 0, 0]);
+        for (let at = 0, index = 0; at < numbers.length; ++index) {
+            if (numbers[at] === null) {
+                this.places.push(null);
+                ++at;
+                continue;
+            }
+            const base = reference?.(index) ?? last[index % columns];
+            const place = [0, 1, 2].map((k) => base[k] + numbers[at + k]);
+            last[index % columns] = place;
+            this.places.push(place);
+            at += 3;
+        }
     }
 
     get count() {
-        return this.places.length / 3;
+        return this.places.length;
     }
 
     // The point into out[at .. at + 2]; false where there is none.
     read(index, out, at = 0) {
-        const place = 3 * index;
-        if (this.places[place] === NONE) return false;
-        for (let k = 0; k < 3; ++k) out[at + k] = this.low[k] + this.step * this.places[place + k];
+        const place = this.places[index];
+        if (!place) return false;
+        for (let k = 0; k < 3; ++k) out[at + k] = this.low[k] + this.step * place[k];
         return true;
     }
 }
 
-function body(data) {
-    const points = new GridPoints(data.vertices, data);
+function body(data, length) {
+    const points = new GridPoints(data.vertices, data, 1);
     const vertices = new Float32Array(3 * points.count);
     for (let i = 0; i < points.count; ++i) points.read(i, vertices, 3 * i);
+    const controls = data.centreX.length;
+    const scale = Float32Array.from({ length: 12 }, (_, c) => data.poseStep * (c < 9 ? 1 : length));
     return {
         vertices,
-        triangles: new Uint16Array(bytes(data.triangles)),
-        centres: new Float64Array(bytes(data.centres)),
+        triangles: sums(data.triangles, 3, Uint16Array),
+        centres: Float64Array.from({ length: 3 * controls }, (_, k) =>
+            [data.centreX, data.centreY, data.centreZ][k % 3][Math.floor(k / 3)]),
         support: data.support,
-        poses: new Float32Array(bytes(data.poses)),
-        weights: new Int16Array(bytes(data.weights)),
+        poses: Float32Array.from(sums(data.poses, 12, Int32Array, 2), (steps, k) => steps * scale[k % 12]),
+        weights: sums(data.weights, 3 * controls, Int32Array, 2),
         weightStep: data.weightStep,
     };
 }
+
+const numberOrNaN = (value) => value ?? NaN;
 
 // "particle-paper:n=5,refine=no" without n: what its n can be chosen of.
 function family(label) {
     return label.replace(/([:,])n=[^,]*(,|$)/, (all, before, after) => (after ? before : ""));
 }
 
-// The answers of one configuration.
+// The answers of one configuration, unpacked when it is first shown.
 class Track {
     constructor(data, scene) {
-        Object.assign(this, { label: data.label, n: data.n, cell: data.cell });
-        this.scene = scene;
-        this.first = data.first;
-        this.stride = data.stride;
-        this.family = family(data.label);
-        this.distances = new Float64Array(bytes(data.distance));
-        this.contacts = new Int8Array(bytes(data.contact));
-        this.pairs = new GridPoints(data.pair, scene.grid);
-        const particles = scene.particleSets[data.particles];
-        this.particles = particles ? new GridPoints(particles, scene.grid) : null;
-        this.perBody = particles ? this.particles.count / (2 * this.distances.length) : 0;
+        const { label, n, cell, first, stride, replicate, replicates } = data;
+        Object.assign(this, { label, n, cell, first, stride, replicate, replicates, data, scene });
+        this.family = family(label);
+        this.hasParticles = data.particles in scene.particleSets;
+    }
+
+    async open() {
+        this.opened ??= this.unpack();
+        await this.opened;
+        return this;
+    }
+
+    async unpack() {
+        const { scene, data } = this;
+        const answers = JSON.parse(await unpack(data.answers));
+        this.errors = Float64Array.from(answers.error, numberOrNaN);
+        this.contacts = Int8Array.from(answers.contact);
+        this.distances = this.errors.map((error, row) => scene.truthAt(this.frameOf(row)) + error * scene.length);
+        const truth = (index) => scene.pairs.places[2 * (this.frameOf(Math.floor(index / 2)) - scene.first) + (index % 2)];
+        this.pairs = new GridPoints(answers.pair, scene.grid, 2, truth);
+        this.particles = null;
+        this.perBody = 0;
+        if (!this.hasParticles) return;
+        const set = JSON.parse(await unpack(scene.particleSets[data.particles]));
+        this.perBody = set.perBody;
+        this.particles = new GridPoints(set.places, scene.grid, 2 * set.perBody);
     }
 
     // The row that answers a frame, or the last one before it; -1 where there is none.
@@ -79,7 +113,7 @@ class Track {
 
     // Signed, over L; NaN where there is no distance.
     error(row) {
-        return (this.distances[row] - this.scene.truthAt(this.frameOf(row))) / this.scene.length;
+        return this.errors[row];
     }
 
     // "right", "missed", "false", or "" where the method does not say.
@@ -110,19 +144,20 @@ class Track {
 
 class Scene {
     constructor(data) {
-        this.name = data.name;
-        this.length = data.length;
-        this.tolerance = data.tolerance;
-        this.first = data.first;
-        this.last = data.last;
-        this.active = data.active;
-        this.notes = data.notes;
+        const { name, length, tolerance, first, last, active, notes } = data;
+        Object.assign(this, { name, length, tolerance, first, last, active, notes });
         this.grid = { low: data.low, step: data.step };
-        this.bodies = data.bodies.map(body);
-        this.truth = new Float64Array(bytes(data.truth));
-        this.pairs = new GridPoints(data.pair, this.grid);
         this.particleSets = data.particles;
         this.tracks = data.tracks.map((track) => new Track(track, this));
+    }
+
+    static async read(data) {
+        const scene = new Scene(data);
+        const world = JSON.parse(await unpack(data.world));
+        scene.bodies = world.bodies.map((one) => body(one, scene.length));
+        scene.truth = Float64Array.from(world.truth, numberOrNaN);
+        scene.pairs = new GridPoints(world.pair, scene.grid, 2);
+        return scene;
     }
 
     truthAt(frame) {
@@ -134,15 +169,15 @@ class Scene {
     }
 }
 
-// The scenes of the page, ready to use; each is read when it is first asked for.
+// The scenes of the page; read(index) unpacks one when it is first asked for.
 export function readScenes(json) {
     const { scenes } = JSON.parse(json);
     const ready = new Map();
-    return scenes.map((data, index) => ({
-        name: data.name,
-        get scene() {
-            if (!ready.has(index)) ready.set(index, new Scene(data));
+    return {
+        names: scenes.map((data) => data.name),
+        read(index) {
+            if (!ready.has(index)) ready.set(index, Scene.read(scenes[index]));
             return ready.get(index);
         },
-    }));
+    };
 }

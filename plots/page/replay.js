@@ -51,6 +51,8 @@ const timeline = new Timeline(root.querySelector(".timeline"));
 let stage = null;
 let scene = null;
 let track = null;
+let wanted = null;
+let chosen = -1;
 let surfaces = [];
 let frame = 0;
 let playing = false;
@@ -78,6 +80,7 @@ function fill(select, values, texts = values) {
 
 // Sizes and colours may have changed.
 function redraw() {
+    if (!track) return;
     const theme = colours();
     if (stage) {
         stage.resize();
@@ -87,7 +90,12 @@ function redraw() {
     show();
 }
 
-function chooseTrack(next) {
+// A choice is shown once its data are unpacked, unless another one was made meanwhile.
+async function chooseTrack(next) {
+    root.setAttribute("aria-busy", "true");
+    wanted = next;
+    await next.open();
+    if (wanted !== next) return;
     track = next;
     parts.method.value = track.family;
     const family = scene.tracks.filter((other) => other.family === track.family);
@@ -96,27 +104,35 @@ function chooseTrack(next) {
     parts.n.value = track.label;
     const file = `cells/${encodeURIComponent(track.cell)}.csv`;
     const link = Object.assign(document.createElement("a"), { href: file, textContent: "its cell" });
-    parts.origin.replaceChildren("Answers as stored in ", link, ".");
+    parts.origin.replaceChildren("Answers as stored in ", link, ", to six digits.");
+    if (track.replicates > 1)
+        parts.origin.append(` Replicate ${track.replicate} is shown: its worst frame is that of all ${track.replicates}.`);
     if (track.particles) parts.origin.append(" Particles from asking the method again, with the same answers.");
     redraw();
+    root.setAttribute("aria-busy", "false");
 }
 
 // Another method: the same n if it has it.
 function chooseFamily(family) {
     const same = scene.tracks.filter((other) => other.family === family);
-    chooseTrack(same.find((other) => other.n === track.n) ?? same[0]);
+    chooseTrack(same.find((other) => other.n === track?.n) ?? same[0]);
 }
 
 // The paper's W-W has 5 particles; of several such configurations the plainest.
 function firstTrack() {
-    const particles = scene.tracks.filter((other) => other.particles);
+    const particles = scene.tracks.filter((other) => other.hasParticles);
     const five = particles.filter((other) => other.n === 5);
     const choice = [five, particles, scene.tracks].find((list) => list.length > 0);
     return choice.reduce((a, b) => (b.label.length < a.label.length ? b : a));
 }
 
-function chooseScene(index) {
-    scene = scenes[index].scene;
+async function chooseScene(index) {
+    root.setAttribute("aria-busy", "true");
+    chosen = index;
+    const next = await scenes.read(index);
+    if (chosen !== index) return;
+    scene = next;
+    track = null;
     surfaces = scene.bodies.map((body) => new Surface(body));
     stage?.open(surfaces, scene.length);
     fill(parts.method, [...new Set(scene.tracks.map((other) => other.family))]);
@@ -127,7 +143,7 @@ function chooseScene(index) {
         ...scene.notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })),
     );
     frame = Math.max(scene.first, scene.active[0]);
-    chooseTrack(firstTrack());
+    await chooseTrack(firstTrack());
 }
 
 function number(output, value) {
@@ -166,6 +182,7 @@ function showContact(row) {
 }
 
 function show() {
+    if (!track) return;
     const row = track.row(frame);
     const index = frame - scene.first;
     const truth = pairOf(scene.pairs, index);
@@ -266,13 +283,13 @@ function listen() {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 }
 
-fill(parts.scene, scenes.map((_, k) => String(k)), scenes.map((other) => other.name));
-parts.scenes.hidden = scenes.length < 2;
+fill(parts.scene, scenes.names.map((_, k) => String(k)), scenes.names);
+parts.scenes.hidden = scenes.names.length < 2;
 openStage();
 listen();
-const first = scenes.findIndex((other) => other.name === "ww");
-parts.scene.value = String(Math.max(0, first));
-chooseScene(Math.max(0, first));
+const first = Math.max(0, scenes.names.indexOf("ww"));
+parts.scene.value = String(first);
+chooseScene(first);
 
 // For tests and the console: a deformed vertex as it is shown, in the world.
 window.moteReplay = {

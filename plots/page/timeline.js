@@ -84,6 +84,7 @@ export class Timeline {
     }
 
     show(frame) {
+        if (!(this.base.width > 0 && this.base.height > 0)) return; // not laid out
         const pen = this.canvas.getContext("2d");
         pen.clearRect(0, 0, this.width, this.height);
         pen.drawImage(this.base, 0, 0, this.width, this.height);

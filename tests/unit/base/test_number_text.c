@@ -2,7 +2,6 @@
 #include "harness/base/number_text.h"
 
 #include "harness/base/escape.h"
-#include "harness/report/markdown_html.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -57,21 +56,4 @@ TEST(escaped_text_ends_nothing_that_it_stands_in)
     expect(mote_escape_markdown, "a|b\n<#1>", "a\\|b &lt;\\#1&gt;");
     expect(mote_escape_path, "a b/c:d.svg", "a%20b/c%3Ad.svg");
     expect(mote_escape_script, "[\"</script>\"]", "[\"\\u003c/script>\"]");
-    expect(mote_escape_drawing, "plain", "plain");
-    expect(mote_escape_drawing, "<a b=\"#c\">\n50%", "%3Ca b=%22%23c%22%3E 50%25");
-}
-
-TEST(markdown_that_is_not_whole_becomes_whole_html)
-{
-    expect(mote_markdown_inline, "a `b` c", "a <code>b</code> c");
-    expect(mote_markdown_inline, "a `b", "a <code>b</code>");
-    expect(mote_markdown_html, "# title\n## one `x`\ntext",
-           "<h3>one <code>x</code></h3>\n"
-           "<p>text</p>\n");
-    expect(mote_markdown_html, "##### five\n###### six", "<h6>five</h6>\n<h6>six</h6>\n");
-    expect(
-        mote_markdown_html, "    a\n\n    b",
-        "<details><summary>Reproduction</summary><pre><code>a\n\nb\n</code></pre></details>\n");
-    expect(mote_markdown_nested, "# title\n\n## one\ntext", "### one\ntext\n");
-    expect(mote_markdown_nested, "", "");
 }

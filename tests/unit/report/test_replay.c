@@ -1,6 +1,9 @@
 /* The data of the page's replay, read back as the page reads it. */
 #include "harness/scene/probe.h"
 #include "harness/report/replay.h"
+#include "harness/base/record.h"
+#include "harness/report/report_rows.h"
+#include "tests/support/page_data.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -14,8 +17,19 @@ static char base[] = "/tmp/mote-test-replay-XXXXXX";
 static char scenario_path[96], run_directory[96];
 static mote_report report;
 
-/* The tracks as a run orders them. */
+/* Tracks, in no order: the report sorts them by time. */
 enum { CERTIFIED, TRACKED, PAPER, PAPER_CHECKED, TRACKS };
+static const char *const labels[TRACKS] = {
+    "certified", "particle:n=3", "particle-paper:n=3,refine=no", "particle-paper:n=3"};
+
+/* The place of a track among those of a scene. */
+static size_t place_of(size_t track)
+{
+    size_t i = 0;
+    while (strcmp(mote_report_cells(&report, i)->label, labels[track]) != 0)
+        ++i;
+    return i;
+}
 
 static int make_run(void)
 {
@@ -54,38 +68,11 @@ static void assert_near(double a, double b, double tolerance)
         fail_msg("%.17g is not within %g of %.17g", a, tolerance, b);
 }
 
-/* Decodes the base 64 of a member; *size its bytes. The caller frees it. */
-static void *decode(const json_t *object, const char *key, size_t *size)
-{
-    static const char digits[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const char *text = json_string_value(json_object_get(object, key));
-    assert_non_null(text);
-    unsigned char *bytes = malloc(strlen(text) + 1);
-    assert_non_null(bytes);
-    unsigned long bits = 0;
-    size_t count = 0, used = 0;
-    for (; *text && *text != '='; ++text) {
-        const char *digit = strchr(digits, *text);
-        assert_non_null(digit);
-        bits = bits << 6 | (unsigned long)(digit - digits);
-        if (++count % 4 != 1)
-            bytes[used++] = (unsigned char)(bits >> (6 - 2 * ((count - 1) % 4)));
-    }
-    *size = used;
-    return bytes;
-}
-
 static json_t *read_scenes(size_t *shown)
 {
-    mote_text text = {0};
-    json_error_t error;
-    assert_int_equal(mote_replay_json(&report, &text, shown), MOTE_OK);
-    json_t *root = json_loads(text.data, 0, &error);
-    if (!root)
-        fail_msg("%d: %s", error.line, error.text);
-    assert_null(strchr(text.data, '<'));
-    free(text.data);
+    json_t *root = NULL;
+    assert_int_equal(mote_replay_json(&report, &root), MOTE_OK);
+    *shown = json_array_size(json_object_get(root, "scenes"));
     return root;
 }
 
@@ -96,116 +83,228 @@ static json_t *first_scene(const json_t *root)
     return scene;
 }
 
+static double number_at(const json_t *array, size_t i)
+{
+    const json_t *value = json_array_get(array, i);
+    assert_true(json_is_number(value));
+    return json_number_value(value);
+}
+
+static double number_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+/* Whole numbers from their second differences; the caller frees them. */
+static long *read_smooth(const json_t *array, size_t count, size_t columns)
+{
+    assert_int_equal(json_array_size(array), count);
+    long *values = malloc((count + 1) * sizeof *values);
+    assert_non_null(values);
+    for (size_t i = 0; i < count; ++i)
+        values[i] = (long)number_at(array, i);
+    for (int times = 0; times < 2; ++times) {
+        for (size_t i = columns; i < count; ++i)
+            values[i] += values[i - columns];
+    }
+    return values;
+}
+
 TEST(replay_json_holds_the_poses_and_weights_of_each_frame)
 {
-    size_t shown, size;
+    size_t shown;
     json_t *root = read_scenes(&shown);
     assert_int_equal(shown, 1);
+    json_t *world = page_unpack_json(first_scene(root), "world");
+    const double length = number_of(first_scene(root), "length");
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
     assert_int_equal(mote_scenario_load(scenario_path, &scenario), MOTE_OK);
     assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
     for (size_t i = 0; i < 2; ++i) {
-        const json_t *body = json_array_get(json_object_get(first_scene(root), "bodies"), i);
-        float *poses = decode(body, "poses", &size);
-        assert_int_equal(size, FRAMES * 12 * sizeof *poses);
-        int16_t *weights = decode(body, "weights", &size);
+        const json_t *body = json_array_get(json_object_get(world, "bodies"), i);
         const size_t width = 3 * (size_t)scenario->body[i].field->count;
         assert_true(width > 0);
-        assert_int_equal(size, FRAMES * width * sizeof *weights);
-        const double step = json_number_value(json_object_get(body, "weightStep"));
+        long *poses = read_smooth(json_object_get(body, "poses"), 12 * FRAMES, 12);
+        long *weights = read_smooth(json_object_get(body, "weights"), width * FRAMES, width);
+        const double step = number_of(body, "weightStep"), pose = number_of(body, "poseStep");
         for (uint32_t k = 0; k < FRAMES; ++k) {
             const mote_body_state *at =
                 &mote_scenario_frame(scenario, buffer, k + 1, 0)->body[i];
-            assert_near((double)poses[12 * k + 9], at->pose.translation.x, 1e-6);
-            assert_near((double)poses[12 * k + 5], at->pose.rotation.m[1][2], 1e-6);
+            assert_near(pose * length * (double)poses[12 * k + 9], at->pose.translation.x,
+                        1e-6 * length);
+            assert_near(pose * (double)poses[12 * k + 5], at->pose.rotation.m[1][2], 1e-6);
             const mote_vec3 w = {at->weights.x[1], at->weights.y[1], at->weights.z[1]};
             const mote_vec3 rest = mote_rotate_back(&at->pose.rotation, w);
-            assert_near(step * weights[width * k + 4], rest.y, step);
+            assert_near(step * (double)weights[width * k + 4], rest.y, step);
         }
         free(poses);
         free(weights);
     }
     mote_frame_buffer_destroy(buffer);
     mote_scenario_destroy(scenario);
+    json_decref(world);
     json_decref(root);
 }
 
+/* Errors have six digits, and 0 stands for those below 1e-12. */
 TEST(replay_json_holds_the_stored_answers)
 {
-    size_t shown, size;
+    size_t shown;
     json_t *root = read_scenes(&shown);
     const json_t *tracks = json_object_get(first_scene(root), "tracks");
+    json_t *world = page_unpack_json(first_scene(root), "world");
     assert_int_equal(json_array_size(tracks), TRACKS);
     for (size_t t = 0; t < TRACKS; ++t) {
-        const mote_stored_cell *cell = &report.cells.rows[t].cells[0];
         const json_t *track = json_array_get(tracks, t);
+        const mote_stored_cell *cell = &mote_report_cells(&report, t)->cells[0];
         assert_string_equal(json_string_value(json_object_get(track, "cell")), cell->id);
-        double *distances = decode(track, "distance", &size);
-        assert_int_equal(size, FRAMES * sizeof *distances);
+        json_t *answers = page_unpack_json(track, "answers");
+        const json_t *errors = json_object_get(answers, "error");
+        assert_int_equal(json_array_size(errors), FRAMES);
         for (size_t k = 0; k < FRAMES; ++k) {
-            const double length = mote_stored_number(cell, "length");
-            assert_true((distances[k] - cell->truth[k]) / length == cell->error[k]);
+            assert_near(number_at(errors, k), cell->error[k],
+                        fmax(1e-12, 5e-6 * fabs(cell->error[k])));
+            assert_int_equal(number_at(json_object_get(answers, "contact"), k),
+                             cell->contact[k]);
+            assert_true(number_at(json_object_get(world, "truth"), k) == cell->truth[k]);
         }
-        free(distances);
+        json_decref(answers);
     }
+    json_decref(world);
     json_decref(root);
 }
 
-/* The method's points are its distance apart, on a grid of 2^16 steps over the scene. */
+/* A method's points, told relative to the truth's, are its distance apart, on a grid of 2^16
+   steps over the scene. */
 TEST(replay_json_pairs_are_their_distance_apart)
 {
-    size_t shown, size;
+    size_t shown;
     json_t *root = read_scenes(&shown);
     const json_t *scene = first_scene(root);
-    const json_t *track = json_array_get(json_object_get(scene, "tracks"), 0);
-    const double step = json_number_value(json_object_get(scene, "step"));
-    double *distances = decode(track, "distance", &size);
-    uint16_t *places = decode(track, "pair", &size);
-    assert_int_equal(size, FRAMES * 6 * sizeof *places);
+    json_t *world = page_unpack_json(scene, "world");
+    const json_t *track = json_array_get(json_object_get(scene, "tracks"), place_of(PAPER));
+    json_t *answers = page_unpack_json(track, "answers");
+    const double step = number_of(scene, "step");
+    const mote_stored_cell *cell = &mote_report_cells(&report, place_of(PAPER))->cells[0];
+    const json_t *truth = json_object_get(world, "pair"),
+                 *pair = json_object_get(answers, "pair");
+    assert_int_equal(json_array_size(truth), 6 * FRAMES); /* apart in every frame */
+    assert_int_equal(json_array_size(pair), 6 * FRAMES);
+    double places[6] = {0};
     for (size_t k = 0; k < FRAMES; ++k) {
         double squared = 0;
+        for (size_t c = 0; c < 6; ++c)
+            places[c] += number_at(truth, 6 * k + c); /* two columns of three */
         for (size_t c = 0; c < 3; ++c)
-            squared += pow(step * (places[6 * k + c] - places[6 * k + 3 + c]), 2);
-        assert_near(sqrt(squared), distances[k], 4 * step);
+            squared += pow(step * (places[c] + number_at(pair, 6 * k + c) - places[3 + c] -
+                                   number_at(pair, 6 * k + 3 + c)),
+                           2);
+        assert_near(sqrt(squared),
+                    cell->truth[k] + cell->error[k] * mote_stored_number(cell, "length"),
+                    4 * step);
     }
-    free(distances);
-    free(places);
+    json_decref(answers);
+    json_decref(world);
     json_decref(root);
 }
 
 /* With and without the exact check the particles are the same: they are stored once. */
 TEST(replay_json_particles_are_stored_once)
 {
-    size_t shown, size;
+    size_t shown;
     json_t *root = read_scenes(&shown);
     json_t *sets = json_object_get(first_scene(root), "particles");
     assert_int_equal(json_object_size(sets), 2); /* the tracked ones are others */
     const json_t *tracks = json_object_get(first_scene(root), "tracks");
-    for (size_t t = PAPER; t <= PAPER_CHECKED; ++t)
-        assert_int_equal(
-            json_integer_value(json_object_get(json_array_get(tracks, t), "particles")), PAPER);
-    uint16_t *places = decode(sets, "2", &size);
-    assert_int_equal(size, FRAMES * 2 * 3 * 3 * sizeof *places);
-    free(places);
+    const size_t a = place_of(PAPER), b = place_of(PAPER_CHECKED);
+    const size_t first = a < b ? a : b;
+    assert_int_equal(number_of(json_array_get(tracks, a), "particles"), first);
+    assert_int_equal(number_of(json_array_get(tracks, b), "particles"), first);
+    char key[16];
+    (void)snprintf(key, sizeof key, "%zu", first);
+    json_t *set = page_unpack_json(sets, key);
+    assert_int_equal(number_of(set, "perBody"), 3);
+    assert_int_equal(json_array_size(json_object_get(set, "places")), FRAMES * 2 * 3 * 3);
+    json_decref(set);
     json_decref(root);
 }
 
-/* Room for the meshes and motion alone, then for one track more, then for nothing. */
-TEST(replay_write_of_a_small_budget_leaves_out_and_names)
+/* The replicate whose answers are worst is shown, so that its worst frame is that of all. */
+TEST(replay_shows_the_replicate_with_the_largest_error)
+{
+    char line[512], said[96], directory[96];
+    mote_report several;
+    mote_replay_scene scene;
+    (void)snprintf(directory, sizeof directory, "%s/several", base);
+    (void)snprintf(said, sizeof said, "%s/said", base);
+    (void)snprintf(line, sizeof line,
+                   "run tt --frames 1-40 --replicates 6 --out %s --method "
+                   "particle-paper:n=2,refine=no",
+                   directory);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    assert_int_equal(mote_report_gather(directory, &several), MOTE_OK);
+    assert_int_equal(mote_replay_load(&several, 0, 1, &scene), MOTE_OK);
+    const mote_summary_row *row = mote_report_cells(&several, 0);
+    double largest[6], shown = 0;
+    bool differ = false;
+    for (size_t r = 0; r < 6; ++r) {
+        largest[r] = 0;
+        for (size_t k = 0; k < row->cells[r].frames; ++k)
+            largest[r] = fmax(largest[r], fabs(row->cells[r].error[k]));
+        differ = differ || largest[r] > largest[0];
+        if (&row->cells[r] == scene.tracks[0].cell)
+            shown = largest[r];
+    }
+    assert_true(differ); /* or the first would do */
+    for (size_t r = 0; r < 6; ++r)
+        assert_true(shown >= largest[r]);
+    assert_near(shown, row->error.max, 1e-15);
+    mote_replay_free(&scene);
+    mote_report_free(&several);
+}
+
+static size_t notes_with(const json_t *data, const char *text)
+{
+    size_t i, count = 0;
+    const json_t *note;
+    MOTE_EACH(i, note, json_object_get(data, "notes"))
+    {
+        count += strstr(json_string_value(note), text) != NULL;
+    }
+    return count;
+}
+
+/* Down from all that there is: first particles, then tracks are left out, each named; then not
+   even the bodies fit. */
+TEST(replay_write_of_any_budget_names_all_that_is_left_out)
 {
     mote_replay_scene scene;
+    json_t *data = NULL;
+    size_t all = 0, least_tracks = TRACKS, least_sets = 2;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
-    mote_text all = {0}, less = {0}, none = {0};
-    assert_int_equal(mote_replay_write(&scene, 1u << 24, &all), MOTE_OK);
-    assert_null(strstr(all.data, "left out"));
-    assert_int_equal(mote_replay_write(&scene, all.size - 400, &less), MOTE_OK);
-    assert_true(less.size < all.size);
-    assert_non_null(strstr(less.data, "its particles are left out"));
-    assert_int_equal(mote_replay_write(&scene, 1000, &none), MOTE_EUNSUPPORTED);
-    assert_null(none.data);
-    free(all.data);
-    free(less.data);
+    assert_int_equal(mote_replay_write(&scene, 1u << 24, &data, &all), MOTE_OK);
+    assert_int_equal(notes_with(data, "left out"), 0);
+    json_decref(data);
+    mote_status status = MOTE_OK;
+    for (size_t budget = all; status == MOTE_OK; budget -= 40) {
+        size_t used;
+        status = mote_replay_write(&scene, budget, &data, &used);
+        if (status != MOTE_OK)
+            break;
+        assert_true(used <= budget);
+        const size_t tracks = json_array_size(json_object_get(data, "tracks"));
+        const size_t sets = json_object_size(json_object_get(data, "particles"));
+        assert_int_equal(tracks + notes_with(data, ": left out, to keep"), TRACKS);
+        assert_int_equal(sets + notes_with(data, "its particles are left out"), 2);
+        least_tracks = tracks < least_tracks ? tracks : least_tracks;
+        least_sets = sets < least_sets ? sets : least_sets;
+        json_decref(data);
+    }
+    assert_int_equal(status, MOTE_EUNSUPPORTED);
+    assert_non_null(strstr(mote_error_text(), "too large for the page"));
+    assert_int_equal(least_tracks, 0);
+    assert_int_equal(least_sets, 0);
     mote_replay_free(&scene);
 }
 
@@ -214,7 +313,7 @@ TEST(replay_particles_of_tracked_begin_with_the_pair)
 {
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
-    const mote_replay_track *track = &scene.tracks[TRACKED];
+    const mote_replay_track *track = &scene.tracks[place_of(TRACKED)];
     assert_in_range(track->particles, 1, 9);
     assert_int_equal(track->rows, FRAMES);
     for (size_t k = 0; k < 2 * track->rows; ++k) {
@@ -229,7 +328,7 @@ TEST(replay_particles_of_other_answers_are_not_shown)
 {
     mote_replay_scene scene;
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
-    mote_replay_track *track = &scene.tracks[PAPER];
+    mote_replay_track *track = &scene.tracks[place_of(PAPER)];
     assert_int_equal(track->particles, 3);
     free(track->place);
     track->place = NULL;
@@ -241,60 +340,6 @@ TEST(replay_particles_of_other_answers_are_not_shown)
     assert_null(track->place);
     assert_int_equal(json_array_size(scene.notes), notes + 1);
     mote_replay_free(&scene);
-}
-
-/* Down from all that there is: first particles, then tracks are left out, each named; what is
-   written is JSON and no larger than what was allowed, but for its notes. */
-TEST(replay_write_of_any_budget_names_all_that_is_left_out)
-{
-    mote_replay_scene scene;
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
-    mote_text all = {0};
-    assert_int_equal(mote_replay_write(&scene, 1u << 24, &all), MOTE_OK);
-    size_t tracks = TRACKS, least = TRACKS;
-    for (size_t budget = all.size; tracks > 0; budget -= 150) {
-        mote_text text = {0};
-        const mote_status status = mote_replay_write(&scene, budget, &text);
-        if (status == MOTE_EUNSUPPORTED) { /* not even the meshes and the motion */
-            assert_non_null(strstr(mote_error_text(), "too large for the page"));
-            break;
-        }
-        assert_int_equal(status, MOTE_OK);
-        json_t *root = json_loads(text.data, 0, NULL);
-        assert_non_null(root);
-        tracks = json_array_size(json_object_get(root, "tracks"));
-        size_t named = 0;
-        for (const char *p = text.data; (p = strstr(p, ": left out, to keep")) != NULL; ++p)
-            ++named;
-        assert_int_equal(tracks + named, TRACKS);
-        least = tracks < least ? tracks : least;
-        json_decref(root);
-        free(text.data);
-    }
-    assert_true(least < TRACKS);
-    free(all.data);
-    mote_replay_free(&scene);
-}
-
-/* What stands on the page before it leaves less room: first none is lost, then all. */
-TEST(replay_json_of_a_full_page_shows_no_scene)
-{
-    static const size_t filled[] = {MOTE_REPLAY_PAGE_BYTES - 2000000, MOTE_REPLAY_PAGE_BYTES};
-    for (size_t i = 0; i < 2; ++i) {
-        char *blank = malloc(filled[i] + 1);
-        assert_non_null(blank);
-        memset(blank, ' ', filled[i]);
-        blank[filled[i]] = '\0';
-        mote_text text = {0};
-        size_t shown = 0;
-        mote_text_add(&text, "%s", blank);
-        free(blank);
-        assert_int_equal(mote_replay_json(&report, &text, &shown), MOTE_OK);
-        assert_int_equal(shown, i == 0 ? 1 : 0);
-        assert_true((strstr(text.data + filled[i], "too large for the page") != NULL) ==
-                    (i == 1));
-        free(text.data);
-    }
 }
 
 /* A file that was cut or changed since it was read gives empty places, and no more rows. */
@@ -338,11 +383,11 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; ++i) {
         char label[64];
         (void)snprintf(label, sizeof label, "%s", odd[i].label);
-        mote_summary_row row = *scene.tracks[PAPER].row;
+        mote_summary_row row = *scene.tracks[place_of(PAPER)].row;
         row.label = label;
         double distances[FRAMES] = {0};
         mote_replay_track track = {.row = &row,
-                                   .cell = scene.tracks[PAPER].cell,
+                                   .cell = scene.tracks[place_of(PAPER)].cell,
                                    .distance = distances,
                                    .rows = odd[i].rows};
         mote_method_choice choice;
@@ -380,7 +425,7 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
 TEST(replay_load_of_a_frame_that_the_scenario_has_not_is_refused)
 {
     static const uint32_t numbers[] = {FRAMES + 1, 100000, UINT32_MAX};
-    uint32_t *last = &report.cells.rows[CERTIFIED].first->frame[FRAMES - 1];
+    uint32_t *last = &mote_report_cells(&report, place_of(CERTIFIED))->first->frame[FRAMES - 1];
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
         mote_replay_scene scene;
         *last = numbers[i];

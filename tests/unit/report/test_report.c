@@ -1,17 +1,23 @@
 /* The report of a run, and what it is written with. */
 #include "harness/base/escape.h"
-#include "harness/report/markdown_html.h"
 #include "harness/base/number_text.h"
+#include "harness/base/record.h"
+#include "tests/support/page_data.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include <sys/stat.h>
 
 /* A name that ends a JavaScript string, a shell word, an attribute and an element. */
 #define EVIL "'; system(\"x\")<script>"
-#define EVIL_HTML "&#39;; system(&quot;x&quot;)&lt;script&gt;"
+
+/* Likewise in claims.json: it would end the element that it is embedded in, begin a comment,
+   and hold line ends of JavaScript that JSON has not. */
+#define EVIL_CLAIM "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\""
+#define EVIL_CLAIM_JSON "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\\\""
 
 static char base[] = "/tmp/mote-test-report-XXXXXX";
 static char run_directory[96], page[1 << 23], said[1 << 14];
@@ -80,7 +86,8 @@ static int make_run(void)
     write_file(run_directory, "claims.json",
                "[{\"id\": \"<a>\", \"section\": \"5\", \"claim\": \""
                "x < y | z"
-               "\", \"measured\": \"how\", \"verdict\": \"holds\", \"value\": 0.25,\n"
+               "\", \"measured\": \"" EVIL_CLAIM_JSON
+               "\", \"verdict\": \"holds\", \"value\": 0.25,\n"
                "  \"interval\": [0.2, 0.3], \"unit\": \"L\", \"threshold\": null,\n"
                "  \"values\": [{\"name\": \"v\", \"value\": 0.25, \"interval\": null,"
                " \"unit\": \"L\", \"threshold\": null}]}]\n");
@@ -103,12 +110,55 @@ TEST(report_prints_its_paths)
     assert_string_equal(said, expected);
 }
 
-TEST(report_html_of_hostile_name_is_escaped)
+/* The data of the run's page; the caller decrefs them. */
+static json_t *read_data(void)
 {
     read_page("report.html");
-    assert_non_null(strstr(page, EVIL_HTML));
-    assert_null(strstr(page, EVIL));
+    json_t *data = page_data(page, "report-data");
+    assert_non_null(data);
+    return data;
+}
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
+static size_t count_of(const char *text)
+{
+    size_t count = 0;
+    for (const char *at = page; (at = strstr(at, text)) != NULL; at += strlen(text))
+        ++count;
+    return count;
+}
+
+/* The names arrive as they are, and end no element: scripts are those of the page alone. */
+TEST(report_html_of_hostile_texts_holds_them_as_data)
+{
+    json_t *data = read_data();
+    const json_t *row = json_array_get(json_object_get(data, "rows"), 0);
+    const json_t *claim = json_array_get(json_object_get(data, "claims"), 0);
+    assert_string_equal(text_of(row, "scenario"), EVIL);
+    assert_string_equal(text_of(claim, "measured"), EVIL_CLAIM);
+    assert_int_equal(count_of("<script type="), count_of("<script type=\"application/json\""));
+    assert_int_equal(count_of("<script"), count_of("</script>"));
+    assert_null(strstr(page, "<!--"));
     assert_null(strstr(page, ")<script>"));
+    json_decref(data);
+}
+
+TEST(report_html_of_a_hostile_folder_is_escaped)
+{
+    static const char name[] = "<script>&\"'";
+    char path[96], file[160];
+    (void)snprintf(path, sizeof path, "%s/%s", base, name);
+    assert_int_equal(mkdir(path, 0777), 0);
+    write_file(path, "claims.json", "[]\n");
+    assert_int_equal(report(path), 0);
+    (void)snprintf(file, sizeof file, "%s/report.html", path);
+    program_read(file, page, sizeof page);
+    assert_int_equal(count_of("&lt;script&gt;&amp;&quot;&#39;"), 2); /* title and h1 */
 }
 
 TEST(report_markdown_of_hostile_name_is_escaped)
@@ -119,57 +169,117 @@ TEST(report_markdown_of_hostile_name_is_escaped)
     assert_non_null(strstr(page, "x &lt; y \\| z"));
 }
 
-/* Every link of the page to a file of the run names a file that is there. */
-TEST(report_html_links_lead_somewhere)
+/* Every cell and figure that the page links is there. */
+TEST(report_html_names_files_that_are_there)
 {
-    int files = 0, anchors = 0;
-    read_page("report.html");
-    for (const char *at = page; (at = strstr(at, "href=\"")) != NULL;) {
-        char target[256], path[512], *percent;
-        at += 6;
-        size_t length = strcspn(at, "\"");
-        assert_true(length < sizeof target);
-        (void)snprintf(target, sizeof target, "%.*s", (int)length, at);
-        if (strncmp(target, "data:", 5) == 0)
-            continue;
-        if (target[0] == '#') {
-            (void)snprintf(path, sizeof path, "id=\"%s\"", target + 1);
-            assert_non_null(strstr(page, path));
-            ++anchors;
-            continue;
+    size_t i, k;
+    const json_t *row, *cell, *figure;
+    json_t *data = read_data();
+    char path[512];
+    size_t files = 0;
+    struct stat info;
+    MOTE_EACH(i, row, json_object_get(data, "rows"))
+    {
+        MOTE_EACH(k, cell, json_object_get(row, "cells"))
+        {
+            (void)snprintf(path, sizeof path, "%s/cells/%s.csv", run_directory,
+                           json_string_value(json_array_get(cell, 1)));
+            assert_int_equal(stat(path, &info), 0);
+            ++files;
         }
-        while ((percent = strchr(target, '%')) != NULL) {
-            char digits[3] = {percent[1], percent[2], '\0'};
-            *percent = (char)strtol(digits, NULL, 16);
-            memmove(percent + 1, percent + 3, strlen(percent + 3) + 1);
-        }
-        (void)snprintf(path, sizeof path, "%s/%s", run_directory, target);
-        struct stat info;
-        if (stat(path, &info) != 0)
-            fail_msg("%s is linked and not there", path);
+    }
+    MOTE_EACH(i, figure, json_object_get(data, "figures"))
+    {
+        (void)snprintf(path, sizeof path, "%s/%s", run_directory, text_of(figure, "file"));
+        assert_int_equal(stat(path, &info), 0);
         ++files;
     }
-    assert_true(anchors > 20);
     assert_true(files >= 4);
+    json_decref(data);
 }
 
 /* The median of the page is the one that the CSV of the summary gives. */
-TEST(report_html_shows_the_numbers_of_the_summary)
+TEST(report_html_has_the_numbers_of_the_summary)
 {
     const char *const summarize[] = {"summarize", run_directory, "--format", "csv", NULL};
     assert_int_equal(program(summarize), 0);
-    const char *row = strstr(said, "\"particle-paper:n=2\"");
-    assert_non_null(row);
+    const char *csv = strstr(said, "\"particle-paper:n=2\"");
+    assert_non_null(csv);
     for (int comma = 0; comma < 6; ++comma)
-        row = strchr(row, ',') + 1;
-    char shown[MOTE_NUMBER_TEXT], expected[64];
-    const char *number = mote_show_time(strtod(row, NULL), shown);
-    const char *blank = strchr(number, ' ');
-    assert_non_null(blank);
-    (void)snprintf(expected, sizeof expected, ">%.*s\u202f%s</a>", (int)(blank - number),
-                   number, strcmp(blank, " us") == 0 ? "µs" : blank + 1);
-    read_page("report.html");
-    assert_non_null(strstr(page, expected));
+        csv = strchr(csv, ',') + 1;
+    size_t i, found = 0;
+    const json_t *row;
+    json_t *data = read_data();
+    MOTE_EACH(i, row, json_object_get(data, "rows"))
+    {
+        if (strcmp(text_of(row, "label"), "particle-paper:n=2") != 0)
+            continue;
+        const double median =
+            json_number_value(json_object_get(json_object_get(row, "total_ns"), "median"));
+        assert_true(fabs(median / strtod(csv, NULL) - 1) < 1e-6);
+        ++found;
+    }
+    assert_int_equal(found, 1);
+    json_decref(data);
+}
+
+/* The drawing in the page is the file's. */
+TEST(report_html_has_the_drawings_of_the_figures)
+{
+    json_t *data = read_data();
+    const json_t *figure = json_array_get(json_object_get(data, "figures"), 0);
+    char *drawing = page_unpack(figure, "drawing");
+    read_page(text_of(figure, "file"));
+    assert_true(strlen(drawing) > 1000);
+    assert_string_equal(drawing, page);
+    free(drawing);
+    json_decref(data);
+}
+
+/* Sorted by time within a table, whatever the summary's order. */
+TEST(report_rows_are_sorted_by_time)
+{
+    size_t i;
+    const json_t *block, *columns;
+    json_t *data = read_data();
+    columns = json_object_get(data, "columns");
+    assert_string_equal(text_of(json_array_get(columns, 0), "group"), "total");
+    MOTE_EACH(i, block, json_object_get(data, "blocks"))
+    {
+        double before = 0;
+        for (json_int_t k = json_integer_value(json_object_get(block, "first"));
+             k < json_integer_value(json_object_get(block, "end")); ++k) {
+            const json_t *row = json_array_get(json_object_get(data, "rows"), (size_t)k);
+            const double time =
+                json_number_value(json_object_get(json_object_get(row, "total_ns"), "median"));
+            assert_true(time >= before);
+            before = time;
+        }
+    }
+    assert_true(i > 0);
+    json_decref(data);
+}
+
+/* What other commands draw is one text, not a list. */
+TEST(report_names_other_commands_in_one_line)
+{
+    json_t *data = read_data();
+    const json_t *missing = json_object_get(data, "missing");
+    size_t i, named = 0;
+    const json_t *text;
+    MOTE_EACH(i, text, missing)
+    {
+        const char *line = json_string_value(text);
+        if (strstr(line, "figures that other commands measure: ") &&
+            strstr(line, "`make sweep`"))
+            ++named;
+        assert_null(strstr(line, "is not drawn"));
+    }
+    assert_int_equal(named, 1);
+    json_decref(data);
+    read_page("report.md");
+    assert_true(strstr(page, "\nNot in this report: ") > strstr(page, "\n## Known defects"));
+    assert_int_equal(count_of("make sweep"), 1);
 }
 
 TEST(report_html_loads_nothing)
@@ -178,8 +288,7 @@ TEST(report_html_loads_nothing)
     assert_null(strstr(page, "src=\"http"));
     assert_null(strstr(page, "@import"));
     assert_non_null(strstr(page, "default-src 'none'"));
-    assert_non_null(strstr(page, "src=\"data:image/svg+xml;charset=utf-8,%3C?xml"));
-    assert_non_null(strstr(page, "<h3>1. FCL: the sum of two rectangle swept spheres"));
+    assert_non_null(strstr(page, "<noscript>"));
 }
 
 TEST(report_of_what_is_missing_names_it)
@@ -214,6 +323,13 @@ static void report_with(const char *folder, const char *name, const char *conten
     program_read(path, page, sizeof page);
 }
 
+TEST(report_markdown_has_the_known_defects_one_level_lower)
+{
+    read_page("report.md");
+    assert_non_null(strstr(page, "\n### 1. FCL: the sum of two rectangle swept spheres"));
+    assert_null(strstr(page, "\n# Known"));
+}
+
 TEST(report_markdown_of_a_hostile_manifest_is_escaped)
 {
     report_with(
@@ -237,8 +353,6 @@ TEST(report_of_an_interval_without_its_ends_shows_none)
         assert_non_null(strstr(page, "Measured: [7]"));
         assert_true((strstr(page, "(1 to 9)") != NULL) == (i == 4));
         assert_true((strstr(page, "claims.json) (") != NULL) == (i == 4));
-        report_with("interval", "claims.json", claims, "report.html");
-        assert_true((strstr(page, "7 <small>") != NULL) == (i == 4));
     }
 }
 
@@ -270,7 +384,7 @@ TEST(report_of_a_run_with_a_broken_cell_shows_the_others)
     (void)unlink(path);
     assert_int_equal(status, 0);
     assert_non_null(strstr(page, "zz.json:"));
-    assert_non_null(strstr(page, "particle-paper:n=2</a>"));
+    assert_non_null(strstr(page, "\"label\":\"particle-paper:n=2\""));
 }
 
 TEST(report_of_nothing_fails_with_4)
@@ -303,14 +417,6 @@ TEST(escape_html_keeps_lines_and_drops_controls)
     free(text.data);
 }
 
-TEST(escape_drawing_stays_within_its_attribute)
-{
-    mote_text text = {0};
-    mote_escape_drawing(&text, "<a b=\"#1\">\n5 % &lt; \xc2\xb7 'x'</a>");
-    assert_string_equal(text.data, "%3Ca b=%22%231%22%3E 5 %25 &amp;lt; \xc2\xb7 'x'%3C/a%3E");
-    free(text.data);
-}
-
 TEST(escape_script_cannot_end_the_element)
 {
     mote_text text = {0};
@@ -336,39 +442,6 @@ TEST(base64_of_the_standards_vectors_is_theirs)
     mote_base64(&text, zeros, sizeof zeros);
     assert_int_equal(text.size, 4000);
     assert_int_equal(strspn(text.data, "A"), 4000);
-    free(text.data);
-}
-
-TEST(markdown_html_folds_code_and_escapes)
-{
-    mote_text text = {0};
-    mote_markdown_html(&text,
-                       "# title\n\n## 1. `a<b>` & c\n\ntwo\nlines\n\n    x < y;\n\n    z\n"
-                       "\nafter\n");
-    assert_string_equal(text.data,
-                        "<h3>1. <code>a&lt;b&gt;</code> &amp; c</h3>\n<p>two\nlines</p>\n"
-                        "<details><summary>Reproduction</summary><pre><code>x &lt; y;\n\nz\n"
-                        "</code></pre></details>\n<p>after</p>\n");
-    free(text.data);
-}
-
-TEST(markdown_html_of_a_text_without_ends_closes_what_is_open)
-{
-    static const char *const pairs[][2] = {
-        {"###### deep `code", "<h6>deep <code>code</code></h6>\n"},
-        {"    code", "<details><summary>Reproduction</summary><pre><code>code\n"
-                     "</code></pre></details>\n"},
-        {"a\n\n\nb", "<p>a</p>\n<p>b</p>\n"},
-    };
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
-        mote_text text = {0};
-        mote_markdown_html(&text, pairs[i][0]);
-        assert_string_equal(text.data, pairs[i][1]);
-        free(text.data);
-    }
-    mote_text text = {0};
-    mote_markdown_nested(&text, "# title\n## one\nlast");
-    assert_string_equal(text.data, "### one\nlast\n");
     free(text.data);
 }
 

@@ -1,0 +1,165 @@
+#include "harness/report/report_data.h"
+
+#include "harness/base/record.h"
+#include "harness/report/packed.h"
+#include "harness/report/report_facts.h"
+#include "harness/report/report_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FIGURE_LIMIT ((size_t)64 << 20)
+
+/* jansson's setters take NULL as a failure, which mote_json_text tells of at the end. */
+static void set(json_t *object, const char *key, json_t *value)
+{
+    (void)json_object_set_new(object, key, value);
+}
+
+static void append(json_t *array, json_t *value)
+{
+    (void)json_array_append_new(array, value);
+}
+
+static json_t *index_or_null(size_t index)
+{
+    return index == SIZE_MAX ? json_null() : json_integer((json_int_t)index);
+}
+
+static json_t *column_data(const mote_report_column *column)
+{
+    json_t *path = json_array();
+    if (column->object)
+        append(path, json_string(column->object));
+    append(path, json_string(column->key));
+    return json_pack("{s:s, s:s, s:o, s:s, s:b, s:b, s:s}", "group", column->group, "head",
+                     column->head, "path", path, "kind", column->kind, "interval",
+                     column->interval, "extra", column->extra, "meaning", column->meaning);
+}
+
+static json_t *notes_data(const json_t *row)
+{
+    json_t *notes = json_array();
+    char note[MOTE_REPORT_NOTE];
+    for (size_t i = 0; i < MOTE_REPORT_NOTES; ++i) {
+        if (mote_report_note(row, i, note))
+            append(notes, json_string(note));
+    }
+    return notes;
+}
+
+static json_t *cells_data(const mote_summary_row *row)
+{
+    json_t *cells = json_array();
+    for (size_t r = 0; row && r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        append(cells, json_pack("[i, s, s]", (int)cell->replicate, cell->id,
+                                mote_cell_status_names[cell->status]));
+    }
+    return cells;
+}
+
+/* A row of the summary without what no table of the page shows. */
+static json_t *row_data(const mote_report *report, size_t first, size_t end, size_t i)
+{
+    static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint"};
+    const json_t *row = mote_report_row(report, i);
+    json_t *data = json_object();
+    (void)json_object_update(data, (json_t *)(uintptr_t)row);
+    for (size_t k = 0; k < sizeof unused / sizeof unused[0]; ++k)
+        (void)json_object_del(data, unused[k]);
+    set(data, "notes", notes_data(row));
+    set(data, "stands", json_boolean(mote_report_stands_for_method(report, first, end, i)));
+    set(data, "cells", cells_data(mote_report_cells(report, i)));
+    return data;
+}
+
+static void set_rows(const mote_report *report, json_t *data)
+{
+    json_t *columns = json_array(), *blocks = json_array(), *rows = json_array();
+    for (size_t k = 0; k < mote_report_column_count; ++k)
+        append(columns, column_data(&mote_report_columns[k]));
+    for (size_t first = 0; first < mote_report_row_count(report);) {
+        const size_t end = mote_report_block_end(report, first);
+        const mote_report_glance glance = mote_report_block_glance(report, first, end);
+        append(blocks, json_pack("{s:I, s:I, s:o, s:o}", "first", (json_int_t)first, "end",
+                                 (json_int_t)end, "right", index_or_null(glance.right),
+                                 "fastest", index_or_null(glance.fastest)));
+        for (size_t i = first; i < end; ++i)
+            append(rows, row_data(report, first, end, i));
+        first = end;
+    }
+    set(data, "columns", columns);
+    set(data, "blocks", blocks);
+    set(data, "rows", rows);
+    const double floor = mote_report_number(report->summary, NULL, "noise_floor");
+    if (floor == floor)
+        set(data, "noise_floor", json_real(floor));
+    set(data, "machines_differ",
+        json_boolean(report->has_cells && mote_summary_machines_differ(&report->cells)));
+}
+
+/* The drawing of a figure, packed; an animation is linked and not shown. */
+static mote_status set_drawing(const mote_report *report, const mote_report_figure *figure,
+                               json_t *data)
+{
+    char *path = mote_format("%s/%s", report->directory, figure->file);
+    char *svg = NULL;
+    size_t size = 0;
+    mote_text packed = {0};
+    mote_status status = path ? mote_file_read(path, FIGURE_LIMIT, &svg, &size)
+                              : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    if (status == MOTE_OK) {
+        mote_packed_add(&packed, svg, size);
+        if (packed.failed)
+            status = mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    }
+    if (status == MOTE_OK)
+        set(data, "drawing", json_string(packed.data));
+    free(packed.data);
+    free(svg);
+    free(path);
+    return status;
+}
+
+static mote_status set_figures(const mote_report *report, json_t *data)
+{
+    json_t *figures = json_array();
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < report->figure_count && status == MOTE_OK; ++i) {
+        const mote_report_figure *figure = &report->figures[i];
+        json_t *entry =
+            json_pack("{s:s, s:s, s:s, s:b}", "file", figure->file, "title", figure->title,
+                      "caption", figure->caption, "animation", figure->animation);
+        if (!figure->animation)
+            status = set_drawing(report, figure, entry);
+        append(figures, entry);
+    }
+    set(data, "figures", figures);
+    return status;
+}
+
+mote_status mote_report_data(const mote_report *report, json_t **data)
+{
+    json_t *made = json_object();
+    set(made, "scenarios", mote_report_scenarios(report));
+    set(made, "commands", mote_report_commands(report));
+    set(made, "machine", mote_report_machine(report));
+    (void)json_object_set(made, "damaged", report->damaged);
+    (void)json_object_set(made, "missing", report->missing);
+    set_rows(report, made);
+    if (json_is_array(report->claims))
+        (void)json_object_set(made, "claims", report->claims);
+    if (json_is_array(report->requirements))
+        (void)json_object_set(made, "requirements", report->requirements);
+    if (report->claims_folder)
+        set(made, "claims_folder", json_string(report->claims_folder));
+    if (report->defects)
+        set(made, "defects", json_string(report->defects));
+    const mote_status status = set_figures(report, made);
+    if (status == MOTE_OK)
+        *data = made;
+    else
+        json_decref(made);
+    return status;
+}

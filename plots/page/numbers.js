@@ -1,0 +1,82 @@
+"use strict";
+// Numbers as a person reads them: three digits and a unit, as harness/base/number_text.c writes them
+// for a terminal; and the elements of the page.
+
+const NONE = "–";
+const NARROW = "\u202f"; // a narrow blank, which does not break
+
+// Digits after the point for three in all.
+function fixed(value) {
+    const digits = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+    return value.toFixed(digits);
+}
+
+function timeText(ns) {
+    const units = [[1e9, "s"], [1e6, "ms"], [1e3, "µs"]];
+    const [scale, unit] = units.find(([least]) => ns >= least * 0.9995) ?? [1, "ns"];
+    return `${ns === 0 ? "0" : fixed(ns / scale)}${NARROW}${unit}`;
+}
+
+function bytesText(bytes) {
+    if (bytes < 10e3) return `${bytes.toFixed(0)}${NARROW}B`;
+    const [scale, unit] = bytes < 10e6 ? [1e3, "kB"] : [1e6, "MB"];
+    return `${(bytes / scale).toFixed(1)}${NARROW}${unit}`;
+}
+
+// "1.2e-3"; 0 as it is.
+const errorText = (error) => (error === 0 ? "0" : error.toExponential(1));
+const countText = (value) => String(Number(value.toPrecision(4)));
+
+// A share of nearly all frames is not all of them.
+function percentText(share) {
+    const percent = 100 * share;
+    const text = percent < 100 && percent >= 99.95 ? ">99.9" : percent.toFixed(1);
+    return `${share === 1 ? "100" : text}${NARROW}%`;
+}
+
+const shows = {
+    time: timeText,
+    ratio: fixed,
+    error: errorText,
+    percent: percentText,
+    count: countText,
+    bytes: bytesText,
+};
+
+const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
+const show = (kind, value) => (isNumber(value) ? shows[kind](value) : NONE);
+// What is not what it should be in a file from elsewhere is shown as nothing.
+const listOf = (value) => (Array.isArray(value) ? value : []);
+const textOf = (value) => (typeof value === "string" ? value : "");
+const wholeText = (value) => (isNumber(value) ? value.toLocaleString("en") : NONE);
+
+// "11.5 – 11.6 µs": the unit once where both ends have the same.
+function intervalText(kind, low, high) {
+    const [from, to] = [show(kind, low), show(kind, high)];
+    const [unit, other] = [from, to].map((text) => text.split(NARROW)[1]);
+    return `${unit && unit === other ? from.split(NARROW)[0] : from} – ${to}`;
+}
+
+// row[path[0]][path[1]]...; undefined where there is none.
+const valueAt = (row, path) => path.reduce((value, key) => value?.[key], row);
+
+// An element with attributes, texts and elements. Texts are never read as HTML.
+function el(name, attributes = {}, ...children) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) {
+        if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+        else if (value === true) element.setAttribute(key, "");
+        else if (value !== false && value !== undefined) element.setAttribute(key, value);
+    }
+    const wanted = children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false && child !== "");
+    element.append(...wanted);
+    return element;
+}
+
+// A relative path as an address: a colon too, so that no path is read as a scheme.
+const pathAddress = (path) => path.split("/").map(encodeURIComponent).join("/");
+
+// Text in which `code` is marked, as elements.
+function inline(text) {
+    return text.split("`").map((part, k) => (k % 2 ? el("code", {}, part) : part));
+}

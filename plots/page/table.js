@@ -1,0 +1,219 @@
+"use strict";
+// The tables of results: a block of rows that can be compared is one table, which sorts by any column.
+// What is chosen above them holds for all.
+
+const COLOURS = 10; // classes c0 .. c9 of report.css
+
+// Is the row's every answer right? Methods that tell no distance are judged by their contacts.
+const noWrongContact = (row) => row.missed === 0 && row.false_contacts === 0;
+const isExact = (row) =>
+    noWrongContact(row) && (isNumber(row.error?.exact_rate) ? row.error.exact_rate === 1 : true);
+
+const EXACTNESS = {
+    any: ["any", () => true],
+    exact: ["exact in every frame", isExact],
+    contacts: ["no wrong contact", noWrongContact],
+    inexact: ["not exact", (row) => !isExact(row)],
+};
+
+class Block {
+    constructor(data, block, choice, colourOf) {
+        this.data = data;
+        this.choice = choice;
+        this.rows = data.rows.slice(block.first, block.end);
+        this.sorted = { column: 0, down: false };
+        this.body = el("tbody");
+        this.lines = new Map();
+        this.heads = [];
+        this.front = new Front(this.rows, colourOf, (row, entered) =>
+            this.lines.get(row)?.classList.toggle("pointed", entered));
+        this.count = el("p", { class: "count" });
+        this.wide = el("div", { class: "wide results", tabindex: 0, role: "region",
+            "aria-label": `Results, ${this.rows[0].scenario}` },
+        el("table", {}, this.head(), this.body));
+        this.element = el("div", { class: "block" }, this.caption(), this.glance(block), this.front.element,
+            this.count, this.wide);
+        this.update();
+    }
+
+    columns() {
+        return this.data.columns.filter((column) => this.choice.extra || !column.extra);
+    }
+
+    caption() {
+        const row = this.rows[0];
+        const most = (key) => Math.max(...this.rows.map((other) => other[key] ?? 0));
+        const [a, b] = listOf(row.triangles);
+        const parts = [`${wholeText(a)} and ${wholeText(b)} triangles`, `${wholeText(most("frames"))} frames`,
+            `${most("replicates")} replicate${most("replicates") === 1 ? "" : "s"}`, `caches ${textOf(row.cache)}`];
+        if (this.data.machines_differ) parts.push(`on ${row.machine}`);
+        return el("h3", {}, textOf(row.scenario), " ", el("span", { class: "aside" }, parts.join(", ")));
+    }
+
+    // What to know first.
+    glance(block) {
+        const parts = [];
+        const right = this.data.rows[block.right];
+        const fastest = this.data.rows[block.fastest];
+        if (right) {
+            parts.push("Fastest without a wrong answer in any frame: ", el("code", {}, right.label),
+                `, ${show("time", right.total_ns.median)} a query`);
+            const best = right.ratio_best;
+            if (best?.to && best.to !== right.label)
+                parts.push("; the best FCL, ", el("code", {}, best.to),
+                    `, takes ${show("ratio", best.value)} times as long`);
+            parts.push(". ");
+        }
+        if (fastest) {
+            parts.push("Fastest of all: ", el("code", {}, fastest.label), `, ${show("time", fastest.total_ns.median)}`);
+            if (isNumber(fastest.error?.p99))
+                parts.push(`, with an error of ${show("error", fastest.error.p99)}${NARROW}L at the 99th percentile`);
+            parts.push(`; ${show("count", fastest.missed)} contacts missed, `,
+                `${show("count", fastest.false_contacts)} false.`);
+        }
+        return el("p", {}, parts);
+    }
+
+    // Two lines: what belongs together, and the columns, each a button that sorts.
+    head() {
+        this.headElement ??= el("thead");
+        const columns = this.columns();
+        const groups = [];
+        for (const column of columns) {
+            if (groups.at(-1)?.name === column.group) ++groups.at(-1).width;
+            else groups.push({ name: column.group, width: 1 });
+        }
+        this.heads = columns.map((column) => this.headCell(column));
+        this.headElement.replaceChildren(
+            el("tr", {}, this.methodHead(), groups.map((group) =>
+                el("th", { colspan: group.width, scope: "colgroup" }, group.name))),
+            el("tr", {}, this.heads));
+        return this.headElement;
+    }
+
+    methodHead() {
+        const column = { path: ["label"], head: "method", meaning: "Method and the parameters that are not default" };
+        this.method = this.headCell(column);
+        this.method.setAttribute("rowspan", 2);
+        return this.method;
+    }
+
+    headCell(column) {
+        const index = this.data.columns.indexOf(column); // -1: the method
+        const sorted = index === this.sorted.column;
+        return el("th", { scope: "col", title: column.meaning,
+            "aria-sort": sorted ? (this.sorted.down ? "descending" : "ascending") : undefined },
+        el("button", { type: "button", onclick: () => this.sortBy(index) }, column.head));
+    }
+
+    sortBy(index) {
+        this.sorted = { column: index, down: index === this.sorted.column && !this.sorted.down };
+        const focus = this.heads.concat(this.method).findIndex((head) => head.contains(document.activeElement));
+        this.head();
+        this.update();
+        this.heads.concat(this.method)[focus]?.querySelector("button").focus();
+    }
+
+    // Rows without a value come last, whichever way.
+    order(rows) {
+        const { column, down } = this.sorted;
+        const path = column < 0 ? ["label"] : this.data.columns[column].path;
+        const key = (row) => (row.status === "ok" || column < 0 ? valueAt(row, path) : undefined);
+        const compare = (a, b) => (typeof a === "string" ? a.localeCompare(b, "en", { numeric: true }) : a - b);
+        const known = rows.filter((row) => (key(row) ?? null) !== null);
+        const unknown = rows.filter((row) => (key(row) ?? null) === null);
+        known.sort((a, b) => (down ? -1 : 1) * compare(key(a), key(b)));
+        return [...known, ...unknown];
+    }
+
+    // The rows that the filters leave; of these the table may show one a method, the front all.
+    filtered() {
+        const { method, exactness } = this.choice;
+        return this.rows.filter((row) => (!method || row.method === method) &&
+            (exactness === "any" || (row.status === "ok" && EXACTNESS[exactness][1](row))));
+    }
+
+    update() {
+        const filtered = this.filtered();
+        const visible = filtered.filter((row) => this.choice.all || row.stands);
+        this.lines.clear();
+        this.body.replaceChildren(...this.order(visible).map((row) => this.line(row)));
+        if (visible.length === 0)
+            this.body.append(el("tr", {}, el("td", { class: "ended", colspan: this.columns().length + 1 },
+                "No row is so.")));
+        this.count.textContent = `${visible.length} of ${this.rows.length} configurations`;
+        this.front.filter(filtered);
+    }
+
+    // With other columns.
+    redraw() {
+        this.head();
+        this.wide.classList.toggle("all", this.choice.extra);
+        this.update();
+    }
+
+    line(row) {
+        const target = this.data.rows.indexOf(row) + 1;
+        const address = row.cells.length > 0 ? `#cells-${target}` : "summary.json";
+        const notes = row.notes.map((note) => el("small", {}, note));
+        const columns = this.columns();
+        const cells = row.status === "ok"
+            ? columns.map((column) => this.cell(row, column, address))
+            : [el("td", { class: "ended", colspan: columns.length }, `${textOf(row.status)}: ${textOf(row.reason)}`)];
+        const line = el("tr", {}, el("th", { scope: "row" }, el("a", { href: address }, textOf(row.label)), notes), cells);
+        this.lines.set(row, line);
+        return line;
+    }
+
+    cell(row, column, address) {
+        const value = valueAt(row, column.path);
+        if (!isNumber(value)) return el("td", {}, NONE);
+        const wrong = value > 0 && column.group === "contacts";
+        const around = row[column.path[0]];
+        const interval = column.interval && value !== 0 && isNumber(around.ci_low) && isNumber(around.ci_high)
+            ? el("small", {}, intervalText(column.kind, around.ci_low, around.ci_high)) : null;
+        return el("td", { class: wrong ? "wrong" : undefined },
+            el("a", { tabindex: -1, href: address }, show(column.kind, value)), interval);
+    }
+}
+
+// What is shown of every table.
+function choices(methods, choice, changed) {
+    const select = (label, key, options) => el("label", {}, `${label} `,
+        el("select", { id: `choice-${key}`, onchange: (event) => {
+            choice[key] = event.target.value;
+            changed();
+        } }, options.map(([value, text]) => el("option", { value }, text))));
+    return el("div", { class: "bar choices", role: "group", "aria-label": "What the tables show" },
+        el("label", {}, "Rows ", el("select", { id: "choice-rows", onchange: (event) => {
+            choice.all = event.target.value === "all";
+            changed();
+        } }, el("option", { value: "one" }, "one a method"), el("option", { value: "all" }, "all"))),
+        select("Method", "method", [["", "all"], ...methods.map((method) => [method, method])]),
+        select("Exactness", "exactness", Object.entries(EXACTNESS).map(([key, [text]]) => [key, text])),
+        el("label", {}, el("input", { type: "checkbox", id: "choice-extra", onchange: (event) => {
+            choice.extra = event.target.checked;
+            changed();
+        } }), " All columns"));
+}
+
+// The section of results.
+function resultsSection(data) {
+    const choice = { all: false, method: "", exactness: "any", extra: false };
+    const methods = [...new Set(data.rows.map((row) => textOf(row.method)))].sort();
+    const colourOf = (row) => `c${methods.indexOf(textOf(row.method)) % COLOURS}`;
+    const blocks = data.blocks.map((block) => new Block(data, block, choice, colourOf));
+    const floor = isNumber(data.noise_floor)
+        ? [" Measured twice, a row differs from itself by up to ", el("a", { href: "summary.json" },
+            `${(100 * data.noise_floor).toFixed(1)}${NARROW}%`), " (the noise floor of this run)."] : [];
+    const legend = el("p", { class: "legend colours" }, methods.map((method, k) =>
+        el("span", {}, el("span", { class: `swatch c${k % COLOURS}` }), method)));
+    return section("results", "Results",
+        el("p", {}, "A row is one configuration, the fastest first. Times are medians over frames and replicates, with " +
+            "95 % intervals below; errors are absolute, over the larger body's size L. Every number links to the " +
+            "cells that it was computed from.", floor),
+        el("p", {}, "“One a method” is the method's fastest configuration without a wrong contact and with a " +
+            "p99 error of at most 0.01 L, or else its most accurate one."),
+        choices(methods, choice, () => blocks.forEach((block) => block.redraw())), legend,
+        blocks.map((block) => block.element));
+}
