@@ -1,6 +1,7 @@
-/* MOTE_CLONES marks a hot function that is compiled for several instruction sets, the widest
-   being picked when the program is loaded. Sums in such functions go into a fixed number of
-   lanes that are added in a fixed order, so every version gives the same bits. */
+/* MOTE_CLONES marks a hot function that is compiled for several instruction sets; the widest
+   that the processor has is chosen when the program is loaded. Sums in such functions go into a
+   fixed number of lanes that are added in a fixed order, so every version gives the same bits.
+ */
 #ifndef MOTE_CORE_CLONES_H
 #define MOTE_CORE_CLONES_H
 
@@ -16,9 +17,9 @@
 #define MOTE_CLONES
 #endif
 
-/* Before helpers of such functions: a helper that is not inlined would run with the narrowest
-   instruction set. Where branches are counted there is one instruction set, and each branch is
-   to count once. */
+/* Marks helpers of such functions: one that is not inlined would run with the narrowest
+   instruction set. A build that counts branches has one instruction set and inlines nothing, so
+   that each branch counts once. */
 #if defined(__GNUC__) && !defined(MOTE_COVERAGE)
 #define MOTE_INLINE static inline __attribute__((always_inline))
 #else
@@ -28,8 +29,8 @@
 /* Lanes of every vectorised sum over doubles. */
 #define MOTE_LANES 8
 
-/* Before a loop over lanes: keeps gcc from unrolling it into scalar code before its vectoriser
-   looks at it. clang needs no such word. */
+/* Stands before a loop over lanes: keeps gcc from unrolling it into scalar code before its
+   vectoriser sees it. clang does not need it. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define MOTE_LANE_LOOP _Pragma("GCC unroll 1")
 #else

@@ -16,7 +16,7 @@ struct mote_frame_queue {
 mote_status mote_frame_queue_create(size_t places, mote_frame_queue **queue)
 {
     if (places < 1)
-        return mote_fail(MOTE_EINVAL, "a queue of 0 frames; give at least 1");
+        return mote_fail(MOTE_EINVAL, "a queue needs at least 1 frame, not 0");
     mote_frame_queue *made = calloc(1, sizeof *made);
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for a queue of frames");
@@ -47,8 +47,8 @@ bool mote_frame_queue_reserve(mote_frame_queue *queue, size_t *place)
     return free_place;
 }
 
-/* Each thread waits for the other one only, so that one signal wakes the right one. */
-static void tell(mote_frame_queue *queue)
+/* Each thread waits only for the other, so that one signal wakes the right one. */
+static void signal_and_unlock(mote_frame_queue *queue)
 {
     (void)pthread_cond_signal(&queue->changed);
     (void)pthread_mutex_unlock(&queue->lock);
@@ -58,14 +58,14 @@ void mote_frame_queue_commit(mote_frame_queue *queue)
 {
     (void)pthread_mutex_lock(&queue->lock);
     ++queue->written;
-    tell(queue);
+    signal_and_unlock(queue);
 }
 
 void mote_frame_queue_close(mote_frame_queue *queue)
 {
     (void)pthread_mutex_lock(&queue->lock);
     queue->closed = true;
-    tell(queue);
+    signal_and_unlock(queue);
 }
 
 bool mote_frame_queue_take(mote_frame_queue *queue, size_t *place)
@@ -84,12 +84,12 @@ void mote_frame_queue_release(mote_frame_queue *queue)
 {
     (void)pthread_mutex_lock(&queue->lock);
     ++queue->released;
-    tell(queue);
+    signal_and_unlock(queue);
 }
 
 void mote_frame_queue_cancel(mote_frame_queue *queue)
 {
     (void)pthread_mutex_lock(&queue->lock);
     queue->cancelled = true;
-    tell(queue);
+    signal_and_unlock(queue);
 }

@@ -84,30 +84,32 @@ static mote_mat3 right_handed(const double columns[9])
 
 mote_status mote_eigen_symmetric(const mote_mat3 *matrix, mote_vec3 *values, mote_mat3 *vectors)
 {
-    double entries[9], found[3] = {0}, columns[9] = {0};
+    double entries[9], eigenvalues[3] = {0}, columns[9] = {0};
     for (int i = 0; i < 9; ++i) {
         entries[i] = matrix->m[i / 3][i % 3];
         if (!isfinite(entries[i]))
-            return mote_fail(MOTE_ENUMERIC, "the matrix is not finite; its eigenvectors do not exist");
+            return mote_fail(MOTE_ENUMERIC,
+                             "the matrix is not finite; its eigenvectors do not exist");
     }
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     gsl_matrix_view view = gsl_matrix_view_array(entries, 3, 3);
-    gsl_vector_view found_view = gsl_vector_view_array(found, 3);
+    gsl_vector_view eigenvalue_view = gsl_vector_view_array(eigenvalues, 3);
     gsl_matrix_view columns_view = gsl_matrix_view_array(columns, 3, 3);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(3);
     int failed = 0;
     if (work) {
-        failed = gsl_eigen_symmv(&view.matrix, &found_view.vector, &columns_view.matrix, work);
-        (void)gsl_eigen_symmv_sort(&found_view.vector, &columns_view.matrix,
+        failed =
+            gsl_eigen_symmv(&view.matrix, &eigenvalue_view.vector, &columns_view.matrix, work);
+        (void)gsl_eigen_symmv_sort(&eigenvalue_view.vector, &columns_view.matrix,
                                    GSL_EIGEN_SORT_VAL_ASC);
     }
     gsl_set_error_handler(handler);
     if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for main axes");
+        return mote_fail(MOTE_ENOMEM, "no memory for eigenvectors");
     gsl_eigen_symmv_free(work);
     if (failed)
-        return mote_fail(MOTE_ENUMERIC, "the main axes of a matrix were not found");
-    *values = mote_vec3_make(found[0], found[1], found[2]);
+        return mote_fail(MOTE_ENUMERIC, "the eigenvectors of a matrix did not converge");
+    *values = mote_vec3_make(eigenvalues[0], eigenvalues[1], eigenvalues[2]);
     *vectors = right_handed(columns);
     return MOTE_OK;
 }

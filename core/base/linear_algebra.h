@@ -1,5 +1,5 @@
-/* Dense linear algebra of symmetric matrices: the one place that uses GSL's. GSL's error
-   handler is off meanwhile, for all threads. */
+/* Dense linear algebra of symmetric matrices; the only place that uses GSL's. GSL's error
+   handler is switched off during a call, for all threads. */
 #ifndef MOTE_CORE_LINEAR_ALGEBRA_H
 #define MOTE_CORE_LINEAR_ALGEBRA_H
 
@@ -28,7 +28,7 @@ void mote_cholesky_destroy(mote_cholesky *cholesky); /* NULL is allowed */
 void mote_cholesky_solve_coordinate(const mote_cholesky *cholesky, const double *values,
                                     double *x);
 
-/* Eigenvalues of a symmetric matrix, rising, and its unit eigenvectors, the columns of a
+/* Eigenvalues of a symmetric matrix, ascending, and its unit eigenvectors, the columns of a
    rotation: matrix = vectors diag(values) vectors^T. The lower triangle is read. MOTE_ENUMERIC
    when an entry is not finite or the iteration does not converge. */
 mote_status mote_eigen_symmetric(const mote_mat3 *matrix, mote_vec3 *values,

@@ -15,7 +15,7 @@ extern "C" {
 
 typedef enum mote_parameter_kind {
     MOTE_PARAMETER_INTEGER, /* up to 2^53 */
-    MOTE_PARAMETER_REAL,    /* "inf", so written, is accepted where the maximum is infinite */
+    MOTE_PARAMETER_REAL,    /* the text "inf" is accepted where the maximum is infinite */
     MOTE_PARAMETER_CHOICE   /* one of choices; its value is the index */
 } mote_parameter_kind;
 
@@ -38,14 +38,14 @@ typedef struct mote_parameter {
 /* Fills values[count] with the defaults. */
 void mote_parameters_default(const mote_parameter *table, size_t count, double *values);
 
-/* Reads "key=value,key=value" over values (already filled). "" is allowed. MOTE_EINVAL with a
-   text that names the key or value and lists what would be right: unknown key, a key twice, not
-   a number, out of range, not a choice. values are unchanged on failure. */
+/* Reads "key=value,key=value" into values, which are already filled. "" is allowed. MOTE_EINVAL
+   with a text that names the key or value and lists what would be right: unknown key, a key
+   twice, not a number, out of range, not a choice. values are unchanged on failure. */
 mote_status mote_parameters_parse(const mote_parameter *table, size_t count, const char *text,
                                   double *values);
 
-/* Writes one value as the text that would be parsed to it: a whole number below 1e15 in full,
-   another with the fewest digits that read back the same. buffer holds size bytes. Returns
+/* Writes one value as text that is parsed back to the same value: a whole number below 1e15 in
+   full, any other number with as few digits as possible. buffer holds size bytes. Returns
    buffer. */
 const char *mote_parameter_text(const mote_parameter *parameter, double value, char *buffer,
                                 size_t size);

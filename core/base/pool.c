@@ -77,7 +77,8 @@ static mote_status start_threads(mote_pool *pool)
 mote_status mote_pool_create(uint32_t threads, mote_pool **pool)
 {
     if (threads < 1 || threads > MOTE_POOL_MAX)
-        return mote_fail(MOTE_EINVAL, "%u threads; give 1 to %u", threads, MOTE_POOL_MAX);
+        return mote_fail(MOTE_EINVAL, "%u threads is out of range; give 1 to %u", threads,
+                         MOTE_POOL_MAX);
     mote_pool *made = calloc(1, sizeof *made);
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for a pool of threads");

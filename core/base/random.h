@@ -1,5 +1,5 @@
-/* A small random sequence from a seed (splitmix64: Steele, Lea, Flood 2014): the same on every
-   machine, for start positions and drawn scenes. */
+/* A random number generator with a small state (splitmix64: Steele, Lea, Flood 2014). A seed
+   gives the same sequence on every machine. For start positions and random scenes. */
 #ifndef MOTE_CORE_RANDOM_H
 #define MOTE_CORE_RANDOM_H
 

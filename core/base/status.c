@@ -28,7 +28,7 @@ const char *mote_status_text(mote_status status)
 #undef mote_fail
 mote_status mote_fail(mote_status status, const char *format, ...)
 {
-    /* Formatted aside first, so that the old text may be an argument of the new one. */
+    /* Formatted into a buffer first, since the old text may be an argument of the new one. */
     char text[sizeof error_text];
     va_list arguments;
     va_start(arguments, format);

@@ -11,7 +11,7 @@ typedef enum mote_status {
     MOTE_EINVAL, /* an input is wrong; the text says which, where, and what would be right */
     MOTE_ENOMEM, /* memory ran out */
     MOTE_EIO,    /* a file could not be read or written */
-    MOTE_EUNSUPPORTED, /* the method cannot answer this; never a number instead */
+    MOTE_EUNSUPPORTED, /* the method cannot answer this, and gives no number instead */
     MOTE_ENUMERIC      /* a computation failed (singular system, no convergence) */
 } mote_status;
 

@@ -61,8 +61,8 @@ static inline double mote_length_squared(mote_vec3 a)
     return mote_dot(a, a);
 }
 
-/* The nearest number of single precision. gcc 12 takes (double)(float) for nothing where it
-   vectorises it (two conversions in one register); it cannot where the float is volatile. */
+/* The nearest number of single precision. Where gcc 12 vectorises (double)(float)x, it drops
+   both conversions; a volatile float prevents that. */
 static inline double mote_as_float(double x)
 {
     volatile float rounded = (float)x;

@@ -1,5 +1,5 @@
-/* A body (mesh + field), its state at a frame, and the frame: the only input a method ever
- * gets. */
+/* A body (mesh + field), its state in a frame, and the frame, which is all that a method gets
+   to see. */
 #ifndef MOTE_CORE_BODY_H
 #define MOTE_CORE_BODY_H
 
@@ -19,8 +19,8 @@ typedef struct mote_body_state {
     mote_pose pose;
     mote_weights weights;      /* in world axes, field->padded long; see mote_weights */
     const mote_vec3 *vertices; /* [vertex_count] world positions, or NULL when not provided */
-    bool shape_changed;        /* weights differ from those of the previous frame given */
-    bool pose_changed;         /* likewise the pose; both true at the first frame */
+    bool shape_changed;        /* the weights differ from those of the previous frame */
+    bool pose_changed;         /* the pose does; both are true in the first frame */
 } mote_body_state;
 
 typedef struct mote_frame {

@@ -29,7 +29,7 @@ void mote_coherence_free(mote_coherence *coherence)
     }
 }
 
-/* The most that a weight has changed, in the body's axes. */
+/* The largest change of a weight, in the body's axes. */
 static double weights_motion(mote_stance *stance, const mote_body_state *state)
 {
     const mote_weights *w = &state->weights;
@@ -44,7 +44,7 @@ static double weights_motion(mote_stance *stance, const mote_body_state *state)
     return sqrt(most);
 }
 
-/* The most that a probe has moved, in the body's axes. */
+/* The longest way that a probe has moved, in the body's axes. */
 static double probes_motion(mote_stance *stance, const mote_body_state *state)
 {
     double most = 0;
@@ -86,8 +86,8 @@ static double pose_motion(mote_coherence *c, const mote_frame *frame)
                                       centre_of(c->body[0], &frame->body[0].pose)));
     const double shifted = mote_length(mote_sub(centre, c->centre));
     c->centre = centre;
-    /* A turn by a small angle changes the matrix by sqrt(2) times it, and moves points that are
-       half of L away. */
+    /* A rotation by a small angle a changes the matrix by sqrt(2) a, and moves points at half
+       of L by a L / 2. */
     return sqrt(turned / 8) * c->length + shifted;
 }
 

@@ -1,5 +1,5 @@
-/* How far two bodies have moved against each other from one query to the next: how much of what
-   was found then can still be relied on (paper 3.5, temporal coherence). */
+/* How far two bodies have moved relative to each other from one query to the next, which says
+   how far the results of the last query can still be used (paper 3.5, temporal coherence). */
 #ifndef MOTE_CORE_COHERENCE_H
 #define MOTE_CORE_COHERENCE_H
 
@@ -9,7 +9,8 @@
 extern "C" {
 #endif
 
-/* Vertices of a body whose motion stands for that of all, where positions are given. */
+/* Where positions are given, the motion of at most this many vertices stands for that of all.
+ */
 #define MOTE_PROBES_MAX 16
 
 /* How one body stood at the last frame. */
@@ -22,9 +23,9 @@ typedef struct mote_stance {
 typedef struct mote_coherence {
     const mote_body *body[2];
     double length;
-    bool known;         /* a frame was seen */
-    mote_mat3 rotation; /* of body 1 seen from body 0 */
-    mote_vec3 centre;   /* of body 1's box at rest seen from body 0's */
+    bool known;         /* there has been a frame */
+    mote_mat3 rotation; /* of body 1 in the axes of body 0 */
+    mote_vec3 centre;   /* of body 1's box at rest, relative to that of body 0, in its axes */
     mote_stance stance[2];
 } mote_coherence;
 
@@ -37,10 +38,9 @@ mote_status mote_coherence_init(mote_coherence *coherence, const mote_body *cons
 
 void mote_coherence_free(mote_coherence *coherence);
 
-/* An estimate of the farthest that any point of one body has moved as seen from the other since
-   the last call, and of it the part that comes from deformation; L of the pair at the first
-   call. use_given: the shape is known from state->vertices, else from the weights. Cost: one
-   step a weight, or a probe. */
+/* Estimates how far any point of one body has moved relative to the other body since the last
+   call, deformation included; L of the pair at the first call. use_given: the shape is taken
+   from state->vertices, otherwise from the weights. Cost: linear in the weights or probes. */
 double mote_coherence_motion(mote_coherence *coherence, const mote_frame *frame,
                              bool use_given);
 

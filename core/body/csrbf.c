@@ -33,7 +33,7 @@ static void csrbf_basis(const mote_field *field, const mote_mesh *mesh, uint32_t
         phi[j] = 0;
 }
 
-/* Padding has weight zero, so that its value does not matter. */
+/* The padding has weight zero, so the values of its functions do not matter. */
 MOTE_CLONES
 static mote_vec3 csrbf_displacement(const mote_field *field, const mote_mesh *mesh,
                                     uint32_t vertex, const mote_weights *weights)
@@ -121,8 +121,8 @@ MOTE_INLINE void group_lane(const mote_field *field, double p[3][MOTE_LANES], ui
     memcpy(lane[2], z, sizeof z);
 }
 
-/* Vertices in the lanes, where csrbf_displacement has functions in them; the sums are added up
-   in the same order. */
+/* Here the lanes hold vertices, where in csrbf_displacement they hold functions; the sums are
+   added in the same order. */
 MOTE_CLONES
 static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
                         const uint32_t vertices[MOTE_LANES], const mote_weights *weights,
@@ -147,8 +147,9 @@ static void csrbf_group(const mote_field *field, const mote_mesh *mesh,
     }
 }
 
-/* Rest positions relative to the first, in units of the support: small where a function reaches
-   all vertices, so that floats lose little. Returns the largest coordinate's size. */
+/* Rest positions relative to the first, in units of the support radius. They are small where a
+   function is not 0 at all vertices, so that floats lose little. Returns the largest sum of a
+   vertex's absolute coordinates. */
 MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *mesh,
                                      const uint32_t vertices[MOTE_LANES],
                                      float p[3][MOTE_LANES])

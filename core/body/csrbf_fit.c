@@ -21,8 +21,9 @@ static double basis_between(const mote_field *field, uint32_t i, uint32_t j)
     return mote_wendland_c2(sqrt(dx * dx + dy * dy + dz * dz));
 }
 
-/* Below this the matrix cannot be told from a singular one: rounding leaves two equal centres a
-   pivot of some J epsilon instead of 0, and a column of the inverse adds up J terms. */
+/* Below this, the matrix cannot be distinguished from a singular one: with two equal centres,
+   rounding leaves a pivot of about J epsilon instead of 0, and a column of the inverse adds J
+   terms. */
 static double smallest_reciprocal(const mote_field *field)
 {
     return (double)field->count * field->count * DBL_EPSILON;

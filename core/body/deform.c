@@ -9,7 +9,7 @@
 struct mote_deform {
     const mote_body *body;
     uint32_t blocks;
-    size_t stride; /* doubles a block */
+    size_t stride; /* doubles in a block */
     double *table; /* [blocks][stride] */
 };
 
@@ -62,8 +62,8 @@ void mote_deform_destroy(mote_deform *deform)
     free(deform);
 }
 
-/* The displacement of a block's vertices: lane l of each vertex's sum is kept apart and the
-   lanes are added in the order of mote_lane_sum. */
+/* The displacements of a block's vertices. The lanes of each vertex's sum are kept apart, and
+   added in the order of mote_lane_sum. */
 MOTE_INLINE void sum_block(const double *phi, const mote_weights *weights, uint32_t padded,
                            double sum[3][MOTE_LANES])
 {

@@ -68,8 +68,8 @@ typedef struct mote_field_kind {
 
     /* The same in single precision.
        functions[count] lists every basis function that is not 0 at all of them; weights[c][j]
-       the weights' coordinates, in any unit. Returns a factor: coordinate c is wrong by at most
-       this times sum |weights[c][j]|. NULL: not offered. */
+       is coordinate c of weight j, in any unit. Returns a factor: coordinate c is wrong by at
+       most this factor times sum_j |weights[c][j]|. NULL: not offered. */
     float (*estimate)(const mote_field *field, const mote_mesh *mesh,
                       const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
                       size_t count, float (*weights)[MOTE_FIELD_MAX],

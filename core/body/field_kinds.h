@@ -1,4 +1,4 @@
-/* What the sources of the kinds of fields share. */
+/* Shared by the sources of all kinds of fields. */
 #ifndef MOTE_CORE_FIELD_KINDS_H
 #define MOTE_CORE_FIELD_KINDS_H
 

@@ -1,4 +1,4 @@
-/* Kinds of fields that a scenario can name ({"kind": "stretch", ...}), beside CSRBF.
+/* Kinds of fields that a scenario can name ({"kind": "stretch", ...}), in addition to CSRBF.
 
    A kind is one constant descriptor in one file, defined as
        MOTE_FIELD(stretch) = {.name = "stretch", ...};
@@ -15,7 +15,7 @@ extern "C" {
 
 typedef struct mote_field_maker {
     const char *name;    /* as in a scenario */
-    const char *summary; /* one line: what basis function j is, and its weight's unit */
+    const char *summary; /* one line: what basis function j is, and the unit of its weight */
     const mote_parameter *parameters; /* further keys in a scenario, or NULL */
     size_t parameter_count;
 

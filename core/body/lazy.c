@@ -2,7 +2,8 @@
 
 #include <stdlib.h>
 
-/* A table of at least twice the expected positions, so that probes stay short. */
+/* At least twice as many slots as positions are expected, so that probe sequences stay short.
+ */
 static uint32_t table_bits(const mote_body *body, uint32_t expected)
 {
     if (expected > body->mesh->vertex_count)
@@ -35,7 +36,7 @@ mote_status mote_lazy_init_single(mote_lazy *lazy, const mote_body *body, uint32
 {
     const uint32_t bits = table_bits(body, expected);
     mote_lazy_slot_single *slots = calloc((size_t)1 << bits, sizeof *slots);
-    /* One float more, so that a field without weights is no request for 0 bytes. */
+    /* One float more, so that a field without weights does not ask for 0 bytes. */
     float *weights = malloc((3 * (size_t)body->field->padded + 1) * sizeof *weights);
     if (!slots || !weights) {
         free(slots);
@@ -68,7 +69,7 @@ static void round_weights(mote_lazy *lazy)
     }
 }
 
-/* After 2^32 frames old stamps could be taken for new ones. */
+/* After 2^32 frames old stamps could be mistaken for new ones. */
 static void clear_stamps(mote_lazy *lazy)
 {
     for (uint32_t i = 0; i <= lazy->mask; ++i) {
@@ -163,7 +164,7 @@ mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index)
     return position;
 }
 
-/* Fewer positions are evaluated faster one by one. */
+/* Fewer positions than this are evaluated faster one by one. */
 #define WORTH_A_GROUP 4
 
 /* Vertices with a slot but no position yet. */

@@ -1,5 +1,6 @@
-/* World positions that are computed when first looked at in a frame and remembered for the
-   frame, in a hash sized by what is visited, not by the mesh (docs/architecture.md). */
+/* World positions that are computed when first looked at in a frame and remembered for the rest
+   of it, in a hash table sized by the vertices visited, not by the mesh (docs/architecture.md,
+   "Lazy deformation"). */
 #ifndef MOTE_CORE_LAZY_H
 #define MOTE_CORE_LAZY_H
 
@@ -24,7 +25,7 @@ typedef struct mote_lazy_slot_single {
 typedef struct mote_lazy {
     const mote_body *body;
     const mote_body_state *state;
-    const mote_vec3 *given;         /* vertices already deformed by somebody else, or NULL */
+    const mote_vec3 *given;         /* all vertices, already deformed by the caller, or NULL */
     mote_lazy_slot *slots;          /* [mask + 1], a power of two; NULL in single precision */
     mote_lazy_slot_single *singles; /* [mask + 1] in single precision, else NULL */
     float *weights_single; /* x, y, z of the frame's weights rounded, [3][padded], or NULL */
@@ -39,8 +40,8 @@ typedef struct mote_lazy {
 /* expected: how many vertices a query is likely to visit (a hint; the table grows). */
 mote_status mote_lazy_init(mote_lazy *lazy, const mote_body *body, uint32_t expected);
 
-/* The same with positions evaluated and remembered in single precision (the trade of precision
-   for speed and memory): 20 bytes a slot instead of 32. */
+/* The same with positions evaluated and remembered in single precision: faster and smaller (20
+   bytes a slot instead of 32), but less precise. */
 mote_status mote_lazy_init_single(mote_lazy *lazy, const mote_body *body, uint32_t expected);
 
 void mote_lazy_free(mote_lazy *lazy);
@@ -53,9 +54,9 @@ void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_giv
    evaluates). */
 mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index);
 
-/* Evaluates those of count vertices (any, also twice) that are not known yet, MOTE_LANES at a
-   time: a third of what they cost one by one. They then have the same bits as one by one. Does
-   nothing where positions are given or in single precision. */
+/* Evaluates those of count vertices (repetitions allowed) that are not known yet, MOTE_LANES at
+   a time. This takes a third of the time of evaluating them one by one and gives the same bits.
+   Does nothing where positions are given, or in single precision. */
 void mote_lazy_fetch(mote_lazy *lazy, const uint32_t *vertices, size_t count);
 
 /* mote_lazy_fetch of some vertices and their rings. */

@@ -4,7 +4,8 @@
 
 #include <stdlib.h>
 
-/* Volumes below this part of the sum of their tetrahedra's sizes are rounding. */
+/* A volume below this part of the sum of the tetrahedra's absolute volumes is taken for
+ * rounding. */
 #define LEAST_VOLUME 1e-12
 
 /* Integrals over the solid, about the middle of the box and in units of L. */
@@ -20,7 +21,7 @@ static int compare_edges(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* An edge that two faces run along the same way. */
+/* Finds an edge that two faces traverse in the same direction. */
 static mote_status check_winding(const mote_mesh *mesh)
 {
     const size_t count = (size_t)3 * mesh->triangle_count;
@@ -37,8 +38,8 @@ static mote_status check_winding(const mote_mesh *mesh)
         if (edges[e] == edges[e - 1])
             status = mote_fail(MOTE_EINVAL,
                                "the faces at the edge of vertices %u and %u are wound "
-                               "differently, so that inside and outside are not told; wind "
-                               "all faces one way",
+                               "differently, so that inside and outside are not defined; wind "
+                               "all faces the same way",
                                (uint32_t)(edges[e] >> 32), (uint32_t)edges[e]);
     }
     free(edges);
@@ -95,7 +96,9 @@ static bool is_positive(double value)
 mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *mass)
 {
     if (!is_positive(density))
-        return mote_fail(MOTE_EINVAL, "density %g; give a number above 0", density);
+        return mote_fail(MOTE_EINVAL,
+                         "density %g is not valid; it must be a finite number above 0",
+                         density);
     if (mesh->open_edge_count > 0)
         return mote_fail(MOTE_EINVAL,
                          "the mesh is open (%u edges have one face), so it has no volume and "
@@ -107,9 +110,10 @@ mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *
     const mote_vec3 middle = mote_scale(mote_add(mesh->low, mesh->high), 0.5);
     const integrals sum = integrate(mesh, middle);
     if (!(fabs(sum.volume) > LEAST_VOLUME * sum.size))
-        return mote_fail(MOTE_EINVAL,
-                         "the mesh bounds no volume (%g of its tetrahedra's); give a solid",
-                         sum.size > 0 ? sum.volume / sum.size : 0.0);
+        return mote_fail(
+            MOTE_EINVAL,
+            "the mesh bounds no volume (%g of that of its tetrahedra); it must be a solid",
+            sum.size > 0 ? sum.volume / sum.size : 0.0);
     const mote_vec3 centre = mote_scale(sum.first, 1 / sum.volume);
     const mote_mat3 inertia = inertia_matrix(&sum, centre);
     mote_mass made;
@@ -122,12 +126,13 @@ mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *
     made.centre = mote_add_scaled(middle, length, centre);
     made.inertia =
         mote_scale(made.inertia, density * length * length * length * length * length);
-    /* Moments rise. */
+    /* The moments are ascending: the first and the last decide. */
     if (!is_positive(made.mass) || !is_positive(made.inertia.x) || !isfinite(made.inertia.z))
-        return mote_fail(MOTE_EINVAL,
-                         "mass %g with main moments %g, %g, %g: not those of a solid; give a "
-                         "mesh of moderate size that overlaps itself nowhere",
-                         made.mass, made.inertia.x, made.inertia.y, made.inertia.z);
+        return mote_fail(
+            MOTE_EINVAL,
+            "mass %g with principal moments %g, %g, %g is not that of a solid; the "
+            "mesh must be of moderate size and must not overlap itself",
+            made.mass, made.inertia.x, made.inertia.y, made.inertia.z);
     *mass = made;
     return MOTE_OK;
 }

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Scratch for ordering one ring. Each face at the centre joins two of its neighbours; the faces
-   then form chains (open fans) and cycles (closed fans) over the neighbours. */
+/* Working memory for ordering one ring. Each face at the centre joins two of its neighbours, so
+   that the faces form chains (open fans) and cycles (closed fans) of neighbours. */
 typedef struct ring_scratch {
     uint32_t *first_face; /* [v + 1] start of the faces of a vertex in face_of */
     uint32_t *face_of;    /* [3 t] */
@@ -92,7 +92,7 @@ static mote_status link_neighbours(ring_scratch *s, const mote_mesh *mesh, uint3
     return MOTE_OK;
 }
 
-/* Removes the join from -> to, so that a face is walked once. */
+/* Removes the link from -> to, so that each face is visited once. */
 static void unlink_one(ring_scratch *s, uint32_t from, uint32_t to)
 {
     const int k = s->link[from][0] == to ? 0 : 1;

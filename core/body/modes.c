@@ -55,8 +55,9 @@ static mote_vec3 ring_edge(const mote_mesh *mesh, uint32_t vertex, uint32_t k, d
 }
 
 /* The least-squares gradient over the one-ring. Directions in which the ring has no extent (a
-   flat ring's normal) get slope 0, by a small ridge on the diagonal. Lengths are taken in mean
-   edges: a determinant of their sixth power leaves the range of a double early. */
+   flat ring's normal) get slope 0, by a small ridge on the diagonal. Lengths are in units of
+   the mean edge: the determinant has their sixth power, which would soon leave the range of a
+   double. */
 static void modes_gradient(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                            mote_vec3 *gradient)
 {

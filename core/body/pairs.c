@@ -12,12 +12,12 @@ static bool adjacent(const mote_mesh *mesh, uint32_t v, uint32_t w)
     return false;
 }
 
-/* Two candidates whose vertices are in each other's rings lead to the same minimum. Near in
-   space alone they may be on two sides of a gap, or on two patches that meet. */
+/* Two candidates whose vertices are in each other's rings lead to the same minimum. Being near
+   in space is not enough: they may be on two sides of a gap, or on two patches that touch. */
 static bool alike(const mote_pairs *p, const mote_pair *c, const mote_pair *d)
 {
-    return mote_distance_squared(c->shape[0], d->shape[0]) <= d->reach_squared[0] &&
-           mote_distance_squared(c->shape[1], d->shape[1]) <= d->reach_squared[1] &&
+    return mote_distance_squared(c->shape[0], d->shape[0]) <= d->longest_edge_squared[0] &&
+           mote_distance_squared(c->shape[1], d->shape[1]) <= d->longest_edge_squared[1] &&
            adjacent(p->mesh[0], c->vertex[0], d->vertex[0]) &&
            adjacent(p->mesh[1], c->vertex[1], d->vertex[1]);
 }

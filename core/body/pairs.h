@@ -1,5 +1,5 @@
-/* A short list of pairs of vertices, one of each body, nearest first, no two of them in the
-   same neighbourhood: where the tracker's walks have ended. */
+/* A short list of pairs of vertices, one of each body, nearest first, no two in the same
+   neighbourhood: the ends of the tracker's walks. */
 #ifndef MOTE_CORE_PAIRS_H
 #define MOTE_CORE_PAIRS_H
 
@@ -15,11 +15,11 @@ extern "C" {
 #define MOTE_PAIRS_MAX 64
 
 typedef struct mote_pair {
-    double squared;          /* of their distance, when last looked at */
-    double reach_squared[2]; /* of the longest edge at each */
-    double travelled;        /* the tracker's, when last looked at */
+    double squared;                 /* their squared distance when last looked up */
+    double longest_edge_squared[2]; /* at each vertex */
+    double travelled;               /* the tracker's value when last looked up */
     uint32_t vertex[2];
-    mote_vec3 shape[2]; /* where they are on their bodies */
+    mote_vec3 shape[2]; /* their positions on their bodies */
     bool refined;       /* an exact check has ended here */
 } mote_pair;
 
@@ -29,16 +29,16 @@ typedef struct mote_pairs {
     const mote_mesh *mesh[2]; /* of the vertices, borrowed */
 } mote_pairs;
 
-/* Puts a candidate in its place by distance, unless one within a ring of it on both meshes is
-   nearer or refined; drops those within a ring that are not, and the last one when the list is
-   full. */
+/* Inserts a candidate by its distance, unless another one within a ring of it on both meshes is
+   nearer or refined. Removes those within a ring that are neither, and the last of a full
+   list. */
 void mote_pairs_keep(mote_pairs *candidates, const mote_pair *candidate);
 
-/* What the distance of the surfaces there may be less than that of the vertices: the longest
-   edges of both. */
-static inline double mote_pair_reach(const mote_pair *c)
+/* By how much the distance of the surfaces there may be below that of the vertices: the longest
+   edges of both together. */
+static inline double mote_pair_edges(const mote_pair *c)
 {
-    return sqrt(c->reach_squared[0]) + sqrt(c->reach_squared[1]);
+    return sqrt(c->longest_edge_squared[0]) + sqrt(c->longest_edge_squared[1]);
 }
 
 #ifdef __cplusplus

@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* The mesh is simplified to at most this many triangles first: HACD's time grows faster than
-   the square of their number (0.3 s at 800, 5 s at 1,380). */
+/* The mesh is first simplified to at most this many triangles, since HACD's time grows faster
+   than the square of their number (0.3 s at 800, 5 s at 1,380). */
 #define MOTE_PARTS_TRIANGLES 800
 
 typedef struct mote_parts {
@@ -23,8 +23,8 @@ typedef struct mote_parts {
    size of 1,000) on a simplification by meshoptimizer; the labels of the vertices that it keeps
    spread along the edges to the nearest others. Components are decomposed one by one, each with
    its share of the triangles, 100 at least. positions are [vertex_count] and finite; NULL
-   means the mesh's rest positions. Each part has at least one vertex. Deterministic. Cost: that
-   of HACD, at most about a second, and O(v log v). MOTE_EINVAL: a position that is not finite.
+   means the mesh's rest positions. Each part has at least one vertex. Deterministic. Cost:
+   HACD's, at most about a second, and O(v log v). MOTE_EINVAL: a position that is not finite.
    MOTE_ENOMEM. MOTE_ENUMERIC: HACD failed. The caller destroys *parts. */
 mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 *positions,
                               mote_parts **parts);

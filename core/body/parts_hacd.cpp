@@ -22,7 +22,7 @@ using Corners = std::vector<unsigned>; /* vertices of the mesh, three a face */
 
 constexpr uint32_t NO_LABEL = UINT32_MAX;
 
-/* Small components are not simplified below this. */
+/* A component is not simplified to fewer triangles than this. */
 constexpr size_t COMPONENT_TRIANGLES = 100;
 
 /* The decomposition of a mesh, one connected component after another. */
@@ -78,7 +78,7 @@ std::vector<Corners> Decomposition::components() const
     return result;
 }
 
-/* The component with its share of MOTE_PARTS_TRIANGLES. */
+/* The component, simplified to its share of MOTE_PARTS_TRIANGLES. */
 Corners Decomposition::simplify(const Corners &corners)
 {
     size_t share = MOTE_PARTS_TRIANGLES * (corners.size() / 3) / mesh->triangle_count;
@@ -86,7 +86,7 @@ Corners Decomposition::simplify(const Corners &corners)
     if (corners.size() <= target)
         return corners;
     if (xyz.empty()) {
-        /* A mesh of unit size around the origin: meshoptimizer has floats only. */
+        /* Moved to the origin and scaled to unit size, since meshoptimizer has floats only. */
         for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
             mote_vec3 v = mote_scale(mote_sub(positions[i], positions[0]), 1 / mesh->diagonal);
             xyz.insert(xyz.end(), {static_cast<float>(v.x), static_cast<float>(v.y),
@@ -97,7 +97,8 @@ Corners Decomposition::simplify(const Corners &corners)
     size_t size =
         meshopt_simplify(kept.data(), corners.data(), corners.size(), xyz.data(),
                          mesh->vertex_count, 3 * sizeof(float), target, 1e30f, 0, nullptr);
-    /* It keeps vertices where fans of triangles meet; the other form keeps no topology. */
+    /* It keeps vertices where several fans meet, and may then stop early; the sloppy form does
+       not preserve topology. */
     if (size > 2 * target)
         size = meshopt_simplifySloppy(kept.data(), corners.data(), corners.size(), xyz.data(),
                                       mesh->vertex_count, 3 * sizeof(float), target, 1e30f,
@@ -145,8 +146,8 @@ bool Decomposition::cluster(std::vector<Point> &points, std::vector<Face> &faces
     uint32_t clusters = static_cast<uint32_t>(hacd.GetNClusters());
     for (size_t i = 0; i < corners.size(); ++i) {
         long part = partition[i / 3];
-        /* No mesh makes HACD number its clusters otherwise; should one, nothing is written
-           outside of the arrays. */
+        /* HACD has never numbered its clusters otherwise; if it did, nothing must be written
+           outside the arrays. */
         if (part < 0 || part >= static_cast<long>(clusters)) /* GCOVR_EXCL_BR_LINE: see above */
             return false;
         if (label[corners[i]] == NO_LABEL)
@@ -186,7 +187,7 @@ void Decomposition::spread()
     }
 }
 
-/* Numbers the labels in the order of first appearance; a component that has none becomes a part
+/* Numbers the labels in order of first appearance; a component without a label becomes a part
    of its own. */
 void Decomposition::renumber()
 {
@@ -240,7 +241,7 @@ extern "C" mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 
     } catch (const std::exception &error) {
         return mote_fail(MOTE_ENUMERIC, "convex parts: %s", error.what());
     } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "HACD threw something unknown");
+        return mote_fail(MOTE_ENUMERIC, "HACD threw an unknown exception");
     }
 }
 

@@ -1,6 +1,6 @@
 /* stretch: the body is stretched and sheared as a whole. Basis function j is coordinate j (x,
-   y, z) from the middle of the box at rest, in L, so that the three weights are the columns of
-   a matrix, times L. */
+   y, z) relative to the middle of the box at rest, in units of L, so that the three weights are
+   the columns of a matrix, times L. */
 #include "core/body/field_kinds.h"
 #include "core/body/field_maker.h"
 

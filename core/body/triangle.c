@@ -1,9 +1,9 @@
 /* Every candidate is a pair of feasible points, so that no candidate can be below the distance
-   by more than rounding. Three sorts are enough: edge with edge (clamped, which includes
-   vertices), vertex with the inside of a face, and an edge that pierces a face. The general
-   pair is decided by the side on which each triangle lies of the other's plane; whatever
-   rounding could decide wrongly there goes to a slower search of all candidates, each refined
-   by its own residual. */
+   by more than rounding. Three kinds are enough: edge with edge (clamped, which includes
+   vertices), vertex with the inside of a face, and an edge that pierces a face. A general pair
+   is decided by the side of each triangle's plane on which the other one lies; pairs that
+   rounding could decide wrongly go to a slower search of all candidates, each refined by its
+   own residual. */
 #include "core/body/triangle.h"
 
 #include "core/base/clones.h"
@@ -40,7 +40,7 @@ typedef struct face {
 
 typedef enum side_kind { SIDE_CLEAR, SIDE_ONE, SIDE_BOTH, SIDE_DOUBTFUL } side_kind;
 
-/* Where the vertices of one triangle lie of the plane of the other. */
+/* On which side of the plane of one triangle the vertices of the other lie. */
 typedef struct side {
     side_kind kind;
     int lowest;  /* the vertex nearest to the plane, if all are on one side */
@@ -137,7 +137,7 @@ static double longest_edge_squared(const mote_vec3 s[3], const mote_vec3 t[3])
     return longest;
 }
 
-/* Makes a candidate that rounding cannot tell from a contact one. */
+/* Turns a candidate that rounding cannot distinguish from a contact into one. */
 static void settle_contact(const mote_vec3 s[3], const mote_vec3 t[3], candidate *c)
 {
     if (c->squared > CONTACT_ERROR * CONTACT_ERROR * longest_edge_squared(s, t))
@@ -449,7 +449,7 @@ static inline bool pierce(const face *f, const mote_vec3 v[3], const double h[3]
 
 /* The candidate of a pair that has no doubtful side, if a vertex over a face or a pierced face
    decides it; false if the edges have to. A pierced face is not quite a contact yet: rounding
-   may have left a distance that the careful search takes away. */
+   may have left a distance that the careful search removes. */
 static inline bool face_decides(const mote_vec3 s[3], const mote_vec3 t[3], const face *fs,
                                 const face *ft, const side *ss, const side *st, candidate *c)
 {

@@ -4,15 +4,16 @@
    with a pair of points that attains it, and share these properties:
    - Inputs are finite. Any of them may be degenerate: a triangle may be a segment or a point.
    - The error of the distance is a few units in the last place of the pair's extent (the larger
-   of the edges and the separation); a common offset of all coordinates costs nothing extra. The
-     square of the distance between the returned points is the returned value, to the rounding
-   of the points' own coordinates.
-   - There is no absolute tolerance: coordinates times 2^k give exactly the same points times
-   2^k and the same value times 4^k, for magnitudes from 1e-30 to 1e30.
+     of the edges and the separation); a common offset of all coordinates does not increase it.
+     The square of the distance between the returned points is the returned value, to the
+     rounding of the points' own coordinates.
+   - There is no absolute tolerance: coordinates times 2^k give exactly the same points times 2^k
+     and the same value times 4^k, for magnitudes from 1e-30 to 1e30.
    - 0 is returned exactly, with equal points, where two triangles touch or intersect, or are
-   apart by less than 4.5e-16 of their longest edge, which rounding cannot tell from touching.
+     apart by less than 4.5e-16 of their longest edge, which rounding cannot distinguish from
+     touching.
    - Swapping the arguments changes the result by rounding only. Never NaN. No allocation; any
-   thread. An output pointer may be NULL. */
+     thread. An output pointer may be NULL. */
 #ifndef MOTE_CORE_TRIANGLE_H
 #define MOTE_CORE_TRIANGLE_H
 

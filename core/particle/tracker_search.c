@@ -6,7 +6,7 @@
 #define MOTION_MARGIN 2
 
 /* The square of the longest edge at a vertex, in the shape. */
-static double reach_squared(const mote_ground *ground, uint32_t vertex)
+static double longest_edge_squared(const mote_ground *ground, uint32_t vertex)
 {
     const mote_mesh *mesh = ground->lazy->body->mesh;
     const mote_vec3 p = ground->shape[vertex];
@@ -24,7 +24,7 @@ static mote_pair make_candidate(const mote_request *r, const uint32_t vertex[2],
     for (int b = 0; b < 2; ++b) {
         c.vertex[b] = vertex[b];
         c.shape[b] = r->ground[b].shape[vertex[b]];
-        c.reach_squared[b] = reach_squared(&r->ground[b], vertex[b]);
+        c.longest_edge_squared[b] = longest_edge_squared(&r->ground[b], vertex[b]);
     }
     return c;
 }
@@ -47,7 +47,7 @@ static double wanted(const mote_request *r)
 static bool worth_following(const mote_request *r, const mote_pair *c)
 {
     const double since = r->tracker->travelled - c->travelled;
-    return sqrt(c->squared) - mote_pair_reach(c) - MOTION_MARGIN * since <= wanted(r);
+    return sqrt(c->squared) - mote_pair_edges(c) - MOTION_MARGIN * since <= wanted(r);
 }
 
 /* Estimates whether an exact check of two vertices can come below what is wanted. Walks end by
@@ -55,7 +55,7 @@ static bool worth_following(const mote_request *r, const mote_pair *c)
    nearer: about half of the longest edges there. */
 static bool worth_refining(const mote_request *r, const mote_pair *c)
 {
-    return sqrt(c->squared) - 0.5 * mote_pair_reach(c) <=
+    return sqrt(c->squared) - 0.5 * mote_pair_edges(c) <=
            sqrt(fmin(r->best->squared, r->worth_squared));
 }
 

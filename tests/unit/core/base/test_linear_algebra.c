@@ -1,4 +1,4 @@
-/* Factors and main axes of random symmetric matrices against what defines them. */
+/* Cholesky factors and eigenvectors of random symmetric matrices against their definitions. */
 #include "core/base/linear_algebra.h"
 
 #include "tests/support/solids.h"

@@ -226,10 +226,10 @@ TEST(mass_of_mesh_bad_input_refused_with_reason)
         piled = solid_join(piled, solid_box(1e60, 1e60, 5e59), 0);
     refusal cases[] = {
         {solid_join(solid_box(1, 1, 1), mirrored, 3), 1, "no volume"},
-        {solid_join(solid_box(1, 1, 1.5), taken, 9), 1, "not those of a solid"},
+        {solid_join(solid_box(1, 1, 1.5), taken, 9), 1, "not that of a solid"},
         {solid_box(1e-120, 1e-120, 1e-120), 1, "mass 0 "},
-        {solid_box(1e60, 1e63, 1e63), 1, "not those of a solid"}, /* moments of inf */
-        {piled, 2.24e7, "inf: not those of a solid"},             /* the larger ones */
+        {solid_box(1e60, 1e63, 1e63), 1, "not that of a solid"}, /* moments of inf */
+        {piled, 2.24e7, "inf is not that of a solid"},             /* the larger ones */
         {solid_grid(3, 3), 1, "open"},
         {twisted, 1, "wound differently"},
         {solid_box(1, 1, 0), 1, "no volume"},

@@ -7,7 +7,7 @@
 static mote_pair pair_at(double squared, double x)
 {
     return (mote_pair){.squared = squared,
-                       .reach_squared = {1, 1},
+                       .longest_edge_squared = {1, 1},
                        .shape = {mote_vec3_make(x, 0, 0), mote_vec3_make(0, x, 0)}};
 }
 
@@ -52,7 +52,7 @@ TEST(keep_within_a_ring_of_a_refined_one_nothing)
     const mote_pair between = pair_at(2, -0.9), far = pair_at(3, 50);
     const mote_pair both = pair_at(1, -0.1);
     mote_pair beside = pair_at(2, -1.05);
-    beside.reach_squared[0] = beside.reach_squared[1] = 4;
+    beside.longest_edge_squared[0] = beside.longest_edge_squared[1] = 4;
     mote_pairs_keep(&pairs, &refined);
     mote_pairs_keep(&pairs, &between);
     assert_int_equal(pairs.count, 1);
