@@ -4,6 +4,7 @@
 #include "harness/report/packed.h"
 #include "harness/report/report_facts.h"
 #include "harness/report/report_rows.h"
+#include "harness/summary/column_docs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,15 +27,26 @@ static json_t *index_or_null(size_t index)
     return index == SIZE_MAX ? json_null() : json_integer((json_int_t)index);
 }
 
-static json_t *column_data(const mote_report_column *column)
+/* A column's meaning, or that of the first member of its object. */
+static const char *meaning_of(const mote_column *column)
 {
+    while (!column->meaning)
+        --column;
+    return column->meaning;
+}
+
+/* A column; `extra` where neither report.md nor the screen of `make bench` has it. */
+static json_t *column_data(const mote_column *column)
+{
+    json_t *data = mote_column_json(column);
     json_t *path = json_array();
     if (column->object)
         append(path, json_string(column->object));
     append(path, json_string(column->key));
-    return json_pack("{s:s, s:s, s:o, s:s, s:b, s:b, s:s}", "group", column->group, "head",
-                     column->head, "path", path, "kind", column->kind, "interval",
-                     column->interval, "extra", column->extra, "meaning", column->meaning);
+    set(data, "path", path);
+    set(data, "meaning", json_string(meaning_of(column)));
+    set(data, "extra", json_boolean(!column->brief && !column->place[MOTE_VIEW_SCREEN]));
+    return data;
 }
 
 static json_t *notes_data(const json_t *row)
@@ -77,8 +89,10 @@ static json_t *row_data(const mote_report *report, size_t first, size_t end, siz
 static void set_rows(const mote_report *report, json_t *data)
 {
     json_t *columns = json_array(), *blocks = json_array(), *rows = json_array();
-    for (size_t k = 0; k < mote_report_column_count; ++k)
-        append(columns, column_data(&mote_report_columns[k]));
+    const mote_column *shown[MOTE_VIEW_MAX];
+    const size_t count = mote_column_view(MOTE_VIEW_REPORT, shown);
+    for (size_t k = 0; k < count; ++k)
+        append(columns, column_data(shown[k]));
     for (size_t first = 0; first < mote_report_row_count(report);) {
         const size_t end = mote_report_block_end(report, first);
         const mote_report_glance glance = mote_report_block_glance(report, first, end);

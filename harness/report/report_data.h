@@ -7,7 +7,8 @@
 
 /* {"scenarios": [[name, purpose]], "commands": [[when, command]], "machine": [[key, value]],
     "damaged": [text], "missing": [text], "noise_floor", "machines_differ",
-    "columns": [{"group", "head", "path": [key...], "kind", "interval", "extra", "meaning"}],
+    "columns": [as mote_columns_json, with "path": [key...], and "extra": whether the column is
+                shown with all columns only],
     "blocks": [{"first", "end", "right", "fastest"}]: rows first .. end - 1 are one table,
     "rows": [a row of summary.json, with "notes": [text], "stands": it stands for its method,
              and "cells": [[replicate, id, status]]],

@@ -4,6 +4,7 @@
 #include "harness/base/record.h"
 #include "harness/report/report_facts.h"
 #include "harness/report/report_rows.h"
+#include "harness/summary/column.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -131,20 +132,30 @@ static void add_rule(mote_text *text, int width, bool right)
     mote_text_add(text, right ? ":|" : "-|");
 }
 
+/* The columns of the plain text: those with a brief head. */
+static size_t brief_columns(const mote_column *columns[MOTE_VIEW_MAX])
+{
+    size_t count = 0;
+    const size_t all = mote_column_view(MOTE_VIEW_REPORT, columns);
+    for (size_t k = 0; k < all; ++k) {
+        if (columns[k]->brief)
+            columns[count++] = columns[k];
+    }
+    return count;
+}
+
 static void add_head(int width, mote_text *text)
 {
+    const mote_column *columns[MOTE_VIEW_MAX];
+    const size_t count = brief_columns(columns);
     mote_text_add(text, "|");
     add_field(text, "method", -width);
-    for (size_t k = 0; k < mote_report_column_count; ++k) {
-        if (mote_report_columns[k].brief)
-            add_field(text, mote_report_columns[k].brief, FIELD_WIDTH);
-    }
+    for (size_t k = 0; k < count; ++k)
+        add_field(text, columns[k]->brief, FIELD_WIDTH);
     mote_text_add(text, " cells |\n|");
     add_rule(text, width, false);
-    for (size_t k = 0; k < mote_report_column_count; ++k) {
-        if (mote_report_columns[k].brief)
-            add_rule(text, FIELD_WIDTH, true);
-    }
+    for (size_t k = 0; k < count; ++k)
+        add_rule(text, FIELD_WIDTH, true);
     mote_text_add(text, ":------|\n");
 }
 
@@ -172,34 +183,33 @@ static void add_notes(const json_t *row, mote_text *text)
     mote_text_add(text, " |");
 }
 
+/* Why a row has no figures, in the place of the first. */
+static void add_ending(const json_t *row, size_t columns, mote_text *text)
+{
+    mote_text_add(text, " ");
+    mote_escape_markdown(text, mote_report_text(row, "status"));
+    mote_text_add(text, ": ");
+    mote_escape_markdown(text, mote_report_text(row, "reason"));
+    for (size_t k = 0; k < columns; ++k)
+        mote_text_add(text, " |");
+}
+
 static void add_row(const mote_report *report, size_t i, int width, mote_text *text)
 {
+    const mote_column *columns[MOTE_VIEW_MAX];
+    const size_t count = brief_columns(columns);
     const json_t *row = mote_report_row(report, i);
     const char *label = mote_report_text(row, "label");
+    const bool ok = strcmp(mote_report_text(row, "status"), "ok") == 0;
+    char value[MOTE_NUMBER_TEXT];
     mote_text_add(text, "| ");
     mote_escape_markdown(text, label);
     mote_text_add(text, "%*s |", width - (int)strlen(label), "");
-    bool ok = strcmp(mote_report_text(row, "status"), "ok") == 0;
-    if (!ok) {
-        mote_text_add(text, " ");
-        mote_escape_markdown(text, mote_report_text(row, "status"));
-        mote_text_add(text, ": ");
-        mote_escape_markdown(text, mote_report_text(row, "reason"));
-        mote_text_add(text, " |");
-    }
-    for (size_t k = 0, shown = 0; k < mote_report_column_count; ++k) {
-        const mote_report_column *column = &mote_report_columns[k];
-        char value[MOTE_NUMBER_TEXT];
-        if (!column->brief)
-            continue;
-        if (ok)
-            add_field(text,
-                      column->show(mote_report_number(row, column->object, column->key), value),
-                      FIELD_WIDTH);
-        else if (shown > 0)
-            mote_text_add(text, " |");
-        ++shown;
-    }
+    for (size_t k = 0; ok && k < count; ++k)
+        add_field(text, columns[k]->show(mote_column_stored(columns[k], row), value),
+                  FIELD_WIDTH);
+    if (!ok)
+        add_ending(row, count, text);
     add_cell_links(report, i, text);
     add_notes(row, text);
     mote_text_add(text, "\n");

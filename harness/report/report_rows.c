@@ -5,43 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const mote_report_column mote_report_columns[] = {
-    {"total", "median", "total_ns", "median", "time", mote_show_time, true, false, "total",
-     "Deformation, refit and query together, with its 95 % interval"},
-    {"total", "p95", "total_ns", "p95", "time", mote_show_time, false, false, NULL,
-     "95th percentile over the frames of all replicates"},
-    {"FCL", "/ this", "ratio", "value", "ratio", mote_show_ratio, true, true, "FCL/this",
-     "How many times slower FCL's AABB tree is, frame by frame"},
-    {"best FCL", "/ this", "ratio_best", "value", "ratio", mote_show_ratio, true, false,
-     "best/this", "How many times slower the fastest configuration of FCL is, frame by frame"},
-    {"error / L", "median", "error", "median", "error", mote_show_error, false, true, NULL,
-     "Median of the absolute error over L"},
-    {"error / L", "p99", "error", "p99", "error", mote_show_error, false, false, "p99 error",
-     "99th percentile of the absolute error over L"},
-    {"error / L", "max", "error", "max", "error", mote_show_error, false, false, "max error",
-     "Largest absolute error over L"},
-    {"exact", "frames", "error", "exact_rate", "percent", mote_show_percent, false, false,
-     "exact", "Share of frames with an error of at most 1e-9 L"},
-    {"contacts", "missed", NULL, "missed", "count", mote_show_count, false, false, "missed",
-     "Frames in contact that the method reports as apart; mean over replicates"},
-    {"contacts", "false", NULL, "false_contacts", "count", mote_show_count, false, false,
-     "false", "Frames apart that the method reports as in contact; mean over replicates"},
-    {"heap", "live", NULL, "heap_live_bytes", "bytes", mote_show_bytes, false, false, "heap",
-     "Heap held by the method, without the rest mesh and field that all methods share"},
-    {"active", "median", "active_total_ns", "median", "time", mote_show_time, true, true, NULL,
-     "The total within the scenario's active interval: near contact"},
-    {"given", "median", "given_total_ns", "median", "time", mote_show_time, true, true, NULL,
-     "The total where no method is charged for deforming all vertices"},
-    {"deform", "median", "deform_ns", "median", "time", mote_show_time, false, true, NULL,
-     "Deforming all vertices, for methods that need them"},
-    {"refit", "median", "update_ns", "median", "time", mote_show_time, false, true, NULL,
-     "Refitting the bounding volumes to the deformed vertices"},
-    {"query", "median", "query_ns", "median", "time", mote_show_time, false, true, NULL,
-     "The query alone"},
-};
-const size_t mote_report_column_count =
-    sizeof mote_report_columns / sizeof mote_report_columns[0];
-
 size_t mote_report_row_count(const mote_report *report)
 {
     return json_array_size(json_object_get(report->summary, "rows"));

@@ -1,25 +1,9 @@
-/* The rows of a report as both of its forms show them: the columns, and what to say first. */
+/* The rows of a report as both of its forms show them: their order, their blocks, and what to
+   say first. Columns are those of MOTE_VIEW_REPORT (harness/summary/column.h). */
 #ifndef MOTE_HARNESS_REPORT_ROWS_H
 #define MOTE_HARNESS_REPORT_ROWS_H
 
-#include "harness/base/number_text.h"
 #include "harness/report/report.h"
-
-/* One column of the table of results. */
-typedef struct mote_report_column {
-    const char *group, *head; /* the two lines above it: "total", "median" */
-    const char *object, *key; /* where its value is in a row: "total_ns", "median"; object NULL:
-                                 at the top */
-    const char *kind;         /* how the page writes it: "time", "ratio", ...; numbers.js */
-    mote_number_show show;    /* the same for plain text */
-    bool interval;            /* the object has ci_low and ci_high for it */
-    bool extra;               /* the page shows it only with all columns */
-    const char *brief;        /* its head in the plain text; NULL: not there */
-    const char *meaning;      /* one sentence */
-} mote_report_column;
-
-extern const mote_report_column mote_report_columns[];
-extern const size_t mote_report_column_count;
 
 /* The rows in the order in which they are shown: block by block, within a block by median total
    time, rows without a time that can be compared last. Part of mote_report_gather. */

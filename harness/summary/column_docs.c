@@ -98,25 +98,23 @@ static json_t *less_is_better(const mote_column *column)
     return column->show == mote_show_ratio ? json_false() : json_null();
 }
 
+json_t *mote_column_json(const mote_column *column)
+{
+    return json_pack(
+        "{s:s?, s:s, s:s?, s:s, s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:i, s:i, s:i, s:o}",
+        "object", column->object, "key", column->key, "csv", column->csv, "type",
+        type_names[column->type], "unit", column->unit, "meaning", column->meaning, "group",
+        column->group, "head", column->head, "brief", column->brief, "show",
+        show_name(column->show), "interval", column->interval, "table",
+        column->place[MOTE_VIEW_TABLE], "report", column->place[MOTE_VIEW_REPORT], "screen",
+        column->place[MOTE_VIEW_SCREEN], "less_is_better", less_is_better(column));
+}
+
 json_t *mote_columns_json(void)
 {
     json_t *list = json_array();
-    for (size_t i = 0; list && i < mote_column_count; ++i) {
-        const mote_column *column = &mote_columns[i];
-        json_t *entry = json_pack(
-            "{s:s?, s:s, s:s?, s:s, s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:i, s:i, s:i, "
-            "s:o}",
-            "object", column->object, "key", column->key, "csv", column->csv, "type",
-            type_names[column->type], "unit", column->unit, "meaning", column->meaning, "group",
-            column->group, "head", column->head, "brief", column->brief, "show",
-            show_name(column->show), "interval", column->interval, "table",
-            column->place[MOTE_VIEW_TABLE], "report", column->place[MOTE_VIEW_REPORT], "screen",
-            column->place[MOTE_VIEW_SCREEN], "less_is_better", less_is_better(column));
-        if (json_array_append_new(list, entry) != 0) {
-            json_decref(list);
-            return NULL;
-        }
-    }
+    for (size_t i = 0; i < mote_column_count; ++i)
+        (void)json_array_append_new(list, mote_column_json(&mote_columns[i]));
     return list;
 }
 

@@ -38,7 +38,8 @@ class Front {
         this.canvas = el("div", { class: "front" });
         this.element = el("figure", { class: "front-figure" }, this.canvas, this.tip,
             el("figcaption", {}, "Median time of a query against the error that 99 % of the frames do not " +
-                "exceed. The line joins the rows that no other row beats in both. Point at one for its figures."));
+                "exceed. The line joins the rows that no other row beats in both. Hollow points are given all vertices, " +
+                "do not pay for deformation, and are not compared with the others. Point at one for its figures."));
         if (this.rows.length > 1)
             new ResizeObserver(([entry]) => this.draw(entry.contentRect.width)).observe(this.canvas);
         else this.element.hidden = true;
@@ -105,7 +106,7 @@ class Front {
 
     // The steps of the front of these rows.
     line(rows) {
-        const order = [...rows].sort((a, b) => a.total_ns.median - b.total_ns.median);
+        const order = rows.filter((row) => row.accounting !== "given").sort((a, b) => a.total_ns.median - b.total_ns.median);
         let least = Infinity;
         let path = "";
         for (const row of order) {
@@ -123,7 +124,7 @@ class Front {
         const [x, y] = [this.x(row.total_ns.median / 1e3), this.y(row.error.p99)];
         const text = [row.label, ...pointLines(row)].join("; ");
         const point = svg("circle", {
-            class: `point ${this.colourOf(row)}`, cx: x, cy: y, r: 6, tabindex: 0, role: "img", "aria-label": text,
+            class: `point ${this.colourOf(row)}${row.accounting === "given" ? " given" : ""}`, cx: x, cy: y, r: 6, tabindex: 0, role: "img", "aria-label": text,
         });
         const enter = () => this.enter(row, x, y);
         const leave = () => this.leave(row);

@@ -171,9 +171,9 @@ class Block {
         const wrong = value > 0 && column.group === "contacts";
         const around = row[column.path[0]];
         const interval = column.interval && value !== 0 && isNumber(around.ci_low) && isNumber(around.ci_high)
-            ? el("small", {}, intervalText(column.kind, around.ci_low, around.ci_high)) : null;
+            ? el("small", {}, intervalText(column.show, around.ci_low, around.ci_high)) : null;
         return el("td", { class: wrong ? "wrong" : undefined },
-            el("a", { tabindex: -1, href: address }, show(column.kind, value)), interval);
+            el("a", { tabindex: -1, href: address }, show(column.show, value)), interval);
     }
 }
 
