@@ -47,6 +47,11 @@ static mote_status read_descriptor(int descriptor, const char *path, size_t limi
     return MOTE_OK;
 }
 
+const char *mote_skip_mark(const char *text)
+{
+    return strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+}
+
 mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size)
 {
     /* O_NONBLOCK: opening a FIFO must not wait for a writer. */

@@ -14,6 +14,9 @@
    frees *text. */
 mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size);
 
+/* The text after its UTF-8 byte-order mark, which some editors write, or all of it. */
+const char *mote_skip_mark(const char *text);
+
 /* Writes a file beside its final name, syncs and renames it: what has the name is whole. Links
    at the end of path are followed and stay. A stream is written to and never replaced. MOTE_EIO
    with a text. */

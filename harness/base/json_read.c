@@ -35,6 +35,9 @@ mote_status mote_json_open(const char *path, mote_json_file *file)
     mote_status status = mote_file_read(path, SIZE_LIMIT, &opened.text, &size);
     if (status != MOTE_OK)
         return status;
+    const size_t mark = (size_t)(mote_skip_mark(opened.text) - opened.text);
+    size -= mark;
+    memmove(opened.text, opened.text + mark, size + 1);
     status = mote_json_parse(path, opened.text, size, "correct the JSON there", &opened.root);
     if (status == MOTE_OK && !(opened.path = mote_format("%s", path)))
         status = mote_fail(MOTE_ENOMEM, "%s: no memory for its name", path);

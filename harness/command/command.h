@@ -12,8 +12,8 @@
       "fingerprint; whether the active interval is what it says")                              \
     X(export, "export SCENARIO --frame K --out DIR [--method NAME[:key=value,...]]...",        \
       "writes a frame's deformed meshes and what methods say of them")                         \
-    X(mesh, "mesh FILE [--json]", "what a mesh is: counts, edges, parts, L")                   \
-    X(distance, "distance A.obj B.obj [--method NAME[:key=value,...]]... [--json]",            \
+    X(mesh, "mesh FILE [--json] [--strict]", "what a mesh is: counts, edges, parts, L")        \
+    X(distance, "distance A.obj B.obj [--method NAME[:key=value,...]]... [--json] [--strict]", \
       "one query on two files")                                                                \
     X(approach,                                                                                \
       "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
@@ -22,7 +22,8 @@
       "run SCENARIO... [--method NAME[:key=a|b,...]]... [--particles 1,2,4-8]\n"               \
       "           [--replicates K] [--frames A-B] [--out DIR] [--shard I/N] [--seed S]\n"      \
       "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--jobs N]\n"      \
-      "           [--until-ci 2%] [--budget SECONDS] [--fixed-seed] [--dry-run] [--force]",    \
+      "           [--until-ci 2%] [--budget SECONDS] [--fixed-seed] [--dry-run] [--force]\n"   \
+      "           [--strict]",                                                                 \
       "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
     X(simulate,                                                                                \
       "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \

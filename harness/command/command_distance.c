@@ -1,4 +1,4 @@
-/* mote distance A.obj B.obj [--method ...] [--json]: one query on two files, as they lie. */
+/* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, as they lie. */
 #include "harness/command/answer_json.h"
 #include "harness/command/command.h"
 #include "harness/base/method_choice.h"
@@ -92,6 +92,8 @@ static mote_status read_pair(const request *wish, pair *bodies)
     mote_status status = mote_field_create_static(&bodies->still);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
         status = mote_mesh_import(wish->path[i], &bodies->mesh[i], &bodies->import[i]);
+        if (status == MOTE_OK)
+            mote_import_tell_split(wish->path[i], &bodies->import[i]);
         bodies->body[i] = (mote_body){bodies->mesh[i], bodies->still};
     }
     return status;
@@ -127,14 +129,17 @@ static int distance(const request *wish)
 
 static int read_request(int argc, char **argv, request *wish)
 {
-    static const mote_option options[] = {{"method", "NAME[:key=value,...]"}, {"json", NULL}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    static const mote_option options[] = {
+        {"method", "NAME[:key=value,...]"}, {"json", NULL}, {"strict", NULL}};
+    mote_option_reader reader = {options, 3, argc, argv, 0};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
         if (option == 1)
             wish->json = true;
+        else if (option == 2)
+            mote_mesh_import_strictly();
         else if (option == 0 && wish->count == METHODS_MAX)
             return mote_command_usage("distance", "at most %d methods", METHODS_MAX);
         else if (option == 0) {

@@ -1,4 +1,4 @@
-/* mote mesh FILE [--json]: what a mesh is. */
+/* mote mesh FILE [--json] [--strict]: what a mesh is. */
 #include "core/body/parts.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
@@ -67,7 +67,12 @@ static void print_lines(const char *path, const mote_mesh *mesh, const mote_impo
     (void)printf("triangles           %" PRIu32 "\n", mesh->triangle_count);
     (void)printf("edges               %" PRIu32 "\n", mesh->edge_count);
     (void)printf("open edges          %" PRIu32 "\n", mesh->open_edge_count);
-    (void)printf("non-manifold edges  0\n"); /* or it would not have been made */
+    (void)printf("non-manifold edges  %zu", import->split.edges);
+    if (import->split.edges > 0)
+        (void)printf(", cut apart with %zu new vertices: %s%s", import->split.vertices,
+                     import->split.where,
+                     import->split.edges > MOTE_SPLIT_EDGES_TOLD ? "; ..." : "");
+    (void)printf("\n");
     (void)printf("components          %" PRIu32 "\n", mesh->component_count);
     (void)printf("Euler               %" PRId64 "\n", mote_mesh_euler(mesh));
     (void)printf("smallest angle      %.4g degrees\n", mote_mesh_smallest_angle(mesh));
@@ -89,16 +94,17 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
 {
     const edge_facts edges = measure_edges(mesh);
     json_t *root = json_pack(
-        "{s:s, s:i, s:i, s:i, s:i, s:i, s:i, s:I, s:f, s:f, s:[f,f,f], s:i, s:s, s:I, s:I, "
-        "s:I}",
+        "{s:s, s:i, s:i, s:i, s:i, s:I, s:i, s:I, s:f, s:f, s:[f,f,f], s:i, s:s, s:I, s:I, "
+        "s:I, s:I}",
         "file", path, "vertices", mesh->vertex_count, "triangles", mesh->triangle_count,
-        "edges", mesh->edge_count, "open_edges", mesh->open_edge_count, "non_manifold_edges", 0,
-        "components", mesh->component_count, "euler", (json_int_t)mote_mesh_euler(mesh),
-        "smallest_angle", mote_mesh_smallest_angle(mesh), "length", mesh->diagonal,
-        "edge_lengths", edges.shortest, edges.mean, edges.longest, "parts", parts->count,
-        "coordinates", import->single_precision ? "float" : "double", "welded",
-        (json_int_t)import->welded, "collapsed", (json_int_t)import->collapsed, "unused",
-        (json_int_t)import->unused);
+        "edges", mesh->edge_count, "open_edges", mesh->open_edge_count, "non_manifold_edges",
+        (json_int_t)import->split.edges, "components", mesh->component_count, "euler",
+        (json_int_t)mote_mesh_euler(mesh), "smallest_angle", mote_mesh_smallest_angle(mesh),
+        "length", mesh->diagonal, "edge_lengths", edges.shortest, edges.mean, edges.longest,
+        "parts", parts->count, "coordinates", import->single_precision ? "float" : "double",
+        "welded", (json_int_t)import->welded, "collapsed", (json_int_t)import->collapsed,
+        "unused", (json_int_t)import->unused, "split_vertices",
+        (json_int_t)import->split.vertices);
     if (!root) {
         (void)mote_fail(MOTE_EINVAL, "%s: cannot be told in JSON; rename it in UTF-8", path);
         return mote_command_fail();
@@ -111,8 +117,8 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
 
 int mote_command_mesh(int argc, char **argv)
 {
-    static const mote_option options[] = {{"json", NULL}};
-    mote_option_reader reader = {options, 1, argc, argv, 0};
+    static const mote_option options[] = {{"json", NULL}, {"strict", NULL}};
+    mote_option_reader reader = {options, 2, argc, argv, 0};
     const char *path = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
@@ -122,8 +128,10 @@ int mote_command_mesh(int argc, char **argv)
             return mote_command_usage("mesh", "%s: one file at a time", value);
         if (option == MOTE_OPTION_PLAIN)
             path = value;
-        else
+        else if (option == 0)
             json = true;
+        else
+            mote_mesh_import_strictly();
     }
     if (!path)
         return mote_command_usage("mesh", "no file; write `mote mesh FILE`");

@@ -3,6 +3,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
+#include "harness/mesh/mesh_import.h"
 #include "harness/run/run.h"
 #include "harness/scene/scenario.h"
 #include "harness/summary/summary_json.h"
@@ -29,6 +30,7 @@ static const mote_option options[] = {
     {"jobs", "N"},
     {"until-ci", "2%"},
     {"budget", "SECONDS"},
+    {"strict", NULL},
     {"pair", "A.obj B.obj"},
 };
 enum {
@@ -48,6 +50,7 @@ enum {
     OPTION_JOBS,
     OPTION_UNTIL_CI,
     OPTION_BUDGET,
+    OPTION_STRICT,
     OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
     OPTION_COUNT
 };
@@ -169,6 +172,9 @@ static bool take_option(request *q, int option, const char *value, const char **
     case OPTION_BUDGET:
         *expected = "seconds";
         return mote_read_real(value, 0, 1e9, &q->run.budget);
+    case OPTION_STRICT:
+        mote_mesh_import_strictly();
+        return true;
     case OPTION_FORCE:
         q->run.force = true;
         return true;

@@ -2,6 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
+#include "harness/mesh/mesh_import.h"
 #include "harness/scene/fence.h"
 
 #include <signal.h>
@@ -29,7 +30,9 @@ static int print_help(void)
         "\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
         "5 a cell failed, 6 out of memory.\n\n"
         "Scenario files name only files of their own folder, unless others are allowed:\n"
-        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n");
+        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n"
+        "Edges of more than two faces in mesh files are cut apart, unless they are refused:\n"
+        "mote --strict COMMAND ...\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
@@ -52,9 +55,16 @@ int main(int argc, char **argv)
     /* A reader that goes away is an error of a write, not a death. */
     (void)signal(SIGPIPE, SIG_IGN);
     mote_json_heed_memory();
-    for (; argc > 2 && strcmp(argv[1], "--allow") == 0; argc -= 2, argv += 2) {
-        if (mote_fence_allow(argv[2]) != MOTE_OK)
+    while (argc > 1) {
+        const int is_strict = strcmp(argv[1], "--strict") == 0;
+        if (is_strict)
+            mote_mesh_import_strictly();
+        else if (argc == 2 || strcmp(argv[1], "--allow") != 0)
+            break;
+        else if (mote_fence_allow(argv[2]) != MOTE_OK)
             return mote_command_fail();
+        argc -= 2 - is_strict;
+        argv += 2 - is_strict;
     }
     if (argc < 2) {
         (void)fprintf(stderr, "mote: no command; `mote --help` lists them\n");

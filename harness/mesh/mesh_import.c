@@ -2,6 +2,7 @@
 
 #include "harness/process/child.h"
 #include "harness/base/file.h"
+#include "harness/base/hash.h"
 #include "harness/mesh/mesh_soup.h"
 
 #include <errno.h>
@@ -75,9 +76,11 @@ static mote_status import_in_child(void *context, int output)
 {
     silence();
     mote_soup soup = {0};
-    mote_status status = read_soup(context, &soup);
     header head;
     memset(&head, 0, sizeof head);
+    mote_status status = read_soup(context, &soup);
+    if (status == MOTE_OK)
+        status = mote_soup_split(&soup, &head.import.split);
     head.vertex_count = soup.vertex_count;
     head.triangle_count = soup.triangle_count;
     head.import.single_precision = soup.single_precision;
@@ -95,6 +98,48 @@ static mote_status import_in_child(void *context, int output)
     return status;
 }
 
+static bool is_strict;
+
+void mote_mesh_import_strictly(void)
+{
+    is_strict = true;
+}
+
+mote_status mote_import_refuse_split(const char *path, const mote_import *import)
+{
+    if (import->split.edges == 0)
+        return MOTE_OK;
+    return mote_fail(
+        MOTE_EINVAL,
+        "%s: %zu edge%s of more than two faces (non-manifold): %s%s; give each edge "
+        "one or two, or leave out --strict to have them cut apart",
+        path, import->split.edges, import->split.edges == 1 ? "" : "s", import->split.where,
+        import->split.edges > MOTE_SPLIT_EDGES_TOLD ? "; ..." : "");
+}
+
+#define FILES_TOLD 64
+
+void mote_import_tell_split(const char *path, const mote_import *import)
+{
+    static uint64_t told[FILES_TOLD];
+    static size_t count;
+    const uint64_t name = mote_hash_text(path);
+    if (import->split.edges == 0)
+        return;
+    for (size_t i = 0; i < count; ++i) {
+        if (told[i] == name)
+            return;
+    }
+    if (count < FILES_TOLD)
+        told[count++] = name;
+    (void)fprintf(stderr,
+                  "mote: %s: note: %zu edge%s of more than two faces cut apart, the surface "
+                  "being the same: %s%s\n",
+                  path, import->split.edges, import->split.edges == 1 ? "" : "s",
+                  import->split.where,
+                  import->split.edges > MOTE_SPLIT_EDGES_TOLD ? "; ..." : "");
+}
+
 /* A mesh of what the child put. The counts are checked against the size that came. */
 static mote_status make_mesh(const char *path, const char *data, size_t size, mote_mesh **mesh,
                              mote_import *import)
@@ -110,6 +155,9 @@ static mote_status make_mesh(const char *path, const char *data, size_t size, mo
         size != sizeof head + head.vertex_count * vertex_bytes +
                     head.triangle_count * triangle_bytes)
         return mote_fail(MOTE_EIO, "%s: reading it ended early", path);
+    head.import.split.where[MOTE_SPLIT_TEXT - 1] = '\0';
+    if (is_strict && mote_import_refuse_split(path, &head.import) != MOTE_OK)
+        return MOTE_EINVAL;
     double *xyz = malloc(head.vertex_count * vertex_bytes + 1);
     uint32_t *indices = malloc(head.triangle_count * triangle_bytes + 1);
     mote_status status = MOTE_OK;

@@ -1,8 +1,9 @@
-/* Meshes of users. */
+/* Meshes of users, from files. */
 #ifndef MOTE_HARNESS_MESH_IMPORT_H
 #define MOTE_HARNESS_MESH_IMPORT_H
 
 #include "core/body/mesh.h"
+#include "harness/mesh/mesh_split.h"
 
 /* What happened to a file's triangles on the way to a mesh. */
 typedef struct mote_import {
@@ -10,13 +11,26 @@ typedef struct mote_import {
     size_t welded;         /* vertices that stood at the place of another one */
     size_t collapsed;      /* faces left out: two vertices at one place */
     size_t unused;         /* vertices left out: in no face */
+    mote_split split;      /* edges of more than two faces, cut apart */
 } mote_import;
+
+/* From now on an edge of more than two faces is an error (--strict) instead of being cut apart.
+   Not for threads. */
+void mote_mesh_import_strictly(void);
+
+/* MOTE_EINVAL, with where they are, if edges of the file were cut apart. */
+mote_status mote_import_refuse_split(const char *path, const mote_import *import);
+
+/* Says on stderr, once for each file, that edges of it were cut apart, if any were. Not for
+   threads. */
+void mote_import_tell_split(const char *path, const mote_import *import);
 
 /* Reads a mesh: OBJ and OFF in double precision by ourselves; PLY, STL, glTF and others by
    assimp, welding vertices of equal position. In a child process with a time-out and a memory
    limit (4 seconds and 128 MB for a small file, more in proportion for large ones): whatever is
    in the file, the caller goes on. MOTE_EINVAL with a text that names the file and the place:
-   not finite, an index out of range, no face, an edge of more than two faces. MOTE_EIO: not
+   not finite, an index out of range, a face that is not simple, no face. An edge of more than
+   two faces is cut apart (mesh_split.h): the surface stays the same bit for bit. MOTE_EIO: not
    readable, or the child crashed or took too long. *import may be NULL. The caller destroys
    *mesh. */
 mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import);

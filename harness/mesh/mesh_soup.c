@@ -42,11 +42,18 @@ mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z)
 
 mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c)
 {
-    uint32_t *indices = grow(soup->indices, soup->triangle_count, &soup->triangle_capacity,
-                             3 * sizeof *soup->indices);
+    size_t capacity = soup->triangle_capacity;
+    uint32_t *indices =
+        grow(soup->indices, soup->triangle_count, &capacity, 3 * sizeof *soup->indices);
     if (!indices)
         return no_memory();
     soup->indices = indices;
+    uint32_t *lines =
+        grow(soup->lines, soup->triangle_count, &soup->triangle_capacity, sizeof *soup->lines);
+    if (!lines)
+        return no_memory();
+    soup->lines = lines;
+    lines[soup->triangle_count] = soup->line;
     uint32_t *at = indices + 3 * soup->triangle_count++;
     at[0] = a;
     at[1] = b;
@@ -102,6 +109,7 @@ void mote_soup_free(mote_soup *soup)
 {
     free(soup->xyz);
     free(soup->indices);
+    free(soup->lines);
     *soup = (mote_soup){0};
 }
 
@@ -152,6 +160,7 @@ static void apply_map(mote_soup *soup, const uint32_t *map)
             ++soup->collapsed;
             continue;
         }
+        soup->lines[kept] = soup->lines[t];
         uint32_t *to = soup->indices + 3 * kept++;
         to[0] = a;
         to[1] = b;

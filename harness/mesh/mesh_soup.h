@@ -11,6 +11,8 @@
 typedef struct mote_soup {
     double *xyz;       /* [3 * vertex_count] */
     uint32_t *indices; /* [3 * triangle_count] */
+    uint32_t *lines;   /* [triangle_count] of the file; 0: unknown */
+    uint32_t line;     /* of the triangles that are added next */
     size_t vertex_count, triangle_count;
     size_t vertex_capacity, triangle_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */

@@ -4,11 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *mote_skip_mark(const char *text)
-{
-    return strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
-}
-
 const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at)
 {
     for (;;) {
@@ -63,6 +58,7 @@ mote_status mote_mesh_end_face(mote_mesh_reader *reader)
     if (count < 3)
         return mote_fail(MOTE_EINVAL, "%s:%zu: a face of %zu vertices; give at least 3",
                          reader->path, reader->line, count);
+    reader->soup->line = reader->line < UINT32_MAX ? (uint32_t)reader->line : 0;
     const mote_status status = mote_soup_add_polygon(reader->soup, reader->corners, count);
     return status == MOTE_OK
                ? status

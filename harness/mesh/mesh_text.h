@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_MESH_TEXT_H
 #define MOTE_HARNESS_MESH_TEXT_H
 
+#include "harness/base/file.h"
 #include "harness/mesh/mesh_soup.h"
 
 typedef struct mote_mesh_reader {
@@ -47,9 +48,6 @@ static inline bool mote_mesh_word_ends(const mote_mesh_reader *reader, const cha
 {
     return mote_is_blank(*at) || mote_is_end(*at) || mote_continuation(reader, at) > 0;
 }
-
-/* The text after a byte-order mark, if there is one. */
-const char *mote_skip_mark(const char *text);
 
 /* Reads three finite numbers, whatever follows them, and adds them as a vertex. MOTE_EINVAL
    with file and line; `right` says what would be right ("write v x y z"). */

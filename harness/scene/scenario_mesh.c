@@ -38,8 +38,11 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
     if (!path)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
     status = own ? MOTE_OK : mote_fence_check(file->file->path, path);
+    mote_import import;
     if (status == MOTE_OK)
-        status = mote_mesh_import(path, mesh, NULL);
+        status = mote_mesh_import(path, mesh, &import);
+    if (status == MOTE_OK)
+        mote_import_tell_split(path, &import);
     free(path);
     return mote_json_blame(file, status);
 }

@@ -3,6 +3,7 @@
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 #include "harness/base/json_read.h"
+#include "tests/support/plain_file.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -130,6 +131,29 @@ TEST(json_of_another_kind_is_refused_by_line_and_place)
     assert_int_equal(mote_json_string(&text, &string), MOTE_OK);
     assert_string_equal(string, "a \"b\"");
     mote_json_close(&file);
+}
+
+TEST(json_after_a_byte_order_mark_is_read_and_keeps_its_lines)
+{
+    static const char marked[] = "\xef\xbb\xbf{\"one\": 1,\n\"two\": \"text\"}\n";
+    static const char cut[] = "\xef\xbb\xbf{\"one\"\n}";
+    char *marked_path = mote_format("%s-marked", path);
+    mote_json_file file;
+    double value;
+    assert_true(marked_path && plain_file_write(marked_path, marked, strlen(marked)));
+    if (mote_json_open(marked_path, &file) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    const mote_json root = mote_json_root(&file), one = mote_json_member(&root, "one"),
+                    two = mote_json_member(&root, "two");
+    assert_int_equal(mote_json_real(&one, 0, 5, &value), MOTE_OK);
+    assert_int_equal(mote_json_real(&two, 0, 5, &value), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), ":2: two: is not a number"));
+    mote_json_close(&file);
+    assert_true(plain_file_write(marked_path, cut, strlen(cut)));
+    assert_int_equal(mote_json_open(marked_path, &file), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "-marked:2:1: "));
+    assert_int_equal(remove(marked_path), 0);
+    free(marked_path);
 }
 
 /* The line is told of valid texts; one that is cut off anywhere is not left either. */

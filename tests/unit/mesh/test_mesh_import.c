@@ -176,8 +176,6 @@ static const bad_text bad_texts[] = {
     {"b.obj", "v 0 0 0\nv 1,5 0 0\n", ":2: a vertex without three numbers"},
     {"b.obj", "v 0 0 nan\n", ":1: a coordinate is not a finite double"},
     {"b.obj", "v 0 0 1e400\n", ":1: a coordinate is not a finite double"},
-    {"b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n",
-     "edge"},
     {"b.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n", "b.obj"},
     {"b.off", "", "an empty file"},
     {"b.off", "4OFF\n1 0 0\n0 0 0 0\n", ":1: no word OFF"},

@@ -1,0 +1,465 @@
+#include "harness/mesh/mesh_split.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NONE UINT32_MAX
+/* So many times some edges are opened wholly; then all are. */
+#define ROUNDS_MAX 8
+/* Lines that are named for an edge. */
+#define LINES_TOLD 6
+
+/* A face at an edge of more than two. */
+typedef struct wing {
+    uint32_t face;
+    uint32_t partner; /* another wing of the edge, from 0; NONE: the face is open here */
+    bool forward;     /* goes from the edge's first end to its second */
+    double angle;     /* about the edge */
+} wing;
+
+typedef struct heavy_edge {
+    uint32_t end[2];     /* the smaller vertex first */
+    uint32_t first_wing; /* in wings */
+    uint32_t wing_count;
+} heavy_edge;
+
+/* Corner 3 f + k is vertex k of face f. */
+typedef struct splitter {
+    mote_soup *soup;
+    uint32_t *first_corner; /* [v + 1] start of a vertex's corners in corner_of */
+    uint32_t *corner_of;    /* [3 t] */
+    uint32_t *mark;         /* [v] of each neighbour, while one vertex is looked at */
+    uint32_t *parent;       /* [3 t] corners of one vertex that stay together */
+    uint32_t *vertex;       /* [3 t] the vertex of each corner when all is done */
+    uint64_t *scratch;      /* [wing_count] */
+    heavy_edge *edges;
+    wing *wings;
+    size_t edge_count, edge_capacity, wing_count, wing_capacity;
+    uint32_t vertex_count; /* when all is done */
+} splitter;
+
+static void splitter_free(splitter *s)
+{
+    free(s->first_corner);
+    free(s->corner_of);
+    free(s->mark);
+    free(s->parent);
+    free(s->vertex);
+    free(s->scratch);
+    free(s->edges);
+    free(s->wings);
+}
+
+static mote_status no_memory(const splitter *s)
+{
+    return mote_fail(MOTE_ENOMEM, "no memory for the adjacency of %zu vertices",
+                     s->soup->vertex_count);
+}
+
+static mote_status splitter_create(mote_soup *soup, splitter *s)
+{
+    const size_t v = soup->vertex_count, corners = 3 * soup->triangle_count;
+    *s = (splitter){.soup = soup, .vertex_count = (uint32_t)v};
+    s->first_corner = calloc(v + 1, sizeof *s->first_corner);
+    s->corner_of = malloc((corners + 1) * sizeof *s->corner_of);
+    s->mark = calloc(v + 1, sizeof *s->mark);
+    if (!s->first_corner || !s->corner_of || !s->mark)
+        return no_memory(s);
+    for (size_t c = 0; c < corners; ++c)
+        ++s->first_corner[soup->indices[c]];
+    uint32_t sum = 0;
+    for (size_t i = 0; i <= v; ++i) {
+        sum += s->first_corner[i];
+        s->first_corner[i] = sum;
+    }
+    for (size_t c = corners; c-- > 0;)
+        s->corner_of[--s->first_corner[soup->indices[c]]] = (uint32_t)c;
+    return MOTE_OK;
+}
+
+/* The other two vertices of a corner's face, in the order of its winding. */
+static void neighbours_of(const splitter *s, uint32_t corner, uint32_t others[2])
+{
+    const uint32_t face = corner / 3, k = corner % 3;
+    others[0] = s->soup->indices[3 * face + (k + 1) % 3];
+    others[1] = s->soup->indices[3 * face + (k + 2) % 3];
+}
+
+static void *grow(void *data, size_t count, size_t *capacity, size_t size)
+{
+    if (count < *capacity)
+        return data;
+    const size_t wanted = *capacity ? 2 * *capacity : 64;
+    void *grown = realloc(data, wanted * size);
+    if (grown)
+        *capacity = wanted;
+    return grown;
+}
+
+static mote_status add_wing(splitter *s, uint32_t face, bool forward)
+{
+    wing *grown = grow(s->wings, s->wing_count, &s->wing_capacity, sizeof *grown);
+    if (!grown)
+        return no_memory(s);
+    s->wings = grown;
+    s->wings[s->wing_count++] = (wing){face, NONE, forward, 0};
+    return MOTE_OK;
+}
+
+/* The edge from a to the larger vertex b, with all of its faces. */
+static mote_status add_edge(splitter *s, uint32_t a, uint32_t b)
+{
+    heavy_edge *grown = grow(s->edges, s->edge_count, &s->edge_capacity, sizeof *grown);
+    if (!grown)
+        return no_memory(s);
+    s->edges = grown;
+    heavy_edge *edge = &s->edges[s->edge_count++];
+    *edge = (heavy_edge){{a, b}, (uint32_t)s->wing_count, 0};
+    mote_status status = MOTE_OK;
+    for (uint32_t i = s->first_corner[a]; i < s->first_corner[a + 1] && status == MOTE_OK;
+         ++i) {
+        uint32_t others[2];
+        neighbours_of(s, s->corner_of[i], others);
+        if (others[0] == b || others[1] == b)
+            status = add_wing(s, s->corner_of[i] / 3, others[0] == b);
+    }
+    edge->wing_count = (uint32_t)s->wing_count - edge->first_wing;
+    return status;
+}
+
+/* Adds the edges of more than two faces from v to larger vertices. mark: 0 before and after. */
+static mote_status find_edges_at(splitter *s, uint32_t v)
+{
+    mote_status status = MOTE_OK;
+    uint32_t others[2];
+    for (uint32_t i = s->first_corner[v]; i < s->first_corner[v + 1]; ++i) {
+        neighbours_of(s, s->corner_of[i], others);
+        for (int k = 0; k < 2; ++k) {
+            if (others[k] > v && ++s->mark[others[k]] == 3 && status == MOTE_OK)
+                status = add_edge(s, v, others[k]);
+        }
+    }
+    for (uint32_t i = s->first_corner[v]; i < s->first_corner[v + 1]; ++i) {
+        neighbours_of(s, s->corner_of[i], others);
+        s->mark[others[0]] = s->mark[others[1]] = 0;
+    }
+    return status;
+}
+
+static int compare_edges(const void *a, const void *b)
+{
+    const heavy_edge *p = a, *q = b;
+    const int first = (p->end[0] > q->end[0]) - (p->end[0] < q->end[0]);
+    return first ? first : (p->end[1] > q->end[1]) - (p->end[1] < q->end[1]);
+}
+
+/* The record of an edge between two vertices, or NULL when it has one or two faces. */
+static heavy_edge *edge_between(const splitter *s, uint32_t a, uint32_t b)
+{
+    const heavy_edge wanted = {{a < b ? a : b, a < b ? b : a}, 0, 0};
+    return bsearch(&wanted, s->edges, s->edge_count, sizeof *s->edges, compare_edges);
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int k = 0; k < 3; ++k)
+        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* From vertex a to vertex b, as a unit vector; 0 where they are at one place. */
+static void direction(const splitter *s, uint32_t a, uint32_t b, double out[3])
+{
+    const double *from = s->soup->xyz + (size_t)3 * a, *to = s->soup->xyz + (size_t)3 * b;
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) {
+        out[k] = to[k] / 2 - from[k] / 2;
+        largest = fmax(largest, fabs(out[k]));
+    }
+    for (int k = 0; k < 3 && largest > 0; ++k)
+        out[k] /= largest;
+    const double length = sqrt(dot(out, out));
+    for (int k = 0; k < 3 && largest > 0; ++k)
+        out[k] /= length;
+}
+
+static uint32_t opposite(const splitter *s, const heavy_edge *edge, uint32_t face)
+{
+    const uint32_t *t = s->soup->indices + (size_t)3 * face;
+    for (int k = 0; k < 2; ++k) {
+        if (t[k] != edge->end[0] && t[k] != edge->end[1])
+            return t[k];
+    }
+    return t[2];
+}
+
+static int compare_wings(const void *a, const void *b)
+{
+    const wing *p = a, *q = b;
+    if (p->angle != q->angle)
+        return p->angle < q->angle ? -1 : 1;
+    return (p->face > q->face) - (p->face < q->face);
+}
+
+/* Orders the faces about the edge, as the fingers of a right hand close whose thumb points to
+   the edge's second end. */
+static void sort_wings(const splitter *s, const heavy_edge *edge)
+{
+    wing *wings = s->wings + edge->first_wing;
+    double along[3], start[3], across[3], third[3];
+    direction(s, edge->end[0], edge->end[1], along);
+    direction(s, edge->end[0], opposite(s, edge, wings[0].face), start);
+    cross(along, start, third);
+    cross(third, along, across);
+    for (uint32_t i = 0; i < edge->wing_count; ++i) {
+        double to[3];
+        direction(s, edge->end[0], opposite(s, edge, wings[i].face), to);
+        wings[i].angle = atan2(dot(to, third), dot(to, across));
+    }
+    qsort(wings, edge->wing_count, sizeof *wings, compare_wings);
+}
+
+/* Joins faces with the inside between them. The inside of a face that goes backward along the
+   edge begins at its angle, that of one that goes forward ends there: they match as brackets
+   do. */
+static void pair_wings(const splitter *s, const heavy_edge *edge)
+{
+    uint64_t *stack = s->scratch; /* of '(' without a ')' so far */
+    wing *wings = s->wings + edge->first_wing;
+    uint32_t depth = 0;
+    sort_wings(s, edge);
+    for (uint32_t turn = 0; turn < 2 * edge->wing_count; ++turn) {
+        const uint32_t i = turn % edge->wing_count;
+        if (wings[i].partner != NONE)
+            continue;
+        if (!wings[i].forward && turn < edge->wing_count) {
+            stack[depth++] = i;
+        } else if (wings[i].forward && depth > 0) {
+            wings[i].partner = (uint32_t)stack[--depth];
+            wings[wings[i].partner].partner = i;
+        }
+    }
+}
+
+static uint32_t root_of(splitter *s, uint32_t corner)
+{
+    while (s->parent[corner] != corner) {
+        s->parent[corner] = s->parent[s->parent[corner]];
+        corner = s->parent[corner];
+    }
+    return corner;
+}
+
+/* The smaller root stays. */
+static void join(splitter *s, uint32_t a, uint32_t b)
+{
+    a = root_of(s, a);
+    b = root_of(s, b);
+    s->parent[a > b ? a : b] = a > b ? b : a;
+}
+
+static uint32_t corner_at(const splitter *s, uint32_t face, uint32_t v)
+{
+    const uint32_t *t = s->soup->indices + (size_t)3 * face;
+    return 3 * face + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
+}
+
+/* Joins the corners at v of the faces that stay together along the edge from v to u, one of
+   them being `corner`. Of an edge of one or two faces, mark keeps the first corner (+ 1). */
+static void join_along(splitter *s, uint32_t v, uint32_t u, uint32_t corner)
+{
+    const uint32_t before = s->mark[u];
+    if (before == NONE)
+        return; /* of more faces, and done */
+    if (before)
+        join(s, before - 1, corner);
+    const heavy_edge *edge = before ? NULL : edge_between(s, v, u);
+    s->mark[u] = edge ? NONE : corner + 1;
+    for (uint32_t i = 0; edge && i < edge->wing_count; ++i) {
+        const wing *wings = s->wings + edge->first_wing;
+        if (wings[i].partner != NONE && wings[i].partner > i)
+            join(s, corner_at(s, wings[i].face, v),
+                 corner_at(s, wings[wings[i].partner].face, v));
+    }
+}
+
+/* Gives each group of corners of v that stay together a vertex; the first keeps v. */
+static void split_vertex(splitter *s, uint32_t v)
+{
+    const uint32_t begin = s->first_corner[v], end = s->first_corner[v + 1];
+    uint32_t others[2];
+    for (uint32_t i = begin; i < end; ++i)
+        s->parent[s->corner_of[i]] = s->corner_of[i];
+    for (uint32_t i = begin; i < end; ++i) {
+        neighbours_of(s, s->corner_of[i], others);
+        for (int k = 0; k < 2; ++k)
+            join_along(s, v, others[k], s->corner_of[i]);
+    }
+    for (uint32_t i = begin; i < end; ++i) {
+        const uint32_t corner = s->corner_of[i], root = root_of(s, corner);
+        /* Corners come in the order of their faces: the root, the smallest, was met before. */
+        if (root != corner)
+            s->vertex[corner] = s->vertex[root];
+        else
+            s->vertex[corner] = i == begin ? v : s->vertex_count++;
+        neighbours_of(s, corner, others);
+        s->mark[others[0]] = s->mark[others[1]] = 0;
+    }
+}
+
+/* Splits the ends of all edges of more than two faces, as they are paired now. */
+static void split_all(splitter *s)
+{
+    const size_t corners = 3 * s->soup->triangle_count;
+    memcpy(s->vertex, s->soup->indices, corners * sizeof *s->vertex);
+    s->vertex_count = (uint32_t)s->soup->vertex_count;
+    for (size_t e = 0; e < s->edge_count; ++e) {
+        for (int k = 0; k < 2; ++k) {
+            const uint32_t v = s->edges[e].end[k], first = s->corner_of[s->first_corner[v]];
+            /* Once for each: its first corner has a parent then. */
+            if (s->parent[first] == NONE)
+                split_vertex(s, v);
+        }
+    }
+}
+
+static int compare_keys(const void *a, const void *b)
+{
+    const uint64_t first = *(const uint64_t *)a, second = *(const uint64_t *)b;
+    return (first > second) - (first < second);
+}
+
+/* Whether more than two faces still have both ends of an edge in common. */
+static bool is_still_heavy(const splitter *s, const heavy_edge *edge)
+{
+    const wing *wings = s->wings + edge->first_wing;
+    uint64_t *ends = s->scratch;
+    for (uint32_t i = 0; i < edge->wing_count; ++i) {
+        const uint64_t first = s->vertex[corner_at(s, wings[i].face, edge->end[0])];
+        ends[i] = first << 32 | s->vertex[corner_at(s, wings[i].face, edge->end[1])];
+    }
+    qsort(ends, edge->wing_count, sizeof *ends, compare_keys);
+    for (uint32_t i = 2; i < edge->wing_count; ++i) {
+        if (ends[i - 2] == ends[i])
+            return true;
+    }
+    return false;
+}
+
+static void open_edge(splitter *s, const heavy_edge *edge)
+{
+    for (uint32_t i = 0; i < edge->wing_count; ++i)
+        s->wings[edge->first_wing + i].partner = NONE;
+}
+
+/* Where the fans of two pairs run into each other at both ends of their edge, the edge stays
+   heavy. It is then opened wholly, which always helps: every fan of faces at its end has two
+   ends at most, so that at most two faces of the edge share a vertex. */
+static void split_until_light(splitter *s)
+{
+    bool heavy = true;
+    for (int round = 0; heavy; ++round) {
+        memset(s->parent, 0xff, 3 * s->soup->triangle_count * sizeof *s->parent);
+        split_all(s);
+        heavy = false;
+        for (size_t e = 0; e < s->edge_count; ++e) {
+            if (!is_still_heavy(s, &s->edges[e]))
+                continue;
+            heavy = true;
+            open_edge(s, &s->edges[e]);
+        }
+        for (size_t e = 0; e < s->edge_count && heavy && round >= ROUNDS_MAX; ++e)
+            open_edge(s, &s->edges[e]);
+    }
+}
+
+static void MOTE_PRINTF(3, 4) append(char *text, size_t size, const char *format, ...)
+{
+    const size_t length = strlen(text);
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(text + length, size - length, format, arguments);
+    va_end(arguments);
+}
+
+static int compare_lines(const void *a, const void *b)
+{
+    const uint32_t first = *(const uint32_t *)a, second = *(const uint32_t *)b;
+    return (first > second) - (first < second);
+}
+
+static void tell_edge(const splitter *s, const heavy_edge *edge, mote_split *split)
+{
+    const double *a = s->soup->xyz + (size_t)3 * edge->end[0];
+    const double *b = s->soup->xyz + (size_t)3 * edge->end[1];
+    uint32_t lines[LINES_TOLD], count = 0;
+    append(split->where, sizeof split->where,
+           "%s(%.6g, %.6g, %.6g) to (%.6g, %.6g, %.6g) with %u faces",
+           split->where[0] ? "; " : "", a[0], a[1], a[2], b[0], b[1], b[2], edge->wing_count);
+    for (uint32_t i = 0; i < edge->wing_count && count < LINES_TOLD; ++i) {
+        lines[count] = s->soup->lines[s->wings[edge->first_wing + i].face];
+        count += lines[count] > 0;
+    }
+    qsort(lines, count, sizeof *lines, compare_lines);
+    for (uint32_t i = 0; i < count; ++i)
+        append(split->where, sizeof split->where, "%s%u", i ? ", " : " on lines ", lines[i]);
+    if (count > 0 && count < edge->wing_count)
+        append(split->where, sizeof split->where, ", ...");
+}
+
+static mote_status apply(splitter *s, mote_split *split)
+{
+    mote_soup *soup = s->soup;
+    const size_t before = soup->vertex_count;
+    mote_status status = MOTE_OK;
+    for (size_t e = 0; e < s->edge_count && e < MOTE_SPLIT_EDGES_TOLD; ++e)
+        tell_edge(s, &s->edges[e], split);
+    while (soup->vertex_count < s->vertex_count && status == MOTE_OK)
+        status = mote_soup_add_vertex(soup, 0, 0, 0);
+    for (size_t c = 0; c < 3 * soup->triangle_count && status == MOTE_OK; ++c) {
+        if (s->vertex[c] >= before)
+            memcpy(soup->xyz + (size_t)3 * s->vertex[c],
+                   soup->xyz + (size_t)3 * soup->indices[c], 3 * sizeof *soup->xyz);
+        soup->indices[c] = s->vertex[c];
+    }
+    split->edges = s->edge_count;
+    split->vertices = s->vertex_count - before;
+    return status;
+}
+
+static mote_status split_edges(splitter *s, mote_split *split)
+{
+    const size_t corners = 3 * s->soup->triangle_count;
+    s->parent = malloc(corners * sizeof *s->parent);
+    s->vertex = malloc(corners * sizeof *s->vertex);
+    s->scratch = malloc(s->wing_count * sizeof *s->scratch);
+    if (!s->parent || !s->vertex || !s->scratch)
+        return no_memory(s);
+    qsort(s->edges, s->edge_count, sizeof *s->edges, compare_edges);
+    for (size_t e = 0; e < s->edge_count; ++e)
+        pair_wings(s, &s->edges[e]);
+    split_until_light(s);
+    return apply(s, split);
+}
+
+mote_status mote_soup_split(mote_soup *soup, mote_split *split)
+{
+    splitter s;
+    mote_split made = {0};
+    mote_status status = splitter_create(soup, &s);
+    for (uint32_t v = 0; v < soup->vertex_count && status == MOTE_OK; ++v)
+        status = find_edges_at(&s, v);
+    if (status == MOTE_OK && s.edge_count > 0)
+        status = split_edges(&s, &made);
+    splitter_free(&s);
+    if (status == MOTE_OK)
+        *split = made;
+    return status;
+}

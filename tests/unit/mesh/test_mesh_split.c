@@ -1,0 +1,277 @@
+/* Edges of more than two faces are cut apart, and nothing else changes. */
+#include "core/body/mesh.h"
+#include "harness/mesh/mesh_split.h"
+#include "tests/support/plain_file.h"
+#include "tests/support/program.h"
+#include "tests/support/test.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define FACES_MAX 64
+
+/* Two unit cubes that touch along the edge from (1, 1, 0) to (1, 1, 1). */
+static const double cube_places[14][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                                          {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {2, 1, 0}, {2, 2, 0},
+                                          {1, 2, 0}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}};
+static const uint32_t cube_faces[12][4] = {{0, 3, 2, 1},   {4, 5, 6, 7},    {0, 1, 5, 4},
+                                           {1, 2, 6, 5},   {2, 3, 7, 6},    {3, 0, 4, 7},
+                                           {2, 10, 9, 8},  {6, 11, 12, 13}, {2, 8, 11, 6},
+                                           {8, 9, 12, 11}, {9, 10, 13, 12}, {10, 2, 6, 13}};
+
+static mote_soup make_soup(const double (*places)[3], size_t count)
+{
+    mote_soup soup = {0};
+    for (size_t i = 0; i < count; ++i)
+        assert_int_equal(mote_soup_add_vertex(&soup, places[i][0], places[i][1], places[i][2]),
+                         MOTE_OK);
+    return soup;
+}
+
+static mote_mesh *mesh_of(const mote_soup *soup)
+{
+    mote_mesh *mesh = NULL;
+    if (mote_mesh_create(soup->xyz, soup->vertex_count, soup->indices, soup->triangle_count,
+                         &mesh) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return mesh;
+}
+
+TEST(split_cubes_that_touch_along_an_edge_both_stay_closed)
+{
+    mote_soup soup = make_soup(cube_places, 14);
+    for (size_t f = 0; f < 12; ++f) {
+        soup.line = (uint32_t)f + 15;
+        assert_int_equal(mote_soup_add_polygon(&soup, cube_faces[f], 4), MOTE_OK);
+    }
+    mote_mesh *mesh = NULL;
+    assert_int_equal(
+        mote_mesh_create(soup.xyz, soup.vertex_count, soup.indices, soup.triangle_count, &mesh),
+        MOTE_EINVAL);
+    mote_split split;
+    assert_int_equal(mote_soup_split(&soup, &split), MOTE_OK);
+    assert_int_equal(split.edges, 1);
+    assert_int_equal(split.vertices, 2);
+    assert_string_equal(split.where,
+                        "(1, 1, 0) to (1, 1, 1) with 4 faces on lines 18, 19, 23, 26");
+    mesh = mesh_of(&soup);
+    assert_int_equal(mesh->open_edge_count, 0);
+    assert_int_equal(mesh->component_count, 2);
+    assert_int_equal(mote_mesh_euler(mesh), 4);
+    mote_mesh_destroy(mesh);
+    mote_soup_free(&soup);
+}
+
+/* Pages of a book: an edge with `count` faces, all wound alike or in turn. */
+static mote_mesh *split_book(int count, bool in_turn, mote_split *split)
+{
+    static const double places[8][3] = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0},   {1, 1, 0},
+                                        {-1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}, {1, -1, 0}};
+    mote_soup soup = make_soup(places, 2 + (size_t)count);
+    for (int i = 0; i < count; ++i) {
+        const bool turned = in_turn && i % 2;
+        assert_int_equal(mote_soup_add_triangle(&soup, turned, !turned, 2 + (uint32_t)i),
+                         MOTE_OK);
+    }
+    assert_int_equal(mote_soup_split(&soup, split), MOTE_OK);
+    mote_mesh *mesh = mesh_of(&soup);
+    mote_soup_free(&soup);
+    return mesh;
+}
+
+TEST(split_pages_of_a_book_stay_together_where_they_enclose_an_inside)
+{
+    mote_split split;
+    mote_mesh *mesh = split_book(6, true, &split);
+    assert_int_equal(mesh->component_count, 3);
+    assert_int_equal(mesh->open_edge_count, 12);
+    /* The first page goes forward: its inside ends there, and began at the last page. */
+    assert_int_equal(mesh->component[2], mesh->component[7]);
+    assert_int_equal(mesh->component[3], mesh->component[4]);
+    mote_mesh_destroy(mesh);
+    mesh = split_book(3, true, &split);
+    assert_int_equal(split.edges, 1);
+    assert_int_equal(split.vertices, 2);
+    assert_int_equal(mesh->component_count, 2);
+    mote_mesh_destroy(mesh);
+    mesh = split_book(3, false, &split);
+    assert_int_equal(split.vertices, 4);
+    assert_int_equal(mesh->component_count, 3);
+    mote_mesh_destroy(mesh);
+}
+
+TEST(split_leaves_a_mesh_of_edges_with_two_faces_as_it_is)
+{
+    /* Two tetrahedra with one vertex in common: two fans there, which are no fault. */
+    static const double places[7][3] = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0}, {0, 0, 1},
+                                        {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+    static const uint32_t faces[8][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
+                                         {0, 5, 4}, {0, 4, 6}, {0, 6, 5}, {4, 5, 6}};
+    mote_soup soup = make_soup(places, 7);
+    for (int f = 0; f < 8; ++f)
+        assert_int_equal(mote_soup_add_triangle(&soup, faces[f][0], faces[f][1], faces[f][2]),
+                         MOTE_OK);
+    mote_split split;
+    assert_int_equal(mote_soup_split(&soup, &split), MOTE_OK);
+    assert_int_equal(split.edges, 0);
+    assert_int_equal(split.vertices, 0);
+    assert_string_equal(split.where, "");
+    assert_int_equal(soup.vertex_count, 7);
+    assert_memory_equal(soup.indices, faces, sizeof faces);
+    mote_soup_free(&soup);
+}
+
+static uint32_t draw(uint32_t *seed, uint32_t below)
+{
+    *seed = *seed * 1664525u + 1013904223u;
+    return (uint32_t)(((uint64_t)*seed * below) >> 32);
+}
+
+static bool has(const uint32_t face[3], uint32_t v)
+{
+    return face[0] == v || face[1] == v || face[2] == v;
+}
+
+/* How many faces have an edge; *pair are two of them. */
+static int faces_at(uint32_t (*faces)[3], int count, uint32_t a, uint32_t b, int pair[2])
+{
+    int found = 0;
+    for (int f = 0; f < count; ++f) {
+        if (has(faces[f], a) && has(faces[f], b))
+            pair[found++ % 2] = f;
+    }
+    return found;
+}
+
+static uint32_t new_vertex(const mote_soup *soup, uint32_t (*before)[3], int face, uint32_t v)
+{
+    for (int k = 0; k < 3; ++k) {
+        if (before[face][k] == v)
+            return soup->indices[3 * face + k];
+    }
+    return UINT32_MAX;
+}
+
+/* What is split has the places of before in the same order, no edge of more than two faces, and
+   every edge of two faces that it had. */
+static size_t check_split(const mote_soup *soup, const mote_split *split, uint32_t vertices,
+                          uint32_t (*before)[3])
+{
+    const int count = (int)soup->triangle_count;
+    size_t heavy = 0;
+    for (uint32_t a = 0; a < vertices; ++a) {
+        for (uint32_t b = a + 1; b < vertices; ++b) {
+            int pair[2];
+            const int faces = faces_at(before, count, a, b, pair);
+            heavy += faces > 2;
+            if (faces != 2)
+                continue;
+            assert_int_equal(new_vertex(soup, before, pair[0], a),
+                             new_vertex(soup, before, pair[1], a));
+            assert_int_equal(new_vertex(soup, before, pair[0], b),
+                             new_vertex(soup, before, pair[1], b));
+        }
+    }
+    assert_int_equal(split->edges, heavy);
+    assert_int_equal(soup->vertex_count, vertices + split->vertices);
+    for (int c = 0; c < 3 * count; ++c)
+        assert_memory_equal(soup->xyz + 3 * soup->indices[c],
+                            soup->xyz + 3 * before[c / 3][c % 3], 3 * sizeof(double));
+    mote_mesh_destroy(mesh_of(soup));
+    return heavy;
+}
+
+TEST(split_random_faces_make_a_mesh_of_the_same_places)
+{
+    uint32_t seed = 3;
+    size_t heavy = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const uint32_t vertices = 4 + draw(&seed, 6), count = 3 + draw(&seed, 30);
+        uint32_t before[FACES_MAX][3];
+        mote_soup soup = {0};
+        for (uint32_t v = 0; v < vertices; ++v)
+            assert_int_equal(mote_soup_add_vertex(&soup, draw(&seed, 4), draw(&seed, 4), v),
+                             MOTE_OK);
+        for (uint32_t f = 0; f < count;) {
+            const uint32_t a = draw(&seed, vertices), b = draw(&seed, vertices),
+                           c = draw(&seed, vertices);
+            if (a == b || b == c || c == a)
+                continue;
+            assert_int_equal(mote_soup_add_triangle(&soup, a, b, c), MOTE_OK);
+            ++f;
+        }
+        assert_int_equal(mote_soup_compact(&soup), MOTE_OK);
+        const uint32_t used = (uint32_t)soup.vertex_count;
+        memcpy(before, soup.indices, count * sizeof before[0]);
+        mote_split split;
+        assert_int_equal(mote_soup_split(&soup, &split), MOTE_OK);
+        heavy += check_split(&soup, &split, used, before);
+        mote_soup_free(&soup);
+    }
+    assert_true(heavy > 10000);
+}
+
+/* A hub of many faces on one edge is no trap. */
+TEST(split_an_edge_of_many_faces_takes_no_time)
+{
+    mote_soup soup = {0};
+    assert_int_equal(mote_soup_add_vertex(&soup, 0, 0, 0), MOTE_OK);
+    assert_int_equal(mote_soup_add_vertex(&soup, 0, 0, 1), MOTE_OK);
+    for (uint32_t i = 0; i < 200000; ++i) {
+        assert_int_equal(mote_soup_add_vertex(&soup, 1, i, 0), MOTE_OK);
+        assert_int_equal(mote_soup_add_triangle(&soup, i % 2, 1 - i % 2, 2 + i), MOTE_OK);
+    }
+    mote_split split;
+    assert_int_equal(mote_soup_split(&soup, &split), MOTE_OK);
+    assert_int_equal(split.edges, 1);
+    assert_int_equal(split.vertices, 2 * 99999);
+    mote_soup_free(&soup);
+}
+
+static const char book[] = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\n"
+                           "f 1 2 3\nf 2 1 4\nf 1 2 5\n";
+static const char scene[] =
+    "{\"purpose\": \"A book.\", \"frames\": 2, \"ask\": \"distance\", \"bodies\": ["
+    "{\"file\": \"split_book.obj\"}, {\"file\": \"split_book.obj\", "
+    "\"motion\": [{\"frame\": 1, \"position\": [3, 0, 0]}]}]}";
+
+TEST(split_is_told_once_and_refused_by_strict)
+{
+    static const struct {
+        const char *line;
+        int code;
+        const char *says;
+        int notes; /* how often it says so */
+    } cases[] = {
+        {"mesh split_book.obj", 0,
+         "non-manifold edges  1, cut apart with 2 new vertices: (0, 0, 0) to (0, 0, 1) with 3 "
+         "faces on lines 6, 7, 8\n",
+         0},
+        {"mesh split_book.obj --json", 0, "\"non_manifold_edges\": 1,", 0},
+        {"distance split_book.obj split_book.obj", 0, "note: 1 edge of more than two", 1},
+        {"check split_book.json", 0, "note: 1 edge of more than two", 1},
+        {"mesh --strict split_book.obj", 4,
+         "(0, 0, 0) to (0, 0, 1) with 3 faces on lines 6, 7, 8;", 0},
+        {"distance --strict split_book.obj split_book.obj", 4, "(non-manifold)", 0},
+        {"run --strict split_book.json --dry-run", 4, "(non-manifold)", 0},
+        {"--strict check split_book.json", 4, "(non-manifold)", 0},
+    };
+    static char said[8192];
+    assert_true(plain_file_write("split_book.obj", book, strlen(book)));
+    assert_true(plain_file_write("split_book.json", scene, strlen(scene)));
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        const int code = program_wait(program_start(cases[i].line, "split_said.txt"));
+        program_read("split_said.txt", said, sizeof said);
+        int notes = 0;
+        for (const char *at = said; (at = strstr(at, "note:")) != NULL; ++at)
+            ++notes;
+        if (code != cases[i].code || !strstr(said, cases[i].says) || notes != cases[i].notes)
+            fail_msg("%s: %d, %s", cases[i].line, code, said);
+    }
+    assert_int_equal(
+        unlink("split_book.obj") | unlink("split_book.json") | unlink("split_said.txt"), 0);
+}
