@@ -18,7 +18,7 @@ cache=$(command -v ccache || true)
 sources=$(ls core/*/*.c datasets/*.c harness/scene/scenario*.c harness/mesh/*.c |
     grep -v core/certificate/plain.c)
 for name in approach catalog child confine curve data file json_line json_memory json_print \
-    json_read memory method_choice motion number_text options probe reach spread turn; do
+    json_read memory method_choice motion number_text options pair_motion probe fence spread turn; do
     sources="$sources $(ls harness/*/$name.c)"
 done
 sources="$sources tests/studies/answers.c $build/core_registry.c"

@@ -123,7 +123,7 @@ static const input inputs[] = {
     {"nan.json", SCENE(", \"tolerance\": nan", "a.obj"), 4, "nan.json:1:"},
     {"1e400.json", SCENE(", \"tolerance\": 1e400", "a.obj"), 4, "1e400.json:1:"},
     {"comma.json", SCENE(", \"tolerance\": 0,5", "a.obj"), 4, "comma.json:1:"},
-    {"mark.json", "\xef\xbb\xbf" SCENE("", "a.obj"), 4, "mark.json:1:"},
+    {"mark.json", "\xef\xbb\xbf" SCENE("", "a.obj"), 0, "mark: fingerprint"},
     {"frames.json", "{\"purpose\": \"x\", \"frames\": 99999999999999999999, \"bodies\": []}", 4,
      "frames.json:1:"},
     {"circle.json", "{\"purpose\": \"x\", \"like\": \"circle.json\"}\n", 4, "circle.json"},
