@@ -1,13 +1,12 @@
-#include "harness/run/bodies_run.h"
 #include "harness/process/child.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/run/run.h"
-#include "harness/scene/scenario.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
+#include "harness/summary/until.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,6 +30,7 @@ static const mote_option options[] = {
     {"until-ci", "2%"},
     {"budget", "SECONDS"},
     {"strict", NULL},
+    {"pairs", "all|contacts"},
     {"pair", "A.obj B.obj"},
 };
 enum {
@@ -51,6 +51,7 @@ enum {
     OPTION_UNTIL_CI,
     OPTION_BUDGET,
     OPTION_STRICT,
+    OPTION_PAIRS,
     OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
     OPTION_COUNT
 };
@@ -67,8 +68,9 @@ typedef struct request {
     const char *particles, *frames;
     uint32_t shard, shards; /* shard of shards, from 1; 0, 0: not given */
     char *pair;             /* the name of the scenario that two meshes make, or NULL */
-    const char *pairs_only; /* an option that is not for several bodies, or NULL */
+    double until_share;     /* of --until-ci; 0: not given */
     mote_choices choices;
+    mote_choices scene_choices; /* of scenarios of more than two bodies */
 } request;
 
 static bool read_shard(const char *text, request *q)
@@ -168,13 +170,16 @@ static bool take_option(request *q, int option, const char *value, const char **
         return read_count(value, MOTE_CHILDREN_MAX, &plan->jobs);
     case OPTION_UNTIL_CI:
         *expected = "a percentage from 0.001% to 100%";
-        return read_percent(value, &q->run.until_share);
+        return read_percent(value, &q->until_share);
     case OPTION_BUDGET:
         *expected = "seconds";
         return mote_read_real(value, 0, 1e9, &q->run.budget);
     case OPTION_STRICT:
         mote_mesh_import_strictly();
         return true;
+    case OPTION_PAIRS:
+        plan->contacts_only = strcmp(value, "contacts") == 0;
+        return plan->contacts_only || strcmp(value, "all") == 0;
     case OPTION_FORCE:
         q->run.force = true;
         return true;
@@ -204,17 +209,6 @@ static bool add_pair(request *q, mote_option_reader *reader, const char *first)
     return q->pair != NULL;
 }
 
-/* Remembers an option that scenarios of several bodies do not have. */
-static void note_option(request *q, int option)
-{
-    static const bool for_bodies[OPTION_COUNT] = {
-        [OPTION_METHOD] = true,  [OPTION_REPLICATES] = true, [OPTION_FRAMES] = true,
-        [OPTION_OUT] = true,     [OPTION_TIMEOUT] = true,    [OPTION_BUDGET] = true,
-        [OPTION_DRY_RUN] = true, [OPTION_FORCE] = true};
-    if (!for_bodies[option])
-        q->pairs_only = options[option].name;
-}
-
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
@@ -226,13 +220,9 @@ static int read_arguments(int argc, char **argv, request *q)
             break;
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN)
+        if (option == MOTE_OPTION_PLAIN) {
             add_scenario(q, value);
-        else
-            note_option(q, option);
-        if (option == MOTE_OPTION_PLAIN)
-            continue;
-        if (option == OPTION_PAIR) {
+        } else if (option == OPTION_PAIR) {
             if (!add_pair(q, &reader, value))
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
@@ -240,7 +230,7 @@ static int read_arguments(int argc, char **argv, request *q)
             return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
                                       value, expected);
     }
-    if (q->run.until_share > 0 && q->run.plan.jobs > 1)
+    if (q->until_share > 0 && q->run.plan.jobs > 1)
         return mote_command_usage(argv[0], "--until-ci is for times, --jobs for accuracy; "
                                            "leave out one of them");
     if (q->run.scenario_count == 0)
@@ -284,14 +274,22 @@ static void take_shard(request *q)
         q->run.scenario_count = kept;
 }
 
-/* The configurations asked for, or every method there is. */
+/* The configurations asked for, the same for all scenarios; or every method there is, and for
+   more than two bodies every way to ask about them. */
 static mote_status expand_methods(request *q)
 {
+    static const char *const scene_ways[] = {"certified",    "fcl-aabb:refit=every",
+                                             "fcl-aabb",     "aabb-tree",
+                                             "particle:n=8", "particle-paper:n=5"};
+    const size_t ways = sizeof scene_ways / sizeof scene_ways[0];
     mote_status status = MOTE_OK;
     for (size_t i = 0; status == MOTE_OK && i < q->method_count; ++i)
         status = mote_choices_add(&q->choices, q->methods[i], q->particles);
     for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_methods[i]; ++i)
         status = mote_choices_add(&q->choices, mote_methods[i]->name, q->particles);
+    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && i < ways; ++i)
+        status = mote_choices_add(&q->scene_choices, scene_ways[i], q->particles);
+    q->run.scene_choices = q->method_count == 0 ? &q->scene_choices : NULL;
     return status;
 }
 
@@ -319,51 +317,14 @@ static int report(const char *directory)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-/* Scenarios of several bodies: they are measured apart from pairs. */
-static int execute_bodies(request *q)
-{
-    if (q->pairs_only)
-        return mote_command_usage(q->run.argv[0], "--%s: not for several bodies; leave it out",
-                                  q->pairs_only);
-    if (read_frames(q) != MOTE_OK)
-        return mote_command_fail();
-    const mote_bodies_run_options wish = {.scenarios = q->scenarios,
-                                          .scenario_count = q->run.scenario_count,
-                                          .methods = q->methods,
-                                          .method_count = q->method_count,
-                                          .measure = {.first = q->run.plan.first,
-                                                      .last = q->run.plan.last,
-                                                      .timeout = q->run.timeout,
-                                                      .budget = q->run.budget,
-                                                      .least = 3},
-                                          .replicates = q->run.plan.replicates,
-                                          .directory = q->run.directory,
-                                          .dry_run = q->run.dry_run,
-                                          .argc = q->run.argc,
-                                          .argv = q->run.argv};
-    size_t failed;
-    if (mote_bodies_run(&wish, &failed) != MOTE_OK)
-        return mote_command_fail();
-    if (failed > 0)
-        (void)fprintf(stderr, "mote: %zu cells failed; see their reason in %s/bodies.json\n",
-                      failed, q->run.directory);
-    return mote_command_finish(failed > 0 ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_DONE);
-}
-
 static int execute(request *q)
 {
-    size_t several = 0;
-    for (size_t i = 0; i < q->run.scenario_count; ++i)
-        several += mote_bodies_is(q->scenarios[i]);
-    if (several > 0 && several < q->run.scenario_count)
-        return mote_command_usage(q->run.argv[0],
-                                  "scenarios of two and of several bodies; give them apart");
-    if (several > 0)
-        return execute_bodies(q);
     if (expand_methods(q) != MOTE_OK || read_frames(q) != MOTE_OK)
         return mote_command_fail();
+    q->run.plan.budget = q->run.budget;
     mote_run_outcome outcome;
-    mote_status status = mote_run(&q->run, &outcome);
+    mote_status status = q->until_share > 0 ? mote_run_until(&q->run, q->until_share, &outcome)
+                                            : mote_run(&q->run, &outcome);
     if (status != MOTE_OK) {
         (void)mote_command_fail();
         return outcome.started ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_BAD_INPUT;
@@ -404,6 +365,7 @@ int mote_command_run(int argc, char **argv)
             code = execute(&q);
     }
     mote_choices_free(&q.choices);
+    mote_choices_free(&q.scene_choices);
     free(q.scenarios);
     free(q.methods);
     free(q.pair);

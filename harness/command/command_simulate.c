@@ -120,9 +120,9 @@ static mote_status simulate(const request *wish, const mote_scenario *scenario,
 /* The same for a scenario of several bodies. */
 static mote_status simulate_several(const request *wish)
 {
-    mote_bodies_choice choice;
+    mote_method_choice choice;
     mote_bodies *bodies;
-    mote_status status = mote_bodies_choice_read(wish->method, &choice);
+    mote_status status = mote_scene_choice_read(wish->method, &choice);
     if (status == MOTE_OK)
         status = mote_bodies_load(wish->scenario, &bodies);
     if (status != MOTE_OK)
@@ -135,7 +135,8 @@ static mote_status simulate_several(const request *wish)
     const double steps = wish->steps > 0 ? (double)wish->steps
                                          : fmin(fmax(frames, 1), MOTE_SIMULATION_STEPS_MAX);
     mote_bodies_simulation result;
-    status = mote_bodies_simulate(bodies, &choice, &options, (uint32_t)steps, &result);
+    status =
+        mote_bodies_simulate(bodies, &choice, &options, (uint32_t)steps, wish->seed, &result);
     if (status == MOTE_OK && wish->json)
         status = mote_bodies_simulation_json(bodies, &choice, &result);
     else if (status == MOTE_OK)
@@ -243,9 +244,9 @@ int mote_command_simulate(int argc, char **argv)
         return mote_command_usage("simulate", "something is missing; write `mote simulate "
                                               "SCENARIO --method NAME`");
     if (mote_bodies_is(wish.scenario)) {
-        if (wish.trace || wish.film || wish.seed != 1)
-            return mote_command_usage(
-                "simulate", "--trace, --film and --seed are for two bodies; leave them out");
+        if (wish.trace || wish.film)
+            return mote_command_usage("simulate",
+                                      "--trace and --film are for two bodies; leave them out");
         return simulate_several(&wish) == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE)
                                                   : mote_command_fail();
     }

@@ -1,4 +1,4 @@
-/* Several bodies: time of a step over their number (15), and letters in a box, moving. */
+/* Several bodies: time of a frame over their number (15), and letters in a box, moving. */
 #include "harness/figure/figure.h"
 
 #include "core/body/deform.h"
@@ -20,23 +20,40 @@ static const char *const titles[] = {"certified",    "FCL, every body",
                                      "FCL, near",    "aabb-tree, near",
                                      "particle n=8", "particle-paper n=5"};
 
-/* bodies.json of the run or beside it; false, said in missing, where there is none. */
+static bool has_scenes(const json_t *root)
+{
+    size_t i;
+    const json_t *row;
+    MOTE_EACH(i, row, json_object_get(root, "rows"))
+    {
+        if (json_object_get(row, "bodies"))
+            return true;
+    }
+    return false;
+}
+
+/* summary.json of the run, where it has more than two bodies, or of ../bodies; false, said in
+   missing, where there is none. */
 static bool read_rows(const mote_figure_run *run, mote_figure *figure, json_t **root)
 {
-    static const char *const names[] = {"bodies.json", "../bodies/bodies.json"};
+    static const char *const names[] = {"summary.json", "../bodies/summary.json"};
     for (size_t k = 0; k < 2; ++k) {
         char *path = mote_format("%s/%s", run->directory, names[k]);
         const bool there = path && access(path, F_OK) == 0;
         free(path);
-        if (there && mote_record_read_json(run->directory, names[k], root) == MOTE_OK)
-            return true;
-        if (there) {
+        if (!there)
+            continue;
+        if (mote_record_read_json(run->directory, names[k], root) != MOTE_OK) {
             mote_text_add(&figure->missing, "%s", mote_error_text());
             return false;
         }
+        if (has_scenes(*root))
+            return true;
+        json_decref(*root);
+        *root = NULL;
     }
-    mote_text_add(&figure->missing, "bodies.json, here or in ../bodies; `make bodies` measures "
-                                    "it");
+    mote_text_add(&figure->missing, "rows of more than two bodies in summary.json, here or in "
+                                    "../bodies; `make bodies` measures them");
     return false;
 }
 
@@ -46,7 +63,26 @@ static double number_of(const json_t *row, const char *key)
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-/* A line: N, mean of a step in us, MB of the process. */
+static bool has_text(const json_t *row, const char *key, const char *text)
+{
+    const char *value = json_string_value(json_object_get(row, key));
+    return value && strcmp(value, text) == 0;
+}
+
+/* Whether a row is that of a method (its label), on bodies with a density, and ended well. */
+static bool is_row(const json_t *row, const char *method, double density)
+{
+    return has_text(row, "status", "ok") && has_text(row, "label", method) &&
+           fabs(number_of(row, "near_pairs_wanted") - density) < 1e-9;
+}
+
+/* Mean of a frame but the first. */
+static double mean_of(const json_t *row)
+{
+    return number_of(json_object_get(row, "active_total_ns"), "mean");
+}
+
+/* A line: N, mean of a frame in us, MB of the process. */
 static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
 {
     size_t i, count = 0;
@@ -54,42 +90,38 @@ static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
     mote_gnuplot_block(text, titles[m]);
     MOTE_EACH(i, row, rows)
     {
-        const char *method = json_string_value(json_object_get(row, "method"));
-        const bool ok = strcmp(json_string_value(json_object_get(row, "status"))
-                                   ? json_string_value(json_object_get(row, "status"))
-                                   : "",
-                               "ok") == 0;
-        const double density = number_of(row, "near_pairs_wanted");
-        if (!ok || !method || strcmp(method, methods[m]) != 0 ||
-            !(fabs(density - densities[d]) < 1e-9))
+        if (!is_row(row, methods[m], densities[d]))
             continue;
         ++count;
-        mote_text_add(text, "%.0f %.6g %.6g\n", number_of(row, "bodies"),
-                      number_of(row, "step_mean_ns") / 1e3,
+        mote_text_add(text, "%.0f %.6g %.6g\n", number_of(row, "bodies"), mean_of(row) / 1e3,
                       number_of(row, "rss_peak_bytes") / 1e6);
     }
     if (count == 0)
         mote_text_add(text, "NaN NaN NaN\n");
 }
 
-/* The ratios of 1,000 bodies to the first control, where it was the reference. */
+/* How many times as long as certified the first control takes for 1,000 bodies. */
 static void add_ratios(const json_t *rows, mote_text *caption)
 {
-    size_t i;
-    const json_t *row;
-    MOTE_EACH(i, row, rows)
-    {
-        const char *method = json_string_value(json_object_get(row, "method"));
-        const char *reference = json_string_value(json_object_get(row, "reference"));
-        const double ratio = number_of(row, "ratio");
-        if (!method || strcmp(method, "certified") != 0 || isnan(ratio) || !reference ||
-            strcmp(reference, methods[1]) != 0 ||
-            !(fabs(number_of(row, "bodies") - 1000) < 0.5))
-            continue;
-        mote_text_add(caption,
-                      " Of 1,000 with %g near pairs each a certified step takes one %.0fth of "
-                      "the time of FCL with every body refitted.",
-                      number_of(row, "near_pairs_wanted"), ratio);
+    for (size_t d = 0; d < sizeof densities / sizeof densities[0]; ++d) {
+        double means[2] = {(double)NAN, (double)NAN};
+        size_t i;
+        const json_t *row;
+        MOTE_EACH(i, row, rows)
+        {
+            for (int m = 0; m < 2; ++m) {
+                if (is_row(row, methods[m], densities[d]) &&
+                    fabs(number_of(row, "bodies") - 1000) < 0.5)
+                    means[m] = mean_of(row);
+            }
+        }
+        const double ratio = means[1] / means[0];
+        if (!isnan(ratio))
+            mote_text_add(
+                caption,
+                " Of 1,000 with %g near pairs each a certified frame takes one %.0fth "
+                "of the time of FCL with every body refitted.",
+                densities[d], ratio);
     }
 }
 
@@ -107,9 +139,9 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
     }
     mote_text_add(
         &figure->caption,
-        "Time of a step over the number of bodies, all deforming, with 0.1, 1 and 4 "
+        "Time of a frame over the number of bodies, all deforming, with 0.1, 1 and 4 "
         "near pairs a body: letters W of 11,920 triangles; at 10,000, which only "
-        "certified was asked about, letters of four shapes. Points: means over the steps but "
+        "certified was asked about, letters of four shapes. Points: means over the frames but "
         "the first, which finds all pairs anew.");
     add_ratios(rows, &figure->caption);
     json_decref(root);
@@ -157,13 +189,13 @@ static mote_status write_coarse(const char *directory, char **path)
 
 static mote_status open_film(const char *path, film *f)
 {
-    mote_bodies_choice choice;
+    mote_method_choice choice;
     uint32_t most = 1;
     mote_status status = mote_bodies_load(path, &f->bodies);
     if (status == MOTE_OK)
-        status = mote_bodies_choice_read("certified", &choice);
+        status = mote_scene_choice_read("certified", &choice);
     if (status == MOTE_OK)
-        status = mote_bodies_engine_create(f->bodies, &choice, &f->engine);
+        status = mote_bodies_engine_create(f->bodies, &choice, 1, &f->engine);
     if (status == MOTE_OK)
         status = mote_bodies_frame_create(f->bodies, &f->frame);
     for (uint32_t s = 0; status == MOTE_OK && s < f->bodies->shape_count; ++s) {

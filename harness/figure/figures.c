@@ -367,7 +367,7 @@ mote_status mote_figures_draw(const char *directory, size_t *drawn)
                       directory);
     drawing d = {.run = {directory, &summary, claims}};
     if (status == MOTE_OK && summary.count == 0 && !claims &&
-        !is_file(directory, "bodies.json"))
+        !is_file(directory, "summary.json"))
         status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
                            directory);
     if (status == MOTE_OK) {

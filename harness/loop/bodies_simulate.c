@@ -17,6 +17,7 @@ typedef struct normal {
 typedef struct simulation {
     mote_bodies bodies; /* the scenario with the tolerance of contact; borrows all of it */
     const mote_simulation_options *options;
+    uint64_t seed; /* of the method */
     mote_vec3 gravity;
     mote_mass mass[MOTE_BODIES_SHAPES_MAX];
     mote_deform *deform[MOTE_BODIES_SHAPES_MAX];
@@ -85,15 +86,15 @@ static mote_status start_bodies(simulation *s)
     return MOTE_OK;
 }
 
-static mote_status open_engines(simulation *s, const mote_bodies_choice *choice)
+static mote_status open_engines(simulation *s, const mote_method_choice *choice)
 {
-    mote_bodies_choice exact;
-    const bool certified = strcmp(choice->method.method->name, "certified") == 0;
-    mote_status status = mote_bodies_choice_read(certified ? "aabb-tree" : "certified", &exact);
+    mote_method_choice exact;
+    const bool certified = strcmp(choice->method->name, "certified") == 0;
+    mote_status status = mote_scene_choice_read(certified ? "aabb-tree" : "certified", &exact);
     if (status == MOTE_OK)
-        status = mote_bodies_engine_create(&s->bodies, choice, &s->method);
+        status = mote_bodies_engine_create(&s->bodies, choice, s->seed, &s->method);
     if (status == MOTE_OK)
-        status = mote_bodies_engine_create(&s->bodies, &exact, &s->truth);
+        status = mote_bodies_engine_create(&s->bodies, &exact, 1, &s->truth);
     if (status == MOTE_OK)
         status = mote_bodies_frame_create(&s->bodies, &s->frame);
     return status;
@@ -143,7 +144,7 @@ static mote_status update_normals(simulation *s, const mote_bodies_pair *pairs, 
     return MOTE_OK;
 }
 
-static mote_status respond(simulation *s, const mote_bodies_choice *choice,
+static mote_status respond(simulation *s, const mote_method_choice *choice,
                            const mote_bodies_pair *pair, const normal *along)
 {
     if (!along->known)
@@ -264,7 +265,7 @@ static mote_status starts_apart(const simulation *s, const mote_bodies_pair *tru
     return MOTE_OK;
 }
 
-static mote_status step(simulation *s, const mote_bodies_choice *choice, uint32_t k)
+static mote_status step(simulation *s, const mote_method_choice *choice, uint32_t k)
 {
     mote_bodies_step cost = {0};
     size_t said_count, truth_count;
@@ -293,7 +294,7 @@ static mote_status step(simulation *s, const mote_bodies_choice *choice, uint32_
     return status;
 }
 
-static mote_status loop(simulation *s, const mote_bodies_choice *choice, uint32_t steps)
+static mote_status loop(simulation *s, const mote_method_choice *choice, uint32_t steps)
 {
     invariants first = invariants_of(s, 0);
     mote_status status = MOTE_OK;
@@ -335,9 +336,9 @@ static void close_simulation(simulation *s)
     free(s);
 }
 
-mote_status mote_bodies_simulate(const mote_bodies *bodies, const mote_bodies_choice *choice,
+mote_status mote_bodies_simulate(const mote_bodies *bodies, const mote_method_choice *choice,
                                  const mote_simulation_options *options, uint32_t steps,
-                                 mote_bodies_simulation *result)
+                                 uint64_t seed, mote_bodies_simulation *result)
 {
     mote_status status = mote_simulation_options_check(options);
     if (status != MOTE_OK)
@@ -353,6 +354,7 @@ mote_status mote_bodies_simulate(const mote_bodies *bodies, const mote_bodies_ch
     s->bodies.ask = MOTE_ASK_DISTANCE;
     s->bodies.tolerance = options->tolerance * bodies->length;
     s->options = options;
+    s->seed = seed;
     s->gravity = mote_scale(options->gravity, bodies->length);
     status = weigh_shapes(s);
     if (status == MOTE_OK)

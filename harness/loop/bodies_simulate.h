@@ -20,13 +20,13 @@ typedef struct mote_bodies_simulation {
 } mote_bodies_simulation;
 
 /* Simulates `steps` steps from frame 1: places and velocities of the scenario's paths. options
-   as for two bodies. A body turns back where its centre of mass leaves the room that the
-   scenario gives to middles; walls do not turn it. Of several contacts at a step each is
-   answered in the order of the bodies. MOTE_EINVAL: options out of range, an open mesh, bodies
-   in contact at the start, a tolerance above `near`; MOTE_EUNSUPPORTED: the method reports a
-   contact of bodies that it has never given witness points of. */
-mote_status mote_bodies_simulate(const mote_bodies *bodies, const mote_bodies_choice *choice,
+   and the method's seed as for two bodies. A body turns back where its centre of mass leaves
+   the room that the scenario gives to middles; walls do not turn it. Of several contacts at a
+   step each is answered in the order of the bodies. MOTE_EINVAL: options out of range, an open
+   mesh, bodies in contact at the start, a tolerance above `near`; MOTE_EUNSUPPORTED: the method
+   reports a contact of bodies that it has never given witness points of. */
+mote_status mote_bodies_simulate(const mote_bodies *bodies, const mote_method_choice *choice,
                                  const mote_simulation_options *options, uint32_t steps,
-                                 mote_bodies_simulation *result);
+                                 uint64_t seed, mote_bodies_simulation *result);
 
 #endif

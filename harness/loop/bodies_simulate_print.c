@@ -13,7 +13,7 @@ static void put_count(json_t *root, const char *key, uint64_t value)
 }
 
 mote_status mote_bodies_simulation_json(const mote_bodies *bodies,
-                                        const mote_bodies_choice *choice,
+                                        const mote_method_choice *choice,
                                         const mote_bodies_simulation *result)
 {
     const mote_bodies_book *b = &result->book;
@@ -51,7 +51,7 @@ mote_status mote_bodies_simulation_json(const mote_bodies *bodies,
     return status;
 }
 
-void mote_bodies_simulation_print(const mote_bodies *bodies, const mote_bodies_choice *choice,
+void mote_bodies_simulation_print(const mote_bodies *bodies, const mote_method_choice *choice,
                                   const mote_bodies_simulation *result)
 {
     const mote_bodies_book *b = &result->book;

@@ -32,7 +32,10 @@ typedef struct failure {
 
 struct mote_bodies_engine {
     const mote_bodies *bodies;
-    mote_bodies_choice choice;
+    mote_method_choice choice;
+    uint64_t seed;
+    uint32_t threads;
+    bool refits_every; /* body in every frame */
     const mote_body *shapes[MOTE_BODIES_SHAPES_MAX];
     mote_scene *scene; /* certified, and bounds from roots; NULL when every body is refitted */
     mote_scene_box *boxes;
@@ -70,17 +73,17 @@ static mote_status create_trees(mote_bodies_engine *e)
 }
 
 /* Convex parts would be counted again for each pair. */
-static mote_status check_particles(const mote_bodies_choice *choice)
+static mote_status check_particles(const mote_method_choice *choice)
 {
-    const mote_method *method = choice->method.method;
-    const mote_traits traits = mote_method_traits(method, choice->method.values);
+    const mote_method *method = choice->method;
+    const mote_traits traits = mote_method_traits(method, choice->values);
     if (traits.needs_vertices || traits.given_vertices)
         return mote_fail(MOTE_EUNSUPPORTED,
                          "%s: of several bodies only those looked at are deformed; leave out "
                          "positions=given",
                          choice->text);
     for (size_t i = 0; i < method->parameter_count; ++i) {
-        if (strcmp(method->parameters[i].key, "n") == 0 && choice->method.values[i] < 0)
+        if (strcmp(method->parameters[i].key, "n") == 0 && choice->values[i] < 0)
             return mote_fail(MOTE_EUNSUPPORTED,
                              "%s: of several bodies the number of particles is not found by "
                              "itself; give n=",
@@ -94,17 +97,17 @@ static mote_status create_pairs(mote_bodies_engine *e)
     e->by_pairs = true;
     mote_status status = check_particles(&e->choice);
     if (status == MOTE_OK)
-        status = mote_pool_create(e->choice.threads, &e->pool);
-    e->failures = calloc(e->choice.threads, sizeof *e->failures);
+        status = mote_pool_create(e->threads, &e->pool);
+    e->failures = calloc(e->threads, sizeof *e->failures);
     if (status == MOTE_OK && !e->failures)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %u threads", e->choice.threads);
+        status = mote_fail(MOTE_ENOMEM, "no memory for %u threads", e->threads);
     return status;
 }
 
 static mote_status build(mote_bodies_engine *e)
 {
     const mote_bodies *b = e->bodies;
-    const char *name = e->choice.method.method->name;
+    const char *name = e->choice.method->name;
     for (uint32_t s = 0; s < b->shape_count; ++s)
         e->shapes[s] = &b->shapes[s].body;
     e->boxes = calloc(b->count, sizeof *e->boxes);
@@ -112,8 +115,8 @@ static mote_status build(mote_bodies_engine *e)
         return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", b->count);
     mote_status status = mote_broad_phase_create(b->count, &e->broad);
     const mote_scene_options options = {
-        .ask = b->ask, .tolerance = b->tolerance, .threads = e->choice.threads};
-    if (status == MOTE_OK && e->choice.refit == MOTE_REFIT_NEAR)
+        .ask = b->ask, .tolerance = b->tolerance, .threads = e->threads};
+    if (status == MOTE_OK && !e->refits_every)
         status = mote_scene_create(e->shapes, b->shape_count, b->shape_of, b->count, &options,
                                    &e->scene);
     if (status != MOTE_OK || strcmp(name, "certified") == 0)
@@ -126,15 +129,21 @@ static mote_status build(mote_bodies_engine *e)
 }
 
 mote_status mote_bodies_engine_create(const mote_bodies *bodies,
-                                      const mote_bodies_choice *choice,
+                                      const mote_method_choice *choice, uint64_t seed,
                                       mote_bodies_engine **engine)
 {
+    mote_status status = mote_bodies_choice_check(choice);
+    if (status != MOTE_OK)
+        return status;
     mote_bodies_engine *made = calloc(1, sizeof *made);
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for several bodies");
     made->bodies = bodies;
     made->choice = *choice;
-    mote_status status = build(made);
+    made->seed = seed;
+    made->threads = (uint32_t)choice->scene[MOTE_SCENE_THREADS];
+    made->refits_every = (int)choice->scene[MOTE_SCENE_REFIT] == MOTE_REFIT_EVERY;
+    status = build(made);
     if (status == MOTE_OK)
         *engine = made;
     else
@@ -144,7 +153,7 @@ mote_status mote_bodies_engine_create(const mote_bodies *bodies,
 
 static void drop_state(const mote_bodies_engine *e, pair_memory *memory)
 {
-    mote_method_destroy(e->choice.method.method, memory->state);
+    mote_method_destroy(e->choice.method, memory->state);
     memory->state = NULL;
 }
 
@@ -207,7 +216,7 @@ static mote_status refit(mote_bodies_engine *e, const bool *looked_at, mote_bodi
 static mote_status find_boxes(mote_bodies_engine *e, mote_bodies_step *step)
 {
     mote_status status = MOTE_OK;
-    if (e->choice.refit == MOTE_REFIT_EVERY) {
+    if (e->refits_every) {
         status = refit(e, NULL, step);
         for (uint32_t i = 0; i < e->bodies->count && status == MOTE_OK; ++i)
             e->kind->box(e->trees, i, &e->boxes[i]);
@@ -265,7 +274,7 @@ static void take_over(mote_bodies_engine *e, const uint32_t (*pairs)[2], size_t 
 static mote_status ask_trees(mote_bodies_engine *e, mote_bodies_step *step)
 {
     mote_status status = MOTE_OK;
-    if (e->choice.refit == MOTE_REFIT_NEAR) {
+    if (!e->refits_every) {
         memset(e->looked_at, 0, e->bodies->count * sizeof *e->looked_at);
         for (size_t k = 0; k < e->now.count; ++k)
             e->looked_at[e->now.pairs[k].body[0]] = e->looked_at[e->now.pairs[k].body[1]] =
@@ -294,16 +303,16 @@ static mote_status add_states(mote_bodies_engine *e)
             .length = b->length,
             .ask = b->ask,
             .tolerance = b->tolerance,
-            .seed = 1,
-            .values = e->choice.method.values};
-        status = mote_method_create(e->choice.method.method, &setup, &e->now.memories[k].state);
+            .seed = e->seed,
+            .values = e->choice.values};
+        status = mote_method_create(e->choice.method, &setup, &e->now.memories[k].state);
     }
     return status;
 }
 
 static mote_status ask_pair(mote_bodies_engine *e, size_t k)
 {
-    const mote_method *method = e->choice.method.method;
+    const mote_method *method = e->choice.method;
     mote_bodies_pair *pair = &e->now.pairs[k];
     void *state = e->now.memories[k].state;
     const mote_frame frame = {.number = pair->steps,
@@ -333,11 +342,11 @@ static mote_status ask_pairs(mote_bodies_engine *e, mote_bodies_step *step)
 {
     const uint64_t from = mote_clock_ns();
     mote_status status = add_states(e);
-    memset(e->failures, 0, e->choice.threads * sizeof *e->failures);
+    memset(e->failures, 0, e->threads * sizeof *e->failures);
     if (status == MOTE_OK)
         mote_pool_run(e->pool, ask_range, e, e->now.count, GRAIN);
     step->query_ns += mote_clock_ns() - from;
-    for (uint32_t w = 0; w < e->choice.threads && status == MOTE_OK; ++w) {
+    for (uint32_t w = 0; w < e->threads && status == MOTE_OK; ++w) {
         if (e->failures[w].status != MOTE_OK)
             status = mote_fail(e->failures[w].status, "%s", e->failures[w].text);
     }

@@ -6,27 +6,11 @@
 #include "harness/scene/bodies.h"
 #include "harness/base/method_choice.h"
 
-/* Which bodies a hierarchy is refitted for. */
-typedef enum mote_refit {
-    MOTE_REFIT_NEAR, /* those in a near pair, by the bounds of deformed roots */
-    MOTE_REFIT_EVERY /* every body, each step: near pairs by the roots of the trees */
-} mote_refit;
-
-/* How several bodies are asked about: "certified:threads=2", "fcl-aabb:refit=every",
-   "particle:n=8,threads=2,ahead=3". */
-typedef struct mote_bodies_choice {
-    mote_method_choice method;
-    mote_refit refit; /* of fcl-aabb and aabb-tree */
-    uint32_t threads; /* that pairs are shared out to */
-    uint32_t ahead;   /* frames that a thread of its own moves and deforms ahead; 0: none */
-    char text[256];   /* as given */
-} mote_bodies_choice;
-
-/* Reads a choice; the keys refit, threads and ahead are taken out, the rest is the method's.
-   MOTE_EINVAL with what would be right; MOTE_EUNSUPPORTED for a method without a form for
-   several bodies, for threads where the library does not allow them, and for keys that it does
-   not have here. */
-mote_status mote_bodies_choice_read(const char *text, mote_bodies_choice *choice);
+/* Whether a choice ("certified:threads=2", "fcl-aabb:refit=every",
+   "particle:n=8,threads=2,ahead=3") has a form for several bodies: MOTE_EUNSUPPORTED for a
+   method without one, for keys that are not for it, and for parameters of its own where only
+   their defaults are. */
+mote_status mote_bodies_choice_check(const mote_method_choice *choice);
 
 /* A near pair of a step. */
 typedef struct mote_bodies_pair {
@@ -49,10 +33,11 @@ typedef struct mote_bodies_step {
 
 typedef struct mote_bodies_engine mote_bodies_engine;
 
-/* Builds what is built once. bodies are borrowed. MOTE_EUNSUPPORTED where the method cannot
+/* Builds what is built once, and checks the choice. bodies are borrowed. seed: of methods that
+   draw random numbers, the same for every pair. MOTE_EUNSUPPORTED where the method cannot
    answer what is asked. */
 mote_status mote_bodies_engine_create(const mote_bodies *bodies,
-                                      const mote_bodies_choice *choice,
+                                      const mote_method_choice *choice, uint64_t seed,
                                       mote_bodies_engine **engine);
 void mote_bodies_engine_destroy(mote_bodies_engine *engine); /* NULL is allowed */
 

@@ -13,6 +13,11 @@
 const char *const mote_cache_names[] = {"hot", "evict"};
 const char *const mote_cell_status_names[] = {"ok", "crashed", "timeout", "unsupported"};
 
+#define NAME_TEXT(name) #name,
+const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT] = {
+    MOTE_SCENE_COLUMNS(NAME_TEXT)};
+#undef NAME_TEXT
+
 /* The name as part of a file's name. */
 static void plain(const char *name, char *out, size_t size)
 {
@@ -22,24 +27,27 @@ static void plain(const char *name, char *out, size_t size)
     out[used] = '\0';
 }
 
-/* "key=value," for every parameter. */
-static void describe_values(const mote_method_choice *choice, mote_text *text)
+/* "key=value," for every parameter of a table. */
+static void describe_values(const mote_parameter *table, size_t count, const double *values,
+                            mote_text *text)
 {
-    for (size_t i = 0; i < choice->method->parameter_count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         char value[64];
-        const mote_parameter *parameter = &choice->method->parameters[i];
-        mote_text_add(text, "%s=%s,", parameter->key,
-                      mote_parameter_text(parameter, choice->values[i], value, sizeof value));
+        mote_text_add(text, "%s=%s,", table[i].key,
+                      mote_parameter_text(&table[i], values[i], value, sizeof value));
     }
 }
 
 void mote_cell_name(mote_cell *cell, uint64_t program)
 {
-    const mote_scenario *scenario = cell->subject->scenario;
+    const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
+    const mote_method *asked = cell->choice->method;
     mote_text text = {0};
     mote_text_add(&text, "%016" PRIx64 " %d %.17g %s ", cell->subject->fingerprint,
-                  (int)scenario->ask, scenario->tolerance, cell->choice->method->name);
-    describe_values(cell->choice, &text);
+                  (int)facts.ask, facts.tolerance, asked->name);
+    describe_values(asked->parameters, asked->parameter_count, cell->choice->values, &text);
+    if (cell->subject->bodies)
+        describe_values(mote_scene_parameters, MOTE_SCENE_KEYS, cell->choice->scene, &text);
     mote_text_add(&text, " %u %u %u %u %" PRIu64 " %d %016" PRIx64, cell->replicate,
                   cell->first, cell->last, cell->stride_asked, cell->seed, (int)cell->cache,
                   program);
@@ -47,9 +55,11 @@ void mote_cell_name(mote_cell *cell, uint64_t program)
         mote_text_add(&text, " jobs");
     if (cell->fixed_seed)
         mote_text_add(&text, " fixed seed");
+    if (cell->contacts_only)
+        mote_text_add(&text, " contacts only");
     char name[20], method[28];
-    plain(scenario->name, name, sizeof name);
-    plain(cell->choice->method->name, method, sizeof method);
+    plain(facts.name, name, sizeof name);
+    plain(asked->name, method, sizeof method);
     (void)snprintf(cell->id, sizeof cell->id, "%s-%s-r%u-%016" PRIx64, name, method,
                    cell->replicate, text.data ? mote_hash_text(text.data) : 0);
     free(text.data);
@@ -69,16 +79,27 @@ static json_t *parameter_json(const mote_parameter *parameter, double value)
     return json_real(number);
 }
 
-json_t *mote_choice_json(const mote_method_choice *choice)
+/* Adds a table of parameters to an object; false without memory. */
+static bool add_parameters(const mote_parameter *table, size_t count, const double *values,
+                           json_t *object)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (json_object_set_new(object, table[i].key, parameter_json(&table[i], values[i])) !=
+            0)
+            return false;
+    }
+    return true;
+}
+
+json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene)
 {
     json_t *object = json_object();
-    for (size_t i = 0; object && i < choice->method->parameter_count; ++i) {
-        const mote_parameter *parameter = &choice->method->parameters[i];
-        if (json_object_set_new(object, parameter->key,
-                                parameter_json(parameter, choice->values[i])) != 0) {
-            json_decref(object);
-            object = NULL;
-        }
+    if (!add_parameters(choice->method->parameters, choice->method->parameter_count,
+                        choice->values, object) ||
+        (of_scene &&
+         !add_parameters(mote_scene_parameters, MOTE_SCENE_KEYS, choice->scene, object))) {
+        json_decref(object);
+        return NULL;
     }
     return object;
 }
@@ -88,31 +109,50 @@ static json_t *interval_json(uint32_t first, uint32_t last)
     return json_pack("[i,i]", (int)first, (int)last);
 }
 
+/* The interval of interest: the scenario's; of more than two bodies all frames but the first,
+   in which every near pair is new. */
+static json_t *active_json(const mote_cell *cell, const mote_subject_facts *facts)
+{
+    if (!cell->subject->bodies)
+        return interval_json(facts->active.first, facts->active.last);
+    return cell->last > cell->first ? interval_json(cell->first + 1, cell->last)
+                                    : interval_json(0, 0);
+}
+
 /* What is known of a cell before it ran. */
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
-    const mote_scenario *scenario = cell->subject->scenario;
+    const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
+    const bool of_scene = cell->subject->bodies != NULL;
     char fingerprint[20], hash[20], machine[MOTE_MACHINE_SIZE];
     mote_machine_name(machine, sizeof machine);
     (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, cell->subject->fingerprint);
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, program);
-    return json_pack(
+    json_t *object = json_pack(
         "{s:i, s:s, s:s, s:s, s:s, s:s, s:o*, s:i, s:o*, s:i, s:I, s:s, s:[i,i], s:[i,i], s:f,"
         " s:f, s:s, s:i, s:o*, s:s, s:s, s:i, s:b}",
         "schema", 1, "id", cell->id, "status", mote_cell_status_names[status], "scenario",
-        scenario->name, "fingerprint", fingerprint, "method", cell->choice->method->name,
-        "parameters", mote_choice_json(cell->choice), "replicate", (int)cell->replicate,
-        "frames", interval_json(cell->first, cell->last), "stride", (int)cell->stride, "seed",
-        (json_int_t)cell->seed, "cache", mote_cache_names[cell->cache], "triangles",
-        (int)scenario->body[0].mesh->triangle_count,
-        (int)scenario->body[1].mesh->triangle_count, "vertices",
-        (int)scenario->body[0].mesh->vertex_count, (int)scenario->body[1].mesh->vertex_count,
-        "length", scenario->length, "tolerance", scenario->tolerance, "ask",
-        scenario->ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
-        (int)scenario->frames, "active",
-        interval_json(scenario->active.first, scenario->active.last), "program", hash,
-        "machine", machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
+        facts.name, "fingerprint", fingerprint, "method", cell->choice->method->name,
+        "parameters", mote_choice_json(cell->choice, of_scene), "replicate",
+        (int)cell->replicate, "frames", interval_json(cell->first, cell->last), "stride",
+        (int)cell->stride, "seed", (json_int_t)cell->seed, "cache",
+        mote_cache_names[cell->cache], "triangles", (int)facts.triangles[0],
+        (int)facts.triangles[1], "vertices", (int)facts.vertices[0], (int)facts.vertices[1],
+        "length", facts.length, "tolerance", facts.tolerance, "ask",
+        facts.ask == MOTE_ASK_DISTANCE ? "distance" : "contact", "scenario_frames",
+        (int)facts.frames, "active", active_json(cell, &facts), "program", hash, "machine",
+        machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
         cell->fixed_seed);
+    if (object && of_scene) {
+        (void)json_object_set_new(object, "bodies", json_integer(facts.bodies));
+        (void)json_object_set_new(object, "shapes",
+                                  json_integer(cell->subject->bodies->shape_count));
+        (void)json_object_set_new(object, "vertices_total", json_real(facts.vertices_total));
+        (void)json_object_set_new(
+            object, "near_pairs_wanted",
+            facts.near_pairs_wanted > 0 ? json_real(facts.near_pairs_wanted) : json_null());
+    }
+    return object;
 }
 
 static void add_real(mote_text *text, bool present, double value)
@@ -126,20 +166,23 @@ static void add_real(mote_text *text, bool present, double value)
 static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row *row)
 {
     const mote_answer *answer = &row->answer;
-    const mote_truth *truth = cell->subject->truth;
-    double exact = truth->distance[row->frame - 1];
+    const mote_truth *truth = cell->subject->truth; /* NULL: of more than two bodies */
+    const double exact = truth ? truth->distance[row->frame - 1] : 0;
     mote_text_add(text, "%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64, row->frame, row->deform_ns,
                   row->update_ns, row->query_ns);
     add_real(text, answer->has_distance, answer->distance);
     add_real(text, answer->has_lower, answer->lower);
-    add_real(text, true, exact);
-    add_real(text, answer->has_distance,
-             (answer->distance - exact) / cell->subject->scenario->length);
+    add_real(text, truth != NULL, exact);
+    add_real(text, truth && answer->has_distance,
+             truth ? (answer->distance - exact) / cell->subject->scenario->length : 0);
     if (answer->has_contact)
         mote_text_add(text, ",%d", answer->contact ? 1 : 0);
     else
         mote_text_add(text, ",");
-    mote_text_add(text, ",%d", truth->contact[row->frame - 1] ? 1 : 0);
+    if (truth)
+        mote_text_add(text, ",%d", truth->contact[row->frame - 1] ? 1 : 0);
+    else
+        mote_text_add(text, ",");
     for (int side = 0; side < 2; ++side) {
         add_real(text, answer->has_witness, answer->witness[side].x);
         add_real(text, answer->has_witness, answer->witness[side].y);
@@ -150,6 +193,11 @@ static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row 
     mote_text_add(text, ",%" PRIu64, row->allocations);
     MOTE_COUNTERS_MORE(ADD_COUNTER)
 #undef ADD_COUNTER
+#define ADD_COLUMN(name) mote_text_add(text, ",%" PRIu64, row->scene.name);
+    if (cell->subject->bodies) {
+        MOTE_SCENE_COLUMNS(ADD_COLUMN)
+    }
+#undef ADD_COLUMN
     mote_text_add(text, "\n");
 }
 
@@ -163,6 +211,9 @@ static mote_status record_rows(const mote_cell *cell, const mote_cell_result *re
     MOTE_COUNTERS(ADD_NAME)
     mote_text_add(&text, ",allocations");
     MOTE_COUNTERS_MORE(ADD_NAME)
+    if (cell->subject->bodies) {
+        MOTE_SCENE_COLUMNS(ADD_NAME)
+    }
 #undef ADD_NAME
     mote_text_add(&text, "\n");
     for (size_t i = 0; i < result->row_count; ++i)
@@ -201,6 +252,9 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
         (json_int_t)result->rss_peak_bytes, "core", result->core, "load", result->load[0],
         result->load[1], "clock_mhz", result->clock_mhz[0], result->clock_mhz[1],
         "wall_seconds", result->wall_seconds);
+    if (more && cell->subject->bodies)
+        (void)json_object_set_new(more, "frames_wall_ns",
+                                  json_integer((json_int_t)result->frames_wall_ns));
     if (!object || !more || json_object_update(object, more) != 0) {
         json_decref(object);
         object = NULL;

@@ -1,21 +1,14 @@
 /* A cell: one (scenario, method, parameters, replicate), measured in a process of its own and
-   stored as cells/ID.json and, when it ran to its end, cells/ID.csv. */
+   stored as cells/ID.json and, when it ran to its end, cells/ID.csv; of more than two bodies
+   there is cells/ID.pairs.csv beside it. */
 #ifndef MOTE_HARNESS_CELL_H
 #define MOTE_HARNESS_CELL_H
 
 #include "harness/base/method_choice.h"
 #include "harness/base/heap_count.h"
-#include "harness/scene/scenario.h"
-#include "harness/run/truth.h"
+#include "harness/run/subject.h"
 
 #include <jansson.h>
-
-/* A scenario with what is known of it before anything is measured. */
-typedef struct mote_subject {
-    mote_scenario *scenario;
-    uint64_t fingerprint;
-    mote_truth *truth; /* NULL until something is measured */
-} mote_subject;
 
 typedef enum mote_cache {
     MOTE_CACHE_HOT,  /* frames follow each other at once */
@@ -41,6 +34,9 @@ extern const char *const mote_cell_status_names[]; /* "ok", "crashed", ... */
 
 #define MOTE_CELL_ID_SIZE 96
 
+/* Frames that a cell is asked for however small its budget. */
+#define MOTE_CELL_LEAST_FRAMES 3
+
 #define MOTE_SEED_MAX (((uint64_t)1 << 62) - 1)
 
 /* What a replicate (from 1) of a run with this seed draws from. */
@@ -61,6 +57,9 @@ typedef struct mote_cell {
     mote_cache cache;
     uint32_t
         jobs; /* cells measured at the same time; with 2 or more, times are not comparable */
+    double budget;      /* of more than two bodies: seconds after which no further frame begins
+                           once MOTE_CELL_LEAST_FRAMES are done; 0: none */
+    bool contacts_only; /* of more than two bodies: ID.pairs.csv has rows of contacts alone */
     char id[MOTE_CELL_ID_SIZE];
 } mote_cell;
 
@@ -70,12 +69,41 @@ typedef struct mote_cell {
    (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
-/* What one frame gave. */
+/* What one frame of more than two bodies gave besides, X(name): columns of cells/ID.csv. Times
+   of motion (poses and weights) are nobody's; those of bounds and of near pairs are part of
+   query_ns. */
+#define MOTE_SCENE_COLUMNS(X)                                                                  \
+    X(motion_ns)                                                                               \
+    X(bounds_ns)  /* boxes of all bodies */                                                    \
+    X(broad_ns)   /* near pairs by the boxes */                                                \
+    X(near_pairs) /* whose bounds are at most the scenario's `near` apart */                   \
+    X(new_pairs)  /* of them those that were not near in the frame before */                   \
+    X(pair_contacts)
+
+typedef struct mote_scene_row {
+#define MOTE_SCENE_FIELD(name) uint64_t name;
+    MOTE_SCENE_COLUMNS(MOTE_SCENE_FIELD)
+#undef MOTE_SCENE_FIELD
+} mote_scene_row;
+
+/* Their places: MOTE_SCENE_COLUMN_near_pairs. */
+enum {
+#define MOTE_SCENE_PLACE(name) MOTE_SCENE_COLUMN_##name,
+    MOTE_SCENE_COLUMNS(MOTE_SCENE_PLACE)
+#undef MOTE_SCENE_PLACE
+        MOTE_SCENE_COLUMN_COUNT
+};
+
+extern const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT];
+
+/* What one frame gave. Of more than two bodies the answer is that of the closest near pair;
+   contact is any pair's, counters are the sums. */
 typedef struct mote_cell_row {
     uint32_t frame;
     uint64_t deform_ns, update_ns, query_ns; /* 0 for what the method does not need */
     uint64_t allocations;                    /* during update and query */
     mote_answer answer;
+    mote_scene_row scene;
 } mote_cell_row;
 
 /* What a whole cell gave. */
@@ -93,6 +121,8 @@ typedef struct mote_cell_result {
     double load[2];      /* load average before and after */
     double clock_mhz[2]; /* of the core, before and after; 0: unknown */
     double wall_seconds; /* of the process */
+    uint64_t
+        frames_wall_ns; /* more than two bodies: of all frames, motion and records included */
 } mote_cell_result;
 
 /* Writes both files of a cell that ran to its end, the CSV first. */
@@ -105,7 +135,8 @@ mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status sta
                                      const char *directory);
 
 /* Every parameter with its value, defaults included: numbers as numbers, choices, "auto" and
-   "inf" as text. NULL when memory ran out; the caller decrefs. */
-json_t *mote_choice_json(const mote_method_choice *choice);
+   "inf" as text; of_scene: those of mote_scene_parameters too. NULL when memory ran out; the
+   caller decrefs. */
+json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene);
 
 #endif

@@ -11,6 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Frames that a probe asks about; of more than two bodies one, which finds all pairs anew and
+   takes the longest. */
 #define PROBE_FRAMES 3
 
 /* What a child tells its parent before it ends. */
@@ -66,7 +68,8 @@ static void child_fail(message *told, mote_status status)
 static void child_probe(const mote_cell *cell, message *told)
 {
     mote_cell_result result;
-    mote_status status = mote_measure_cell(cell, PROBE_FRAMES, &result);
+    mote_status status =
+        mote_measure_cell(cell, cell->subject->bodies ? 1 : PROBE_FRAMES, &result);
     if (status != MOTE_OK) {
         child_fail(told, status);
         return;
@@ -81,6 +84,13 @@ static void child_probe(const mote_cell *cell, message *told)
     mote_cell_result_free(&result);
 }
 
+/* Whether a cell needs more than one core. */
+static bool has_threads(const mote_cell *cell)
+{
+    const double *keys = cell->choice->scene;
+    return keys[MOTE_SCENE_THREADS] > 1 || keys[MOTE_SCENE_AHEAD] > 0;
+}
+
 /* An error status ends the whole run: what was measured cannot be written. */
 static mote_status child_measure(const mote_cell *cell, const mote_process_options *options,
                                  message *told)
@@ -88,18 +98,26 @@ static mote_status child_measure(const mote_cell *cell, const mote_process_optio
     mote_cell_result result;
     double load = mote_load_average(), clock_mhz = mote_core_clock(options->core);
     uint64_t start = mote_clock_ns();
-    mote_status status = mote_measure_cell(cell, 0, &result);
+    mote_cell_pairs pairs = {.file = NULL};
+    mote_status status = MOTE_OK;
+    if (cell->subject->bodies)
+        status = mote_cell_pairs_open(cell, options->directory, &pairs);
+    if (status != MOTE_OK)
+        return status;
+    status = mote_measure_cell_and_pairs(cell, 0, &pairs, &result);
     if (status != MOTE_OK) {
         child_fail(told, status);
-        return MOTE_OK;
+        return mote_cell_pairs_close(&pairs, false);
     }
-    result.core = options->core;
+    result.core = has_threads(cell) ? -1 : options->core;
     result.load[0] = load;
     result.load[1] = mote_load_average();
     result.clock_mhz[0] = clock_mhz;
     result.clock_mhz[1] = mote_core_clock(options->core);
     result.wall_seconds = (double)(mote_clock_ns() - start) * 1e-9;
-    status = mote_cell_record(cell, &result, options->program, options->directory);
+    status = mote_cell_pairs_close(&pairs, true);
+    if (status == MOTE_OK)
+        status = mote_cell_record(cell, &result, options->program, options->directory);
     mote_cell_result_free(&result);
     return status;
 }
@@ -116,7 +134,8 @@ static mote_status work(void *context, int output)
     const task *t = context;
     message told;
     memset(&told, 0, sizeof told);
-    mote_process_pin(t->options->core);
+    if (!has_threads(t->cell))
+        mote_process_pin(t->options->core);
     mote_status status = MOTE_OK;
     if (t->probe)
         child_probe(t->cell, &told);

@@ -148,11 +148,11 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
         double per_frame = (double)count / (double)(last - first + 1);
         (void)printf("%-40s %14.0f instructions a frame\n", choice->text, per_frame);
         (void)fflush(stdout);
-        status = put_row(rows, json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario",
-                                         scenario, "method", choice->method->name, "label",
-                                         choice->text, "parameters", mote_choice_json(choice),
-                                         "frames", (int)first, (int)last, "instructions", count,
-                                         "per_frame", per_frame));
+        status = put_row(
+            rows, json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario", scenario,
+                            "method", choice->method->name, "label", choice->text, "parameters",
+                            mote_choice_json(choice, false), "frames", (int)first, (int)last,
+                            "instructions", count, "per_frame", per_frame));
     }
     if (status == MOTE_OK)
         return mote_record_json(directory, "instructions.json",

@@ -2,11 +2,10 @@
 
 #include "core/body/deform.h"
 #include "harness/base/statistics.h"
+#include "harness/run/measure_scene.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #define EVICT_BYTES ((size_t)32 << 20)
 #define CACHE_LINE 64
@@ -18,6 +17,8 @@
 /* What a cell holds while it runs. */
 typedef struct session {
     const mote_cell *cell;
+    mote_scene_session *scene; /* of more than two bodies; what follows is then not used but
+                                  evict and clock_ns */
     mote_traits traits;
     void *state; /* the method's */
     mote_frame_buffer *buffer;
@@ -26,24 +27,6 @@ typedef struct session {
     volatile unsigned char *evict; /* NULL when caches stay hot */
     uint64_t clock_ns;
 } session;
-
-uint64_t mote_clock_ns(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
-}
-
-uint64_t mote_clock_cost_ns(void)
-{
-    double costs[1001];
-    size_t count = sizeof costs / sizeof costs[0];
-    for (size_t i = 0; i < count; ++i) {
-        uint64_t start = mote_clock_ns();
-        costs[i] = (double)(mote_clock_ns() - start);
-    }
-    return (uint64_t)mote_statistics_median(costs, count);
-}
 
 static mote_status make_vertices(session *s)
 {
@@ -82,8 +65,10 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
         if (!s->evict)
             return mote_fail(MOTE_ENOMEM, "no memory for %zu bytes to walk", EVICT_BYTES);
     }
-    mote_status status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
-    if (status == MOTE_OK && s->traits.given_vertices)
+    mote_status status = MOTE_OK;
+    if (!cell->subject->bodies)
+        status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
+    if (status == MOTE_OK && !cell->subject->bodies && s->traits.given_vertices)
         status = make_vertices(s);
     s->clock_ns = mote_clock_cost_ns();
     result->clock_ns = s->clock_ns;
@@ -91,8 +76,28 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
     return status;
 }
 
+/* Keys of scenes change nothing of two bodies: a result must not say that they did. */
+static mote_status check_keys(const mote_cell *cell)
+{
+    if (!mote_method_choice_is_of_scenes(cell->choice))
+        return MOTE_OK;
+    return mote_fail(
+        MOTE_EINVAL,
+        "%s: refit, threads and ahead are keys for more than two bodies; leave them "
+        "out",
+        cell->choice->text);
+}
+
+static mote_status build_scene(session *s, mote_cell_result *result)
+{
+    const uint64_t start = mote_clock_ns();
+    mote_status status = mote_scene_session_create(s->cell, &s->scene);
+    result->build_ns = mote_clock_ns() - start;
+    return status;
+}
+
 /* Everything that the method needs built: timed, and its bytes counted. */
-static mote_status build(session *s, mote_cell_result *result)
+static mote_status build_pair(session *s, mote_cell_result *result)
 {
     const mote_cell *cell = s->cell;
     const mote_scenario *scenario = cell->subject->scenario;
@@ -115,8 +120,10 @@ static mote_status build(session *s, mote_cell_result *result)
     return status;
 }
 
-static void walk(volatile unsigned char *bytes)
+/* Drives what a method uses out of the caches. */
+static void walk(void *context)
 {
+    volatile unsigned char *bytes = context;
     for (size_t i = 0; i < EVICT_BYTES; i += CACHE_LINE)
         bytes[i] = (unsigned char)(bytes[i] + 1);
 }
@@ -195,7 +202,7 @@ static mote_status run_frame(session *s, uint32_t number, uint32_t previous, mot
     if (s->traits.given_vertices)
         deform(s, &frame);
     if (s->evict)
-        walk(s->evict);
+        walk((void *)(uintptr_t)s->evict);
     if (s->traits.needs_vertices && !s->traits.given_vertices) {
         uint64_t start = mote_clock_ns();
         timed_deform(s, &frame);
@@ -239,6 +246,7 @@ static mote_status run_frames(session *s, size_t rows, mote_cell_result *result)
 
 static void close_session(session *s)
 {
+    mote_scene_session_destroy(s->scene);
     mote_method_destroy(s->cell->choice->method, s->state);
     for (int side = 0; side < 2; ++side) {
         mote_deform_destroy(s->deform[side]);
@@ -248,22 +256,40 @@ static void close_session(session *s)
     free((void *)(uintptr_t)s->evict);
 }
 
+static mote_status run(session *s, size_t rows, const mote_cell_pairs *pairs,
+                       mote_cell_result *result)
+{
+    if (!s->scene)
+        return run_frames(s, rows, result);
+    return mote_scene_session_run(s->scene, rows, s->evict ? walk : NULL,
+                                  (void *)(uintptr_t)s->evict, pairs, result);
+}
+
 mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
                               mote_cell_result *result)
 {
+    return mote_measure_cell_and_pairs(cell, frame_limit, NULL, result);
+}
+
+mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limit,
+                                        const mote_cell_pairs *pairs, mote_cell_result *result)
+{
     session s = {.cell = cell};
     mote_cell_result measured = {.core = -1};
+    const bool of_scene = cell->subject->bodies != NULL;
     size_t rows = (cell->last - cell->first) / cell->stride + 1;
     if (frame_limit && rows > frame_limit)
         rows = frame_limit;
-    mote_status status = prepare(&s, &measured, rows);
+    mote_status status = of_scene ? MOTE_OK : check_keys(cell);
+    if (status == MOTE_OK)
+        status = prepare(&s, &measured, rows);
     mote_heap before = mote_heap_read();
     mote_heap_reset_peak();
     if (status == MOTE_OK)
-        status = build(&s, &measured);
+        status = of_scene ? build_scene(&s, &measured) : build_pair(&s, &measured);
     int64_t built = mote_heap_read().live_bytes;
     if (status == MOTE_OK)
-        status = run_frames(&s, rows, &measured);
+        status = run(&s, rows, pairs, &measured);
     mote_heap after = mote_heap_read();
     int64_t live = built > after.live_bytes ? built : after.live_bytes;
     measured.heap_counted = after.counted;

@@ -3,12 +3,8 @@
 #define MOTE_HARNESS_MEASURE_H
 
 #include "harness/run/cell.h"
-
-/* Monotonic, nanoseconds. */
-uint64_t mote_clock_ns(void);
-
-/* What a reading of the clock adds to a time that it ends: the median of many. */
-uint64_t mote_clock_cost_ns(void);
+#include "harness/run/cell_pairs.h"
+#include "harness/run/clock.h"
 
 /* What is left in a timed call of clock and bookkeeping once mote_clock_cost_ns (clock_ns) has
    been subtracted: measured with a method that does nothing. May be below 0. */
@@ -16,10 +12,15 @@ double mote_overhead_ns(uint64_t clock_ns);
 
 /* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all).
    The method's own failure is returned with its text, the frame named. Nothing is allocated
-   between frames. Free the result with mote_cell_result_free; core, load and wall_seconds are
-   left 0. */
+   between frames of two bodies. Free the result with mote_cell_result_free; core, load and
+   wall_seconds are left 0. */
 mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
                               mote_cell_result *result);
+
+/* The same; the near pairs of more than two bodies are written as they are found (NULL: not).
+ */
+mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limit,
+                                        const mote_cell_pairs *pairs, mote_cell_result *result);
 
 void mote_cell_result_free(mote_cell_result *result);
 

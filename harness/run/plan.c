@@ -22,13 +22,17 @@ static bool same_choice(const mote_method_choice *a, const mote_method_choice *b
         if (a->values[i] < b->values[i] || a->values[i] > b->values[i])
             return false;
     }
+    for (int k = 0; k < MOTE_SCENE_KEYS; ++k) {
+        if (a->scene[k] < b->scene[k] || a->scene[k] > b->scene[k])
+            return false;
+    }
     return true;
 }
 
 static mote_status add_one(mote_choices *choices, const char *text)
 {
     mote_method_choice choice;
-    mote_status status = mote_method_choice_read(text, &choice);
+    mote_status status = mote_scene_choice_read(text, &choice);
     if (status != MOTE_OK)
         return status;
     for (size_t i = 0; i < choices->count; ++i) {
@@ -128,10 +132,10 @@ mote_status mote_choices_add(mote_choices *choices, const char *text, const char
 
 static mote_status check_frames(const mote_plan_options *options, const mote_subject *subject)
 {
-    const mote_scenario *scenario = subject->scenario;
-    if (options->last > scenario->frames)
+    const mote_subject_facts facts = mote_subject_facts_of(subject);
+    if (options->last > facts.frames)
         return mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u",
-                         options->first, options->last, scenario->name, scenario->frames);
+                         options->first, options->last, facts.name, facts.frames);
     return MOTE_OK;
 }
 
@@ -139,19 +143,22 @@ static mote_status check_frames(const mote_plan_options *options, const mote_sub
 static void add_group(const mote_plan_options *options, const mote_subject *subject,
                       uint32_t replicate, const mote_choices *choices, mote_plan *plan)
 {
+    const uint32_t frames = mote_subject_facts_of(subject).frames;
     for (size_t k = 0; k < choices->count; ++k) {
         mote_cell cell = {
             .subject = subject,
             .choice = &choices->items[(k + replicate - 1) % choices->count],
             .replicate = replicate,
             .first = options->last ? options->first : 1,
-            .last = options->last ? options->last : subject->scenario->frames,
+            .last = options->last ? options->last : frames,
             .stride_asked = options->stride,
             .stride = 1,
             .seed = options->seed,
             .cache = options->cache,
             .jobs = options->jobs,
             .fixed_seed = options->fixed_seed,
+            .budget = options->budget,
+            .contacts_only = options->contacts_only,
         };
         mote_cell_name(&cell, options->program);
         plan->cells[plan->count++] = cell;
@@ -159,24 +166,28 @@ static void add_group(const mote_plan_options *options, const mote_subject *subj
 }
 
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
-                           size_t subject_count, const mote_choices *choices, mote_plan *plan)
+                           size_t subject_count, const mote_choices *choices,
+                           const mote_choices *scene_choices, mote_plan *plan)
 {
-    size_t groups = subject_count * options->replicates;
-    if (groups * choices->count > MOTE_CHOICES_MAX)
-        return mote_fail(MOTE_EINVAL,
-                         "%zu cells; at most %d in one run, use --shard or split it",
-                         groups * choices->count, MOTE_CHOICES_MAX);
+    size_t count = 0;
     for (size_t s = 0; s < subject_count; ++s) {
-        mote_status status = check_frames(options, &subjects[s]);
+        const mote_status status = check_frames(options, &subjects[s]);
         if (status != MOTE_OK)
             return status;
+        count +=
+            options->replicates * (subjects[s].bodies ? scene_choices->count : choices->count);
     }
-    mote_plan made = {.cells = calloc(groups * choices->count + 1, sizeof *made.cells)};
+    if (count > MOTE_CHOICES_MAX)
+        return mote_fail(MOTE_EINVAL,
+                         "%zu cells; at most %d in one run, use --shard or split it", count,
+                         MOTE_CHOICES_MAX);
+    mote_plan made = {.cells = calloc(count + 1, sizeof *made.cells)};
     if (!made.cells)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", groups * choices->count);
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
     for (uint32_t replicate = 1; replicate <= options->replicates; ++replicate) {
         for (size_t s = 0; s < subject_count; ++s)
-            add_group(options, &subjects[s], replicate, choices, &made);
+            add_group(options, &subjects[s], replicate,
+                      subjects[s].bodies ? scene_choices : choices, &made);
     }
     *plan = made;
     return MOTE_OK;

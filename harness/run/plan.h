@@ -13,10 +13,11 @@ typedef struct mote_choices {
 /* At most this many configurations and cells in one run. */
 #define MOTE_CHOICES_MAX 10000
 
-/* Adds every configuration that text names: "NAME:key=a|b,key=c", each value of a list. With
-   particles ("1,2,4-8", or NULL), a method that has a parameter n, and whose text does not set
-   it, is added once for each number. One that is in the list already is not added again.
-   MOTE_EINVAL with a text for an unknown method or key, a bad value, a bad list. */
+/* Adds every configuration that text names: "NAME:key=a|b,key=c", each value of a list; keys of
+   mote_scene_parameters are allowed. With particles ("1,2,4-8", or NULL), a method that has a
+   parameter n, and whose text does not set it, is added once for each number. One that is in
+   the list already is not added again. MOTE_EINVAL with a text for an unknown method or key, a
+   bad value, a bad list. */
 mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles);
 void mote_choices_free(mote_choices *choices);
 
@@ -29,8 +30,10 @@ typedef struct mote_plan_options {
     uint64_t seed;
     bool fixed_seed; /* replicates repeat each other: they differ by the machine only */
     mote_cache cache;
-    uint32_t jobs;    /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
-    uint64_t program; /* mote_program_hash */
+    uint32_t jobs;      /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
+    double budget;      /* of a cell of more than two bodies: see mote_cell */
+    bool contacts_only; /* likewise */
+    uint64_t program;   /* mote_program_hash */
 } mote_plan_options;
 
 typedef struct mote_plan {
@@ -39,10 +42,12 @@ typedef struct mote_plan {
 } mote_plan;
 
 /* Replicates outermost, then scenarios, then configurations in an order rotated by the
-   replicate, so that no method always runs first or after the same one. MOTE_EINVAL when the
-   frames lie outside a scenario. subjects and choices are borrowed by the cells. cell->stride
-   is 1 until it is known. The caller frees plan->cells. */
+   replicate, so that no method always runs first or after the same one. Scenarios of two bodies
+   are asked by choices, those of more by scene_choices. MOTE_EINVAL when the frames lie outside
+   a scenario. subjects and choices are borrowed by the cells. cell->stride is 1 until it is
+   known. The caller frees plan->cells. */
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
-                           size_t subject_count, const mote_choices *choices, mote_plan *plan);
+                           size_t subject_count, const mote_choices *choices,
+                           const mote_choices *scene_choices, mote_plan *plan);
 
 #endif

@@ -6,12 +6,10 @@
 #include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
-#include "harness/summary/summary.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,6 +41,7 @@ typedef struct run {
     prospect *prospects; /* [plan.count] */
     size_t done;         /* cells of the plan */
     size_t failed;       /* of these */
+    uint32_t replicates; /* planned, and further ones that are measured */
     int lock;            /* descriptor, or -1 */
     bool locked;
     bool output_failed; /* the directory cannot be written, whatever its name */
@@ -55,12 +54,9 @@ static mote_status load_subjects(run *r)
     if (!r->subjects)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu scenarios", count);
     for (size_t i = 0; i < count; ++i) {
-        mote_subject *subject = &r->subjects[i];
         if (mote_child_stop_asked())
             return mote_fail(MOTE_EIO, "stopped by a signal");
-        mote_status status = mote_scenario_load(r->options->scenarios[i], &subject->scenario);
-        if (status == MOTE_OK)
-            status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
+        mote_status status = mote_subject_load(r->options->scenarios[i], &r->subjects[i]);
         if (status != MOTE_OK)
             return status;
     }
@@ -100,7 +96,8 @@ static bool same_configuration(const mote_cell *a, const mote_cell *b)
 
 static uint32_t choose_stride(const mote_cell *cell, double frame_seconds)
 {
-    if (mote_method_traits(cell->choice->method, cell->choice->values).keeps_state)
+    if (cell->subject->bodies || /* pairs keep state */
+        mote_method_traits(cell->choice->method, cell->choice->values).keeps_state)
         return 1;
     if (cell->stride_asked != MOTE_STRIDE_AUTO)
         return cell->stride_asked;
@@ -188,8 +185,9 @@ static void print_plan(const run *r)
     for (size_t i = 0; i < r->plan.count; ++i) {
         const mote_cell *cell = &r->plan.cells[i];
         (void)fprintf(stderr, "  %s %s replicate %u, frames %u-%u, stride %u, %s, %s%.1f s\n",
-                      cell->subject->scenario->name, cell->choice->text, cell->replicate,
-                      cell->first, cell->last, cell->stride, mote_cache_names[cell->cache],
+                      mote_subject_facts_of(cell->subject).name, cell->choice->text,
+                      cell->replicate, cell->first, cell->last, cell->stride,
+                      mote_cache_names[cell->cache],
                       r->prospects[i].done ? "done, not again " : "", r->prospects[i].seconds);
     }
 }
@@ -264,6 +262,8 @@ static mote_status load_truth(run *r)
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < r->options->scenario_count && status == MOTE_OK; ++i) {
         mote_subject *subject = &r->subjects[i];
+        if (subject->bodies)
+            continue;
         status = mote_truth_load_or_compute_known(subject->scenario, subject->fingerprint,
                                                   r->options->directory, &subject->truth);
     }
@@ -279,10 +279,10 @@ static void print_progress(const run *r, const mote_cell *cell, const mote_cell_
     bool ok = end->status == MOTE_CELL_OK;
     (void)fprintf(stderr, "%s[%zu/%zu] %s %s r%u %s: %s%s%s, %.1f s, %s left%s",
                   terminal ? "\r\033[K" : "", r->done, r->plan.count,
-                  cell->subject->scenario->name, cell->choice->text, cell->replicate,
-                  mote_cache_names[cell->cache], mote_cell_status_names[end->status],
-                  ok ? "" : ": ", ok ? "" : end->reason, seconds, left,
-                  terminal && ok && r->done < r->plan.count ? "" : "\n");
+                  mote_subject_facts_of(cell->subject).name, cell->choice->text,
+                  cell->replicate, mote_cache_names[cell->cache],
+                  mote_cell_status_names[end->status], ok ? "" : ": ", ok ? "" : end->reason,
+                  seconds, left, terminal && ok && r->done < r->plan.count ? "" : "\n");
 }
 
 static void warn_of_load(const run *r)
@@ -356,26 +356,6 @@ static mote_status measure(run *r, size_t first)
     return status;
 }
 
-/* How far the interval of a row's median reaches on its wider side, as a share of it; endless
-   when there is none yet, 0 when more replicates would not help. */
-static double interval_width(const mote_summary *summary, const mote_cell *cell)
-{
-    for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        for (size_t k = 0; k < row->replicates; ++k) {
-            if (strcmp(row->cells[k].id, cell->id) != 0)
-                continue;
-            if (row->status != MOTE_CELL_OK)
-                return 0;
-            const mote_time *time = &row->total;
-            double width =
-                fmax(time->high - time->median, time->median - time->low) / time->median;
-            return width == width ? width : HUGE_VAL;
-        }
-    }
-    return 0;
-}
-
 /* Appends a replicate of a cell to the plan; there is room. */
 static void add_replicate(run *r, size_t of, uint32_t replicate)
 {
@@ -403,64 +383,52 @@ static mote_status make_room(run *r, size_t more)
     return MOTE_OK;
 }
 
-/* Plans one more replicate of each configuration whose interval is too wide, and of the rows
-   that ratios are taken to. *widest: of all. Nothing is planned when none is too wide. */
-static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, double *widest)
+/* Plans a further replicate of each wanted configuration of the first `base` cells; *planned is
+   how many. */
+static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, size_t *planned)
 {
-    mote_summary summary;
-    mote_status status = mote_summary_make(r->options->directory, &summary);
-    if (status != MOTE_OK)
-        return status;
-    *widest = 0;
-    for (size_t i = 0; i < base; ++i)
-        *widest = fmax(*widest, interval_width(&summary, &r->plan.cells[i]));
-    if (*widest > r->options->until_share)
-        status = make_room(r, base);
-    for (size_t k = 0; k < base && status == MOTE_OK && *widest > r->options->until_share;
-         ++k) {
-        /* In rotated order, as everywhere. */
-        size_t i = (k + replicate - 1) % base;
-        const mote_cell *cell = &r->plan.cells[i];
-        bool is_reference = strcmp(cell->choice->method->name, "fcl-aabb") == 0;
-        if (cell->replicate == 1 &&
-            (is_reference || interval_width(&summary, cell) > r->options->until_share))
-            add_replicate(r, i, replicate);
+    bool *wanted = calloc(base + 1, sizeof *wanted);
+    mote_status status =
+        wanted ? make_room(r, base) : mote_fail(MOTE_ENOMEM, "no memory for %zu cells", base);
+    if (status == MOTE_OK)
+        status = r->options->further(r->options->context, r->plan.cells, base, wanted);
+    *planned = 0;
+    for (size_t k = 0; k < base && status == MOTE_OK; ++k) {
+        const size_t i = (k + replicate - 1) % base; /* in rotated order, as everywhere */
+        if (r->plan.cells[i].replicate != 1 || !wanted[i])
+            continue;
+        add_replicate(r, i, replicate);
+        ++*planned;
     }
-    mote_summary_free(&summary);
+    free(wanted);
     return status;
 }
 
-/* Adds replicates until every interval is as narrow as asked for, or time runs out. */
+/* Adds replicates until no more are wanted, or time runs out. */
 static mote_status add_replicates(run *r)
 {
     const size_t base = r->plan.count;
     const uint64_t start = mote_clock_ns();
-    double widest = 0;
     mote_status status = MOTE_OK;
-    for (uint32_t replicate = r->options->plan.replicates + 1; status == MOTE_OK; ++replicate) {
-        size_t before = r->plan.count;
-        status = plan_replicate(r, base, replicate, &widest);
-        double spent = (double)(mote_clock_ns() - start) * 1e-9;
-        bool enough = widest <= r->options->until_share;
-        if (status != MOTE_OK || enough || replicate > MOTE_REPLICATES_MAX ||
-            spent + seconds_left(r) > r->options->budget) {
+    while (status == MOTE_OK && r->replicates < MOTE_REPLICATES_MAX) {
+        const size_t before = r->plan.count;
+        size_t planned;
+        status = plan_replicate(r, base, r->replicates + 1, &planned);
+        const double spent = (double)(mote_clock_ns() - start) * 1e-9;
+        if (status != MOTE_OK || planned == 0 || spent + seconds_left(r) > r->options->budget) {
             r->plan.count = before;
-            (void)fprintf(stderr, "after %u replicates the widest interval is +-%.2g %%%s\n",
-                          replicate - 1, 100 * widest,
-                          enough ? "" : ", wider than asked for: the budget ends");
             break;
         }
         status = measure(r, before);
+        r->replicates += status == MOTE_OK ? 1 : 0;
     }
     return status;
 }
 
 static void close_run(run *r)
 {
-    for (size_t i = 0; r->subjects && i < r->options->scenario_count; ++i) {
-        mote_truth_destroy(r->subjects[i].truth);
-        mote_scenario_destroy(r->subjects[i].scenario);
-    }
+    for (size_t i = 0; r->subjects && i < r->options->scenario_count; ++i)
+        mote_subject_free(&r->subjects[i]);
     free(r->subjects);
     free(r->prospects);
     free(r->plan.cells);
@@ -478,8 +446,9 @@ static mote_status prepare(run *r)
     if (status == MOTE_OK)
         status = load_subjects(r);
     if (status == MOTE_OK)
-        status = mote_plan_make(&plan, r->subjects, r->options->scenario_count,
-                                r->options->choices, &made);
+        status = mote_plan_make(
+            &plan, r->subjects, r->options->scenario_count, r->options->choices,
+            r->options->scene_choices ? r->options->scene_choices : r->options->choices, &made);
     r->plan = made;
     if (status == MOTE_OK)
         status = look_ahead(r);
@@ -503,7 +472,7 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
         warn_of_load(r);
         status = measure(r, 0);
     }
-    if (status == MOTE_OK && options->until_share > 0)
+    if (status == MOTE_OK && options->further)
         status = add_replicates(r);
     if (status != MOTE_OK && r->locked)
         sweep_parts(options->directory); /* of processes that were ended */
@@ -512,7 +481,7 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
 
 mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
 {
-    run r = {.options = options, .lock = -1};
+    run r = {.options = options, .replicates = options->plan.replicates, .lock = -1};
     r.process.directory = options->directory;
     r.process.timeout = options->timeout;
     /* Of several at once none has a core of its own. */
@@ -526,6 +495,7 @@ mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
     outcome->started = outcome->started || mote_child_stop_asked();
     outcome->cells = r.plan.count;
     outcome->failed = r.failed;
+    outcome->replicates = r.replicates;
     close_run(&r);
     return status;
 }

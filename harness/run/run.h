@@ -5,26 +5,35 @@
 
 #include "harness/run/plan.h"
 
+/* Asked when all planned replicates are measured, and again after each further one: sets wanted
+   for each of cells [count], the plan's, of which it wants one more. Nothing wanted ends the
+   run.
+ */
+typedef mote_status (*mote_run_further)(void *context, const mote_cell *cells, size_t count,
+                                        bool *wanted);
+
 typedef struct mote_run_options {
     const char *const *scenarios; /* names or paths */
     size_t scenario_count;
-    const mote_choices *choices;
-    mote_plan_options plan; /* program is filled in by the run */
+    const mote_choices *choices;       /* for scenarios of two bodies */
+    const mote_choices *scene_choices; /* for those of more; NULL: the same */
+    mote_plan_options plan;            /* program is filled in by the run */
     const char *directory;
-    double timeout;     /* seconds a cell; 0: none */
-    bool dry_run;       /* print the plan, measure and write nothing */
-    bool force;         /* measure also what is there already */
-    double until_share; /* > 0: replicates are added to those planned until every median's
-                           interval is within this share of it to both sides */
-    double budget;      /* seconds for that */
-    int argc;           /* the command line, for the manifest */
+    double timeout;           /* seconds a cell; 0: none */
+    bool dry_run;             /* print the plan, measure and write nothing */
+    bool force;               /* measure also what is there already */
+    mote_run_further further; /* or NULL: no more replicates than planned */
+    void *context;            /* that it is called with */
+    double budget;            /* seconds for further replicates */
+    int argc;                 /* the command line, for the manifest */
     char **argv;
 } mote_run_options;
 
 typedef struct mote_run_outcome {
-    size_t cells;  /* in the plan */
-    size_t failed; /* of these, crashed or out of time, now or earlier */
-    bool started;  /* an error is one of the disk or a signal, and not of the input */
+    size_t cells;        /* in the plan */
+    size_t failed;       /* of these, crashed or out of time, now or earlier */
+    uint32_t replicates; /* measured, further ones included */
+    bool started;        /* an error is one of the disk or a signal, and not of the input */
 } mote_run_outcome;
 
 /* Loads the scenarios, prints the plan to stderr and measures what is not yet there.

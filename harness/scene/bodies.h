@@ -61,6 +61,11 @@ bool mote_bodies_is(const char *name_or_path);
 mote_status mote_bodies_load(const char *path, mote_bodies **bodies);
 void mote_bodies_destroy(mote_bodies *bodies); /* NULL is allowed */
 
+/* A 64-bit FNV-1a hash that tells scenes apart: of every body's path, and at the first, the
+   middle and the last frame of every body's weights and of the deformed vertices of the first
+   body of each shape. */
+mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerprint);
+
 /* The bodies of one frame, with the memory of their weights. */
 typedef struct mote_bodies_frame {
     mote_body_state *states; /* [count]; vertices are NULL */

@@ -1,22 +1,20 @@
 #include "harness/study/study_bodies.h"
 
-#include "harness/run/bodies_run.h"
-#include "harness/figure/figures.h"
 #include "harness/base/record.h"
+#include "harness/figure/figures.h"
+#include "harness/summary/summary_json.h"
+#include "harness/summary/table.h"
+#include "harness/run/run.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows at most: scenes times ways to ask. */
-#define ROWS_MAX 256
-#define WAYS_MAX 16
-
 /* Letters: every body a W, or four shapes in turn. */
 typedef struct scene {
     const char *density; /* near pairs a body */
     uint32_t count;
-    uint32_t steps[2]; /* of every way to ask: in full, quick */
+    uint32_t frames[2]; /* asked about in every way: in full, quick */
     bool four;
 } scene;
 
@@ -37,14 +35,14 @@ static const char *const threaded[] = {"certified:ahead=3", "certified:threads=2
 
 /* What must hold. */
 #define LEAST_RATIO 20.0
-#define MOST_BYTES ((int64_t)1 << 30)
+#define MOST_BYTES 1073741824.0
 
 typedef struct study {
     const char *directory;
     bool quick;
-    mote_bodies_row rows[ROWS_MAX];
-    const scene *scene_of[ROWS_MAX];
-    size_t count;
+    int argc; /* the command line, for the manifest */
+    char **argv;
+    mote_summary summary;
 } study;
 
 static void add_shape(mote_text *text, char letter, unsigned triangles, unsigned seed)
@@ -84,48 +82,83 @@ static mote_status write_scene(const study *s, const scene *of, char **path)
     return status;
 }
 
-static mote_status read_ways(const char *const *texts, size_t count, mote_bodies_choice *ways,
-                             size_t *total)
+static mote_status add_ways(const char *const *texts, size_t count, mote_choices *ways)
 {
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < count && status == MOTE_OK; ++i)
-        status = mote_bodies_choice_read(texts[i], &ways[(*total)++]);
+        status = mote_choices_add(ways, texts[i], NULL);
     return status;
 }
 
-static mote_status measure_scene(study *s, const scene *of)
+static mote_status measure_scene(const study *s, const scene *of)
 {
-    mote_bodies_choice ways[WAYS_MAX];
-    size_t total = 0;
+    mote_choices ways = {0};
     char *path = NULL;
-    mote_bodies *bodies = NULL;
+    mote_run_outcome outcome;
     mote_status status =
-        of->four ? read_ways(own_ways, 1, ways, &total) : read_ways(every_way, 6, ways, &total);
+        of->four ? add_ways(own_ways, 1, &ways) : add_ways(every_way, 6, &ways);
     if (status == MOTE_OK && of->count >= 100)
-        status = read_ways(threaded, 3, ways, &total);
+        status = add_ways(threaded, 3, &ways);
     if (status == MOTE_OK)
         status = write_scene(s, of, &path);
+    const char *const scenarios[] = {path};
+    const mote_run_options options = {.scenarios = scenarios,
+                                      .scenario_count = 1,
+                                      .choices = &ways,
+                                      .plan = {.replicates = 1,
+                                               .first = 1,
+                                               .last = of->frames[s->quick],
+                                               .seed = 1,
+                                               .contacts_only = true},
+                                      .directory = s->directory,
+                                      .timeout = 1800,
+                                      .argc = s->argc,
+                                      .argv = s->argv};
     if (status == MOTE_OK)
-        status = mote_bodies_load(path, &bodies);
-    const mote_bodies_options options = {
-        .first = 1, .last = of->steps[s->quick], .timeout = 1800};
-    if (status == MOTE_OK)
-        status = mote_bodies_run_scenario(bodies, ways, total, 1, &options, s->rows + s->count);
-    for (size_t k = 0; k < total && status == MOTE_OK; ++k)
-        s->scene_of[s->count++] = of;
-    mote_bodies_destroy(bodies);
+        status = mote_run(&options, &outcome);
+    mote_choices_free(&ways);
     free(path);
     return status;
 }
 
-/* The row of a way in the same scene; NULL: none that ran. */
-static const mote_bodies_row *find(const study *s, const scene *of, const char *method)
+/* The scene of a row; NULL: another run's. */
+static const scene *scene_of(const mote_summary_row *row)
 {
-    for (size_t k = 0; k < s->count; ++k) {
-        if (s->scene_of[k] == of && s->rows[k].ok && strcmp(s->rows[k].method, method) == 0)
-            return &s->rows[k];
+    const double wanted = mote_stored_number(row->first, "near_pairs_wanted");
+    for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; ++k) {
+        if (row->first->bodies == scenes[k].count &&
+            fabs(wanted - strtod(scenes[k].density, NULL)) < 1e-9)
+            return &scenes[k];
     }
     return NULL;
+}
+
+/* The row of a way in a scene; NULL: none that ran. */
+static const mote_summary_row *find(const study *s, const scene *of, const char *label)
+{
+    for (size_t k = 0; k < s->summary.count; ++k) {
+        const mote_summary_row *row = &s->summary.rows[k];
+        if (row->finished > 0 && scene_of(row) == of && strcmp(row->label, label) == 0)
+            return row;
+    }
+    return NULL;
+}
+
+/* Mean of a frame but the first, which finds all pairs anew. */
+static double mean_of(const mote_summary_row *row)
+{
+    return row->active_total.mean;
+}
+
+/* Of a whole frame, motion included. */
+static double wall_of(const mote_summary_row *row)
+{
+    return mote_stored_number(row->first, "frames_wall_ns") / (double)row->frames;
+}
+
+static bool is_exact(const mote_summary_row *row)
+{
+    return strncmp(row->first->method, "particle", strlen("particle")) != 0;
 }
 
 /* Adds a requirement to the list and prints it. */
@@ -143,120 +176,159 @@ static void require(json_t *list, const char *name, double measured, double want
 static json_t *requirements(const study *s, bool *met)
 {
     json_t *list = json_array();
-    size_t differing = 0, failed = 0, unlike = 0;
-    int64_t bytes = 0;
-    const mote_bodies_row *row = find(s, &scenes[6], "certified");
-    const double ratio = row ? row->ratio : (double)NAN;
-    for (size_t k = 0; k < s->count; ++k) {
-        row = &s->rows[k];
-        failed += !row->ok;
-        differing += row->exact ? row->missed + row->false_contacts : 0;
-        unlike += row->exact && row->ok && row->reference[0] == '\0';
-        if (s->scene_of[k]->four && row->rss_peak_bytes > bytes)
-            bytes = row->rss_peak_bytes;
+    size_t failed = 0, unlike = 0;
+    double differing = 0, bytes = 0;
+    const mote_summary_row *certified = find(s, &scenes[6], "certified");
+    const mote_summary_row *control = find(s, &scenes[6], FIRST_CONTROL);
+    const double ratio =
+        certified && control ? mean_of(control) / mean_of(certified) : (double)NAN;
+    for (size_t k = 0; k < s->summary.count; ++k) {
+        const mote_summary_row *row = &s->summary.rows[k];
+        const scene *of = scene_of(row);
+        failed += row->finished == 0;
+        if (row->finished > 0 && is_exact(row) && row->contacts_of == SIZE_MAX)
+            ++unlike;
+        else if (row->finished > 0 && is_exact(row))
+            differing += row->missed + row->false_contacts;
+        if (of && of->four)
+            bytes = fmax(bytes, row->rss_peak_bytes);
     }
     *met = true;
     require(list,
-            "1,000 W of 11,920 triangles, 0.1 near pairs a body: time of a step of the first "
+            "1,000 W of 11,920 triangles, 0.1 near pairs a body: time of a frame of the first "
             "control over that of certified, at least",
             ratio, LEAST_RATIO, ratio >= LEAST_RATIO, met);
     require(list, "contacts that an exact method has and another one has not, at most",
-            (double)differing, 0, differing == 0 && unlike == 0, met);
-    require(list, "10,000 letters of 4 shapes: bytes of the process, below", (double)bytes,
-            (double)MOST_BYTES, bytes > 0 && bytes < MOST_BYTES, met);
+            differing, 0, !(differing > 0) && unlike == 0, met);
+    require(list, "10,000 letters of 4 shapes: bytes of the process, below", bytes, MOST_BYTES,
+            bytes > 0 && bytes < MOST_BYTES, met);
     require(list, "cells that failed, at most", (double)failed, 0, failed == 0, met);
     return list;
 }
 
-/* What threads bring: the time of a whole step, motion included, in one thread over theirs. */
+/* What threads bring: the time of a whole frame, motion included, in one thread over theirs. */
 static json_t *gains(const study *s)
 {
     json_t *list = json_array();
     (void)printf("\n%-8s %10s  %-30s %12s %12s %6s\n", "bodies", "near pairs", "threads",
                  "one, us", "these, us", "gain");
-    for (size_t k = 0; k < s->count; ++k) {
-        const mote_bodies_row *row = &s->rows[k], *one = find(s, s->scene_of[k], "certified");
-        if (!row->ok || !one || (row->threads == 1 && row->ahead == 0))
+    for (size_t k = 0; k < s->summary.count; ++k) {
+        const mote_summary_row *row = &s->summary.rows[k];
+        const scene *of = scene_of(row);
+        const mote_summary_row *one = of ? find(s, of, "certified") : NULL;
+        if (row->finished == 0 || !one || one == row ||
+            strcmp(row->first->method, "certified") != 0)
             continue;
-        const double gain = one->wall_ns / row->wall_ns;
-        (void)printf("%-8u %10s  %-30s %12.1f %12.1f %6.2f\n", row->bodies,
-                     s->scene_of[k]->density, row->method, one->wall_ns / 1e3,
-                     row->wall_ns / 1e3, gain);
+        const double gain = wall_of(one) / wall_of(row);
+        (void)printf("%-8u %10s  %-30s %12.1f %12.1f %6.2f\n", row->first->bodies, of->density,
+                     row->label, wall_of(one) / 1e3, wall_of(row) / 1e3, gain);
         (void)json_array_append_new(
-            list, json_pack("{s:i, s:f, s:s, s:f, s:f, s:f}", "bodies", (int)row->bodies,
-                            "near_pairs", row->density, "method", row->method, "one_ns",
-                            one->wall_ns, "wall_ns", row->wall_ns, "gain", gain));
+            list, json_pack("{s:i, s:f, s:s, s:f, s:f, s:f}", "bodies", (int)row->first->bodies,
+                            "near_pairs", strtod(of->density, NULL), "method", row->label,
+                            "one_ns", wall_of(one), "wall_ns", wall_of(row), "gain", gain));
     }
     return list;
+}
+
+/* The median over the frames but the first of a column of a row's first cell. */
+static double column_median(const mote_summary_row *row, int column, double *work)
+{
+    const mote_stored_cell *cell = row->first;
+    size_t count = 0;
+    for (size_t k = cell->frames > 1 ? 1 : 0; k < cell->frames; ++k)
+        work[count++] = cell->scene[column][k];
+    return mote_statistics_median(work, count);
+}
+
+/* How many times as long as a row the one takes that its contacts are compared with. */
+static double ratio_of(const study *s, const mote_summary_row *row)
+{
+    return row->contacts_of == SIZE_MAX
+               ? MOTE_NONE
+               : mean_of(&s->summary.rows[row->contacts_of]) / mean_of(row);
+}
+
+static mote_status add_csv_row(const study *s, const mote_summary_row *row, mote_text *text)
+{
+    double *work = malloc((row->frames + 1) * sizeof *work);
+    if (!work)
+        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", row->frames);
+    mote_text_add(text, "%s,\"%s\",%u,", row->first->scenario, row->label, row->first->bodies);
+    if (row->finished > 0)
+        mote_text_add(
+            text,
+            "%.6g,%zu,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%g,",
+            row->near_pairs / row->first->bodies, row->frames, mean_of(row),
+            row->active_total.median, row->active_total.p95,
+            column_median(row, MOTE_SCENE_COLUMN_bounds_ns, work), row->deform.median,
+            row->update.median, column_median(row, MOTE_SCENE_COLUMN_broad_ns, work),
+            row->query.median, column_median(row, MOTE_SCENE_COLUMN_motion_ns, work),
+            wall_of(row), row->heap_live_bytes, row->heap_peak_bytes, row->rss_peak_bytes,
+            row->contacts);
+    else
+        mote_text_add(text, ",,,,,,,,,,,,,,,,");
+    if (row->contacts_of != SIZE_MAX)
+        mote_text_add(text, "%g,%g,", row->missed, row->false_contacts);
+    else
+        mote_text_add(text, ",,");
+    if (!isnan(ratio_of(s, row)))
+        mote_text_add(text, "%.6g", ratio_of(s, row));
+    mote_text_add(text, ",%s\n", mote_cell_status_names[row->status]);
+    free(work);
+    return MOTE_OK;
 }
 
 static mote_status write_csv(const study *s)
 {
     mote_text text = {0};
+    mote_status status = MOTE_OK;
     mote_text_add(
         &text,
         "scenario,method,bodies,near_pairs_a_body,steps,step_mean_ns,step_ns,step_p95_ns,"
         "bounds_ns,deform_ns,update_ns,broad_ns,query_ns,motion_ns,wall_ns,"
         "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,contacts,missed,"
         "false_contacts,ratio,status\n");
-    for (size_t k = 0; k < s->count; ++k) {
-        const mote_bodies_row *r = &s->rows[k];
-        mote_text_add(&text, "%s,\"%s\",%u,", r->scenario, r->method, r->bodies);
-        if (r->ok)
-            mote_text_add(
-                &text,
-                "%.6g,%zu,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%lld,%lld,"
-                "%lld,%zu,",
-                r->near_pairs, r->steps, r->step_mean_ns, r->step_ns, r->step_p95_ns,
-                r->bounds_ns, r->deform_ns, r->update_ns, r->broad_ns, r->query_ns,
-                r->motion_ns, r->wall_ns, (long long)r->heap_live_bytes,
-                (long long)r->heap_peak_bytes, (long long)r->rss_peak_bytes, r->contacts);
-        else
-            mote_text_add(&text, ",,,,,,,,,,,,,,,,");
-        if (r->ok && r->reference[0])
-            mote_text_add(&text, "%zu,%zu,", r->missed, r->false_contacts);
-        else
-            mote_text_add(&text, ",,");
-        if (r->ok && !isnan(r->ratio))
-            mote_text_add(&text, "%.6g", r->ratio);
-        mote_text_add(&text, ",%s\n", mote_cell_status_names[r->status]);
-    }
-    return mote_record_text(s->directory, "bodies.csv", &text);
+    for (size_t k = 0; k < s->summary.count && status == MOTE_OK; ++k)
+        status = add_csv_row(s, &s->summary.rows[k], &text);
+    if (status == MOTE_OK)
+        return mote_record_text(s->directory, "bodies.csv", &text);
+    free(text.data);
+    return status;
 }
 
 static mote_status report(const study *s, bool *met)
 {
-    mote_bodies_rows_print(s->rows, s->count, stdout);
+    mote_table_print(&s->summary, stdout);
     json_t *gained = gains(s);
     (void)printf("\n");
     json_t *required = requirements(s, met);
-    json_t *root = mote_bodies_rows_json(s->rows, s->count);
-    (void)json_object_set_new(root, "profile", json_string(s->quick ? "quick" : "full"));
-    (void)json_object_set_new(root, "gains", gained);
-    (void)json_object_set_new(root, "requirements", required);
-    (void)json_object_set_new(root, "met", json_boolean(*met));
+    json_t *root = json_pack("{s:i, s:s, s:o, s:o, s:b}", "schema", 1, "profile",
+                             s->quick ? "quick" : "full", "gains", gained, "requirements",
+                             required, "met", *met);
     mote_status status = mote_record_json(s->directory, "bodies.json", root);
+    if (status == MOTE_OK)
+        status = mote_summary_write(&s->summary, s->directory);
     return status == MOTE_OK ? write_csv(s) : status;
 }
 
-mote_status mote_study_bodies(const char *directory, bool quick, bool *met)
+mote_status mote_study_bodies(const char *directory, bool quick, int argc, char **argv,
+                              bool *met)
 {
-    study *s = calloc(1, sizeof *s);
+    study s = {.directory = directory, .quick = quick, .argc = argc, .argv = argv};
     char *folder = mote_format("%s/scenarios", directory);
     size_t drawn;
-    mote_status status = s && folder ? mote_directory_make(folder)
-                                     : mote_fail(MOTE_ENOMEM, "no memory for a study");
+    mote_status status =
+        folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a study");
     free(folder);
-    if (s) {
-        s->directory = directory;
-        s->quick = quick;
-    }
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0] && status == MOTE_OK; ++k)
-        status = measure_scene(s, &scenes[k]);
+        status = measure_scene(&s, &scenes[k]);
     if (status == MOTE_OK)
-        status = report(s, met);
+        status = mote_summary_make(directory, &s.summary);
+    if (status == MOTE_OK) {
+        status = report(&s, met);
+        mote_summary_free(&s.summary);
+    }
     if (status == MOTE_OK)
         status = mote_figures_draw(directory, &drawn);
-    free(s);
     return status;
 }

@@ -41,6 +41,7 @@ DEFINE_TEXT(accounting, row->given ? "given" : "charged")
 DEFINE_TEXT(ratio_to, label_of(summary, row->ratio.to))
 DEFINE_TEXT(ratio_given_to, label_of(summary, row->ratio_given.to))
 DEFINE_TEXT(ratio_best_to, label_of(summary, row->ratio_best.to))
+DEFINE_TEXT(contacts_of, label_of(summary, row->contacts_of))
 DEFINE_TEXT(dominated_by, label_of(summary, row->dominated_by))
 
 DEFINE_NUMBER(stride, row->first->stride)
@@ -56,15 +57,30 @@ DEFINE_STORED(parameters, "parameters")
 DEFINE_STORED(triangles, "triangles")
 DEFINE_STORED(vertices, "vertices")
 DEFINE_STORED(tolerance, "tolerance")
+DEFINE_STORED(shapes, "shapes")
+DEFINE_STORED(near_pairs_wanted, "near_pairs_wanted")
+
+static json_t *bodies(const mote_summary_row *row)
+{
+    return row->first->bodies > 0 ? json_integer(row->first->bodies) : NULL;
+}
+
+static json_t *near_pairs(const mote_summary_row *row)
+{
+    return row->first->bodies > 0 ? mote_json_number(row->near_pairs) : NULL;
+}
 
 static json_t *frame_range(const mote_summary_row *row)
 {
     return json_pack("[I,I]", (json_int_t)row->first->first, (json_int_t)row->first->last);
 }
 
-/* Heap over the vertices of both bodies. */
+/* Heap over the vertices of all bodies. */
 static double heap_bytes_per_vertex(const mote_summary_row *row)
 {
+    const double total = mote_stored_number(row->first, "vertices_total");
+    if (total > 0) /* of more than two */
+        return row->heap_live_bytes / total;
     const json_t *both = json_object_get(row->first->json, "vertices");
     const double count =
         json_number_value(json_array_get(both, 0)) + json_number_value(json_array_get(both, 1));
@@ -380,8 +396,10 @@ const mote_column mote_columns[] = {
      .unit = "share",
      .meaning = "The same of frames where the bodies are apart",
      AT(error.exact_rate_separated)},
-    CONTACTS(contacts, "Frames in contact; mean over replicates", "", NULL, NULL,
-             PLACE(0, 0, 0)),
+    CONTACTS(contacts,
+             "Frames in contact (of more than two bodies: pairs and frames); mean over "
+             "replicates",
+             "", NULL, NULL, PLACE(0, 0, 0)),
     CONTACTS(missed, "Frames in contact that the method says are not; mean over replicates",
              "missed", "missed", "missed", PLACE(50, 50, 50)),
     CONTACTS(false_contacts,
@@ -450,15 +468,48 @@ const mote_column mote_columns[] = {
     {.key = "triangles",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
-     .meaning = "Of each body",
+     .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
      .json = triangles,
      .schema = TWO_WHOLE},
     {.key = "vertices",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
-     .meaning = "Of each body",
+     .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
      .json = vertices,
      .schema = TWO_WHOLE},
+    {.key = "bodies",
+     .type = MOTE_COLUMN_OBJECT,
+     .optional = true,
+     .unit = "",
+     .meaning = "How many there are, where they are not two",
+     .json = bodies,
+     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+    {.key = "shapes",
+     .type = MOTE_COLUMN_OBJECT,
+     .optional = true,
+     .unit = "",
+     .meaning = "How many shapes these have",
+     .json = shapes,
+     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+    {.key = "near_pairs_wanted",
+     .type = MOTE_COLUMN_OBJECT,
+     .optional = true,
+     .unit = "pairs",
+     .meaning = "Near pairs a body that their scenario asks for; null: it gives a box",
+     .json = near_pairs_wanted,
+     .schema = "{\"type\": [\"number\", \"null\"]}"},
+    {.key = "near_pairs",
+     .type = MOTE_COLUMN_OBJECT,
+     .optional = true,
+     .unit = "pairs",
+     .meaning = "Near pairs that were asked about: mean a frame",
+     .json = near_pairs,
+     .schema = "{\"type\": [\"number\", \"null\"]}"},
+    {.key = "contacts_of",
+     .optional = true,
+     .unit = "",
+     .meaning = "Label of the exact row whose contacts count as true, where there is no truth",
+     .text = contacts_of},
     {.key = "seed",
      .type = MOTE_COLUMN_WHOLE,
      .unit = "",
@@ -503,7 +554,7 @@ const mote_column mote_columns[] = {
     {.key = "heap_bytes_per_vertex",
      .type = MOTE_COLUMN_REAL,
      .unit = "bytes",
-     .meaning = "Heap held by the method over the vertices of both bodies",
+     .meaning = "Heap held by the method over the vertices of all bodies",
      .number = heap_bytes_per_vertex},
     {.key = "counters",
      .type = MOTE_COLUMN_OBJECT,

@@ -38,18 +38,23 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
 {
     char *json = mote_format("cells/%s.json", cell->id);
     char *csv = mote_format("cells/%s.csv", cell->id);
-    mote_status status = json && csv ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    char *pairs = mote_format("cells/%s.pairs.csv", cell->id);
+    mote_status status =
+        json && csv && pairs ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a name");
     if (status == MOTE_OK && exists(to, json)) {
         ++merged->present;
     } else if (status == MOTE_OK) {
         if (cell->status == MOTE_CELL_OK)
             status = copy_file(from, to, csv);
+        if (status == MOTE_OK && exists(from, pairs)) /* of more than two bodies */
+            status = copy_file(from, to, pairs);
         if (status == MOTE_OK)
             status = copy_file(from, to, json);
         merged->copied += status == MOTE_OK ? 1 : 0;
     }
     free(json);
     free(csv);
+    free(pairs);
     return status;
 }
 

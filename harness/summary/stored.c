@@ -51,6 +51,8 @@ static void free_cell(mote_stored_cell *cell)
     free(cell->truth);
     free(cell->contact);
     free(cell->contact_truth);
+    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k)
+        free(cell->scene[k]);
 }
 
 void mote_stored_free(mote_stored *stored)
@@ -84,6 +86,11 @@ static mote_status make_arrays(mote_stored_cell *cell, size_t frames)
         !cell->total_ns || !cell->error || !cell->truth || !cell->contact ||
         !cell->contact_truth)
         return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT && cell->bodies > 0; ++k) {
+        cell->scene[k] = calloc(some, sizeof *cell->scene[k]);
+        if (!cell->scene[k])
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    }
     return MOTE_OK;
 }
 
@@ -104,6 +111,11 @@ static int find_column(const char *name, size_t length)
         const char *count = mote_stored_count_names[k];
         if (strlen(count) == length && memcmp(count, name, length) == 0)
             return COLUMN_COUNTS + k;
+    }
+    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k) {
+        const char *column = mote_scene_column_names[k];
+        if (strlen(column) == length && memcmp(column, name, length) == 0)
+            return COLUMN_COUNTS + MOTE_STORED_COUNTS + k;
     }
     return -1;
 }
@@ -158,6 +170,12 @@ static void put_value(mote_stored_cell *cell, size_t row, int index, double valu
         return;
     default:
         break;
+    }
+    if (index >= COLUMN_COUNTS + MOTE_STORED_COUNTS) {
+        double *column = cell->scene[index - COLUMN_COUNTS - MOTE_STORED_COUNTS];
+        if (column)
+            column[row] = none ? 0 : value;
+        return;
     }
     mote_stored_count *count = &cell->counts[index - COLUMN_COUNTS];
     if (!none) {
@@ -293,6 +311,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->machine = machine ? machine : "";
     const char *ask = json_string_value(json_object_get(cell->json, "ask"));
     cell->ask = ask ? ask : "";
+    const json_int_t bodies = json_integer_value(json_object_get(cell->json, "bodies"));
+    cell->bodies = bodies > 0 && bodies <= MOTE_BODIES_MAX ? (uint32_t)bodies : 0;
     cell->group = group_name(cell);
     return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
 }

@@ -44,6 +44,8 @@ typedef struct mote_stored_cell {
     double *truth;
     signed char *contact; /* 1, 0, or -1 without an answer */
     signed char *contact_truth;
+    double *scene[MOTE_SCENE_COLUMN_COUNT]; /* of more than two bodies; else NULL */
+    uint32_t bodies;                        /* of these; 0: two */
     mote_stored_count counts[MOTE_STORED_COUNTS];
 } mote_stored_cell;
 

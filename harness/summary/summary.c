@@ -1,6 +1,7 @@
 #include "harness/summary/summary.h"
 
 #include "harness/summary/dominance.h"
+#include "harness/summary/scene_contacts.h"
 #include "harness/summary/summary_quiet.h"
 
 #include <stdlib.h>
@@ -210,6 +211,8 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
         qsort(made.rows, made.count, sizeof *made.rows, by_place);
     for (size_t i = 0; i < made.count && status == MOTE_OK; ++i)
         status = make_row_ratios(&made, &made.rows[i]);
+    if (status == MOTE_OK)
+        status = mote_scene_contacts_count(directory, made.rows, made.count);
     mote_find_dominated(made.rows, made.count);
     double noise_floor = 0, smallest_change = 0;
     if (status == MOTE_OK)

@@ -215,31 +215,46 @@ static double largest(const mote_summary_row *row, const char *key)
     return most;
 }
 
+/* The parameter of a key, of the method or of scenes, with its default; NULL: none in this
+   build. */
+static const mote_parameter *find_parameter(const mote_method *method, const char *key,
+                                            double *fallback)
+{
+    const mote_parameter *tables[] = {method ? method->parameters : NULL,
+                                      mote_scene_parameters};
+    const size_t counts[] = {method ? method->parameter_count : 0, MOTE_SCENE_KEYS};
+    for (int t = 0; t < 2; ++t) {
+        double values[MOTE_PARAMETERS_MAX];
+        mote_parameters_default(tables[t], counts[t], values);
+        for (size_t i = 0; i < counts[t]; ++i) {
+            if (strcmp(tables[t][i].key, key) == 0) {
+                *fallback = values[i];
+                return &tables[t][i];
+            }
+        }
+    }
+    return NULL;
+}
+
 /* A parameter's value as it would be written on the command line, and whether it is the
    default. The method may be gone from this build: then nothing is a default. */
 static char *value_text(const mote_method *method, const char *key, const json_t *value,
                         bool *usual)
 {
-    char text[64], fallback[64];
+    char text[64], usual_text[64];
+    double fallback;
+    const mote_parameter *parameter = find_parameter(method, key, &fallback);
     *usual = false;
-    for (size_t i = 0; method && i < method->parameter_count; ++i) {
-        const mote_parameter *parameter = &method->parameters[i];
-        if (strcmp(parameter->key, key) != 0)
-            continue;
-        double values[MOTE_PARAMETERS_MAX];
-        mote_parameters_default(method->parameters, method->parameter_count, values);
-        (void)mote_parameter_text(parameter, values[i], fallback, sizeof fallback);
-        /* Of a choice it is the name that is stored; a number need not be that of one. */
-        if (json_is_number(value) && parameter->kind != MOTE_PARAMETER_CHOICE)
-            (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
-        else if (json_is_string(value))
-            (void)snprintf(text, sizeof text, "%s", json_string_value(value));
-        else
-            break;
-        *usual = strcmp(text, fallback) == 0;
-        return mote_format("%s", text);
-    }
-    return mote_json_text(value, JSON_ENCODE_ANY);
+    /* Of a choice it is the name that is stored; a number need not be that of one. */
+    if (parameter && json_is_number(value) && parameter->kind != MOTE_PARAMETER_CHOICE)
+        (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
+    else if (parameter && json_is_string(value))
+        (void)snprintf(text, sizeof text, "%s", json_string_value(value));
+    else
+        return mote_json_text(value, JSON_ENCODE_ANY);
+    (void)mote_parameter_text(parameter, fallback, usual_text, sizeof usual_text);
+    *usual = strcmp(text, usual_text) == 0;
+    return mote_format("%s", text);
 }
 
 /* "method:key=value,..." with what differs from the defaults. */
@@ -344,7 +359,8 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
     made.jobs = made.first->jobs;
     made.given = is_given(made.first);
     made.dominated_by = SIZE_MAX;
-    made.smallest_change = MOTE_NONE;
+    made.smallest_change = made.near_pairs = MOTE_NONE;
+    made.contacts_of = SIZE_MAX;
     made.label = make_label(made.first);
     if (!made.label)
         return mote_fail(MOTE_ENOMEM, "no memory for a label");

@@ -80,6 +80,10 @@ typedef struct mote_summary_row {
     mote_ratio ratio_best;  /* to the row of FCL that is the fastest over this row's frames */
     mote_error_summary error;
     double contacts, missed, false_contacts; /* frames, mean over replicates */
+    /* Of more than two bodies contacts are those of pairs and frames; missed and false_contacts
+       are against another row's, an exact one's. Else SIZE_MAX and MOTE_NONE. */
+    size_t contacts_of; /* index of that row */
+    double near_pairs;  /* mean a frame */
     size_t
         dominated_by; /* the fastest row that is better in all (dominance.h); SIZE_MAX: none */
     double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */

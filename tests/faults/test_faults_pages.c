@@ -41,13 +41,15 @@
     "\"\", \"threshold\": null}]}, {\"id\": \"b\", \"claim\": \"never\", \"value\": null, "    \
     "\"interval\": null, \"verdict\": \"does not hold\", \"values\": []}]\n"
 #define BODIES                                                                                 \
-    "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", "              \
-    "\"near_pairs_wanted\": 1, \"bodies\": 1000, \"ratio\": 30, \"step_mean_ns\": 5, "         \
-    "\"rss_peak_bytes\": 7}, {}, 7, {\"method\": \"certified\", \"status\": 5, \"ratio\": "    \
-    "2}, "                                                                                     \
-    "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 10, \"ratio\": 3, "           \
-    "\"near_pairs_wanted\": \"x\"}, {\"method\": \"aabb-tree\", \"status\": \"ok\"}, "         \
-    "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, \"ratio\": null}]}\n"
+    "{\"schema\": 1, \"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "               \
+    "\"near_pairs_wanted\": 1, \"bodies\": 1000, \"active_total_ns\": {\"mean\": 5}, "         \
+    "\"rss_peak_bytes\": 7}, {}, 7, {\"label\": \"certified\", \"status\": 5}, "               \
+    "{\"label\": \"fcl-aabb:refit=every\", \"status\": \"ok\", \"near_pairs_wanted\": 1, "     \
+    "\"bodies\": 1000, \"active_total_ns\": {\"mean\": 150}}, "                                \
+    "{\"label\": \"certified\", \"status\": \"ok\", \"bodies\": 10, "                          \
+    "\"near_pairs_wanted\": \"x\"}, {\"label\": \"aabb-tree\", \"status\": \"ok\"}, "          \
+    "{\"label\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, "                        \
+    "\"active_total_ns\": null}]}\n"
 #define LETTERS                                                                                \
     "{\"purpose\": \"several\", \"frames\": 6, \"ask\": \"distance\", \"bodies\": {"           \
     "\"count\": 4, \"seed\": 2, \"near_pairs\": 1, \"near\": 0.3, \"speed\": 0.01, "           \
@@ -175,7 +177,7 @@ TEST(loops_when_a_call_fails_say_so)
         LINE(simulate, " b.json --method certified --steps 3", 0),
         LINE(run, " mv --method certified --until-ci 100% --budget 0 --replicates 1 --out out",
              0),
-        LINE(run, " b.json --dry-run", 0),
+        LINE(run, " b.json --method particle:n=4 --dry-run", 0),
     };
     FAIL_EACH(list);
 }
@@ -214,7 +216,7 @@ static int make_files(void)
     return make_runs() && fault_lines_write("run/claims.json", CLAIMS) &&
                    fault_lines_write("run/requirements.json", CLAIMS) &&
                    mote_directory_make("several") == MOTE_OK &&
-                   fault_lines_write("several/bodies.json", BODIES) &&
+                   fault_lines_write("several/summary.json", BODIES) &&
                    mote_directory_make("claims") == MOTE_OK &&
                    fault_lines_write("claims/claims.json", CLAIMS)
                ? 0

@@ -1,7 +1,6 @@
 /* See planted.h. */
 #include "tests/support/planted.h"
 
-#include "harness/run/bodies_run.h"
 #include "harness/study/dynamics.h"
 #include "harness/figure/figures.h"
 #include "harness/base/hash.h"
@@ -227,9 +226,35 @@ PLANT(mote_approaches_simulate, const mote_scenario *scenario, const char *metho
     return status;
 }
 
+/* A cell of several bodies that a run was asked for. */
+typedef struct scene_cell {
+    char label[256], scenario[64];
+    unsigned bodies;
+    double density;
+    bool fails;
+} scene_cell;
+
+/* Those of all runs since the last summary. */
+static scene_cell scene_cells[128];
+static size_t scene_count;
+
+static void plant_scene(const mote_run_options *options, const char *label, size_t k)
+{
+    const char *name = strrchr(options->scenarios[0], '/') + 1; /* w-1000-0.1.json */
+    if (k == 0 && strcmp(name, "w-10-0.1.json") == 0)
+        scene_count = 0; /* a study begins; the one before may have failed */
+    need(scene_count < sizeof scene_cells / sizeof scene_cells[0]);
+    scene_cell *cell = &scene_cells[scene_count++];
+    *cell = (scene_cell){.fails = planted.bodies_failed || (planted.body_failed && k == 1)};
+    need(sscanf(strchr(name, '-'), "-%u-%lf", &cell->bodies, &cell->density) == 2);
+    (void)snprintf(cell->label, sizeof cell->label, "%s", label);
+    (void)snprintf(cell->scenario, sizeof cell->scenario, "%s", name);
+}
+
 PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
 {
-    (void)options;
+    for (size_t k = 0; options->plan.contacts_only && k < options->choices->count; ++k)
+        plant_scene(options, options->choices->items[k].text, k);
     *outcome =
         (mote_run_outcome){.cells = 1, .failed = planted.body_failed ? 1 : 0, .started = true};
     return due("mote_run");
@@ -278,15 +303,77 @@ static void plant_cell(size_t row, size_t replicate, mote_stored_cell *cell)
                                .total_ns = times[tree][0]};
 }
 
+/* Four frames of several bodies. */
+static void plant_scene_row(const scene_cell *of, mote_stored_cell *cell, mote_summary_row *row)
+{
+    static double times[4] = {4e6, 1e6, 1e6, 1e6};
+    const bool ours = strncmp(of->label, "particle", 8) == 0;
+    const bool control = strcmp(of->label, "fcl-aabb:refit=every") == 0;
+    const char *ahead = strstr(of->label, "ahead=");
+    *cell = (mote_stored_cell){
+        .json = json_pack("{s:f, s:f}", "near_pairs_wanted", of->density, "frames_wall_ns",
+                          4e6 / (1 + (ahead ? strtod(ahead + 6, NULL) : 0))),
+        .scenario = of->scenario,
+        .fingerprint = "",
+        .cache = "hot",
+        .machine = "",
+        .ask = "distance",
+        .method =
+            ours ? "particle" : (strncmp(of->label, "cert", 4) ? "fcl-aabb" : "certified"),
+        .status = of->fails ? MOTE_CELL_CRASHED : MOTE_CELL_OK,
+        .bodies = of->bodies,
+        .frames = of->fails ? 0 : 4};
+    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k)
+        cell->scene[k] = times;
+    *row = (mote_summary_row){.cells = cell,
+                              .replicates = 1,
+                              .finished = of->fails ? 0 : 1,
+                              .first = cell,
+                              .status = cell->status,
+                              .label = (char *)(uintptr_t)of->label,
+                              .frames = cell->frames,
+                              .active_total = {.mean = control ? 1e6 * planted.ratio : 1e6},
+                              .contacts_of = planted.body_alone || of->fails ? SIZE_MAX : 0,
+                              .missed = planted.body_missed && !ours ? 1 : 0,
+                              .ratio = {.to = SIZE_MAX},
+                              .ratio_given = {.to = SIZE_MAX},
+                              .ratio_best = {.to = SIZE_MAX},
+                              .dominated_by = SIZE_MAX,
+                              .rss_peak_bytes = (double)planted.body_bytes};
+}
+
+static void plant_scene_rows(mote_summary *summary)
+{
+    *summary = (mote_summary){.rows = calloc(scene_count, sizeof *summary->rows),
+                              .count = scene_count};
+    summary->stored.cells = calloc(scene_count, sizeof *summary->stored.cells);
+    summary->stored.count = scene_count;
+    need(summary->rows && summary->stored.cells);
+    for (size_t i = 0; i < scene_count; ++i)
+        plant_scene_row(&scene_cells[i], &summary->stored.cells[i], &summary->rows[i]);
+    scene_count = 0;
+}
+
+PLANT(mote_summary_write, const mote_summary *summary, const char *directory)
+{
+    (void)summary;
+    (void)directory;
+    return due("mote_summary_write");
+}
+
 PLANT(mote_summary_make, const char *directory, mote_summary *summary)
 {
     (void)directory;
     const mote_status status = due("mote_summary_make");
-    if (status != MOTE_OK)
+    const bool of_scenes = scene_count > 0;
+    if (status == MOTE_OK && of_scenes)
+        plant_scene_rows(summary);
+    if (status != MOTE_OK || of_scenes)
         return status;
     *summary =
         (mote_summary){.rows = calloc(TIMED, sizeof *summary->rows), .count = planted.rows};
     summary->stored.cells = calloc(TIMED * REPLICATES, sizeof *summary->stored.cells);
+    summary->stored.count = (size_t)TIMED * REPLICATES;
     need(summary->rows && summary->stored.cells);
     for (size_t i = 0; i < TIMED; ++i) {
         mote_stored_cell *cells = &summary->stored.cells[i * REPLICATES];
@@ -305,49 +392,10 @@ PLANT(mote_summary_make, const char *directory, mote_summary *summary)
 void __wrap_mote_summary_free(mote_summary *summary);
 void __wrap_mote_summary_free(mote_summary *summary)
 {
-    for (size_t i = 0; i < (size_t)TIMED * REPLICATES; ++i)
+    for (size_t i = 0; i < summary->stored.count; ++i)
         json_decref(summary->stored.cells[i].json);
     free(summary->stored.cells);
     free(summary->rows);
-}
-
-PLANT(mote_bodies_load, const char *path, mote_bodies **bodies)
-{
-    (void)path;
-    *bodies = NULL;
-    return due("mote_bodies_load");
-}
-
-PLANT(mote_bodies_run_scenario, const mote_bodies *bodies, const mote_bodies_choice *choices,
-      size_t count, uint32_t replicates, const mote_bodies_options *options,
-      mote_bodies_row *rows)
-{
-    (void)bodies;
-    (void)replicates;
-    (void)options;
-    for (size_t k = 0; k < count; ++k) {
-        mote_bodies_row *row = &rows[k];
-        *row = (mote_bodies_row){.bodies = 10,
-                                 .exact = strncmp(choices[k].text, "particle", 8) != 0,
-                                 .ok = true,
-                                 .threads = choices[k].threads,
-                                 .ahead = choices[k].ahead,
-                                 .steps = 4,
-                                 .wall_ns = 1e6 / (1 + choices[k].ahead),
-                                 .step_ns = 1e6,
-                                 .rss_peak_bytes = planted.body_bytes,
-                                 .ratio = planted.ratio};
-        (void)snprintf(row->scenario, sizeof row->scenario, "planted");
-        (void)snprintf(row->method, sizeof row->method, "%s", choices[k].text);
-        (void)snprintf(row->reference, sizeof row->reference, "%s",
-                       planted.body_alone ? "" : "fcl-aabb:refit=every");
-        row->missed = planted.body_missed && row->exact ? 1 : 0;
-        if ((planted.body_failed && k == 1) || planted.bodies_failed) {
-            row->ok = false;
-            row->status = MOTE_CELL_CRASHED;
-        }
-    }
-    return due("mote_bodies_run_scenario");
 }
 
 PLANT(mote_extreme_measure, mote_extreme *e)
@@ -378,6 +426,7 @@ PLANT(mote_extreme_run, const mote_extreme *e, const char *method, mote_extreme_
 
 void plant_good(void)
 {
+    scene_count = 0;
     planted = (plants){.folder = planted.folder,
                        .exponent = 0.05,
                        .contact_seen = true,

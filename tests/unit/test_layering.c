@@ -165,22 +165,6 @@ TEST(folders_include_only_what_they_may)
     }
 }
 
-/* Ties that are still to be cut; none may be added. */
-static const char *const ties[] = {
-    "harness/run/run",
-    "harness/run/bodies_record",
-    "harness/run/bodies_measure",
-};
-
-static bool is_tie(const char *file)
-{
-    for (size_t i = 0; i < sizeof ties / sizeof ties[0]; ++i) {
-        if (begins_with(file, ties[i]))
-            return true;
-    }
-    return false;
-}
-
 /* The place of a file's room in its house, counted from below, or -1. */
 static int floor_of(const house *h, const char *file)
 {
@@ -202,7 +186,7 @@ TEST(rooms_include_only_rooms_below_them)
             const int own = floor_of(&houses[k], includes[i].file);
             if (own < 0)
                 fail_msg("%s lies in no room of %s", includes[i].file, houses[k].folder);
-            if (floor_of(&houses[k], includes[i].included) > own && !is_tie(includes[i].file))
+            if (floor_of(&houses[k], includes[i].included) > own)
                 fail_msg("%s includes %s, of a room above it", includes[i].file,
                          includes[i].included);
         }
@@ -242,7 +226,7 @@ TEST(no_module_includes_itself_in_a_circle)
     for (size_t i = 0; i < include_count; ++i) {
         const include *line = &includes[i];
         if (lies_in(line->file, "tests") || same_module(line->file, line->included) ||
-            !strchr(line->included, '/') || is_tie(line->file))
+            !strchr(line->included, '/'))
             continue;
         memset(visited, 0, sizeof visited);
         if (reaches(line->included, line->file))

@@ -79,7 +79,7 @@ static mote_bodies_simulation simulate(const char *method, double restitution,
                                        mote_vec3 gravity)
 {
     mote_bodies *bodies = NULL;
-    mote_bodies_choice choice;
+    mote_method_choice choice;
     mote_bodies_simulation result;
     const mote_simulation_options options = {.density = 2,
                                              .restitution = restitution,
@@ -87,8 +87,8 @@ static mote_bodies_simulation simulate(const char *method, double restitution,
                                              .gravity = gravity,
                                              .time_step = 1};
     if (mote_bodies_load(FILE_NAME, &bodies) != MOTE_OK ||
-        mote_bodies_choice_read(method, &choice) != MOTE_OK ||
-        mote_bodies_simulate(bodies, &choice, &options, 119, &result) != MOTE_OK)
+        mote_scene_choice_read(method, &choice) != MOTE_OK ||
+        mote_bodies_simulate(bodies, &choice, &options, 119, 1, &result) != MOTE_OK)
         fail_msg("%s: %s", method, mote_error_text());
     mote_bodies_destroy(bodies);
     assert_int_equal(result.steps, 119);

@@ -52,10 +52,10 @@ static mote_bodies_frame frame_of(const mote_bodies *b)
 
 static mote_bodies_engine *engine_of(const mote_bodies *b, const char *text)
 {
-    mote_bodies_choice choice;
+    mote_method_choice choice;
     mote_bodies_engine *engine = NULL;
-    if (mote_bodies_choice_read(text, &choice) != MOTE_OK ||
-        mote_bodies_engine_create(b, &choice, &engine) != MOTE_OK)
+    if (mote_scene_choice_read(text, &choice) != MOTE_OK ||
+        mote_bodies_engine_create(b, &choice, 1, &engine) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return engine;
 }
@@ -283,7 +283,7 @@ TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
         if (run(line, said) != 0)
             fail_msg("%s: %s", ways[k], said);
         free(line);
-        char *pattern = mote_format(FOLDER "/run%d/bodies/*.pairs.csv", k);
+        char *pattern = mote_format(FOLDER "/run%d/cells/*.pairs.csv", k);
         texts[k] = whole_file(pattern);
         free(pattern);
     }
@@ -293,28 +293,124 @@ TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
         free(texts[k]);
 }
 
-TEST(mote_run_writes_steps_and_a_summary)
+static size_t count_lines(const char *text)
 {
-    char said[4096];
-    write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    assert_int_equal(run("run " FILE_NAME " --frames 1-6 --replicates 2 --out " FOLDER
-                         "/both --method certified --method aabb-tree",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "aabb-tree"));
-    char *text = whole_file(FOLDER "/both/bodies/*.steps.csv");
-    assert_non_null(strstr(text, "frame,near_pairs,new_pairs,contacts,motion_ns,bounds_ns"));
     size_t lines = 0;
     for (const char *c = text; *c; ++c)
         lines += *c == '\n';
-    assert_int_equal(lines, 4 * 7);
+    return lines;
+}
+
+#define BOTH_METHODS                                                                           \
+    "run " FILE_NAME " --frames 1-6 --replicates 2 --out " FOLDER                              \
+    "/both --method certified --method aabb-tree"
+
+TEST(mote_run_writes_a_row_a_frame_and_a_summary)
+{
+    char said[4096];
+    write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    assert_int_equal(run(BOTH_METHODS, said), 0);
+    assert_non_null(strstr(said, "aabb-tree"));
+    char *text = whole_file(FOLDER "/both/cells/*-r[12]-????????????????.csv");
+    static const char begins[] =
+        "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error";
+    assert_int_equal(strncmp(text, begins, strlen(begins)), 0);
+    assert_non_null(
+        strstr(text, ",motion_ns,bounds_ns,broad_ns,near_pairs,new_pairs,pair_contacts\n"));
+    assert_int_equal(count_lines(text), 4 * 7);
     free(text);
-    text = whole_file(FOLDER "/both/bodies.json");
+    text = whole_file(FOLDER "/both/summary.json");
     assert_non_null(strstr(text, "\"missed\": 0"));
     assert_null(strstr(text, "\"missed\": 1"));
-    assert_non_null(strstr(text, "\"reference\": \"aabb-tree\""));
+    assert_non_null(strstr(text, "\"contacts_of\": \"aabb-tree\""));
+    assert_non_null(strstr(text, "\"bodies\": 12"));
     assert_null(strstr(text, "\"status\": \"crashed\""));
     free(text);
+}
+
+/* What works for two bodies works for many: going on, replicates, shards, jobs, comparing. */
+TEST(mote_run_of_many_bodies_goes_the_road_of_two)
+{
+    char said[4096];
+    write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    (void)program_remove(FOLDER "/both");
+    assert_int_equal(run(BOTH_METHODS, said), 0);
+    assert_int_equal(run(BOTH_METHODS, said), 0);
+    assert_non_null(strstr(said, "4 cells, 4 of them done"));
+    assert_int_equal(system("rm " FOLDER "/both/cells/*certified-r2-*.json"), 0);
+    assert_int_equal(run(BOTH_METHODS, said), 0);
+    assert_non_null(strstr(said, "4 cells, 3 of them done"));
+    assert_int_equal(run("compare " FOLDER "/both " FOLDER "/both", said), 0);
+    assert_non_null(strstr(said, "b/certified/hot"));
+    assert_int_equal(run("merge " FOLDER "/merged " FOLDER "/both", said), 0);
+    assert_int_equal(run("summarize " FOLDER "/merged --format csv", said), 0);
+    assert_non_null(strstr(said, "certified"));
+    assert_int_equal(run("run " FILE_NAME
+                         " --frames 1-4 --shard 2/2 --method certified --out " FOLDER "/shard",
+                         said),
+                     0);
+    assert_non_null(strstr(said, "0 cells"));
+    assert_int_equal(run("run " FILE_NAME " --frames 1-4 --replicates 2 --jobs 2 --cache evict "
+                         "--method certified --out " FOLDER "/jobs",
+                         said),
+                     0);
+    assert_non_null(strstr(said, "2 cells at once"));
+    assert_int_equal(run("run " FILE_NAME
+                         " --frames 1-4 --replicates 2 --until-ci 100% --budget "
+                         "0.001 --method certified --out " FOLDER "/until",
+                         said),
+                     0);
+    assert_non_null(strstr(said, "after 2 replicates the widest interval is"));
+}
+
+/* Two bodies and many in one run, each asked by what it has. */
+TEST(mote_run_two_bodies_beside_many)
+{
+    char said[4096];
+    write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    assert_int_equal(run("run tt " FILE_NAME " --frames 1-4 --replicates 1 --method certified "
+                         "--method brute-force --out " FOLDER "/mixed",
+                         said),
+                     0);
+    char *text = whole_file(FOLDER "/mixed/summary.json");
+    assert_non_null(strstr(text, "\"scenario\": \"tt\""));
+    assert_non_null(strstr(text, "\"scenario\": \"b\""));
+    assert_non_null(strstr(text, "no form for several bodies"));
+    free(text);
+    assert_int_equal(
+        run("run tt --frames 1-4 --method certified:threads=2 --out " FOLDER "/keys", said), 4);
+    assert_non_null(strstr(said, "keys for more than two bodies"));
+}
+
+/* Of pairs that are apart no row is kept where only contacts are asked for. */
+TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
+{
+    static const char *const wishes[] = {"all", "contacts"};
+    char said[4096];
+    size_t lines[2], contacts[2] = {0, 0};
+    write_file(", \"tolerance\": 0.02",
+               "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
+    for (int k = 0; k < 2; ++k) {
+        char *line = mote_format("run " FILE_NAME " --frames 1-20 --replicates 1 --pairs %s "
+                                 "--method certified --out " FOLDER "/pairs-%s",
+                                 wishes[k], wishes[k]);
+        char *files = mote_format(FOLDER "/pairs-%s/cells/*.pairs.csv", wishes[k]);
+        assert_int_equal(run(line, said), 0);
+        char *text = whole_file(files);
+        lines[k] = count_lines(text) - 1;
+        for (const char *at = strchr(text, '\n') + 1; *at; at = strchr(at, '\n') + 1) {
+            const char *field = at;
+            for (int f = 0; f < 6; ++f)
+                field = strchr(field, ',') + 1;
+            contacts[k] += *field == '1';
+        }
+        free(text);
+        free(files);
+        free(line);
+    }
+    assert_true(contacts[0] > 0 && lines[0] > contacts[0]);
+    assert_int_equal(lines[1], contacts[0]);
+    assert_int_equal(contacts[1], contacts[0]);
 }
 
 /* What is refused: the bodies, a part of the message. */
@@ -386,36 +482,39 @@ TEST(mote_bodies_load_bad_input_names_the_place)
 
 TEST(mote_bodies_choice_read_keys_are_taken_apart)
 {
-    mote_bodies_choice c;
-    assert_int_equal(mote_bodies_choice_read("particle:threads=3,n=7,ahead=2,levels=1", &c),
+    mote_method_choice c, own;
+    assert_int_equal(mote_scene_choice_read("particle:threads=3,n=7,ahead=2,levels=1", &c),
                      MOTE_EINVAL);
-    assert_int_equal(mote_bodies_choice_read("particle-paper:threads=3,n=7,ahead=2", &c),
+    assert_int_equal(mote_scene_choice_read("particle-paper:threads=3,n=7,ahead=2", &c),
                      MOTE_OK);
-    assert_int_equal(c.threads, 3);
-    assert_int_equal(c.ahead, 2);
-    assert_string_equal(c.method.text, "particle-paper:n=7");
+    assert_int_equal(c.scene[MOTE_SCENE_THREADS], 3);
+    assert_int_equal(c.scene[MOTE_SCENE_AHEAD], 2);
+    assert_int_equal(mote_method_choice_read("particle-paper:n=7", &own), MOTE_OK);
+    assert_memory_equal(c.values, own.values, sizeof own.values);
+    assert_true(mote_method_choice_is_of_scenes(&c) && !mote_method_choice_is_of_scenes(&own));
     assert_string_equal(c.text, "particle-paper:threads=3,n=7,ahead=2");
-    assert_int_equal(mote_bodies_choice_read("fcl-aabb:refit=every", &c), MOTE_OK);
-    assert_int_equal(c.refit, MOTE_REFIT_EVERY);
-    assert_int_equal(c.threads, 1);
+    assert_int_equal(mote_scene_choice_read("fcl-aabb:refit=every", &c), MOTE_OK);
+    assert_int_equal(c.scene[MOTE_SCENE_REFIT], MOTE_REFIT_EVERY);
+    assert_int_equal(c.scene[MOTE_SCENE_THREADS], 1);
     static const char *const bad[][2] = {
         {"obb", "unknown method"},
         {"brute-force", "no form for several bodies"},
         {"fcl-obbrss", "no form for several bodies"},
-        {"certified:threads=0", "threads is a whole number"},
-        {"certified:threads=257", "threads is a whole number"},
-        {"certified:ahead=65", "ahead is a whole number"},
-        {"certified:ahead=-1", "ahead is a whole number"},
+        {"certified:threads=0", "threads must be a whole number"},
+        {"certified:threads=257", "threads must be a whole number"},
+        {"certified:ahead=65", "ahead must be a whole number"},
+        {"certified:ahead=-1", "ahead must be a whole number"},
         {"certified:refit=near", "have refit="},
         {"certified:ahead=2,refit=every", "have refit="},
         {"certified:ahead=2,slack=0.1", "takes only threads= and ahead="},
         {"certified:slack=0.1", "takes only threads= and ahead="},
-        {"fcl-aabb:refit=some", "near or every"},
+        {"fcl-aabb:refit=some", "near|every"},
         {"fcl-aabb:threads=2", "threads= is for"},
         {"fcl-aabb:queue=64", "takes only refit= and ahead="},
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
-        if (mote_bodies_choice_read(bad[k][0], &c) == MOTE_OK)
+        if (mote_scene_choice_read(bad[k][0], &c) == MOTE_OK &&
+            mote_bodies_choice_check(&c) == MOTE_OK)
             fail_msg("%s: not refused", bad[k][0]);
         if (!strstr(mote_error_text(), bad[k][1]))
             fail_msg("%s: %s", bad[k][0], mote_error_text());
@@ -428,12 +527,11 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
         const char *line, *text;
         int code;
     } cases[] = {
-        {"run " FILE_NAME " --method brute-force", "no form for several bodies", 4},
+        {"run " FILE_NAME " --method brute-force --replicates 1 --out " FOLDER "/none",
+         "unsupported: brute-force has no form for several bodies", 0},
         {"run " FILE_NAME " --method nothing", "unknown method", 4},
-        {"run " FILE_NAME " --frames 30-41 --method certified", "which has 1-40", 4},
-        {"run " FILE_NAME " ww --method certified", "give them apart", 2},
-        {"run " FILE_NAME " --stride 2", "--stride: not for several bodies", 2},
-        {"run " FILE_NAME " --particles 2-4", "--particles: not for several bodies", 2},
+        {"run " FILE_NAME " --frames 30-41 --method certified", "it has frames 1-40", 4},
+        {"run " FILE_NAME " --pairs some", "expected all|contacts", 2},
         {"check " FILE_NAME, "several bodies, where two are needed", 4},
         {"export " FILE_NAME " --frame 1 --out " FOLDER "/x", "several bodies", 4},
         {"run " FOLDER "/none.json --method certified", "none.json", 4},
@@ -449,28 +547,29 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
     }
 }
 
-/* Two rows of bodies.json, one of them of a cell that failed. */
+/* Rows of summary.json, one of them of a cell that failed, and one of two bodies. */
 static const char stored[] =
-    "{\"schema\": 1, \"rows\": [{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": "
-    "1000,"
-    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": 2500000, \"rss_peak_bytes\": 9000000,"
-    "\"ratio\": 260.4, \"reference\": \"fcl-aabb:refit=every\"}, {\"method\": \"aabb-tree\", "
-    "\"status\": \"timeout\", \"bodies\": 1000,"
-    "\"near_pairs_wanted\": 0.1, \"step_mean_ns\": null, \"rss_peak_bytes\": 1, \"ratio\": "
-    "null}]}\n";
+    "{\"schema\": 1, \"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
+    "\"bodies\": 1000, \"near_pairs_wanted\": 0.1, \"active_total_ns\": {\"mean\": 2500000}, "
+    "\"rss_peak_bytes\": 9000000}, {\"label\": \"aabb-tree\", \"status\": \"timeout\", "
+    "\"bodies\": 1000, \"near_pairs_wanted\": 0.1, \"active_total_ns\": null, "
+    "\"rss_peak_bytes\": 1}, {\"label\": \"fcl-aabb:refit=every\", \"status\": \"ok\", "
+    "\"bodies\": 1000, \"near_pairs_wanted\": 0.1, \"active_total_ns\": {\"mean\": 651e6}, "
+    "\"rss_peak_bytes\": 7000000}, {\"label\": \"certified\", \"status\": \"ok\", "
+    "\"active_total_ns\": {\"mean\": 7}, \"rss_peak_bytes\": 8}]}\n";
 
 TEST(mote_figure_bodies_stored_rows_become_lines)
 {
     const mote_figure_run run = {.directory = FOLDER "/stored"};
     mote_figure figure = {0};
     assert_int_equal(mote_directory_make(FOLDER "/stored"), MOTE_OK);
-    (void)remove(FOLDER "/stored/bodies.json");
+    (void)remove(FOLDER "/stored/summary.json");
     assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
     assert_int_equal(figure.data.size, 0);
     assert_non_null(strstr(figure.missing.data, "make bodies"));
     free(figure.missing.data);
     figure = (mote_figure){0};
-    assert_int_equal(mote_file_write(FOLDER "/stored/bodies.json", stored, sizeof stored - 1),
+    assert_int_equal(mote_file_write(FOLDER "/stored/summary.json", stored, sizeof stored - 1),
                      MOTE_OK);
     assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
     assert_null(figure.missing.data);
@@ -480,7 +579,7 @@ TEST(mote_figure_bodies_stored_rows_become_lines)
     for (const char *at = figure.data.data; (at = strstr(at, "NaN NaN NaN\n")) != NULL; ++at)
         ++empty;
     assert_int_equal(blocks, 18);
-    assert_int_equal(empty, 17);
+    assert_int_equal(empty, 16);
     assert_non_null(strstr(figure.data.data, "\"certified\"\n1000 2500 9\n"));
     assert_non_null(strstr(figure.caption.data, "one 260th of the time"));
     free(figure.data.data);
@@ -489,6 +588,7 @@ TEST(mote_figure_bodies_stored_rows_become_lines)
 
 static int make_folder(void)
 {
+    (void)program_remove(FOLDER); /* cells of another program */
     return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
 }
 

@@ -247,10 +247,17 @@ TEST(dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass)
     assert_true(size_of("dynamics.json", "failures") > 0);
 }
 
+static mote_status study_bodies(bool *met)
+{
+    char name[] = "bodies";
+    char *words[] = {name, NULL};
+    return mote_study_bodies(base, true, 1, words, met);
+}
+
 static bool bodies_met(void)
 {
     bool met = false;
-    if (mote_study_bodies(base, true, &met) != MOTE_OK)
+    if (study_bodies(&met) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return met;
 }
@@ -333,15 +340,14 @@ TEST(studies_hand_up_what_fails_beneath)
     for (int bodies = 0; bodies < 2; ++bodies) {
         bool met;
         plant_good();
-        assert_int_equal(bodies ? mote_study_bodies(base, true, &met)
-                                : mote_study_extremes(base, true, &met),
+        assert_int_equal(bodies ? study_bodies(&met) : mote_study_extremes(base, true, &met),
                          MOTE_OK);
         const long all = planted.calls;
         for (long n = 1; n <= all; n += n < 10 || n > all - 8 ? 1 : (all + 7) / 8) {
             planted.calls = 0;
             planted.failing = n;
-            const mote_status status = bodies ? mote_study_bodies(base, true, &met)
-                                              : mote_study_extremes(base, true, &met);
+            const mote_status status =
+                bodies ? study_bodies(&met) : mote_study_extremes(base, true, &met);
             planted.failing = 0;
             if (status != MOTE_EIO || !strstr(mote_error_text(), "planted in "))
                 fail_msg("call %ld of %ld failed: %s", n, all, mote_error_text());

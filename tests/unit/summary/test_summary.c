@@ -291,23 +291,34 @@ TEST(figure_ratios_are_of_replicates_of_one_number)
     free_figure(&figure);
 }
 
-/* Of two runs of 1,000 bodies the ratio of one is to another method than the caption names. */
+/* Of 1,000 bodies at two densities one was asked by the control that the caption names. */
 TEST(figure_bodies_caption_is_of_what_is_drawn)
 {
-    static const char row[] =
-        "{\"method\": \"certified\", \"status\": \"ok\", \"bodies\": 1000, "
-        "\"near_pairs_wanted\": %d, \"step_mean_ns\": 5000, \"step_ns\": "
-        "4000, \"rss_peak_bytes\": 1, \"ratio\": %d, \"reference\": \"%s\"}";
-    char rows[2][256], text[640], path[96];
-    (void)snprintf(rows[0], sizeof rows[0], row, 1, 40, "fcl-aabb:refit=every");
-    (void)snprintf(rows[1], sizeof rows[1], row, 4, 30, "aabb-tree");
-    (void)snprintf(text, sizeof text, "{\"rows\": [%s, %s]}\n", rows[0], rows[1]);
+    static const struct {
+        const char *label;
+        int density, mean;
+    } of[] = {{"certified", 1, 5000},
+              {"fcl-aabb:refit=every", 1, 200000},
+              {"certified", 4, 5000},
+              {"aabb-tree", 4, 150000}};
+    mote_text text = {0};
+    char path[96];
+    mote_text_add(&text, "{\"rows\": [");
+    for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k)
+        mote_text_add(&text,
+                      "%s{\"label\": \"%s\", \"status\": \"ok\", \"bodies\": 1000, "
+                      "\"near_pairs_wanted\": %d, \"active_total_ns\": {\"mean\": %d, "
+                      "\"median\": 4000}, \"rss_peak_bytes\": 1}",
+                      k ? ", " : "", of[k].label, of[k].density, of[k].mean);
+    mote_text_add(&text, "]}\n");
     assert_int_equal(mote_directory_make(directory), MOTE_OK);
-    (void)snprintf(path, sizeof path, "%s/bodies.json", directory);
-    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/summary.json", directory);
+    assert_int_equal(mote_file_write(path, text.data, text.size), MOTE_OK);
+    free(text.data);
     const mote_figure_run run = {.directory = directory, .summary = &summary};
     mote_figure figure = {0};
     assert_int_equal(mote_figure_bodies(&run, "", &figure), MOTE_OK);
+    assert_int_equal(unlink(path), 0);
     assert_non_null(strstr(figure.data.data, "1000 5 "));
     assert_non_null(strstr(figure.caption.data, "Points: means"));
     assert_non_null(strstr(figure.caption.data, "one 40th"));

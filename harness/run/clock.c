@@ -1,0 +1,25 @@
+#include "harness/run/clock.h"
+
+#include "harness/base/statistics.h"
+
+#include <time.h>
+
+/* Readings that the cost of one is the median of. */
+#define READINGS 1001
+
+uint64_t mote_clock_ns(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
+}
+
+uint64_t mote_clock_cost_ns(void)
+{
+    double costs[READINGS];
+    for (size_t i = 0; i < READINGS; ++i) {
+        uint64_t start = mote_clock_ns();
+        costs[i] = (double)(mote_clock_ns() - start);
+    }
+    return (uint64_t)mote_statistics_median(costs, READINGS);
+}

@@ -1,0 +1,70 @@
+#include "harness/run/subject.h"
+
+mote_status mote_subject_load(const char *name_or_path, mote_subject *subject)
+{
+    if (mote_bodies_is(name_or_path)) {
+        mote_status status = mote_bodies_load(name_or_path, &subject->bodies);
+        if (status == MOTE_OK)
+            status = mote_bodies_fingerprint(subject->bodies, &subject->fingerprint);
+        return status;
+    }
+    mote_status status = mote_scenario_load(name_or_path, &subject->scenario);
+    if (status == MOTE_OK)
+        status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
+    return status;
+}
+
+void mote_subject_free(mote_subject *subject)
+{
+    mote_truth_destroy(subject->truth);
+    mote_scenario_destroy(subject->scenario);
+    mote_bodies_destroy(subject->bodies);
+    *subject = (mote_subject){0};
+}
+
+static mote_subject_facts facts_of_pair(const mote_scenario *scenario)
+{
+    mote_subject_facts facts = {.name = scenario->name,
+                                .bodies = 2,
+                                .frames = scenario->frames,
+                                .ask = scenario->ask,
+                                .tolerance = scenario->tolerance,
+                                .length = scenario->length,
+                                .active = scenario->active};
+    for (int i = 0; i < 2; ++i) {
+        facts.triangles[i] = scenario->body[i].mesh->triangle_count;
+        facts.vertices[i] = scenario->body[i].mesh->vertex_count;
+        facts.vertices_total += facts.vertices[i];
+    }
+    return facts;
+}
+
+static mote_subject_facts facts_of_bodies(const mote_bodies *bodies)
+{
+    mote_subject_facts facts = {.name = bodies->name,
+                                .bodies = bodies->count,
+                                .frames = bodies->frames,
+                                .ask = bodies->ask,
+                                .tolerance = bodies->tolerance,
+                                .length = bodies->length,
+                                .near_pairs_wanted = bodies->near_pairs_wanted};
+    const mote_mesh *smallest = bodies->shapes[0].body.mesh, *largest = smallest;
+    for (uint32_t s = 1; s < bodies->shape_count; ++s) {
+        const mote_mesh *mesh = bodies->shapes[s].body.mesh;
+        smallest = mesh->triangle_count < smallest->triangle_count ? mesh : smallest;
+        largest = mesh->triangle_count > largest->triangle_count ? mesh : largest;
+    }
+    facts.triangles[0] = smallest->triangle_count;
+    facts.triangles[1] = largest->triangle_count;
+    facts.vertices[0] = smallest->vertex_count;
+    facts.vertices[1] = largest->vertex_count;
+    for (uint32_t i = 0; i < bodies->count; ++i)
+        facts.vertices_total += bodies->shapes[bodies->shape_of[i]].body.mesh->vertex_count;
+    return facts;
+}
+
+mote_subject_facts mote_subject_facts_of(const mote_subject *subject)
+{
+    return subject->bodies ? facts_of_bodies(subject->bodies)
+                           : facts_of_pair(subject->scenario);
+}

@@ -1,0 +1,40 @@
+/* What cells are measured on: a scenario of two bodies or of more, with what is known of it
+   before anything is measured. */
+#ifndef MOTE_HARNESS_SUBJECT_H
+#define MOTE_HARNESS_SUBJECT_H
+
+#include "harness/run/truth.h"
+#include "harness/scene/bodies.h"
+
+/* Zero-initialise. */
+typedef struct mote_subject {
+    mote_scenario *scenario; /* of two bodies; NULL where bodies is set */
+    mote_bodies *bodies;     /* of more than two; NULL where scenario is set */
+    uint64_t fingerprint;
+    mote_truth
+        *truth; /* of two bodies, NULL until something is measured; of more there is none:
+                   contacts are compared with those of an exact method of the run */
+} mote_subject;
+
+/* Loads a scenario of two bodies or of more (as mote_scenario_load and mote_bodies_load take
+   it) and computes its fingerprint. Free with mote_subject_free also after a failure. */
+mote_status mote_subject_load(const char *name_or_path, mote_subject *subject);
+void mote_subject_free(mote_subject *subject);
+
+/* What scenarios of two bodies and of more have in common. */
+typedef struct mote_subject_facts {
+    const char *name;
+    uint32_t bodies; /* 2 or more */
+    uint32_t frames;
+    mote_ask ask;
+    double tolerance, length; /* absolute */
+    mote_interval active;     /* 0, 0: the scenario names none */
+    uint32_t triangles[2];    /* of each of two bodies; of the smallest and the largest shape */
+    uint32_t vertices[2];     /* of the same */
+    double vertices_total;    /* of all bodies */
+    double near_pairs_wanted; /* a body; 0: not asked for, or two bodies */
+} mote_subject_facts;
+
+mote_subject_facts mote_subject_facts_of(const mote_subject *subject);
+
+#endif

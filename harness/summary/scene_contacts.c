@@ -1,0 +1,218 @@
+#include "harness/summary/scene_contacts.h"
+
+#include "harness/base/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FILE_LIMIT ((size_t)1 << 32)
+
+/* Fields of a line of cells/ID.pairs.csv before the one that says whether it is a contact. */
+#define FIELDS_BEFORE_CONTACT 6
+
+static int order(const mote_scene_contact *a, const mote_scene_contact *b)
+{
+    if (a->frame != b->frame)
+        return a->frame < b->frame ? -1 : 1;
+    for (int k = 0; k < 2; ++k) {
+        if (a->body[k] != b->body[k])
+            return a->body[k] < b->body[k] ? -1 : 1;
+    }
+    return 0;
+}
+
+size_t mote_scene_contacts_lacking(const mote_scene_contacts *of, const mote_scene_contacts *in,
+                                   uint32_t last)
+{
+    size_t at = 0, count = 0;
+    for (size_t k = 0; k < of->count && of->list[k].frame <= last; ++k) {
+        while (at < in->count && order(&in->list[at], &of->list[k]) < 0)
+            ++at;
+        count += at == in->count || order(&in->list[at], &of->list[k]) != 0;
+    }
+    return count;
+}
+
+/* Reads a line "frame,body_a,body_b,steps,distance,lower,contact,..."; NULL when it is not one,
+   else the next line. */
+static const char *read_line(const char *line, mote_scene_contact *contact, bool *touches)
+{
+    uint32_t *const numbers[] = {&contact->frame, &contact->body[0], &contact->body[1]};
+    const char *end = strchr(line, '\n'), *at = line;
+    for (int field = 0; field < FIELDS_BEFORE_CONTACT; ++field) {
+        char *after = NULL;
+        const unsigned long value = strtoul(at, &after, 10);
+        if (field < 3 && (after == at || value < 1 || value > UINT32_MAX))
+            return NULL;
+        if (field < 3)
+            *numbers[field] = (uint32_t)value;
+        at = strchr(at, ',');
+        if (!end || !at || at++ > end)
+            return NULL;
+    }
+    *touches = *at == '1';
+    return end + 1;
+}
+
+static mote_status add_contact(mote_scene_contacts *contacts, size_t *room,
+                               const mote_scene_contact *contact)
+{
+    if (contacts->count == *room) {
+        const size_t wider = 2 * *room + 64;
+        mote_scene_contact *list = realloc(contacts->list, wider * sizeof *list);
+        if (!list)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu contacts", wider);
+        contacts->list = list;
+        *room = wider;
+    }
+    contacts->list[contacts->count++] = *contact;
+    return MOTE_OK;
+}
+
+static mote_status read_lines(const char *path, const char *text, mote_scene_contacts *contacts)
+{
+    const char *line = strchr(text, '\n');
+    mote_scene_contact contact;
+    mote_status status = MOTE_OK;
+    size_t room = 0, number = 1;
+    if (!line)
+        return mote_fail(MOTE_EINVAL, "%s:1: not the header of a cell's pairs", path);
+    for (++line; *line && status == MOTE_OK;) {
+        bool touches = false;
+        ++number;
+        line = read_line(line, &contact, &touches);
+        const size_t count = contacts->count;
+        if (!line || (touches && count > 0 && order(&contacts->list[count - 1], &contact) >= 0))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: not a pair's row; frames and bodies ascend from 1", path,
+                             number);
+        if (touches)
+            status = add_contact(contacts, &room, &contact);
+    }
+    return status;
+}
+
+static mote_status read_contacts(const char *directory, const mote_stored_cell *cell,
+                                 mote_scene_contacts *contacts)
+{
+    char *path = mote_format("%s/cells/%s.pairs.csv", directory, cell->id), *text = NULL;
+    size_t size;
+    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
+                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    if (status == MOTE_OK)
+        status = read_lines(path, text, contacts);
+    free(text);
+    free(path);
+    return status;
+}
+
+/* How good a row is as a reference; the lowest is the best, UINT32_MAX: none. */
+static uint32_t reference_rank(const mote_summary_row *row)
+{
+    static const char *const names[] = {"fcl-aabb", "aabb-tree", "certified"};
+    const char *refit = json_string_value(json_object_get(row->first->parameters, "refit"));
+    for (uint32_t i = 0; i < 3; ++i) {
+        if (strcmp(row->first->method, names[i]) == 0)
+            return 2 * i + (refit && strcmp(refit, "every") == 0 ? 0 : 1);
+    }
+    return UINT32_MAX;
+}
+
+static bool ran(const mote_stored_cell *cell)
+{
+    return cell->status == MOTE_CELL_OK && cell->frames > 0;
+}
+
+static size_t find_reference(const mote_summary_row *rows, size_t count,
+                             const mote_summary_row *row)
+{
+    size_t best = SIZE_MAX;
+    uint32_t least = UINT32_MAX;
+    for (size_t k = 0; k < count; ++k) {
+        const uint32_t rank = reference_rank(&rows[k]);
+        if (rows[k].finished > 0 && rank < least &&
+            mote_stored_by_scene(rows[k].first, row->first) == 0 &&
+            mote_stored_by_frames(rows[k].first, row->first) == 0) {
+            least = rank;
+            best = k;
+        }
+    }
+    return best;
+}
+
+static double sum_of(const double *values, size_t count)
+{
+    double sum = 0;
+    for (size_t k = 0; k < count; ++k)
+        sum += values[k];
+    return sum;
+}
+
+/* What a row's own cells say. */
+static void count_own(mote_summary_row *row)
+{
+    double pairs = 0, contacts = 0, frames = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        if (!ran(cell))
+            continue;
+        pairs += sum_of(cell->scene[MOTE_SCENE_COLUMN_near_pairs], cell->frames);
+        contacts += sum_of(cell->scene[MOTE_SCENE_COLUMN_pair_contacts], cell->frames);
+        frames += (double)cell->frames;
+    }
+    row->near_pairs = frames > 0 ? pairs / frames : (double)NAN;
+    row->contacts = row->finished > 0 ? contacts / (double)row->finished : (double)NAN;
+}
+
+/* Compares the contacts of a row's cells with the reference's. */
+static mote_status count_differing(const char *directory, const mote_stored_cell *reference,
+                                   const mote_scene_contacts *real, mote_summary_row *row)
+{
+    double missed = 0, wrong = 0;
+    for (size_t r = 0; r < row->replicates; ++r) {
+        const mote_stored_cell *cell = &row->cells[r];
+        mote_scene_contacts said = {.count = 0};
+        if (!ran(cell))
+            continue;
+        const mote_status status = read_contacts(directory, cell, &said);
+        const uint32_t own = cell->frame[cell->frames - 1];
+        const uint32_t its = reference->frame[reference->frames - 1];
+        const uint32_t last = own < its ? own : its;
+        missed += (double)mote_scene_contacts_lacking(real, &said, last);
+        wrong += (double)mote_scene_contacts_lacking(&said, real, last);
+        free(said.list);
+        if (status != MOTE_OK)
+            return status;
+    }
+    row->missed = missed / (double)row->finished;
+    row->false_contacts = wrong / (double)row->finished;
+    return MOTE_OK;
+}
+
+mote_status mote_scene_contacts_count(const char *directory, mote_summary_row *rows,
+                                      size_t count)
+{
+    mote_scene_contacts real = {.count = 0};
+    size_t known = SIZE_MAX; /* the row that they are of */
+    mote_status status = MOTE_OK;
+    for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
+        mote_summary_row *row = &rows[k];
+        if (row->first->bodies == 0 || row->finished == 0)
+            continue;
+        count_own(row);
+        row->contacts_of = find_reference(rows, count, row);
+        if (row->contacts_of == SIZE_MAX)
+            continue;
+        const mote_stored_cell *reference = rows[row->contacts_of].first;
+        if (row->contacts_of != known) {
+            free(real.list);
+            real = (mote_scene_contacts){.count = 0};
+            known = row->contacts_of;
+            status = read_contacts(directory, reference, &real);
+        }
+        if (status == MOTE_OK)
+            status = count_differing(directory, reference, &real, row);
+    }
+    free(real.list);
+    return status;
+}
