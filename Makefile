@@ -264,7 +264,7 @@ mutation: build-tests
 
 # ThreadSanitizer over what has threads: pools, scenes, several bodies, and all answers given by
 # eight threads at once. That of gcc 12 does not start where the system spreads addresses widely.
-THREADED = test_threads test_scene test_bodies
+THREADED = test_threads test_scene test_bodies test_scene_cells
 check-threads: deps-test
 	@$(call configure,tsan)
 	@$(call compile,build-tsan,$(THREADED) answers) > /dev/null
