@@ -47,6 +47,22 @@ static void print_column_heads(int width, FILE *out)
     (void)fprintf(out, "\n");
 }
 
+/* "11920 and 11920 triangles", or "100 bodies of 1380 to 11920 triangles". */
+static const char *describe_bodies(const mote_stored_cell *cell, char *text, size_t size)
+{
+    const json_t *triangles = json_object_get(cell->json, "triangles");
+    const int first = (int)json_integer_value(json_array_get(triangles, 0));
+    const int second = (int)json_integer_value(json_array_get(triangles, 1));
+    if (cell->bodies == 0)
+        (void)snprintf(text, size, "%d and %d triangles", first, second);
+    else if (first == second)
+        (void)snprintf(text, size, "%u bodies of %d triangles", cell->bodies, first);
+    else
+        (void)snprintf(text, size, "%u bodies of %d to %d triangles", cell->bodies, first,
+                       second);
+    return text;
+}
+
 /* The largest number of frames and of replicates in the block that starts at a row. */
 static void print_head(const mote_summary *summary, size_t start, int width, FILE *out)
 {
@@ -58,12 +74,11 @@ static void print_head(const mote_summary *summary, size_t start, int width, FIL
         frames = other->frames > frames ? other->frames : frames;
         replicates = other->replicates > replicates ? other->replicates : replicates;
     }
-    const json_t *triangles = json_object_get(row->first->json, "triangles");
+    char what[96];
     bool several = mote_summary_machines_differ(summary);
-    (void)fprintf(out, "%s%s: %d and %d triangles, %zu frames, %zu replicates, caches %s%s%s\n",
+    (void)fprintf(out, "%s%s: %s, %zu frames, %zu replicates, caches %s%s%s\n",
                   start ? "\n" : "", row->first->scenario,
-                  (int)json_integer_value(json_array_get(triangles, 0)),
-                  (int)json_integer_value(json_array_get(triangles, 1)), frames, replicates,
+                  describe_bodies(row->first, what, sizeof what), frames, replicates,
                   row->first->cache, several ? ", on " : "",
                   several ? row->first->machine : "");
     print_column_heads(width, out);

@@ -311,6 +311,7 @@ TEST(mote_run_writes_a_row_a_frame_and_a_summary)
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     assert_int_equal(run(BOTH_METHODS, said), 0);
     assert_non_null(strstr(said, "aabb-tree"));
+    assert_non_null(strstr(said, "b: 12 bodies of 400 triangles, 6 frames, 2 replicates"));
     char *text = whole_file(FOLDER "/both/cells/*-r[12]-????????????????.csv");
     static const char begins[] =
         "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error";
