@@ -5,8 +5,10 @@
 #include "core/body/deform.h"
 #include "core/base/pool.h"
 #include "harness/base/heap_count.h"
-#include "harness/run/measure.h"
+#include "harness/base/memory.h"
+#include "harness/run/clock.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,9 +68,7 @@ static mote_status create_trees(mote_bodies_engine *e)
     mote_status status = e->kind->create(&setup, &e->trees);
     for (uint32_t s = 0; s < b->shape_count && status == MOTE_OK; ++s)
         status = mote_deform_create(e->shapes[s], &e->deform[s]);
-    e->looked_at = calloc(b->count, sizeof *e->looked_at);
-    if (status == MOTE_OK && !e->looked_at)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %u bodies", b->count);
+    e->looked_at = mote_allocate(b->count, sizeof *e->looked_at);
     return status;
 }
 
@@ -98,9 +98,7 @@ static mote_status create_pairs(mote_bodies_engine *e)
     mote_status status = check_particles(&e->choice);
     if (status == MOTE_OK)
         status = mote_pool_create(e->threads, &e->pool);
-    e->failures = calloc(e->threads, sizeof *e->failures);
-    if (status == MOTE_OK && !e->failures)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %u threads", e->threads);
+    e->failures = mote_allocate(e->threads, sizeof *e->failures);
     return status;
 }
 
@@ -110,9 +108,7 @@ static mote_status build(mote_bodies_engine *e)
     const char *name = e->choice.method->name;
     for (uint32_t s = 0; s < b->shape_count; ++s)
         e->shapes[s] = &b->shapes[s].body;
-    e->boxes = calloc(b->count, sizeof *e->boxes);
-    if (!e->boxes)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", b->count);
+    e->boxes = mote_allocate(b->count, sizeof *e->boxes);
     mote_status status = mote_broad_phase_create(b->count, &e->broad);
     const mote_scene_options options = {
         .ask = b->ask, .tolerance = b->tolerance, .threads = e->threads};
@@ -135,9 +131,7 @@ mote_status mote_bodies_engine_create(const mote_bodies *bodies,
     mote_status status = mote_bodies_choice_check(choice);
     if (status != MOTE_OK)
         return status;
-    mote_bodies_engine *made = calloc(1, sizeof *made);
-    if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for several bodies");
+    mote_bodies_engine *made = mote_allocate(1, sizeof *made);
     made->bodies = bodies;
     made->choice = *choice;
     made->seed = seed;
@@ -228,22 +222,17 @@ static mote_status find_boxes(mote_bodies_engine *e, mote_bodies_step *step)
     return status;
 }
 
-static mote_status make_room(pair_list *list, size_t count)
+/* Makes room for pairs; those in the list are gone where it grows. */
+static void make_room(pair_list *list, size_t count)
 {
     if (count <= list->room)
-        return MOTE_OK;
+        return;
     const size_t room = count + count / 4 + 16;
-    mote_bodies_pair *pairs = malloc(room * sizeof *pairs);
-    pair_memory *memories = malloc(room * sizeof *memories);
-    if (!pairs || !memories) {
-        free(pairs);
-        free(memories);
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu near pairs", count);
-    }
     free(list->pairs);
     free(list->memories);
-    *list = (pair_list){.pairs = pairs, .memories = memories, .room = room};
-    return MOTE_OK;
+    *list = (pair_list){.pairs = mote_allocate(room, sizeof *list->pairs),
+                        .memories = mote_allocate(room, sizeof *list->memories),
+                        .room = room};
 }
 
 /* Makes the pairs those of the step, each with its state or none; states of others go. */
@@ -383,8 +372,7 @@ static mote_status ask_scene(mote_bodies_engine *e, const uint32_t (*pairs)[2], 
     const uint64_t from = mote_clock_ns();
     mote_status status = mote_scene_query(e->scene, e->states, pairs, count);
     step->query_ns = mote_clock_ns() - from;
-    if (status == MOTE_OK)
-        status = make_room(&e->now, count);
+    make_room(&e->now, count);
     if (status == MOTE_OK)
         copy_answers(e);
     return status;
@@ -396,9 +384,7 @@ static mote_status ask_near(mote_bodies_engine *e, const uint32_t (*pairs)[2], s
     if (!e->kind && !e->by_pairs)
         return ask_scene(e, pairs, count, step);
     const uint64_t from = mote_clock_ns();
-    mote_status status = make_room(&e->before, count);
-    if (status != MOTE_OK)
-        return status;
+    make_room(&e->before, count);
     take_over(e, pairs, count);
     step->query_ns = mote_clock_ns() - from;
     return e->kind ? ask_trees(e, step) : ask_pairs(e, step);

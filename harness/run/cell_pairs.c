@@ -18,13 +18,10 @@ mote_status mote_cell_pairs_open(const mote_cell *cell, const char *directory,
 {
     mote_cell_pairs made = {.contacts_only = cell->contacts_only};
     made.name = mote_format("%s/cells/%s.pairs.csv", directory, cell->id);
-    made.part = mote_format("%s.part", made.name ? made.name : "");
-    mote_status status = made.name && made.part
-                             ? MOTE_OK
-                             : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", cell->id);
-    if (status == MOTE_OK && !(made.file = fopen(made.part, "w")))
-        status = write_error(made.part);
-    if (status != MOTE_OK) {
+    made.part = mote_format("%s.part", made.name);
+    made.file = fopen(made.part, "w");
+    if (!made.file) {
+        const mote_status status = write_error(made.part);
         free(made.name);
         free(made.part);
         return status;

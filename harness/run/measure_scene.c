@@ -1,6 +1,7 @@
 #include "harness/run/measure_scene.h"
 
 #include "core/base/frame_queue.h"
+#include "harness/base/memory.h"
 #include "harness/run/clock.h"
 
 #include <math.h>
@@ -29,9 +30,7 @@ struct mote_scene_session {
 
 mote_status mote_scene_session_create(const mote_cell *cell, mote_scene_session **session)
 {
-    mote_scene_session *made = calloc(1, sizeof *made);
-    if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for several bodies");
+    mote_scene_session *made = mote_allocate(1, sizeof *made);
     made->cell = cell;
     made->bodies = cell->subject->bodies;
     made->ahead = (uint32_t)cell->choice->scene[MOTE_SCENE_AHEAD];

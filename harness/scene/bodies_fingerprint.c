@@ -2,6 +2,7 @@
 
 #include "core/body/deform.h"
 #include "harness/base/hash.h"
+#include "harness/base/memory.h"
 
 #include <stdlib.h>
 
@@ -41,9 +42,8 @@ static mote_status hash_frame(const mote_bodies *bodies, const mote_bodies_frame
         seen[bodies->shape_of[i]] = true;
         const uint32_t count = body->mesh->vertex_count;
         mote_deform *deform = NULL;
-        mote_vec3 *world = malloc(count * sizeof *world);
-        status = world ? mote_deform_create(body, &deform)
-                       : mote_fail(MOTE_ENOMEM, "no memory for %u vertices", count);
+        mote_vec3 *world = mote_allocate(count, sizeof *world);
+        status = mote_deform_create(body, &deform);
         if (status == MOTE_OK)
             mote_deform_all(deform, &frame->states[i], world);
         for (uint32_t v = 0; v < count && status == MOTE_OK; ++v)

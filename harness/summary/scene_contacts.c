@@ -1,6 +1,7 @@
 #include "harness/summary/scene_contacts.h"
 
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,30 +55,22 @@ static const char *read_line(const char *line, mote_scene_contact *contact, bool
     return end + 1;
 }
 
-static mote_status add_contact(mote_scene_contacts *contacts, size_t *room,
-                               const mote_scene_contact *contact)
+static void add_contact(mote_scene_contacts *contacts, size_t *capacity,
+                        const mote_scene_contact *contact)
 {
-    if (contacts->count == *room) {
-        const size_t wider = 2 * *room + 64;
-        mote_scene_contact *list = realloc(contacts->list, wider * sizeof *list);
-        if (!list)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu contacts", wider);
-        contacts->list = list;
-        *room = wider;
-    }
+    contacts->list =
+        mote_reserve(contacts->list, contacts->count + 1, capacity, sizeof *contacts->list);
     contacts->list[contacts->count++] = *contact;
-    return MOTE_OK;
 }
 
 static mote_status read_lines(const char *path, const char *text, mote_scene_contacts *contacts)
 {
     const char *line = strchr(text, '\n');
     mote_scene_contact contact;
-    mote_status status = MOTE_OK;
-    size_t room = 0, number = 1;
+    size_t capacity = 0, number = 1;
     if (!line)
         return mote_fail(MOTE_EINVAL, "%s:1: not the header of a cell's pairs", path);
-    for (++line; *line && status == MOTE_OK;) {
+    for (++line; *line;) {
         bool touches = false;
         ++number;
         line = read_line(line, &contact, &touches);
@@ -87,9 +80,9 @@ static mote_status read_lines(const char *path, const char *text, mote_scene_con
                              "%s:%zu: not a pair's row; frames and bodies ascend from 1", path,
                              number);
         if (touches)
-            status = add_contact(contacts, &room, &contact);
+            add_contact(contacts, &capacity, &contact);
     }
-    return status;
+    return MOTE_OK;
 }
 
 static mote_status read_contacts(const char *directory, const mote_stored_cell *cell,
@@ -97,8 +90,7 @@ static mote_status read_contacts(const char *directory, const mote_stored_cell *
 {
     char *path = mote_format("%s/cells/%s.pairs.csv", directory, cell->id), *text = NULL;
     size_t size;
-    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
     if (status == MOTE_OK)
         status = read_lines(path, text, contacts);
     free(text);
