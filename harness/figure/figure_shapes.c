@@ -4,7 +4,7 @@
 
 #include "harness/figure/figure_scene.h"
 #include "harness/base/hash.h"
-#include "harness/scene/probe.h"
+#include "harness/figure/particle_places.h"
 #include "harness/base/record.h"
 
 #include <inttypes.h>
@@ -18,8 +18,6 @@
 
 /* Figure 1 shows the first frame in which the bodies are this near, over L. */
 #define NEAR 0.03
-
-#define POINTS_MAX 64
 
 /* Every so manieth frame of a scenario is in its animation. */
 #define ANIMATION_STEP 5u
@@ -45,41 +43,35 @@ static double truth_at(const mote_summary_row *row, uint32_t frame)
     return MOTE_NONE;
 }
 
-/* The particles of a row's first process at a frame: what a run would have asked before is
-   asked again. points: those of body 0, then those of body 1. */
+/* The particles of a row's first process at a frame. points: those of body 0, then those of
+   body 1; *count on each, 0 with a reason in missing. */
 static mote_status find_particles(const mote_summary_row *row, const mote_figure_scene *scene,
-                                  uint32_t last, mote_vec3 points[2][POINTS_MAX], size_t *count)
+                                  uint32_t frame, mote_vec3 points[2][MOTE_PARTICLE_PLACES_MAX],
+                                  size_t *count, mote_text *missing)
 {
-    const mote_scenario *scenario = scene->scenario;
-    mote_method_choice choice;
-    mote_probe *probe = NULL;
-    mote_frame_buffer *buffer = NULL;
-    mote_status status = mote_method_choice_read(row->label, &choice);
-    if (status == MOTE_OK)
-        status =
-            mote_probe_create(&scenario->body[0], &scenario->body[1], &choice, scenario->ask,
-                              scenario->tolerance, row->first->replicate_seed, &probe);
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
-    for (uint32_t k = 1; k <= last && status == MOTE_OK; ++k) {
-        mote_answer answer = {0};
-        status =
-            mote_probe_answer(probe, mote_scenario_frame(scenario, buffer, k, k - 1), &answer);
-    }
+    mote_particle_places places;
+    size_t rows = 0;
     *count = 0;
-    for (int i = 0; i < 2 && status == MOTE_OK; ++i)
-        *count = mote_probe_particles(probe, i, points[i], POINTS_MAX);
-    *count = *count < POINTS_MAX ? *count : POINTS_MAX;
-    mote_frame_buffer_destroy(buffer);
-    mote_probe_destroy(probe);
+    while (rows < row->first->frames && row->first->frame[rows] <= frame)
+        ++rows;
+    const mote_status status =
+        mote_particle_places_find(scene->scenario, row->label, row->first, rows, &places);
+    if (status == MOTE_OK && places.count == 0)
+        mote_text_add(missing, "particles of %s: %s", row->label, places.why);
+    *count = places.count;
+    for (size_t i = 0; i < 2 && places.count > 0; ++i)
+        memcpy(points[i], places.at + (2 * (rows - 1) + i) * places.count,
+               places.count * sizeof *places.at);
+    free(places.at);
     return status;
 }
 
 /* Blocks: body A, body B, their particles (x y z, 1 where hidden) by body, the closest pair. */
-static void add_particles(const mote_figure_scene *scene, mote_vec3 points[2][POINTS_MAX],
-                          size_t count, mote_text *text)
+static void add_particles(const mote_figure_scene *scene,
+                          mote_vec3 points[2][MOTE_PARTICLE_PLACES_MAX], size_t count,
+                          mote_text *text)
 {
-    mote_vec3 all[2 * POINTS_MAX];
+    mote_vec3 all[2 * MOTE_PARTICLE_PLACES_MAX];
     memcpy(all, points[0], count * sizeof *all);
     memcpy(all + count, points[1], count * sizeof *all);
     mote_figure_camera camera = mote_figure_camera_aim(scene, all, 2 * count);
@@ -125,11 +117,11 @@ mote_status mote_figure_particles(const mote_figure_run *run, const char *scenar
     const uint32_t frame =
         first_near(row->first, 1, NEAR * mote_figure_length(row), row->first->frame[0]);
     mote_figure_scene scene;
-    mote_vec3 points[2][POINTS_MAX];
+    mote_vec3 points[2][MOTE_PARTICLE_PLACES_MAX];
     size_t count = 0;
     mote_status status = mote_figure_scene_open(row, &scene);
     if (status == MOTE_OK)
-        status = find_particles(row, &scene, frame, points, &count);
+        status = find_particles(row, &scene, frame, points, &count, &figure->missing);
     if (status == MOTE_OK && count > 0) {
         mote_figure_scene_show(&scene, frame);
         add_particles(&scene, points, count, &figure->data);

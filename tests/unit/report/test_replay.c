@@ -333,9 +333,12 @@ TEST(replay_particles_of_other_answers_are_not_shown)
     free(track->place);
     track->place = NULL;
     track->particles = 0;
-    track->distance[2] = nextafter(track->distance[2], 2);
+    double *error = &track->cell->error[2];
+    const double stored = *error;
+    *error = nextafter(stored, 2);
     const size_t notes = json_array_size(scene.notes);
     assert_int_equal(mote_replay_particles(&scene, track), MOTE_OK);
+    *error = stored;
     assert_int_equal(track->particles, 0);
     assert_null(track->place);
     assert_int_equal(json_array_size(scene.notes), notes + 1);
@@ -385,11 +388,10 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
         (void)snprintf(label, sizeof label, "%s", odd[i].label);
         mote_summary_row row = *scene.tracks[place_of(PAPER)].row;
         row.label = label;
-        double distances[FRAMES] = {0};
-        mote_replay_track track = {.row = &row,
-                                   .cell = scene.tracks[place_of(PAPER)].cell,
-                                   .distance = distances,
-                                   .rows = odd[i].rows};
+        mote_stored_cell cell = *scene.tracks[place_of(PAPER)].cell;
+        double errors[FRAMES] = {0};
+        cell.error = errors;
+        mote_replay_track track = {.row = &row, .cell = &cell, .rows = odd[i].rows};
         mote_method_choice choice;
         mote_probe *probe = NULL;
         mote_frame_buffer *buffer = NULL;
@@ -405,7 +407,7 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
                 mote_probe_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),
                                   &answer),
                 MOTE_OK);
-            distances[0] = answer.distance;
+            errors[0] = (answer.distance - cell.truth[0]) / mote_stored_number(&cell, "length");
             mote_probe_destroy(probe);
             mote_frame_buffer_destroy(buffer);
         }
