@@ -1,17 +1,13 @@
 #include "harness/summary/compare.h"
 
-#include "harness/base/record.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/column.h"
+#include "harness/summary/compared_run.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-/* Counts, errors and rates are equal when they differ by less than this share. */
+/* Counts are equal when they differ by less than this share. */
 #define EXACT_SHARE 1e-9
-/* Heap may grow by this share: the allocator rounds. */
-#define BYTES_SHARE 0.01
 /* Instructions may grow by this share: where memory lies decides a few branches. */
 #define INSTRUCTIONS_SHARE 0.01
 /* At most this many replicates are paired. */
@@ -26,31 +22,6 @@ void mote_comparison_free(mote_comparison *comparison)
     free(comparison->changes);
     mote_comparison none = {0};
     *comparison = none;
-}
-
-static mote_status read_summary(const char *path, json_t **summary)
-{
-    struct stat info;
-    bool is_file = stat(path, &info) == 0 && S_ISREG(info.st_mode);
-    char *directory = mote_format("%s", path);
-    char *slash = directory ? strrchr(directory, '/') : NULL;
-    const char *name = "summary.json", *where = directory;
-    if (is_file && slash) {
-        *slash = '\0';
-        name = slash + 1;
-    } else if (is_file) {
-        where = ".";
-        name = path;
-    }
-    mote_status status = directory ? mote_record_read_json(where, name, summary)
-                                   : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    free(directory);
-    if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows"))) {
-        json_decref(*summary);
-        *summary = NULL;
-        status = mote_fail(MOTE_EINVAL, "%s: no rows; name a run, or its summary.json", path);
-    }
-    return status;
 }
 
 static const char *row_text(const json_t *row, const char *key)
@@ -270,34 +241,30 @@ static void compare_counts(const json_t *base, const json_t *fresh, mote_change 
     }
 }
 
-static void compare_accuracy(const json_t *base, const json_t *fresh, mote_change *change)
+/* Compares what the columns say of themselves (mote_column_rule). */
+static void compare_columns(const json_t *base, const json_t *fresh, mote_change *change)
 {
-    static const char *const errors[] = {"median", "p99", "max"};
-    for (size_t i = 0; i < sizeof errors / sizeof errors[0]; ++i) {
-        double a = number_at(base, "error", errors[i]),
-               b = number_at(fresh, "error", errors[i]);
-        /* Below 1e-12 L an error is rounding. */
-        if (!(fabs(a) <= 1e-12 && fabs(b) <= 1e-12))
-            compare_figure(change, errors[i], a, b, EXACT_SHARE);
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        const mote_column *column = &mote_columns[i];
+        const mote_column_rule *rule = &column->rule;
+        double values[2] = {mote_column_stored(column, base),
+                            mote_column_stored(column, fresh)};
+        if (!rule->name)
+            continue;
+        for (size_t k = 0; k < 2; ++k) {
+            if (rule->assumed && values[k] != values[k])
+                values[k] = 0;
+            if (rule->complement)
+                values[k] = 1 - values[k];
+        }
+        if (!(fabs(values[0]) <= rule->negligible && fabs(values[1]) <= rule->negligible))
+            compare_figure(change, rule->name, values[0], values[1], rule->share);
     }
-    compare_figure(change, "inexact rate", 1 - number_at(base, "error", "exact_rate"),
-                   1 - number_at(fresh, "error", "exact_rate"), EXACT_SHARE);
-    compare_figure(change, "missed", number_at(base, NULL, "missed"),
-                   number_at(fresh, NULL, "missed"), EXACT_SHARE);
-    compare_figure(change, "false contacts", number_at(base, NULL, "false_contacts"),
-                   number_at(fresh, NULL, "false_contacts"), EXACT_SHARE);
 }
 
 static bool times_comparable(const json_t *row)
 {
     return !json_is_false(json_object_get(row, "times_comparable"));
-}
-
-/* Replicates that did not end well; older runs do not tell them. */
-static double failed_replicates(const json_t *row)
-{
-    const double failed = number_at(row, NULL, "replicates_failed");
-    return failed == failed ? failed : 0;
 }
 
 static void compare_row(const json_t *base, const json_t *fresh, bool other_machine,
@@ -325,14 +292,8 @@ static void compare_row(const json_t *base, const json_t *fresh, bool other_mach
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
         compare_times(base, fresh, other_machine, change);
-    compare_figure(change, "failed replicates", failed_replicates(base),
-                   failed_replicates(fresh), 0);
+    compare_columns(base, fresh, change);
     compare_counts(base, fresh, change);
-    compare_figure(change, "heap", number_at(base, NULL, "heap_live_bytes"),
-                   number_at(fresh, NULL, "heap_live_bytes"), BYTES_SHARE);
-    compare_figure(change, "heap peak", number_at(base, NULL, "heap_peak_bytes"),
-                   number_at(fresh, NULL, "heap_peak_bytes"), BYTES_SHARE);
-    compare_accuracy(base, fresh, change);
 }
 
 /* Why a time changed, as far as counts and instructions tell. */
@@ -418,44 +379,12 @@ static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
     return MOTE_OK;
 }
 
-/* Reads a file beside a run's summary; *object stays NULL when there is none. */
-static mote_status read_beside(const char *run, const char *name, json_t **object)
-{
-    struct stat info;
-    bool is_file = stat(run, &info) == 0 && S_ISREG(info.st_mode);
-    const char *slash = is_file ? strrchr(run, '/') : NULL;
-    char *directory =
-        is_file ? mote_format("%.*s", slash ? (int)(slash - run) : 1, slash ? run : ".")
-                : mote_format("%s", run);
-    char *path = directory ? mote_format("%s/%s", directory, name) : NULL;
-    mote_status status =
-        path ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
-    if (status == MOTE_OK && access(path, F_OK) == 0)
-        status = mote_record_read_json(directory, name, object);
-    free(path);
-    free(directory);
-    return status;
-}
-
-/* Reads that file of both runs; the caller decrefs both, whatever is returned. */
-static mote_status read_both(const char *const runs[2], const char *name, json_t *both[2])
-{
-    both[0] = both[1] = NULL;
-    const mote_status status = read_beside(runs[0], name, &both[0]);
-    return status == MOTE_OK ? read_beside(runs[1], name, &both[1]) : status;
-}
-
-static void release(json_t *both[2])
-{
-    json_decref(both[0]);
-    json_decref(both[1]);
-}
-
 /* Whether both manifests are there and differ in something. */
-static bool manifests_differ(json_t *const manifests[2], const char *key)
+static bool manifests_differ(const mote_compared_run runs[2], const char *key)
 {
-    return manifests[0] && manifests[1] &&
-           !json_equal(json_object_get(manifests[0], key), json_object_get(manifests[1], key));
+    return runs[0].manifest && runs[1].manifest &&
+           !json_equal(json_object_get(runs[0].manifest, key),
+                       json_object_get(runs[1].manifest, key));
 }
 
 static bool same_frames(const json_t *a, const json_t *b)
@@ -482,18 +411,21 @@ static const json_t *find_counted(const json_t *counted, const json_t *row, cons
 }
 
 /* Adds what instructions say to the rows of both runs. judged: more of them are worse. */
-static void compare_instructions(const json_t *base_rows, const json_t *const counted[2],
-                                 const json_t *new_rows, bool judged, mote_comparison *c)
+static void compare_instructions(const mote_compared_run runs[2], bool judged,
+                                 mote_comparison *c)
 {
+    const json_t *base_rows = json_object_get(runs[0].summary, "rows");
+    const json_t *new_rows = json_object_get(runs[1].summary, "rows");
     size_t index = 0;
     for (size_t i = 0; i < json_array_size(base_rows); ++i) {
         const json_t *row = json_array_get(base_rows, i);
         if (!find_partner(new_rows, row))
             continue;
         mote_change *change = &c->changes[index++];
-        const json_t *was = find_counted(counted[0], row, NULL);
+        const json_t *was = find_counted(runs[0].instructions, row, NULL);
         const double a = number_at(was, NULL, "per_frame");
-        const double b = number_at(find_counted(counted[1], row, was), NULL, "per_frame");
+        const double b =
+            number_at(find_counted(runs[1].instructions, row, was), NULL, "per_frame");
         bool known = a == a && b == b;
         change->executed = known && fabs(b - a) > INSTRUCTIONS_SHARE * fmax(a, b);
         if (judged && known)
@@ -505,46 +437,35 @@ static void compare_instructions(const json_t *base_rows, const json_t *const co
     }
 }
 
-static mote_status compare_all(const char *const runs[2], json_t *const summaries[2],
-                               json_t *const manifests[2], mote_comparison *c)
+static mote_status compare_runs(const mote_compared_run runs[2], double floor,
+                                mote_comparison *c)
 {
-    const json_t *base_rows = json_object_get(summaries[0], "rows");
-    const json_t *new_rows = json_object_get(summaries[1], "rows");
-    json_t *counted[2];
-    mote_status status = compare_rows(base_rows, new_rows, c);
+    c->other_machine = manifests_differ(runs, "processor");
+    c->floor = raised_floor(floor, runs[0].summary, runs[1].summary);
+    if (c->other_machine && c->floor < MOTE_OTHER_MACHINE_FLOOR)
+        c->floor = MOTE_OTHER_MACHINE_FLOOR;
+    const mote_status status = compare_rows(json_object_get(runs[0].summary, "rows"),
+                                            json_object_get(runs[1].summary, "rows"), c);
     if (status != MOTE_OK)
         return status;
-    status = read_both(runs, "instructions.json", counted);
-    c->instructions = status == MOTE_OK && counted[0] && counted[1];
-    if (c->instructions) {
-        const json_t *const both[2] = {counted[0], counted[1]};
-        const bool judged = !c->other_machine && !manifests_differ(manifests, "compiler");
-        compare_instructions(base_rows, both, new_rows, judged, c);
-    }
-    release(counted);
-    return status == MOTE_OK ? judge(c) : status;
+    c->instructions = runs[0].instructions && runs[1].instructions;
+    if (c->instructions)
+        compare_instructions(runs, !c->other_machine && !manifests_differ(runs, "compiler"), c);
+    return judge(c);
 }
 
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison)
 {
-    const char *const runs[2] = {base, new_run};
-    json_t *summaries[2] = {NULL, NULL}, *manifests[2] = {NULL, NULL};
+    mote_compared_run runs[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
     mote_comparison c = {0};
-    mote_status status = read_summary(base, &summaries[0]);
+    mote_status status = mote_compared_run_read(base, &runs[0]);
     if (status == MOTE_OK)
-        status = read_summary(new_run, &summaries[1]);
+        status = mote_compared_run_read(new_run, &runs[1]);
     if (status == MOTE_OK)
-        status = read_both(runs, "manifest.json", manifests);
-    if (status == MOTE_OK) {
-        c.other_machine = manifests_differ(manifests, "processor");
-        c.floor = raised_floor(floor, summaries[0], summaries[1]);
-        if (c.other_machine && c.floor < MOTE_OTHER_MACHINE_FLOOR)
-            c.floor = MOTE_OTHER_MACHINE_FLOOR;
-        status = compare_all(runs, summaries, manifests, &c);
-    }
-    release(summaries);
-    release(manifests);
+        status = compare_runs(runs, floor, &c);
+    mote_compared_run_free(&runs[0]);
+    mote_compared_run_free(&runs[1]);
     if (status == MOTE_OK)
         *comparison = c;
     else

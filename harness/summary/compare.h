@@ -1,5 +1,5 @@
-/* Two runs compared, from their summary.json alone: counts, bytes and accuracy as they are,
-   times as ratios with intervals. */
+/* Two runs compared, from their cells, or from summary.json where there are none: counts, bytes
+   and accuracy as they are, times as ratios with intervals. */
 #ifndef MOTE_HARNESS_COMPARE_H
 #define MOTE_HARNESS_COMPARE_H
 

@@ -1,6 +1,8 @@
 /* Comparisons with what lies beside a summary: instructions, and a manifest that tells the
    processor and the compiler. */
 #include "tests/support/test.h"
+#include "harness/summary/summary_json.h"
+#include "tests/support/stored_cells.h"
 #include "tests/support/two_runs.h"
 
 static mote_comparison compare_beside(const figures *fresh, const char *processor,
@@ -150,4 +152,39 @@ TEST(compare_of_summaries_by_name_is_that_of_their_runs)
     assert_non_null(strstr(text, "instructions 1000 to 1100"));
     assert_int_equal(chdir(here), 0);
     remove_beside();
+}
+
+/* A summary.json that was written before the cells were measured again says what was. */
+TEST(compare_reads_the_cells_and_not_a_stale_summary)
+{
+    static const char rows[] = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0,0,0,7\n";
+    static const char more[] = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0.25,0,0,9\n";
+    char path[96];
+    for (int k = 0; k < 2; ++k) {
+        (void)snprintf(path, sizeof path, "%s/stale%d", base, k);
+        assert_true(stored_cell_write(path, &(stored_cell){.rows = rows}));
+        mote_summary summary;
+        assert_int_equal(mote_summary_make(path, &summary), MOTE_OK);
+        assert_int_equal(mote_summary_write(&summary, path), MOTE_OK);
+        mote_summary_free(&summary);
+    }
+    assert_true(stored_cell_write(path, &(stored_cell){.rows = more}));
+    char stale[128], old[128];
+    (void)snprintf(old, sizeof old, "%s/stale0", base);
+    (void)snprintf(stale, sizeof stale, "%s/summary.json", path);
+    const char *const runs[] = {path, stale};
+    for (size_t k = 0; k < 2; ++k) {
+        mote_comparison c;
+        assert_int_equal(mote_compare(old, runs[k], 0.02, &c), MOTE_OK);
+        assert_true(c.worse && c.changes[0].counted);
+        assert_non_null(strstr(c.changes[0].what.data, "max 0 to 0.25"));
+        mote_comparison_free(&c);
+    }
+    /* A file by another name is a summary of its own. */
+    (void)snprintf(old, sizeof old, "%s/kept.json", path);
+    assert_int_equal(rename(stale, old), 0);
+    mote_comparison c;
+    assert_int_equal(mote_compare(old, path, 0.02, &c), MOTE_OK);
+    assert_true(c.worse);
+    mote_comparison_free(&c);
 }

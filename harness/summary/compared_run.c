@@ -1,0 +1,95 @@
+#include "harness/summary/compared_run.h"
+
+#include "harness/base/record.h"
+#include "harness/summary/summary_json.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static mote_status no_memory(void)
+{
+    return mote_fail(MOTE_ENOMEM, "no memory for a name");
+}
+
+/* The directory of a path, for the caller to free, and the name of its summary's file. */
+static char *split(const char *path, const char **name)
+{
+    struct stat info;
+    const bool is_file = stat(path, &info) == 0 && S_ISREG(info.st_mode);
+    const char *slash = is_file ? strrchr(path, '/') : NULL;
+    *name = slash ? slash + 1 : is_file ? path : "summary.json";
+    if (!is_file)
+        return mote_format("%s", path);
+    return slash ? mote_format("%.*s", (int)(slash - path), path) : mote_format(".");
+}
+
+static mote_status exists(const char *directory, const char *name, bool *there)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    *there = path && access(path, F_OK) == 0;
+    free(path);
+    return path ? MOTE_OK : no_memory();
+}
+
+static mote_status make_from_cells(const char *directory, json_t **summary)
+{
+    mote_summary made;
+    const mote_status status = mote_summary_make(directory, &made);
+    if (status != MOTE_OK)
+        return status;
+    *summary = mote_summary_json(&made);
+    mote_summary_free(&made);
+    return *summary ? MOTE_OK : no_memory();
+}
+
+static mote_status read_summary(const char *directory, const char *name, json_t **summary)
+{
+    bool has_cells = false;
+    mote_status status =
+        strcmp(name, "summary.json") == 0 ? exists(directory, "cells", &has_cells) : MOTE_OK;
+    if (status != MOTE_OK)
+        return status;
+    if (has_cells)
+        return make_from_cells(directory, summary);
+    status = mote_record_read_json(directory, name, summary);
+    if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows")))
+        return mote_fail(MOTE_EINVAL, "%s/%s: no rows; name a run, or its summary.json",
+                         directory, name);
+    return status;
+}
+
+/* *object stays NULL where there is no such file. */
+static mote_status read_beside(const char *directory, const char *name, json_t **object)
+{
+    bool there;
+    const mote_status status = exists(directory, name, &there);
+    return status == MOTE_OK && there ? mote_record_read_json(directory, name, object) : status;
+}
+
+mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
+{
+    mote_compared_run made = {NULL, NULL, NULL};
+    const char *name;
+    char *directory = split(path, &name);
+    mote_status status = directory ? read_summary(directory, name, &made.summary) : no_memory();
+    if (status == MOTE_OK)
+        status = read_beside(directory, "manifest.json", &made.manifest);
+    if (status == MOTE_OK)
+        status = read_beside(directory, "instructions.json", &made.instructions);
+    free(directory);
+    if (status == MOTE_OK)
+        *run = made;
+    else
+        mote_compared_run_free(&made);
+    return status;
+}
+
+void mote_compared_run_free(mote_compared_run *run)
+{
+    json_decref(run->summary);
+    json_decref(run->manifest);
+    json_decref(run->instructions);
+    run->summary = run->manifest = run->instructions = NULL;
+}
