@@ -43,19 +43,20 @@ bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
     if (!usable(row, scenario))
         return false;
     json_int_t widest[2] = {0, -1}, range[2];
-    const char *machine = NULL;
+    const mote_summary_row *first = NULL;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (!usable(other, scenario))
             continue;
         frame_range(other, range);
-        if (range[1] - range[0] > widest[1] - widest[0])
+        if (range[1] - range[0] > widest[1] - widest[0]) {
             memcpy(widest, range, sizeof widest);
-        machine = machine ? machine : other->first->machine;
+            first = other;
+        }
     }
     frame_range(row, range);
-    return machine && range[0] == widest[0] && range[1] == widest[1] &&
-           strcmp(row->first->machine, machine) == 0;
+    return first && range[0] == widest[0] && range[1] == widest[1] &&
+           mote_stored_by_scene(row->first, first->first) == 0;
 }
 
 const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,

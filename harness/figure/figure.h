@@ -56,7 +56,7 @@ void mote_figure_animation_clear(const char *directory);
 const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER]);
 
 /* Whether a row is shown in figures of its scenario: it ran alone, with hot caches, on the
-   machine and over the frames of most of the scenario's rows (the widest frames there are). */
+   machine, in the scene and over the frames of most of the scenario's rows (the widest frames there are). */
 bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
                        const char *scenario);
 

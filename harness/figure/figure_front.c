@@ -53,7 +53,7 @@ static mote_place place_of(const canvas *c, const mote_summary_row *row)
 static bool is_point(const mote_summary *summary, const mote_summary_row *row,
                      const char *scenario)
 {
-    return mote_figure_has_error(row) && row->total.median > 0 &&
+    return mote_figure_has_error(row) && row->total.median > 0 && !row->given &&
            mote_figure_shows(summary, row, scenario);
 }
 

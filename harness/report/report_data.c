@@ -80,6 +80,7 @@ static json_t *row_data(const mote_report *report, size_t first, size_t end, siz
     (void)json_object_update(data, (json_t *)(uintptr_t)row);
     for (size_t k = 0; k < sizeof unused / sizeof unused[0]; ++k)
         (void)json_object_del(data, unused[k]);
+    set(data, "scene", json_string(mote_report_scene(row))); /* also of older summaries */
     set(data, "notes", notes_data(row));
     set(data, "stands", json_boolean(mote_report_stands_for_method(report, first, end, i)));
     set(data, "cells", cells_data(mote_report_cells(report, i)));

@@ -241,7 +241,7 @@ static void add_block(const mote_report *report, size_t first, size_t end, mote_
     const json_t *triangles = json_object_get(row, "triangles");
     char shown[2][MOTE_NUMBER_TEXT];
     mote_text_add(text, "\n### ");
-    mote_escape_markdown(text, mote_report_text(row, "scenario"));
+    mote_escape_markdown(text, mote_report_scene(row));
     mote_text_add(text, ", caches ");
     mote_escape_markdown(text, mote_report_text(row, "cache"));
     if (report->has_cells && mote_summary_machines_differ(&report->cells)) {

@@ -45,6 +45,12 @@ const char *mote_report_text(const json_t *row, const char *key)
     return text ? text : "";
 }
 
+const char *mote_report_scene(const json_t *row)
+{
+    const char *scene = mote_report_text(row, "scene");
+    return scene[0] ? scene : mote_report_text(row, "scenario");
+}
+
 bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE])
 {
     const double stride = mote_report_number(row, NULL, "stride");

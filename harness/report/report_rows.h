@@ -26,6 +26,10 @@ bool mote_report_interval(const json_t *value, double interval[2]);
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 
+/* The scene that a row is of, as its heading says it; older summaries know its scenario only.
+ */
+const char *mote_report_scene(const json_t *row);
+
 /* What a reader of a row's figures must know: the stride, that others ran beside it, replicates
    that failed. i from 0, below MOTE_REPORT_NOTES; false: nothing. */
 #define MOTE_REPORT_NOTES 3

@@ -29,6 +29,7 @@ static const char *label_of(const mote_summary *summary, size_t index)
 }
 
 DEFINE_TEXT(scenario, row->first->scenario)
+DEFINE_TEXT(scene, row->scene)
 DEFINE_TEXT(fingerprint, row->first->fingerprint)
 DEFINE_TEXT(cache, row->first->cache)
 DEFINE_TEXT(method, row->first->method)
@@ -436,6 +437,12 @@ const mote_column mote_columns[] = {
      .unit = "",
      .meaning = "Hash of the deformed vertices of all frames: which scene was measured",
      .text = fingerprint},
+    {.key = "scene",
+     .csv = "scene",
+     .quoted = true,
+     .unit = "",
+     .meaning = "The scenario's name, with what tells it from another scene of that name",
+     .text = scene},
     {.key = "accounting",
      .csv = "accounting",
      .unit = "",

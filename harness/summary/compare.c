@@ -270,8 +270,9 @@ static bool times_comparable(const json_t *row)
 static void compare_row(const json_t *base, const json_t *fresh, bool other_machine,
                         mote_change *change)
 {
-    change->name = mote_format("%s/%s/%s", row_text(base, "scenario"), row_text(base, "label"),
-                               row_text(base, "cache"));
+    const char *scene = row_text(base, "scene"); /* older summaries have none */
+    change->name = mote_format("%s/%s/%s", scene[0] ? scene : row_text(base, "scenario"),
+                               row_text(base, "label"), row_text(base, "cache"));
     change->is_reference = is_reference(base) && is_reference(fresh);
     change->ratio = change->interval.low = change->interval.high = change->p = MOTE_NONE;
     change->smallest_change = MOTE_NONE;

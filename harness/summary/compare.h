@@ -13,7 +13,7 @@
 
 /* A row that both runs have. */
 typedef struct mote_change {
-    char *name;   /* "ww/particle-paper:n=5/hot" */
+    char *name;   /* "ww/particle-paper:n=5/hot": scene, label and caches */
     double ratio; /* time new / base; relative to fcl-aabb within each run where both have it */
     mote_confidence
         interval;           /* of the ratio: t over groups of quiet times, or over replicates */

@@ -38,7 +38,7 @@ static void print_apart(const mote_summary *summary, const mote_stored_cell *cel
 static void print_place(const mote_fronts *fronts, size_t first, int width, FILE *out)
 {
     const mote_summary_row *place = row_of(fronts, first);
-    (void)fprintf(out, "\n%s, caches %s", place->first->scenario, place->first->cache);
+    (void)fprintf(out, "\n%s, caches %s", place->scene, place->first->cache);
     print_apart(fronts->summary, place->first, out);
     (void)fprintf(
         out,

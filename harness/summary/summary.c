@@ -25,6 +25,8 @@ static int by_place(const void *a, const void *b)
         order = mote_stored_by_frames(first->first, second->first);
     if (order == 0)
         order = strcmp(first->first->method, second->first->method);
+    if (order == 0)
+        order = (int)first->given - (int)second->given;
     if (order == 0 && (first->n < second->n || first->n > second->n))
         order = first->n < second->n ? -1 : 1;
     return order ? order : strcmp(first->first->group, second->first->group);
@@ -161,6 +163,48 @@ static mote_status make_rows(mote_summary *summary)
     return MOTE_OK;
 }
 
+/* The digits of a fingerprint that are shown. */
+#define SHOWN_DIGITS 8
+
+/* Names the scene of a row by its scenario, and by what tells it from others of that name: a
+   file may have changed between two runs, or lie in two folders. */
+static char *name_scene(const mote_summary *summary, const mote_stored_cell *cell)
+{
+    bool scenes = false, questions = false, tolerances = false;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_stored_cell *other = summary->rows[i].first;
+        if (strcmp(other->scenario, cell->scenario) != 0)
+            continue;
+        const double a = mote_stored_number(cell, "tolerance");
+        const double b = mote_stored_number(other, "tolerance");
+        scenes = scenes || strcmp(other->fingerprint, cell->fingerprint) != 0;
+        questions = questions || strcmp(other->ask, cell->ask) != 0;
+        tolerances = tolerances || a < b || a > b || (a == a) != (b == b);
+    }
+    mote_text text = {0};
+    mote_text_add(&text, "%s", cell->scenario);
+    if (scenes)
+        mote_text_add(&text, " (scene %.*s)", SHOWN_DIGITS, cell->fingerprint);
+    if (questions)
+        mote_text_add(&text, " (asks for %s)", cell->ask[0] ? cell->ask : "anything");
+    if (tolerances)
+        mote_text_add(&text, " (tolerance %g)", mote_stored_number(cell, "tolerance"));
+    if (!text.failed)
+        return text.data;
+    free(text.data);
+    return NULL;
+}
+
+static mote_status name_scenes(mote_summary *summary)
+{
+    for (size_t i = 0; i < summary->count; ++i) {
+        summary->rows[i].scene = name_scene(summary, summary->rows[i].first);
+        if (!summary->rows[i].scene)
+            return mote_fail(MOTE_ENOMEM, "no memory for a scene's name");
+    }
+    return MOTE_OK;
+}
+
 /* The median over the cells of a number of theirs. */
 static double cells_median(const mote_summary *summary, const char *key, double *work)
 {
@@ -209,6 +253,8 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
     status = made.rows ? make_rows(&made) : mote_fail(MOTE_ENOMEM, "no memory for a summary");
     if (status == MOTE_OK && made.count > 0)
         qsort(made.rows, made.count, sizeof *made.rows, by_place);
+    if (status == MOTE_OK)
+        status = name_scenes(&made);
     for (size_t i = 0; i < made.count && status == MOTE_OK; ++i)
         status = make_row_ratios(&made, &made.rows[i]);
     if (status == MOTE_OK)

@@ -325,6 +325,7 @@ bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *
 void mote_summary_row_free(mote_summary_row *row)
 {
     free(row->label);
+    free(row->scene);
     free(row->processes);
 }
 

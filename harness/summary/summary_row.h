@@ -64,9 +64,11 @@ typedef struct mote_summary_row {
     const mote_stored_cell *first; /* one with status ok, or else one of the row's status */
     mote_cell_status status; /* ok when any replicate is, else the worst: crashed, timeout */
     char *label;             /* "particle-paper:n=5": parameters that are not default */
-    double n;                /* the parameter n, or MOTE_NONE */
-    size_t frames;           /* of one replicate */
-    bool given;              /* positions=given: its own time leaves deformation out */
+    char *
+        scene; /* "ww", or "ww (scene 0123abcd)" where another of that name is in the summary */
+    double n;  /* the parameter n, or MOTE_NONE */
+    size_t frames; /* of one replicate */
+    bool given;    /* positions=given: its own time leaves deformation out */
     uint32_t jobs; /* cells that ran at the same time; from 2 on times are not comparable */
     double smallest_change;  /* mote_statistics_detectable - 1 of its times, or MOTE_NONE */
     mote_process *processes; /* [replicates] */

@@ -77,7 +77,7 @@ static void print_head(const mote_summary *summary, size_t start, int width, FIL
     char what[96];
     bool several = mote_summary_machines_differ(summary);
     (void)fprintf(out, "%s%s: %s, %zu frames, %zu replicates, caches %s%s%s\n",
-                  start ? "\n" : "", row->first->scenario,
+                  start ? "\n" : "", row->scene,
                   describe_bodies(row->first, what, sizeof what), frames, replicates,
                   row->first->cache, several ? ", on " : "",
                   several ? row->first->machine : "");

@@ -14,7 +14,7 @@ static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *ro
     size_t same = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        same += strcmp(other->first->scenario, row->first->scenario) == 0 &&
+        same += strcmp(other->scene, row->scene) == 0 &&
                 strcmp(other->first->cache, row->first->cache) == 0 &&
                 strcmp(other->first->machine, row->first->machine) == 0 &&
                 strcmp(other->label, row->label) == 0;
@@ -22,7 +22,7 @@ static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *ro
     return same > 1;
 }
 
-/* "scenario/method:key=value/evict": the name of a row in other tools; with "/machine" where
+/* "scene/method:key=value/evict": the name of a row in other tools; with "/machine" where
    there are several, and with frames, stride and seed where these tell rows apart. */
 static char *row_name(const mote_summary *summary, const mote_summary_row *row)
 {
@@ -35,8 +35,8 @@ static char *row_name(const mote_summary *summary, const mote_summary_row *row)
                        (int)json_integer_value(json_array_get(frames, 1)), row->first->stride,
                        row->first->seed);
     }
-    return mote_format("%s/%s/%s%s%s%s", row->first->scenario, row->label, row->first->cache,
-                       apart, several ? "/" : "", several ? row->first->machine : "");
+    return mote_format("%s/%s/%s%s%s%s", row->scene, row->label, row->first->cache, apart,
+                       several ? "/" : "", several ? row->first->machine : "");
 }
 
 /* Sets a member to what is known; leaves it out when there is nothing. */

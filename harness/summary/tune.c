@@ -7,8 +7,7 @@
 
 static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return strcmp(a->first->scenario, b->first->scenario) == 0 &&
-           strcmp(a->first->cache, b->first->cache) == 0 &&
+    return mote_summary_same_block(a, b) && a->given == b->given &&
            strcmp(a->first->method, b->first->method) == 0;
 }
 
@@ -17,7 +16,8 @@ static bool is_right(const mote_summary_row *row)
     return row->missed == 0 && row->false_contacts == 0 && !(row->error.max > MOTE_EXACT_ERROR);
 }
 
-static void compare(const mote_summary_row *row, mote_tuned *group)
+/* Lets a row compete in its group. */
+static void compete(const mote_summary_row *row, mote_tuned *group)
 {
     /* A time that is not known is the least and the most of nothing. */
     if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->total.median != row->total.median)
@@ -45,7 +45,7 @@ mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size
         if (i > 0 && !same_group(&summary->rows[i - 1], &summary->rows[i]) &&
             groups[found].best)
             ++found;
-        compare(&summary->rows[i], &groups[found]);
+        compete(&summary->rows[i], &groups[found]);
     }
     *count = summary->count > 0 && groups[found].best ? found + 1 : found;
     *tuned = groups;
@@ -56,8 +56,9 @@ static json_t *row_json(const mote_tuned *group)
 {
     const mote_summary_row *best = group->best;
     return json_pack(
-        "{s:s, s:s, s:s, s:s, s:O, s:b, s:i, s:i, s:o, s:o, s:o, s:o, s:{s:s, s:o}}",
-        "scenario", best->first->scenario, "cache", best->first->cache, "method",
+        "{s:s, s:s, s:s, s:s, s:s, s:s, s:O, s:b, s:i, s:i, s:o, s:o, s:o, s:o, s:{s:s, s:o}}",
+        "scenario", best->first->scenario, "fingerprint", best->first->fingerprint,
+        "accounting", best->given ? "given" : "charged", "cache", best->first->cache, "method",
         best->first->method, "configuration", best->label, "parameters",
         best->first->parameters, "right", (int)group->right, "configurations",
         (int)group->configurations, "stride", (int)best->first->stride, "total_ns",
@@ -96,14 +97,17 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
     const char *best = "";
     double least = HUGE_VAL;
     for (size_t i = 0; i < json_array_size(rows); ++i) {
-        const char *place = NULL, *cache = NULL, *method = NULL, *text = NULL;
+        const char *name = NULL, *cache = NULL, *method = NULL, *text = NULL;
+        const char *accounting = "charged"; /* older files do not say */
         int right = 0;
         double total = 0;
-        if (json_unpack(json_array_get(rows, i), "{s:s, s:s, s:s, s:s, s:b, s:F}", "scenario",
-                        &place, "cache", &cache, "method", &method, "configuration", &text,
-                        "right", &right, "total_ns", &total) == 0 &&
-            strcmp(place, scenario) == 0 && strcmp(cache, "hot") == 0 &&
-            strncmp(method, "fcl-", 4) == 0 && right && total > 0 && total < least) {
+        if (json_unpack(json_array_get(rows, i), "{s:s, s:s, s:s, s:s, s:b, s:F, s?s}",
+                        "scenario", &name, "cache", &cache, "method", &method, "configuration",
+                        &text, "right", &right, "total_ns", &total, "accounting",
+                        &accounting) == 0 &&
+            strcmp(name, scenario) == 0 && strcmp(accounting, "charged") == 0 &&
+            strcmp(cache, "hot") == 0 && strncmp(method, "fcl-", 4) == 0 && right &&
+            total > 0 && total < least) {
             least = total;
             best = text;
         }
@@ -118,17 +122,12 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
 
 void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out)
 {
-    const char *last = "", *cache = "";
     for (size_t i = 0; i < count; ++i) {
         const mote_summary_row *best = tuned[i].best;
-        if (strcmp(best->first->scenario, last) != 0 ||
-            strcmp(best->first->cache, cache) != 0) {
-            last = best->first->scenario;
-            cache = best->first->cache;
+        if (i == 0 || !mote_summary_same_block(tuned[i - 1].best, best))
             (void)fprintf(out, "%s%s, caches %s\n%-52s %11s %11s %11s %11s %9s\n",
-                          i ? "\n" : "", last, cache, "best configuration", "total us",
-                          "deform", "update", "query", "worst");
-        }
+                          i ? "\n" : "", best->scene, best->first->cache, "best configuration",
+                          "total us", "deform", "update", "query", "worst");
         (void)fprintf(out, "%-52s %11.2f %11.2f %11.2f %11.2f %8.2fx  of %zu%s\n", best->label,
                       best->total.median * 1e-3, best->deform.median * 1e-3,
                       best->update.median * 1e-3, best->query.median * 1e-3,

@@ -6,7 +6,8 @@
 
 #include <stdio.h>
 
-/* The configurations of one method on one scenario with one kind of caches. */
+/* The configurations of one method on the same frames, with deformation accounted for in the
+   same way. */
 typedef struct mote_tuned {
     const mote_summary_row *best, *worst; /* by total.median, of those compared */
     size_t configurations;                /* that ran well */
@@ -14,14 +15,15 @@ typedef struct mote_tuned {
         right; /* those compared are right: no error above 1e-9 L, no missed or false contact */
 } mote_tuned;
 
-/* Groups the rows of a summary, which are sorted by scenario, caches and method, and compares
+/* Groups the rows of a summary, which are sorted by scene, caches and method, and compares
    within each group the configurations that are right, or all of them where none is. Groups
    without any that ran well are left out. The caller frees *tuned; it points into summary. */
 mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size_t *count);
 
-/* {"schema": 1, "rows": [{"scenario", "cache", "method", "configuration", "parameters",
-   "right", "configurations", "stride", "total_ns", "deform_ns", "update_ns", "query_ns"
-   (medians), "worst": {"configuration", "total_ns"}}]}; NULL when memory ran out. */
+/* {"schema": 1, "rows": [{"scenario", "fingerprint", "accounting", "cache", "method",
+   "configuration", "parameters", "right", "configurations", "stride", "total_ns", "deform_ns",
+   "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]}; NULL when
+   memory ran out. */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
 /* The configuration of FCL that directory/tune.json calls the fastest right one on a scenario

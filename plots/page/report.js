@@ -172,7 +172,7 @@ function cellsSection(data) {
         el("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Raw cells" },
             el("table", { class: "cells" }, el("thead", {}, el("tr", {}, head)), el("tbody", {},
                 data.rows.map((row, k) => el("tr", { id: `cells-${k + 1}` }, el("th", { scope: "row" }, row.label),
-                    el("td", {}, row.scenario), el("td", {}, row.cache), el("td", {}, el("ul", {}, row.cells.map(links)))))))));
+                    el("td", {}, row.scene), el("td", {}, row.cache), el("td", {}, el("ul", {}, row.cells.map(links)))))))));
 }
 
 // A section that cannot be made, as a file is not what mote writes, takes no other with it.

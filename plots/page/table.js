@@ -29,7 +29,7 @@ class Block {
             this.lines.get(row)?.classList.toggle("pointed", entered));
         this.count = el("p", { class: "count" });
         this.wide = el("div", { class: "wide results", tabindex: 0, role: "region",
-            "aria-label": `Results, ${this.rows[0].scenario}` },
+            "aria-label": `Results, ${this.rows[0].scene}` },
         el("table", {}, this.head(), this.body));
         this.element = el("div", { class: "block" }, this.caption(), this.glance(block), this.front.element,
             this.count, this.wide);
@@ -47,7 +47,7 @@ class Block {
         const parts = [`${wholeText(a)} and ${wholeText(b)} triangles`, `${wholeText(most("frames"))} frames`,
             `${most("replicates")} replicate${most("replicates") === 1 ? "" : "s"}`, `caches ${textOf(row.cache)}`];
         if (this.data.machines_differ) parts.push(`on ${row.machine}`);
-        return el("h3", {}, textOf(row.scenario), " ", el("span", { class: "aside" }, parts.join(", ")));
+        return el("h3", {}, textOf(row.scene), " ", el("span", { class: "aside" }, parts.join(", ")));
     }
 
     // What to know first.

@@ -379,6 +379,58 @@ static const char *after(const char *command, const char *more, const char *file
     return text;
 }
 
+/* Two scenarios of one name, or one that changed between two runs into one directory. */
+TEST(scenes_of_one_name_are_told_apart_wherever_rows_are_shown)
+{
+    static const char *const prints[] = {"0123456789abcdef", "fedcba9876543210"};
+    static const char *const names[] = {"s (scene 01234567)", "s (scene fedcba98)"};
+    for (int i = 0; i < 2; ++i) {
+        for (int r = 1; r <= 2; ++r) {
+            char id[2][16];
+            (void)snprintf(id[0], sizeof id[0], "a%d-%d", i, r);
+            (void)snprintf(id[1], sizeof id[1], "b%d-%d", i, r);
+            write_cell((stored_cell){.id = id[0], .fingerprint = prints[i], .replicate = r},
+                       100, 0);
+            write_cell((stored_cell){.id = id[1],
+                                     .method = "certified",
+                                     .fingerprint = prints[i],
+                                     .replicate = r},
+                       10, 0);
+        }
+    }
+    make_summary();
+    assert_string_equal(summary.rows[0].scene, names[0]);
+    static const struct {
+        const char *command, *more, *file;
+    } outputs[] = {{"summarize", "", "said"},
+                   {"summarize", "--format csv", "said"},
+                   {"summarize", "--format json", "said"},
+                   {"summarize", "--format gbench", "said"},
+                   {"tune", "", "said"},
+                   {"report", "", "report.html"},
+                   {"report", "", "report.md"}};
+    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; ++i) {
+        const char *text = after(outputs[i].command, outputs[i].more, outputs[i].file);
+        for (int k = 0; k < 2; ++k) {
+            if (!strstr(text, names[k]) &&
+                !strstr(text, k ? "\\(scene fedcba98" : "\\(scene 01"))
+                fail_msg("%s %s does not tell %s", outputs[i].command, outputs[i].more,
+                         names[k]);
+        }
+    }
+    /* The table of speed at equal error has the name above it, too. */
+    const char *front = strstr(after("summarize", "", "said"), "how many times faster");
+    assert_non_null(front);
+    const mote_figure_run run = {.summary = &summary};
+    mote_figure figure = {0};
+    assert_int_equal(mote_figure_front(&run, "s", &figure), MOTE_OK);
+    size_t lines = 0;
+    for (const char *c = figure.data.data; *c; ++c)
+        lines += *c == '\n' ? 1 : 0;
+    assert_true(lines < 12); /* the points of one scene: two families of one row each */
+    free_figure(&figure);
+}
+
 /* What is given its positions is no answer to what is fastest of those that pay for them. */
 TEST(report_begins_with_rows_that_pay_for_deformation)
 {
