@@ -1,4 +1,4 @@
-# Error in time. Blocks of BASE.dat are methods: frame, exact distance, distance as reported, absolute
+# Distance and error over frames. Blocks of BASE.dat are methods: frame, exact distance, distance as reported, absolute
 # error, all in L, and 1 where a contact was missed.
 high = 480
 load plots."/style.gp"

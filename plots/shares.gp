@@ -22,7 +22,7 @@ set key at screen 0.5,31.0 / high center center vertical maxrows 1 samplen 1.5 w
 plot data using (0):1:(0):2:($1 - 0.38):($1 + 0.38) with boxxyerror fs solid noborder lc rgb "#c9c9c9" \
          title "deform", \
      data using 2:1:2:3:($1 - 0.38):($1 + 0.38) with boxxyerror fs solid noborder lc rgb orange \
-         title "update", \
+         title "refit", \
      data using 3:1:3:4:($1 - 0.38):($1 + 0.38):ytic(5) with boxxyerror fs solid noborder lc rgb dark \
          title "query", \
      data using (1):1:6 with labels left offset 0.8,0 font ",11" notitle

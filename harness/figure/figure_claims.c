@@ -123,9 +123,9 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
     free(verdicts.data);
     mote_text_add(
         &figure->caption,
-        "The paper's claims as measured: of each claim its first figure with the 95 %% "
+        "The paper's claims as measured: for each claim its first figure with its 95 %% "
         "interval, and the verdict, which follows from all of its figures and their "
-        "thresholds in claims.json.");
+        "thresholds (claims.json).");
     return MOTE_OK;
 }
 
@@ -147,9 +147,10 @@ mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenari
         status = mote_file_read(path, (size_t)1 << 26, &text, &size);
         if (status == MOTE_OK)
             mote_text_add(&figure->data, "%s", text);
-        mote_text_add(&figure->caption,
-                      "Numerical extremes: a row is a method, a column a case, coloured by the "
-                      "verdict. Cases of one family stand together.");
+        mote_text_add(
+            &figure->caption,
+            "Numerical extremes: each row is a method and each column a case, coloured "
+            "by the verdict. Cases of one family stand side by side.");
     }
     free(text);
     free(path);

@@ -149,8 +149,8 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
         &figure->caption,
         "Error over the number of particles on %s: median, 95th and 99th percentile of "
         "the absolute error over frames, in L, and the share of contacts missed, with "
-        "95 %% intervals over processes, which start from different places. At the "
-        "foot of an axis: as good as exact, or none missed.",
+        "95 %% intervals over processes, whose particles start at different places. Points at "
+        "the foot of an axis are exact, or miss no contact.",
         scenario);
     return status;
 }
@@ -194,10 +194,11 @@ mote_status mote_figure_history(const mote_figure_run *run, const char *scenario
         mote_text_add(&figure->missing,
                       "particle-paper:refine=no or particle on %s, telling distances",
                       scenario);
-    mote_text_add(&figure->caption,
-                  "Error in time on %s: exact and reported distance, in L, over frames, and "
-                  "their difference below; one process of each method. Marked: frames with a "
-                  "contact that the method missed.",
-                  scenario);
+    mote_text_add(
+        &figure->caption,
+        "Distance and error on %s: the exact and the reported distance of each frame, in "
+        "L, and below the absolute error; one process of each method. Crosses mark "
+        "contacts that the method missed.",
+        scenario);
     return MOTE_OK;
 }

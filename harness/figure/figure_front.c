@@ -139,10 +139,12 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
         mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
     mote_text_add(
         &figure->caption,
-        "Speed against error on %s: median time of a query, deformation and refit "
-        "included, and 99th percentile of the absolute error, each with its 95 %% "
-        "interval over processes; a line a method, the number of particles beside its "
-        "points where there is room.",
+        "Speed against error on %s: median time of a query, with deformation and refitting, "
+        "and "
+        "99th percentile of the absolute error, each with its 95 %% interval over processes. "
+        "Lines join configurations of one method; the number of particles stands beside a "
+        "point "
+        "where there is room.",
         scenario);
     return status;
 }

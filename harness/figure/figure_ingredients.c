@@ -98,7 +98,7 @@ static int add_scenario(const mote_summary *summary, const char *scenario, mote_
     return count;
 }
 
-/* Where the whole fails on the run's scenarios, and why. */
+/* The scenarios of the run on which the whole method fails, and why. */
 static void add_failures(const mote_summary *summary, mote_text *caption)
 {
     int count = 0;
@@ -113,10 +113,10 @@ static void add_failures(const mote_summary *summary, mote_text *caption)
                       row->missed, row->contacts);
     }
     if (count > 0)
-        mote_text_add(caption,
-                      ": a local search, it answers with a minimum that is not the least of "
-                      "many until a leap or a launch ends at that one, and each starts at one "
-                      "of at most 200 places of a body.");
+        mote_text_add(
+            caption, ": the search is local, and reports a minimum that is not the least until "
+                     "a leap or a launch finds a lower one; both start at one of at most 200 "
+                     "places of a body.");
 }
 
 mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scenario,
@@ -138,12 +138,13 @@ mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scen
     figure->data = data;
     mote_text_add(
         &figure->caption,
-        "What each ingredient of the tracked particles adds: one left out, or put in, at a "
-        "time. Frames without the exact distance (error above 1e-9 L, of those with truth > "
-        "0), "
-        "contacts missed, and the median time of a query over that of the whole with its 95 %% "
-        "interval over processes, deformation included. `last pair only` is n = 0; forces are "
-        "the paper's; shares below %g %% stand at none.",
+        "What each ingredient of the tracked particles adds: in each row one is left out, or "
+        "added. From left to right: frames without the exact distance (error above 1e-9 L, of "
+        "those in which the bodies are apart), contacts missed, and the median time of a "
+        "query, "
+        "deformation included, relative to that of the whole method, with its 95 %% interval "
+        "over processes. `last pair only` is n = 0; forces are the paper's. Shares below %g %% "
+        "are drawn as none.",
         LEAST_PERCENT);
     add_failures(run->summary, &figure->caption);
     return MOTE_OK;
@@ -261,10 +262,12 @@ mote_status mote_figure_tracked(const mote_figure_run *run, const char *scenario
         &figure->caption,
         "Tracked particles on %s, speed against error: median time of a query with its 95 %% "
         "interval over processes, deformation included, and the share of frames without the "
-        "exact distance (error above 1e-9 L, of those with truth > 0). Each line varies one "
-        "parameter of n = 8, launch = 0, track = 8, its value beside the point where there is "
-        "room: n seeds a body, launches a query besides those that motion calls for, minima "
-        "tracked. Shares below %g %% stand at none.",
+        "exact distance (error above 1e-9 L, of those in which the bodies are apart). Each "
+        "line "
+        "varies one parameter and keeps the others at n = 8, launch = 0, track = 8; its value "
+        "stands beside the point where there is room. n: seeds on a body; launch: searches "
+        "started in each query, besides those that motion calls for; track: minima followed. "
+        "Shares below %g %% are drawn as none.",
         scenario, LEAST_PERCENT);
     return MOTE_OK;
 }

@@ -19,7 +19,7 @@
 /* Figure 1 shows the first frame in which the bodies are this near, over L. */
 #define NEAR 0.03
 
-/* Every so manieth frame of a scenario is in its animation. */
+/* The animation has every fifth frame of its scenario. */
 #define ANIMATION_STEP 5u
 
 /* The first frame from the number on whose truth is at most `near` times L, or fallback. */
@@ -150,7 +150,7 @@ static const mote_summary_row *any_row(const mote_summary *summary, const char *
     return best;
 }
 
-/* A camera that has every so manieth frame of the scenario in its picture. */
+/* A camera that has all pictures of the animation in its view. */
 static mote_figure_camera whole_camera(mote_figure_scene *scene)
 {
     mote_figure_scene_show(scene, 1);
@@ -217,9 +217,8 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
             &figure->caption,
             "The paper's Figure 2: four frames of %s, a letter M of %u triangles whose "
             "CSRBF deformation is defined by %u control vectors, and a letter V of %u "
-            "with %u. Arrows: the control vectors, three times as long as they are, "
-            "from the control points at rest. "
-            "Below each frame its exact distance.",
+            "with %u. Arrows show the control vectors at three times their length, from the "
+            "control points at rest. The exact distance stands below each frame.",
             scenario, body[0].mesh->triangle_count, body[0].field->count,
             body[1].mesh->triangle_count, body[1].field->count);
     }

@@ -111,9 +111,10 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
         say_missing(figure);
     mote_text_add(
         &figure->caption,
-        "Time over triangles: two letters W, median time of a query, deformation and "
-        "refit included, with 95 %% intervals; `make sweep` takes the same frames at all "
-        "sizes; ww-10m, where it is, has others, around a touch. Exponents of triangles t, by "
+        "Time over the number of triangles: two letters W, median time of a query, with "
+        "deformation and refitting, and 95 %% intervals. All sizes have the same frames, but "
+        "for "
+        "ww-10m, whose frames are around a touch. Exponents of the number of triangles t, from "
         "robust fits, with 95 %% intervals:");
     for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
         char title[320];
@@ -157,8 +158,8 @@ mote_status mote_figure_size_bytes(const mote_figure_run *run, const char *scena
     if (count == 0)
         say_missing(figure);
     mote_text_add(&figure->caption,
-                  "Memory over triangles: two letters W, live heap of a method after its run, "
-                  "meshes and fields left out, and the same over the vertices of both bodies. "
-                  "Counted, not sampled: no interval.");
+                  "Memory over the number of triangles: two letters W, the heap that a method "
+                  "holds after its run, without meshes and fields, and the same per vertex of "
+                  "both bodies. Bytes are counted, not sampled, and have no interval.");
     return MOTE_OK;
 }

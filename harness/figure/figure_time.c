@@ -102,12 +102,12 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
     mote_text_add(
         &figure->caption,
         "The paper's Figure 3: collision detection between two letters W of 11,920 "
-        "triangles with 5 particles on each. Time of each query, all deformation and "
-        "refit included, against its number; median of %zu processes. Active interval: "
-        "queries 950-1984 (shaded), warming: queries 1-49. The paper (Pentium 4, 2.53 "
-        "GHz): active interval 12.67 ms on average, 47 ms at most; warming queries "
-        "12.06 ms, 47 ms.",
-        rows[0]->finished);
+        "triangles with 5 particles on each. Time of each query, with all deformation and "
+        "refitting, over its number; the median of %zu process%s. Shaded: the warm-up (queries "
+        "1-49) and the active interval (950-1984). The paper (Pentium 4, 2.53 GHz): active "
+        "interval 12.67 ms on average, 47 ms at most; warm-up 12.06 ms on average, 47 ms at "
+        "most.",
+        rows[0]->finished, rows[0]->finished == 1 ? "" : "es");
     mote_status status = MOTE_OK;
     for (int i = 0; i < SERIES && status == MOTE_OK; ++i) {
         if (rows[i])
@@ -204,13 +204,14 @@ mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
     }
     if (count == 0)
         mote_text_add(&figure->missing, "a method that ran on %s", scenario);
-    mote_text_add(&figure->caption,
-                  "Where the time goes on %s: shares of deforming all vertices, bringing the "
-                  "structure up to date (refit), and the query, of the mean time of a frame, "
-                  "which stands at the right. Of each frame the median over processes. Of "
-                  "configurations that differ in n only, the one nearest to n = 5 (the paper's "
-                  "method) or n = 8.",
-                  scenario);
+    mote_text_add(
+        &figure->caption,
+        "Where the time goes on %s: how the mean time of a frame, given at the right, "
+        "divides into deforming all vertices, refitting the bounding volumes, and the "
+        "query. The time of each frame is the median over processes. Of configurations "
+        "that differ only in n, the one nearest to n = 5 (the paper's method) or n = 8 "
+        "is shown.",
+        scenario);
     return MOTE_OK;
 }
 
@@ -318,9 +319,10 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
         const mote_summary_row *best = &run->summary->rows[row->ratio_best.to];
         if (figure->caption.size == 0)
             mote_text_add(&figure->caption,
-                          "How many times faster than %s, the best FCL of this run on %s, over "
-                          "the frames: paired within each process, median of %d parts of the "
-                          "frames, with 95 %% intervals over processes. Below 1 FCL wins.",
+                          "How many times as fast as %s, the fastest configuration of FCL in "
+                          "this run on %s: medians over %d consecutive parts of the frames, of "
+                          "ratios paired frame by frame within each process, with 95 %% "
+                          "intervals over processes. Below the dashed line FCL is faster.",
                           best->label, scenario, PARTS);
         char title[64];
         (void)snprintf(title, sizeof title, "%s", series[i].title);
