@@ -1,5 +1,6 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command/command.h"
+#include "harness/base/child.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
 #include "harness/mesh/mesh_import.h"
@@ -50,9 +51,16 @@ static int unknown_command(const char *name)
     return MOTE_EXIT_USAGE;
 }
 
+/* A command that a signal stopped ends as a shell tells it: 130 for Ctrl-C, 143 for SIGTERM. */
+static int stopped_code(int code)
+{
+    const int signal_number = mote_child_stop_signal();
+    return signal_number != 0 && code != MOTE_EXIT_DONE ? 128 + signal_number : code;
+}
+
 int main(int argc, char **argv)
 {
-    /* A reader that goes away is an error of a write, not a death. */
+    /* When whoever reads our output goes away, writing fails; the program is not ended. */
     (void)signal(SIGPIPE, SIG_IGN);
     mote_json_heed_memory();
     while (argc > 1) {
@@ -83,7 +91,7 @@ int main(int argc, char **argv)
             (void)printf("mote %s\n%s\n", commands[i].usage, commands[i].summary);
             return mote_command_finish(MOTE_EXIT_DONE);
         }
-        return commands[i].run(argc - 1, argv + 1);
+        return stopped_code(commands[i].run(argc - 1, argv + 1));
     }
     return unknown_command(argv[1]);
 }

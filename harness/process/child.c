@@ -25,12 +25,11 @@ typedef struct last_words {
     char text[1024];
 } last_words;
 
-static volatile sig_atomic_t stop_asked;
+static volatile sig_atomic_t stop_signal; /* 0: none has come */
 
 static void ask_to_stop(int signal_number)
 {
-    (void)signal_number;
-    stop_asked = 1;
+    stop_signal = signal_number;
 }
 
 void mote_child_heed_signals(void)
@@ -45,7 +44,12 @@ void mote_child_heed_signals(void)
 
 bool mote_child_stop_asked(void)
 {
-    return stop_asked != 0;
+    return stop_signal != 0;
+}
+
+int mote_child_stop_signal(void)
+{
+    return stop_signal;
 }
 
 mote_status mote_child_put(int output, const void *data, size_t size)
@@ -267,7 +271,7 @@ mote_status mote_child_wait(mote_child *children, size_t count, size_t *index)
             watch[i] = input;
         }
         int ready = poll(watch, count, patience_ms(children, count));
-        if (stop_asked) {
+        if (stop_signal != 0) {
             mote_child_stop(children, count);
             return mote_fail(MOTE_EIO,
                              "stopped by a signal; run the same command again to go on");

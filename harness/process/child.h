@@ -59,6 +59,9 @@ mote_status mote_child_wait(mote_child *children, size_t count, size_t *index);
 void mote_child_heed_signals(void);
 bool mote_child_stop_asked(void);
 
+/* The signal that asked to stop, or 0. */
+int mote_child_stop_signal(void);
+
 /* Ends those that run. */
 void mote_child_stop(mote_child *children, size_t count);
 

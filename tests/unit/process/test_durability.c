@@ -110,35 +110,6 @@ static void check(run_files *finished)
         fail_msg("%s: %s", directory, wrong);
 }
 
-/* Stops a sweep in its middle; it must say so, keep what is finished and go on later. */
-static void stopped_by(int signal_number)
-{
-    pid_t pid = start(SWEEP);
-    wait_for_cells(3);
-    assert_int_equal(kill(pid, signal_number), 0);
-    assert_int_equal(program_wait(pid), 5);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "mote: stopped by a signal; run the same command again"));
-    run_files finished = {0};
-    check(&finished);
-    assert_in_range(finished.count, 3, SWEEP_CELLS - 1);
-    assert_int_equal(run_files_count(directory, ".part"), 0);
-    assert_int_equal(run(SWEEP), 0);
-    check(&finished);
-    assert_int_equal(finished.count, SWEEP_CELLS);
-    run_files_free(&finished);
-}
-
-TEST(run_after_sigterm_keeps_its_cells_and_goes_on)
-{
-    stopped_by(SIGTERM);
-}
-
-TEST(run_after_sigint_keeps_its_cells_and_goes_on)
-{
-    stopped_by(SIGINT);
-}
-
 /* A process's state ('Z': dead, not yet reaped) and parent; false when it is gone. */
 static bool look_at(long pid, char *process_state, long *parent)
 {
@@ -179,6 +150,37 @@ static bool is_dead(pid_t pid)
            process_state == 'X';
 }
 
+/* Stops a sweep in its middle; it must say so, keep what is finished and go on later. */
+static void stopped_by(int signal_number)
+{
+    pid_t pid = start(SWEEP);
+    wait_for_cells(3);
+    const pid_t child = child_of(pid);
+    assert_int_equal(kill(pid, signal_number), 0);
+    assert_int_equal(program_wait(pid), 128 + signal_number);
+    assert_true(child == 0 || is_dead(child));
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "mote: stopped by a signal; run the same command again"));
+    run_files finished = {0};
+    check(&finished);
+    assert_in_range(finished.count, 3, SWEEP_CELLS - 1);
+    assert_int_equal(run_files_count(directory, ".part"), 0);
+    assert_int_equal(run(SWEEP), 0);
+    check(&finished);
+    assert_int_equal(finished.count, SWEEP_CELLS);
+    run_files_free(&finished);
+}
+
+TEST(run_after_sigterm_keeps_its_cells_and_goes_on)
+{
+    stopped_by(SIGTERM);
+}
+
+TEST(run_after_sigint_keeps_its_cells_and_goes_on)
+{
+    stopped_by(SIGINT);
+}
+
 static pid_t wait_for_child(pid_t pid)
 {
     pid_t child = 0;
@@ -213,7 +215,7 @@ TEST(run_beside_another_in_one_directory_is_refused)
     program_read(other, text, sizeof text);
     assert_non_null(strstr(text, "another run is measuring into it"));
     assert_int_equal(kill(pid, SIGTERM), 0);
-    assert_int_equal(program_wait(pid), 5);
+    assert_int_equal(program_wait(pid), 128 + SIGTERM);
 }
 
 /* Started at the same moment: one measures, and the other says why it does not. */
