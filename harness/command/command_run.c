@@ -32,6 +32,7 @@ static const mote_option options[] = {
     {"strict", NULL},
     {"pairs", "all|contacts"},
     {"pair", "A.obj B.obj"},
+    {"direction", "X,Y,Z"},
 };
 enum {
     OPTION_METHOD,
@@ -53,6 +54,7 @@ enum {
     OPTION_STRICT,
     OPTION_PAIRS,
     OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
+    OPTION_DIRECTION,
     OPTION_COUNT
 };
 
@@ -66,9 +68,10 @@ typedef struct request {
     const char **methods;   /* [argc] */
     size_t method_count;
     const char *particles, *frames;
-    uint32_t shard, shards; /* shard of shards, from 1; 0, 0: not given */
-    char *pair;             /* the name of the scenario that two meshes make, or NULL */
-    double until_share;     /* of --until-ci; 0: not given */
+    uint32_t shard, shards;                /* shard of shards, from 1; 0, 0: not given */
+    const char *pair_files[2], *direction; /* of --pair and --direction, or NULL */
+    char *pair;         /* the name of the scenario that they make, or NULL */
+    double until_share; /* of --until-ci; 0: not given */
     mote_choices choices;
     mote_choices scene_choices; /* of scenarios of more than two bodies */
 } request;
@@ -127,6 +130,13 @@ static bool read_percent(const char *text, double *share)
     return true;
 }
 
+static bool read_direction(const char *text, const char **direction)
+{
+    double xyz[3];
+    *direction = text;
+    return mote_read_triple(text, xyz) && (xyz[0] != 0 || xyz[1] != 0 || xyz[2] != 0);
+}
+
 /* False: the value is wrong; expected says what would be right. */
 static bool take_option(request *q, int option, const char *value, const char **expected)
 {
@@ -180,6 +190,9 @@ static bool take_option(request *q, int option, const char *value, const char **
     case OPTION_PAIRS:
         plan->contacts_only = strcmp(value, "contacts") == 0;
         return plan->contacts_only || strcmp(value, "all") == 0;
+    case OPTION_DIRECTION:
+        *expected = "X,Y,Z, not all 0";
+        return read_direction(value, &q->direction);
     case OPTION_FORCE:
         q->run.force = true;
         return true;
@@ -198,15 +211,30 @@ static void add_scenario(request *q, const char *name)
     q->scenarios[q->run.scenario_count++] = name;
 }
 
-/* --pair A.obj B.obj: a scenario of its own name. */
-static bool add_pair(request *q, mote_option_reader *reader, const char *first)
+/* --pair A.obj B.obj, once */
+static bool read_pair(request *q, mote_option_reader *reader, const char *first)
 {
-    if (q->pair || reader->next >= reader->argc)
+    if (q->pair_files[0] || reader->next >= reader->argc)
         return false;
-    q->pair = mote_format(MOTE_PAIR_PREFIX "%s:%s", first, reader->argv[reader->next++]);
-    if (q->pair)
-        add_scenario(q, q->pair);
-    return q->pair != NULL;
+    q->pair_files[0] = first;
+    q->pair_files[1] = reader->argv[reader->next++];
+    return true;
+}
+
+/* The scenario that --pair and --direction make. MOTE_EXIT_DONE, or an error told on stderr. */
+static int add_pair(request *q, const char *command)
+{
+    if (!q->pair_files[0])
+        return q->direction
+                   ? mote_command_usage(command, "--direction is for --pair A.obj B.obj")
+                   : MOTE_EXIT_DONE;
+    q->pair = mote_scenario_pair_name(q->pair_files[0], q->pair_files[1], q->direction);
+    if (!q->pair) {
+        (void)mote_fail(MOTE_ENOMEM, "no memory for the name of a pair");
+        return mote_command_fail();
+    }
+    add_scenario(q, q->pair);
+    return MOTE_EXIT_DONE;
 }
 
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
@@ -223,16 +251,20 @@ static int read_arguments(int argc, char **argv, request *q)
         if (option == MOTE_OPTION_PLAIN) {
             add_scenario(q, value);
         } else if (option == OPTION_PAIR) {
-            if (!add_pair(q, &reader, value))
+            if (!read_pair(q, &reader, value))
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
-        } else if (!take_option(q, option, value, &expected))
+        } else if (!take_option(q, option, value, &expected)) {
             return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
                                       value, expected);
+        }
     }
     if (q->until_share > 0 && q->run.plan.jobs > 1)
         return mote_command_usage(argv[0], "--until-ci is for times, --jobs for accuracy; "
                                            "leave out one of them");
+    const int code = add_pair(q, argv[0]);
+    if (code != MOTE_EXIT_DONE)
+        return code;
     if (q->run.scenario_count == 0)
         return mote_command_usage(argv[0], "no scenario; `mote list scenarios` shows them");
     return MOTE_EXIT_DONE;
@@ -261,8 +293,8 @@ static bool read_array_task(const char *command, request *q)
     return read;
 }
 
-/* Leaves the scenarios of the shard: every shards-th. Whole scenarios, so that methods that are
-   compared are measured by one process on one machine. */
+/* Leaves the scenarios of the shard: every shards-th. Whole scenarios, so that methods that
+   are compared are measured by one process on one machine. */
 static void take_shard(request *q)
 {
     size_t kept = 0;
@@ -274,8 +306,8 @@ static void take_shard(request *q)
         q->run.scenario_count = kept;
 }
 
-/* The configurations asked for, the same for all scenarios; or every method there is, and for
-   more than two bodies every way to ask about them. */
+/* The configurations asked for, the same for all scenarios; or every method there is, and
+   for more than two bodies every way to ask about them. */
 static mote_status expand_methods(request *q)
 {
     static const char *const scene_ways[] = {"certified",    "fcl-aabb:refit=every",

@@ -1,6 +1,6 @@
 /* mote: accuracy, time and memory of particle-based collision queries. */
 #include "harness/command/command.h"
-#include "harness/base/child.h"
+#include "harness/process/child.h"
 #include "harness/base/options.h"
 #include "harness/base/json_memory.h"
 #include "harness/mesh/mesh_import.h"

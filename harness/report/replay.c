@@ -21,6 +21,22 @@ static bool may_name(const char *word, const char *name)
     return ends || strncmp(word, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0;
 }
 
+/* The value of --direction in a command, or NULL. */
+static const char *direction_of(const json_t *words)
+{
+    static const char option[] = "--direction";
+    for (size_t k = 0; k < json_array_size(words); ++k) {
+        const char *word = json_string_value(json_array_get(words, k));
+        if (!word || strncmp(word, option, sizeof option - 1) != 0)
+            continue;
+        if (word[sizeof option - 1] == '=')
+            return word + sizeof option;
+        if (word[sizeof option - 1] == '\0')
+            return json_string_value(json_array_get(words, k + 1));
+    }
+    return NULL;
+}
+
 /* The scenario that word k of a command names, as mote_scenario_load takes it, or NULL; the
    caller frees it. `--pair A B` names one of no file. */
 static char *named_by(const json_t *words, size_t k, const char *name)
@@ -29,7 +45,7 @@ static char *named_by(const json_t *words, size_t k, const char *name)
     const char *a = json_string_value(json_array_get(words, k + 1));
     const char *b = json_string_value(json_array_get(words, k + 2));
     if (word && a && b && strcmp(word, "--pair") == 0)
-        return mote_format(MOTE_PAIR_PREFIX "%s:%s", a, b);
+        return mote_scenario_pair_name(a, b, direction_of(words));
     return word && may_name(word, name) ? mote_format("%s", word) : NULL;
 }
 

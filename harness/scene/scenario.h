@@ -22,8 +22,14 @@ typedef struct mote_scenario {
 } mote_scenario;
 
 /* A scenario that is made of two mesh files: "pair:A.obj:B.obj" is 1,000 frames of approach,
-   touches from between frames 100 and 200 on, and parting, both deforming. */
+   touches from between frames 100 and 200 on, in 10 to 20 % of frames, and parting, both
+   deforming. B comes along X,Y,Z where the name ends in ":X,Y,Z", or else along a direction
+   that is searched for. */
 #define MOTE_PAIR_PREFIX "pair:"
+
+/* The name of that scenario; direction: "X,Y,Z" or NULL. NULL when memory ran out. The caller
+   frees it. */
+char *mote_scenario_pair_name(const char *a, const char *b, const char *direction);
 
 /* Loads a built-in scenario by name (datasets/scenarios/NAME.json) or a file by path (when it
    contains '/' or ends in ".json"), or makes one of two meshes (MOTE_PAIR_PREFIX). Generates or

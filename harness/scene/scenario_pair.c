@@ -33,6 +33,12 @@ bool mote_scenario_is_pair(const char *name)
     return strncmp(name, MOTE_PAIR_PREFIX, strlen(MOTE_PAIR_PREFIX)) == 0;
 }
 
+char *mote_scenario_pair_name(const char *a, const char *b, const char *direction)
+{
+    return mote_format(MOTE_PAIR_PREFIX "%s:%s%s%s", a, b, direction ? ":" : "",
+                       direction ? direction : "");
+}
+
 /* Takes ":X,Y,Z" off the end of a name. */
 static void split_direction(char *files, mote_vec3 *direction)
 {

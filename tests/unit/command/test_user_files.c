@@ -227,6 +227,9 @@ TEST(pair_is_read_from_wherever_its_user_names_it)
         free(line);
     }
     free(here);
+    assert_int_equal(run("run --direction=0,1,0 --pair own/diamond.obj own/diamond.obj --method "
+                         "certified --replicates 1 --frames 1-4 --out run"),
+                     0);
     assert_int_equal(run("run pair:own/a:b.obj:own/diamond.obj --method certified --frames 1-2 "
                          "--replicates 1 --out run"),
                      0);
