@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* flock, nanosleep */
 #include "harness/run/run.h"
 
+#include "harness/process/crew.h"
 #include "harness/run/cell_process.h"
 #include "harness/process/load.h"
 #include "harness/process/manifest.h"
@@ -39,6 +40,7 @@ typedef struct run {
     mote_subject *subjects;
     mote_plan plan;
     prospect *prospects; /* [plan.count] */
+    size_t begun;        /* cell of the plan that measuring began with */
     size_t done;         /* cells of the plan */
     size_t failed;       /* of these */
     uint32_t replicates; /* planned, and further ones that are measured */
@@ -296,64 +298,40 @@ static void warn_of_load(const run *r)
             busy, mote_load_average());
 }
 
-/* The processes that measure at the same time. */
-typedef struct crew {
-    mote_child children[MOTE_CHILDREN_MAX]; /* [jobs] */
-    size_t cells[MOTE_CHILDREN_MAX];        /* what each measures */
-    uint64_t starts[MOTE_CHILDREN_MAX];
-    size_t busy;
-} crew;
-
-/* Gives a free process of the crew its next cell. */
-static mote_status start_cell(run *r, crew *c, size_t index)
+static mote_status start_cell(void *context, size_t task, mote_child *child)
 {
-    size_t free_place = 0;
-    while (c->children[free_place].pid > 0)
-        ++free_place;
-    c->cells[free_place] = index;
-    c->starts[free_place] = mote_clock_ns();
-    mote_status status =
-        mote_cell_start(&r->plan.cells[index], &r->process, &c->children[free_place]);
-    c->busy += status == MOTE_OK ? 1 : 0;
-    return status;
+    const run *r = context;
+    const size_t index = r->begun + task;
+    if (r->prospects[index].done)
+        return MOTE_OK;
+    return mote_cell_start(&r->plan.cells[index], &r->process, child);
 }
 
-static mote_status finish_cell(run *r, crew *c)
+static mote_status finish_cell(void *context, size_t task, mote_child *child, double seconds)
 {
-    size_t place;
+    run *r = context;
+    const mote_cell *cell = &r->plan.cells[r->begun + task];
     mote_cell_end end;
-    mote_status status = mote_child_wait(c->children, r->process.jobs, &place);
+    const mote_status status = mote_cell_finish(cell, &r->process, child, &end);
     if (status != MOTE_OK)
         return status;
-    --c->busy;
-    const mote_cell *cell = &r->plan.cells[c->cells[place]];
-    status = mote_cell_finish(cell, &r->process, &c->children[place], &end);
-    if (status != MOTE_OK)
-        return status;
-    r->prospects[c->cells[place]].done = true;
+    r->prospects[r->begun + task].done = true;
     r->done += 1;
     r->failed += end.status == MOTE_CELL_CRASHED || end.status == MOTE_CELL_TIMEOUT ? 1 : 0;
-    print_progress(r, cell, &end, (double)(mote_clock_ns() - c->starts[place]) * 1e-9);
+    print_progress(r, cell, &end, seconds);
     return MOTE_OK;
 }
 
 /* Measures the cells from first on that are not done. */
 static mote_status measure(run *r, size_t first)
 {
-    crew c = {0};
-    mote_status status = MOTE_OK;
-    for (size_t next = first; status == MOTE_OK && (next < r->plan.count || c.busy > 0);) {
-        while (next < r->plan.count && r->prospects[next].done)
-            ++next;
-        if (next < r->plan.count && c.busy < r->process.jobs)
-            status = start_cell(r, &c, next++);
-        else if (c.busy > 0)
-            status = finish_cell(r, &c);
-    }
-    mote_child_stop(c.children, r->process.jobs);
-    for (size_t i = 0; i < r->process.jobs; ++i)
-        mote_child_release(&c.children[i]);
-    return status;
+    const mote_crew crew = {.tasks = r->plan.count - first,
+                            .places = r->process.jobs,
+                            .context = r,
+                            .start = start_cell,
+                            .finish = finish_cell};
+    r->begun = first;
+    return mote_crew_run(&crew);
 }
 
 /* Appends a replicate of a cell to the plan; there is room. */

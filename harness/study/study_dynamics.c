@@ -4,17 +4,15 @@
 #include "harness/base/hash.h"
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
+#include "harness/process/crew.h"
 
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -152,18 +150,55 @@ static mote_status measure_rows(study *s, bool wait)
     return status;
 }
 
-/* A process that measures rows and ends with its parent. What it fails in, the parent finds
-   missing, and meets itself. */
-static void start_helper(study *s)
+/* What a child is told, in its own copy of the parent's memory. */
+typedef struct row_task {
+    study *study;
+    mote_dynamics_row *row;
+} row_task;
+
+/* The row's file is all that a child leaves. */
+static mote_status measure_in_child(void *context, int output)
 {
-    (void)fflush(NULL);
-    const pid_t parent = getpid();
-    if (fork() != 0)
-        return;
-    (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() == parent)
-        (void)measure_rows(s, false);
-    _exit(0);
+    const row_task *task = context;
+    (void)output;
+    return measure(task->study, task->row);
+}
+
+/* Begins a row that is neither there nor another process's. */
+static mote_status start_row(void *context, size_t index, mote_child *child)
+{
+    study *s = context;
+    row_task task = {s, &s->rows[index]};
+    if (!lock_row(s, task.row, F_SETLK, F_WRLCK))
+        return MOTE_OK;
+    const bool there = recall(s, task.row);
+    mote_status status = there ? MOTE_OK : load(s, task.row->scene);
+    if (!there && status == MOTE_OK)
+        status = mote_child_start(measure_in_child, &task, (mote_child_limits){0}, child);
+    if (there || status != MOTE_OK)
+        (void)lock_row(s, task.row, F_SETLK, F_UNLCK);
+    return status;
+}
+
+/* What a child failed in is found missing afterwards, and met again. */
+static mote_status finish_row(void *context, size_t index, mote_child *child, double seconds)
+{
+    const study *s = context;
+    (void)child;
+    (void)seconds;
+    (void)lock_row(s, &s->rows[index], F_SETLK, F_UNLCK);
+    return MOTE_OK;
+}
+
+/* Shares the rows out to processes. */
+static mote_status measure_by_crew(study *s, uint32_t jobs)
+{
+    const mote_crew crew = {.tasks = s->count,
+                            .places = jobs,
+                            .context = s,
+                            .start = start_row,
+                            .finish = finish_row};
+    return mote_crew_run(&crew);
 }
 
 static mote_status measure_all(study *s, uint32_t jobs)
@@ -177,14 +212,10 @@ static mote_status measure_all(study *s, uint32_t jobs)
         if (s->lock < 0)
             status = mote_fail(MOTE_EIO, "%s: %s", path, strerror(errno));
     }
-    for (uint32_t i = 1; i < jobs && status == MOTE_OK; ++i)
-        start_helper(s);
     if (status == MOTE_OK)
-        status = measure_rows(s, false);
+        status = jobs > 1 ? measure_by_crew(s, jobs) : measure_rows(s, false);
     if (status == MOTE_OK)
         status = measure_rows(s, true);
-    while (wait(NULL) > 0)
-        continue;
     if (s->lock >= 0)
         (void)close(s->lock);
     free(path);
