@@ -56,7 +56,7 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
     made.approaching = made.closing > 0;
     if (made.approaching) {
         mote_pulses_after(effective, pulse, after);
-        /* The two changes are opposite but for rounding: one is taken for both. */
+        /* The two changes are opposite except for rounding; one is used for both bodies. */
         made.pulse = (1 + restitution) / 2 * (after[1] - pulse[1]);
         const double reduced = effective[0] * effective[1] / (effective[0] + effective[1]);
         made.energy =

@@ -1,9 +1,10 @@
 /* The response of two rigid bodies that collide in one point (paper section 4): effective mass,
-   effective pulse, pulses after the collision, changes of velocity and angular velocity.
+   effective impulse, impulses after the collision, changes of velocity and angular velocity.
+   "Impulse" is the paper's "pulse".
 
-   The sign. The paper prints the effective pulse with a minus, p = -n m_e v with v = (V, n) +
-   ([w x r], n), and the applied pulse as the change dp = p' - p. Taken together, the relative
-   velocity of the contact points triples and the energy grows. With p = + n m_e v everything
+   The sign. The paper prints the effective impulse with a minus, p = -n m_e v with v = (V, n) +
+   ([w x r], n), and the applied impulse as the change dp = p' - p. Together, these triple the
+   relative velocity of the contact points, and the energy grows. With p = + n m_e v everything
    else as printed holds: dp_1 = -2 (v_1 - v_2) n / (1 / m_e1 + 1 / m_e2) = -dp_2 keeps
    momentum, angular momentum and energy, and the relative velocity along n is reversed. This
    reading is used (tests/unit/core/motion/test_response.c shows both). The change
@@ -17,9 +18,9 @@
 extern "C" {
 #endif
 
-/* m / (1 + m l_x^2 / I_x + m l_y^2 / I_y + m l_z^2 / I_z), l = r x n in the main axes: the mass
-   with which the body resists a pulse along n (unit) at arm r (from its centre); world axes. In
-   (0, m]. */
+/* m / (1 + m l_x^2 / I_x + m l_y^2 / I_y + m l_z^2 / I_z), l = r x n in the principal axes: the
+   mass with which the body resists an impulse along n (unit) at arm r (from its centre); world
+   axes. In (0, m]. */
 double mote_effective_mass(const mote_mass *mass, const mote_rigid_state *state, mote_vec3 arm,
                            mote_vec3 normal);
 
@@ -27,11 +28,12 @@ double mote_effective_mass(const mote_mass *mass, const mote_rigid_state *state,
 double mote_velocity_along(const mote_mass *mass, const mote_rigid_state *state, mote_vec3 arm,
                            mote_vec3 normal);
 
-/* The pulses along one normal after the collision of effective masses m_e with pulses p, as
+/* The impulses along one normal after the collision of effective masses m_e with impulses p, as
    printed: p_1' = ((m_e1 - m_e2) p_1 + 2 m_e1 p_2) / (m_e1 + m_e2), and p_2' likewise. */
 void mote_pulses_after(const double effective_mass[2], const double pulse[2], double after[2]);
 
-/* Applies a pulse in the body's point at arm: velocity and angular momentum change; world. */
+/* Applies an impulse at the body's point at arm: changes its velocity and angular momentum;
+   world axes. */
 void mote_apply_pulse(const mote_mass *mass, mote_vec3 arm, mote_vec3 pulse,
                       mote_rigid_state *state);
 
@@ -39,13 +41,13 @@ void mote_apply_pulse(const mote_mass *mass, mote_vec3 arm, mote_vec3 pulse,
 typedef struct mote_impact {
     bool approaching; /* false: the points move apart or not at all, and nothing changed */
     double closing;   /* v_1 - v_2 before: the speed at which the gap closes */
-    double pulse;     /* size of what body 1 gained along the normal and body 0 lost, >= 0 */
-    double energy;    /* kinetic energy lost by restitution below 1, >= 0 */
+    double pulse;  /* the impulse that body 1 gained along the normal and body 0 lost, >= 0 */
+    double energy; /* kinetic energy lost by restitution below 1, >= 0 */
 } mote_impact;
 
 /* Lets bodies 0 and 1 collide in a point (world), if they approach there. normal: from body 0
    to body 1, any length > 0. restitution e: 0 (none of the closing speed comes back) .. 1
-   (all); the pulse is (1 + e) / 2 of the elastic one. MOTE_EINVAL for a normal without
+   (all); the impulse is (1 + e) / 2 of the elastic one. MOTE_EINVAL for a normal without
    direction, or numbers that are not finite or not in range; the states are left as they were.
  */
 mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_vec3 normal,

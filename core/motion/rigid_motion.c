@@ -54,10 +54,10 @@ double mote_rigid_kinetic_energy(const mote_mass *mass, const mote_rigid_state *
            mote_dot(state->angular_momentum, w) / 2;
 }
 
-/* The turn of a step in main axes, Cayley's map of w step for the middle's angular velocity
-   w = I^-1 (m + m') / 2, m' being m seen from the turned axes. Then m' - m = step (m + m') / 2
-   x w: the midpoint rule of Euler's equations, which keeps their two quadratic invariants, and
-   the turned axes see the same world momentum. */
+/* The rotation of a step in principal axes: Cayley's map of w step for the angular velocity at
+   the midpoint, w = I^-1 (m + m') / 2, where m' is m in the rotated axes. Then m' - m = step
+   (m + m') / 2 x w: the midpoint rule for Euler's equations, which preserves their two
+   quadratic invariants and the angular momentum in the world. */
 static mote_quaternion turn_of_step(const mote_mass *mass, mote_vec3 m, double step)
 {
     const double close = 4 * DBL_EPSILON * DBL_EPSILON * mote_length_squared(m);
@@ -85,7 +85,7 @@ mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double ste
     const mote_mat3 axes = mote_rigid_axes(mass, state);
     const mote_quaternion main =
         turn_of_step(mass, mote_rotate_back(&axes, state->angular_momentum), step);
-    /* The same turn about world axes. */
+    /* The same rotation about world axes. */
     const mote_vec3 world = mote_rotate(&axes, mote_vec3_make(main.x, main.y, main.z));
     const mote_quaternion turn = {main.w, world.x, world.y, world.z};
     state->turn = mote_quaternion_normalise(mote_quaternion_multiply(turn, state->turn));

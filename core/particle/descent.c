@@ -2,8 +2,8 @@
 
 #include <stddef.h>
 
-/* What a descent that is worth it still gains after a level is less than this times the
-   distance of the level's neighbours, of both bodies together, in 97 of 100 cases. */
+/* In 97 of 100 successful descents, what is gained below a level is less than this times the
+   mean distance of neighbours on that level, added over both bodies. */
 #define GAIN_MAX 2
 
 mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels)
@@ -21,7 +21,8 @@ mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node)
     return (mote_place){node, vertex, mote_lazy_position(ground->lazy, vertex)};
 }
 
-/* The target as seen from the shape, if the surroundings of the place moved rigidly. */
+/* The target in the coordinates of the rest shape, as if the body around the place had moved
+   rigidly. */
 static mote_vec3 carry_back(const mote_ground *ground, const mote_place *at, mote_vec3 target)
 {
     if (!ground->rotation)
@@ -67,8 +68,8 @@ static uint32_t nearest_vertex(const mote_ground *ground, uint32_t node, mote_ve
     return best;
 }
 
-/* Moves one place towards the target, by the shape as far as that leads; false if it does not
-   come nearer. */
+/* Moves one place towards the target, as far as steps chosen in the rest shape lead; false if
+   it does not come nearer. */
 static bool move_by_shape(const mote_ground *ground, int level, mote_place *at,
                           mote_vec3 target, double *squared)
 {
@@ -143,7 +144,7 @@ double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[
     return squared;
 }
 
-/* How near a place may still come on the levels below. */
+/* By how much a place may still come nearer on the levels below. */
 static double gain_below(const mote_ground *ground, int level)
 {
     return GAIN_MAX * (level == MOTE_MESH_LEVEL ? ground->lazy->body->mesh->mean_edge

@@ -13,10 +13,11 @@ extern "C" {
 /* The level below the finest one: the vertices of the mesh. */
 #define MOTE_MESH_LEVEL (-1)
 
-/* One body at a frame. Steps are chosen by shape, to which targets are carried back by the
-   rigid motion of the vertex walked from; a step is taken if the positions of the frame say
-   that it leads nearer. So a walk evaluates about one position a step, not one a neighbour.
-   Only where a walk on the mesh ends are those of the whole ring evaluated. */
+/* One body in a frame. The next step of a walk is chosen in the rest shape, into which the
+   target is moved back by the rigid motion of the current vertex; it is taken if the positions
+   of the frame confirm that it comes nearer. So a walk evaluates about one position a step
+   instead of one a neighbour. The whole ring is evaluated only where a walk on the mesh ends.
+ */
 typedef struct mote_ground {
     mote_lazy *lazy;
     const mote_levels *levels;
@@ -46,10 +47,10 @@ double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[
 
 /* Moves both places once on the levels given and on each finer one, then walks on the mesh; a
    place that is given on the mesh waits there for the other one.
-   Gives up, and returns HUGE_VAL, on the level where what is left of the way can hardly lead
-   within the distance worth (may be infinite: never), and on the mesh where both places are
-   within two edges of the vertices known[2] of a minimum (NULL: none): most descents end at the
-   nearest one. *least: what it can hardly come below. */
+   Gives up and returns HUGE_VAL on a level from which it is unlikely to come nearer than
+   `worth` (may be infinite: never gives up), and on the mesh where both places are within two
+   edges of the vertices known[2] of a minimum (NULL: none), since most descents end at the
+   nearest one. *least: an estimate of the distance that it could still have reached. */
 double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
                     double worth, const uint32_t *known, double *least, uint64_t *moves);
 

@@ -27,7 +27,8 @@ mote_status mote_far_cache_create(uint32_t count, double part, double near_dista
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for a cache of forces");
     made->count = n;
-    /* Two particles that each moved by this changed their distance by twice as much. */
+    /* Two particles that have each moved by this much may have changed their distance by twice
+       as much. */
     made->allowed = 0.5 * part * near_distance;
     made->near_squared = near_distance / length * (near_distance / length);
     made->inverse_length = 1 / length;
@@ -93,7 +94,8 @@ MOTE_INLINE void load_pairs(const double *x, const double *y, const double *z, m
     }
 }
 
-/* The last, partly filled lanes: the rest repeat the moved particle, which is never distant. */
+/* The last, partly filled lanes: unused ones repeat the moved particle, which is never distant.
+ */
 static void load_last_pairs(const mote_sources *sources, size_t first, mote_vec3 centre,
                             double scale, pair_lanes *e)
 {
@@ -136,7 +138,7 @@ MOTE_INLINE void add_pairs(const pair_lanes *e, mote_law law, const double weigh
 
 MOTE_CLONES
 static void expand_type(const mote_far_cache *cache, const mote_sources *sources, int type,
-                        double reach_squared, expansion *far, uint32_t *near_index)
+                        double effective_radius_squared, expansion *far, uint32_t *near_index)
 {
     double sum[SUMS][MOTE_LANES] = {{0}};
     const double sign = type == 0 ? 1 : -1;
@@ -151,7 +153,7 @@ static void expand_type(const mote_far_cache *cache, const mote_sources *sources
             load_last_pairs(sources, first, far->centre, cache->inverse_length, &e);
         MOTE_LANE_LOOP
         for (size_t l = 0; l < MOTE_LANES; ++l) {
-            const double reached = e.squared[l] < reach_squared ? sign : 0;
+            const double reached = e.squared[l] < effective_radius_squared ? sign : 0;
             weight[l] = e.squared[l] < cache->near_squared ? 0 : reached;
         }
         add_pairs(&e, sources->law, weight, sum);
@@ -182,7 +184,7 @@ static mote_sources near_sources(const mote_far_cache *cache, const mote_sources
 
 void mote_far_cache_split(mote_far_cache *cache, int b, uint32_t index, mote_vec3 here,
                           const mote_sources *same, const mote_sources *other,
-                          double reach_squared, mote_far_split *split)
+                          double effective_radius_squared, mote_far_split *split)
 {
     const size_t n = cache->count;
     const size_t row = (size_t)b * n + index;
@@ -192,7 +194,7 @@ void mote_far_cache_split(mote_far_cache *cache, int b, uint32_t index, mote_vec
     if (far->travelled < 0 || travelled - far->travelled > cache->allowed) {
         *far = (expansion){.travelled = travelled, .centre = here};
         expand_type(cache, same, 0, HUGE_VAL, far, near_index);
-        expand_type(cache, other, 1, reach_squared, far, near_index + n);
+        expand_type(cache, other, 1, effective_radius_squared, far, near_index + n);
     }
     split->same = near_sources(cache, same, 0, near_index, far->near_count[0]);
     split->other = near_sources(cache, other, 1, near_index + n, far->near_count[1]);

@@ -16,7 +16,8 @@ extern "C" {
 
 typedef struct mote_far_cache mote_far_cache;
 
-/* What acts on one particle: the near ones, and the expansion of the rest about a centre. */
+/* What acts on one particle: the near particles, and the expansion of the others about a
+ * centre. */
 typedef struct mote_far_split {
     mote_sources same, other; /* the near ones; own no memory */
     mote_vec3 centre;
@@ -25,7 +26,7 @@ typedef struct mote_far_split {
 
 /* For count particles a body. part (> 0): how far particles may move, over near_distance,
    before an expansion is computed anew. near_distance (absolute): nearer ones are never cached.
-   length: L. Memory: 16 * count^2 bytes and some. */
+   length: L. Memory: about 16 * count^2 bytes. */
 mote_status mote_far_cache_create(uint32_t count, double part, double near_distance,
                                   double length, mote_far_cache **cache);
 
@@ -42,11 +43,12 @@ void mote_far_cache_step(mote_far_cache *cache);
 void mote_far_cache_moved(mote_far_cache *cache, double distance);
 
 /* Splits what acts on particle index of body b at place here. same->skip is the particle
-   itself. reach_squared as in mote_potential. The result is valid until the next split. No
-   allocation. Cost O(near particles), O(count) when the expansion is computed anew. */
+   itself. effective_radius_squared as in mote_potential. The result is valid until the next
+   split. No allocation. Cost O(near particles), O(count) when the expansion is computed anew.
+ */
 void mote_far_cache_split(mote_far_cache *cache, int b, uint32_t index, mote_vec3 here,
                           const mote_sources *same, const mote_sources *other,
-                          double reach_squared, mote_far_split *split);
+                          double effective_radius_squared, mote_far_split *split);
 
 /* Turns potentials of the near particles at the candidates into potentials of all, up to a
    constant. */

@@ -8,7 +8,7 @@
 
 #define NONE UINT32_MAX
 
-/* One level while it is made: a graph and what becomes of its nodes. */
+/* One level under construction: a graph, and the cell of each of its nodes. */
 typedef struct stage {
     uint32_t count;
     const uint32_t *start,
@@ -23,9 +23,9 @@ static mote_vec3 stage_position(const stage *s, uint32_t node)
     return s->positions[s->vertex ? s->vertex[node] : node];
 }
 
-/* A number without a common factor with count, near the golden section of it: stepping by it
-   visits all nodes, neighbours far apart in time, so that few chosen nodes lie next to each
-   other but one. */
+/* A number near the golden section of count that has no common factor with it. Stepping by it
+   visits every node, and neighbours at very different times, so that few chosen nodes end up
+   only two edges apart. */
 static uint32_t scattered_step(uint32_t count)
 {
     uint32_t step = (uint32_t)(0.6180339887 * count) | 1u;
@@ -83,13 +83,13 @@ static void join_cells(stage *s)
     }
 }
 
-/* The coarse graph while it is made. */
+/* The coarse graph under construction. */
 typedef struct cells {
     const stage *fine;
     uint32_t *number; /* [fine->count], the coarse node of each chosen node */
     uint32_t *first;  /* [coarse + 1], members of each cell */
     uint32_t *member; /* [fine->count] */
-    uint32_t *seen;   /* [coarse], the last cell that named it */
+    uint32_t *seen;   /* [coarse], the last cell that listed it */
 } cells;
 
 /* Lists a cell's neighbours, each once, into list (NULL: only counts them). */
@@ -212,8 +212,8 @@ static mote_status renumber(mote_level *level, const uint32_t *number)
     return MOTE_OK;
 }
 
-/* The numbers of a level's nodes: those of the level above (chosen, with their numbers above)
-   first, so that a node has the same number on every level. Takes above over. */
+/* Numbers a level's nodes so that a node has the same number on every level: first those of the
+   level above, with their numbers there. Takes ownership of above. */
 static uint32_t *numbers_of(uint32_t count, const uint32_t *chosen, uint32_t *above,
                             uint32_t above_count)
 {

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The least n by itself. */
+/* n=auto chooses at least this. */
 #define LEAST_SEEDS 8
 
 enum {

@@ -1,4 +1,4 @@
-/* The method `particle-paper`: the paper's particle system as it stands (paper 3.3 to 3.5). */
+/* The method particle-paper: the paper's particle system as described (paper 3.3 to 3.5). */
 #include "core/method/method.h"
 #include "core/particle/particles.h"
 #include "core/body/parts.h"
@@ -104,8 +104,8 @@ static uint32_t default_nmax(const mote_setup *setup)
     return (uint32_t)ceil(sqrt(a > b ? a : b));
 }
 
-/* Twice the convex parts of the body that has more (paper 3.5), within what the bodies allow.
- */
+/* Twice the convex parts of the body that has more of them (paper 3.5), but no more than either
+   body has vertices. */
 static mote_status automatic_count(const mote_setup *setup, uint32_t *count)
 {
     uint32_t most = 1;
@@ -135,7 +135,7 @@ static mote_particles_options options_of(const mote_setup *setup, uint32_t count
     o.attract[1] = law_of(v, P_ATTRACT_B);
     o.repel[0] = law_of(v, P_REPEL_A);
     o.repel[1] = law_of(v, P_REPEL_B);
-    o.reach = v[P_REFF];
+    o.effective_radius = v[P_REFF];
     o.nmin = v[P_NMIN] == MOTE_AUTO ? o.count / 10 : (uint32_t)v[P_NMIN];
     o.nmax = v[P_NMAX] == MOTE_AUTO ? default_nmax(setup) : (uint32_t)v[P_NMAX];
     o.surface = v[P_MOVE] > 0;

@@ -15,7 +15,7 @@ struct mote_particles {
     double *place[2][3]; /* world positions by coordinate, [count] each */
 };
 
-/* Candidate sites of one particle, a lane each; the rest of the lanes repeat lane 0. */
+/* Candidate sites of one particle, one a lane; unused lanes repeat lane 0. */
 typedef struct candidate_batch {
     mote_candidates place;
     mote_site site[MOTE_LANES];
@@ -27,7 +27,8 @@ typedef struct move_search {
     mote_particles *particles;
     int body;
     mote_vec3 here;
-    mote_far_split split; /* what acts: near, and the slope of the rest when it is cached */
+    mote_far_split
+        split; /* what acts: the near particles, and the cached expansion of the others */
     candidate_batch batch;
     mote_site best;
     mote_vec3 best_place;
@@ -38,7 +39,7 @@ typedef struct move_search {
 mote_particles_options mote_default_particles_options(void)
 {
     const mote_particles_options options = {.count = 8,
-                                            .reach = 1,
+                                            .effective_radius = 1,
                                             .nmax = 64,
                                             .coherent = true,
                                             .start = MOTE_START_FARTHEST,
@@ -56,8 +57,9 @@ static mote_status allocate_body(mote_particles *p, const mote_body *body, int b
         return mote_fail(MOTE_ENOMEM, "no memory for %zu particles", n);
     p->place[b][1] = p->place[b][0] + n;
     p->place[b][2] = p->place[b][1] + n;
-    /* A warm query looks at about one ring a particle and a few steps; with few particles there
-       is room for many steps, so that the table hardly ever grows in a query. */
+    /* A warm query looks at about one ring for each particle and a few steps. With few
+       particles there is room for many steps, so that the table hardly ever grows during a
+       query. */
     const uint32_t expected = (uint32_t)fmin(fmax(16.0 * (double)n, 1024), 0x1p28);
     return p->options.single ? mote_lazy_init_single(&p->lazy[b], body, expected)
                              : mote_lazy_init(&p->lazy[b], body, expected);
@@ -90,7 +92,7 @@ mote_status mote_particles_create(const mote_body *const bodies[2], double lengt
     made->inverse_square_length = 1 / length / length;
     mote_status status = MOTE_OK;
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
-        /* Checked before anything is sized by it. */
+        /* Checked before anything is allocated by it. */
         if (options->count < 1 || options->count > bodies[b]->mesh->vertex_count)
             status = mote_fail(MOTE_EINVAL,
                                "n=%u is not valid; body %d has %u vertices, so n must "
@@ -165,8 +167,8 @@ static void add_candidate(candidate_batch *batch, mote_site site, mote_vec3 plac
     batch->place.z[lane] = place.z;
 }
 
-/* The first candidate of all is where the particle is: others must be strictly lower than that,
-   and the lowest site wins among equals. */
+/* The first candidate is the particle's own site: others must be strictly lower than that, and
+   among equals the lowest site wins. */
 static void judge(move_search *search, mote_site site, mote_vec3 place, double major,
                   double minor)
 {
@@ -189,9 +191,9 @@ static mote_vec3 place_in_lane(const mote_candidates *c, int lane)
     return mote_vec3_make(c->x[lane], c->y[lane], c->z[lane]);
 }
 
-static double reach_squared(const mote_particles *p)
+static double effective_radius_squared(const mote_particles *p)
 {
-    return p->options.reach * p->options.reach;
+    return p->options.effective_radius * p->options.effective_radius;
 }
 
 static void judge_batch(move_search *search)
@@ -203,7 +205,7 @@ static void judge_batch(move_search *search)
         add_candidate(batch, batch->site[0], place_in_lane(&batch->place, 0));
     mote_potentials potentials;
     mote_potential(&batch->place, &search->split.same, &search->split.other,
-                   p->inverse_square_length, reach_squared(p), &potentials);
+                   p->inverse_square_length, effective_radius_squared(p), &potentials);
     if (p->far)
         mote_far_cache_add(&search->split, &batch->place, p->length, &potentials);
     for (int lane = 0; lane < used; ++lane)
@@ -248,7 +250,7 @@ static mote_sources sources_of(const mote_particles *p, int b, mote_law law, uin
     return sources;
 }
 
-/* What acts on particle i: all particles, or the near ones and the slope of the rest. */
+/* What acts on particle i: all particles, or the near ones and the expansion of the others. */
 static void find_sources(move_search *search, uint32_t i)
 {
     mote_particles *p = search->particles;
@@ -256,8 +258,8 @@ static void find_sources(move_search *search, uint32_t i)
     const mote_sources same = sources_of(p, b, p->options.repel[b], i);
     const mote_sources other = sources_of(p, 1 - b, p->options.attract[b], p->options.count);
     if (p->far)
-        mote_far_cache_split(p->far, b, i, search->here, &same, &other, reach_squared(p),
-                             &search->split);
+        mote_far_cache_split(p->far, b, i, search->here, &same, &other,
+                             effective_radius_squared(p), &search->split);
     else
         search->split = (mote_far_split){.same = same, .other = other};
 }
@@ -272,7 +274,7 @@ static bool move_particle(mote_particles *p, int b, uint32_t i)
     find_sources(&search, i);
     search.batch.count = 0;
     search.started = search.moved = false;
-    search.major = search.minor = 0; /* looked at, though of no account, before the first */
+    search.major = search.minor = 0; /* read before the first candidate, but never used then */
     const mote_site here = p->site[b][i];
     consider(&search, here, search.here);
     if (p->options.surface)

@@ -14,10 +14,10 @@ extern "C" {
 #endif
 
 typedef struct mote_particles_options {
-    uint32_t count;      /* n, on each body; 1 .. vertex count */
-    mote_law attract[2]; /* law by which particles of body 0, 1 are attracted */
-    mote_law repel[2];   /* law by which they are repelled by their own kind */
-    double reach;        /* R_eff / L (paper 3.3); 0: no attraction; infinite: no limit */
+    uint32_t count;          /* n, on each body; 1 .. vertex count */
+    mote_law attract[2];     /* law by which particles of body 0, 1 are attracted */
+    mote_law repel[2];       /* law by which they are repelled by their own kind */
+    double effective_radius; /* R_eff / L (paper 3.3); 0: no attraction; infinite: no limit */
     uint32_t nmin;    /* a query ends when fewer than max(1, nmin) particles moved in a step */
     uint32_t nmax;    /* or after this many steps (paper 3.5); 0: particles never move */
     bool surface;     /* move over vertices, edge midpoints and face centroids (paper 3.4) */
@@ -48,11 +48,12 @@ void mote_particles_destroy(mote_particles *particles);
    are looked up anew. use_given: positions come from the frame's vertices. Cost O(n). */
 void mote_particles_begin(mote_particles *particles, const mote_frame *frame, bool use_given);
 
-/* Steps until the system is almost at rest. A step is one sweep over the particles of both
-   bodies, body 0 first, each moving at once to the neighbouring site of lowest potential if
-   that is strictly lower (lowest site on a tie). Also ends when the closest pair is not above
-   stop_distance (negative: never). Adds to counters: steps, moves, ended_nmin, ended_nmax. Cost
-   a step O(n^2) for rings of bounded size; no allocation but growth of the position table. */
+/* Makes steps until the system is almost at rest. A step is one sweep over the particles of
+   both bodies, body 0 first; each moves at once to the neighbouring site of lowest potential if
+   that is strictly lower (to the lowest site on a tie). Also ends when the closest pair is not
+   above stop_distance (negative: never). Adds to counters: steps, moves, ended_nmin,
+   ended_nmax. Cost a step O(n^2) for rings of bounded size; no allocation but growth of the
+   position table. */
 void mote_particles_relax(mote_particles *particles, double stop_distance,
                           mote_counters *counters);
 

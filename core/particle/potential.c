@@ -143,21 +143,23 @@ MOTE_INLINE void sum_over(const mote_candidates *c, const mote_sources *sources,
 MOTE_CLONES
 void mote_potential(const mote_candidates *candidates, const mote_sources *same,
                     const mote_sources *other, double inverse_square_length,
-                    double reach_squared, mote_potentials *potentials)
+                    double effective_radius_squared, mote_potentials *potentials)
 {
     const mote_sources none = {.law = other->law};
-    const mote_sources *attracting = reach_squared > 0 ? other : &none;
+    const mote_sources *attracting = effective_radius_squared > 0 ? other : &none;
     if (same->law == MOTE_LAW_LOG && other->law == MOTE_LAW_LOG) {
         product repulsion;
         product attraction;
         product_over(candidates, same, inverse_square_length, HUGE_VAL, &repulsion);
-        product_over(candidates, attracting, inverse_square_length, reach_squared, &attraction);
+        product_over(candidates, attracting, inverse_square_length, effective_radius_squared,
+                     &attraction);
         ratio_of(&attraction, &repulsion, potentials);
         return;
     }
     double attraction[MOTE_LANES];
     sum_over(candidates, same, inverse_square_length, HUGE_VAL, potentials->major);
-    sum_over(candidates, attracting, inverse_square_length, reach_squared, attraction);
+    sum_over(candidates, attracting, inverse_square_length, effective_radius_squared,
+             attraction);
     for (int l = 0; l < MOTE_LANES; ++l) {
         if (potentials->major[l] < HUGE_VAL) /* else both may be infinite */
             potentials->major[l] -= attraction[l];

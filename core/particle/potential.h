@@ -25,8 +25,8 @@ typedef struct mote_candidates {
     double x[MOTE_LANES], y[MOTE_LANES], z[MOTE_LANES];
 } mote_candidates;
 
-/* The particles of one type that act: count places by coordinate; the one at index skip (the
-   particle that is moved, or count for none) does not act. */
+/* Particles of one type that exert a force: count places by coordinate. The one at index skip
+   (the particle that is being moved, or count for none) does not act. */
 typedef struct mote_sources {
     const double *x, *y, *z;
     uint32_t count, skip;
@@ -42,13 +42,14 @@ typedef struct mote_potentials {
     double major[MOTE_LANES], minor[MOTE_LANES];
 } mote_potentials;
 
-/* Potentials of a particle at the candidates: repelled by same, attracted by other within
-   reach. inverse_square_length: 1 / L^2. reach: R_eff / L squared (paper 3.3); beyond it the
-   attraction's potential is constant; 0: no attraction; INFINITY is allowed. A place on a
+/* Potentials of a particle at the candidates: repelled by same, attracted by other within the
+   effective radius. inverse_square_length: 1 / L^2. effective_radius_squared: (R_eff / L)^2
+   (paper 3.3), beyond which the attraction's potential is constant; 0: no attraction; INFINITY
+   is allowed. A place on a
    particle of the same type has potential +infinity, whatever else is there. */
 void mote_potential(const mote_candidates *candidates, const mote_sources *same,
                     const mote_sources *other, double inverse_square_length,
-                    double reach_squared, mote_potentials *potentials);
+                    double effective_radius_squared, mote_potentials *potentials);
 
 static inline bool mote_potential_below(const mote_potentials *p, int a, int b)
 {

@@ -8,40 +8,39 @@
 
 #include <string.h>
 
-/* Comes nearer: by more than this part of the distance. */
+/* A pair counts as nearer only if it is by more than this part of the distance. */
 #define MARGIN 1e-12
 
 /* A reach may be wrong by this part of the witnesses' coordinates: faces that touch are not
    rejected by it. */
 #define ROUNDING 0x1p-50
 
-/* Alternate projection goes on while it takes this part off the squared distance. */
+/* Alternate projection continues while it reduces the squared distance by this part. */
 #define WORTHWHILE 0.5
 
-/* Far above what a search from anywhere on a mesh of millions needs; rounding cannot exceed it.
- */
+/* Far more rounds than any search needs on a mesh of millions; a limit in case of rounding. */
 #define ROUNDS_MAX 10000
 
-/* A search from two vertices may gain this times what their rings have to offer. */
+/* A search from two vertices may gain this many times what their rings alone can. */
 #define SLIDE_MAX 2
 
 #define NONE UINT32_MAX
 
-/* Faces kept at a time; longer lists are taken piece by piece. */
+/* Faces kept at a time; longer lists are processed in pieces. */
 #define LIST_MAX 32
 
 typedef struct search {
     mote_lazy *const *lazy;
     mote_refined *best;
-    double worth_squared; /* pairs of faces that are not nearer than this are left alone */
+    double worth_squared; /* pairs of faces that are not nearer than this are ignored */
     double enough_squared;
     /* Set by aim: */
     double distance;
     mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
     mote_vec3 across[2];            /* unit vectors at right angles to it and each other */
     double rounding;                /* of a reach */
-    uint32_t checked[2]; /* the rings of these vertices were measured against each other and no
-                            pair was nearer; NONE: no such */
+    uint32_t checked[2]; /* vertices whose rings have been measured against each other with no
+                            nearer pair; NONE: there are none */
     double slack; /* faces with reaches that sum up to no more than this are not nearer */
 } search;
 
@@ -122,7 +121,7 @@ static void aim(search *s)
     s->slack = MARGIN * s->distance - s->rounding;
 }
 
-/* With the aim kept: only faces that could come below a squared distance are looked at. */
+/* Keeps the aim, and restricts the search to faces that could come below a squared distance. */
 static void tighten(search *s, double squared)
 {
     s->slack = s->distance - (1 - MARGIN) * sqrt(squared) - s->rounding;
@@ -244,10 +243,10 @@ static bool same_faces(const mote_refined *a, const mote_refined *b)
     return memcmp(a->triangle, b->triangle, sizeof a->triangle) == 0;
 }
 
-/* Each round halves the square of the distance or is the last, so that 3,200 are the most that
-   doubles have room for. Ends as soon as a round stays on the faces where it began: what is
-   left between two faces is measured in one step, while alternate projection of two that meet
-   would go on halving the distance until it is subnormal. */
+/* Each round but the last halves the squared distance, so that there are at most 3,200 in the
+   range of doubles. Ends as soon as a round stays on its faces: the remaining distance of two
+   faces is measured in one step, while alternate projection onto two that intersect would go on
+   halving the distance until it is subnormal. */
 static void alternate(search *s)
 {
     for (int round = 0; !done(s); ++round) {
@@ -330,8 +329,8 @@ static void choose_faces(const search *s, face_list *list, double partner)
     }
 }
 
-/* What two faces are apart at least, squared: along the line of the witnesses by their reaches,
-   across it by their shadows. */
+/* A lower bound of the squared distance of two faces: along the line of the witnesses by their
+   reaches, across it by their shadows. */
 static double gap_squared(const search *s, const listed_face *a, const listed_face *b)
 {
     const double blur = a->blur + b->blur;
@@ -431,11 +430,12 @@ static void descend_by_rounds(search *s)
     }
 }
 
-/* Witnesses whose coordinates are more than this many times the faces and their distance are
-   rounded so much that what was measured from them is not the distance of the faces. */
+/* Where the witnesses' coordinates are larger than the faces and their distance by more than
+   this factor, they are rounded so much that distances measured from them are not those of the
+   faces. */
 #define FAR_FROM_ORIGIN 0x1p16
 
-/* Measures the faces themselves, where that makes a difference. */
+/* Measures the faces themselves, where that can change the result. */
 static void measure_far_faces(const search *s)
 {
     mote_refined *best = s->best;
@@ -470,7 +470,7 @@ void mote_refine_vertices(mote_lazy *const lazy[2], const uint32_t vertex[2],
 }
 
 /* True if the rings of the two vertices are too far apart for a search from there to come below
-   what is worth it. */
+   worth_squared. */
 static bool hopeless(search *s)
 {
     if (!(s->worth_squared < s->best->squared))
@@ -505,7 +505,7 @@ bool mote_refine_below(mote_lazy *const lazy[2], const uint32_t vertex[2], doubl
     return true;
 }
 
-/* Measures the two faces of the witnesses, whatever was found on them. */
+/* Measures the two faces of the witnesses, replacing the witnesses. */
 static void measure_faces(const search *s)
 {
     mote_refined *best = s->best;

@@ -1,4 +1,4 @@
-/* Where particles are placed first (paper 3.3: "random distribution works well enough"). */
+/* The initial places of particles (paper 3.3: "random distribution works well enough"). */
 #ifndef MOTE_CORE_START_H
 #define MOTE_CORE_START_H
 

@@ -1,8 +1,8 @@
-/* Tracked particles: the paper's particles (paper 3.5), made nearly always exact. The minima of
-   the last query are followed, others are looked for from seeds spread over the bodies, coarse
-   to fine, and the nearest few are checked exactly. A query visits a few hundred vertices
-   whatever the size of the mesh. A local search: the answer lies on the surfaces and can only
-   be too far. */
+/* Tracked particles: the paper's idea of tracking the closest features (paper 3.5), with a
+   search that is nearly always exact. The minima of the last query are followed, others are
+   looked for from seeds spread over the bodies, coarse to fine, and the nearest few are checked
+   exactly. A query visits a few hundred vertices whatever the size of the mesh. It is a local
+   search: the answer lies on the surfaces and can only be too large. */
 #ifndef MOTE_CORE_TRACKER_H
 #define MOTE_CORE_TRACKER_H
 
@@ -24,8 +24,8 @@ typedef struct mote_tracker_options {
     uint32_t refine; /* exact checks a query, at least 1 */
     bool farthest;   /* seeds are farthest points; else at random */
     bool descend;    /* descend from seeds; else their own vertices are the candidates */
-    bool reseed;     /* launch from the seeds each time; else from where the last launch came
-                        by */
+    bool reseed;     /* launch from the seeds each time; else from where the last launch
+                        passed the seeds' level */
     bool leap;       /* also descend from around the nearest pair */
     bool forces;     /* the paper's forces move the seeds before they are launched */
     uint64_t seed;
@@ -46,12 +46,12 @@ mote_status mote_tracker_create(const mote_body *const bodies[2], double length,
 void mote_tracker_destroy(mote_tracker *tracker);
 
 /* Finds the nearest pair of points at a frame (borrowed for the call). use_given: positions
-   come from the frame's vertices, else from the field. Distances that exceed worth_squared need
-   not be found (infinite: all are wanted), and at enough_squared or below the search stops: a
-   contact question passes its squared tolerance as both. best->squared is infinite, and nothing
-   else of it set, when nothing below worth_squared was checked. Adds to counters: positions,
-   moves, steps, triangle_tests, launches, refined. No allocation but growth of the tables of
-   positions. */
+   come from the frame's vertices, else from the field. Squared distances above worth_squared
+   need not be found (infinite: every distance is wanted), and the search stops at
+   enough_squared or below: a contact question passes its squared tolerance as both.
+   best->squared is infinite, and nothing else of it set, when nothing below worth_squared was
+   checked. Adds to counters: positions, moves, steps, triangle_tests, launches, refined. No
+   allocation but growth of the tables of positions. */
 void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use_given,
                         double worth_squared, double enough_squared, mote_counters *counters,
                         mote_refined *best);

@@ -1,16 +1,18 @@
-/* Making a tracker: its seeds, its levels, and the particles where forces move the seeds. */
+/* Creating a tracker: its levels, its seeds, and the particles where forces move the seeds. */
 #include "core/particle/tracker_state.h"
 
 #include <stdlib.h>
 
-/* Seeds live on the finest level that has at most this many nodes, or five times their number:
-   descents that start on coarse levels take fewer steps, and end at least as near. */
+/* Seeds are nodes of the finest level with at most this many nodes, or with at most five times
+   as many nodes as seeds. Descents from coarse levels take fewer steps and end at least as
+   near. */
 #define SEED_NODES_MAX 200
 
 /* Vertices that a query is likely to visit on one body. */
 #define EXPECTED_VERTICES 512
 
-/* Steps of the forces a query, and the part of the particles whose rest ends them. */
+/* Steps of the forces in a query. They end earlier when fewer than one particle in FORCE_REST
+   moves. */
 #define FORCE_STEPS 3
 #define FORCE_REST 5
 
@@ -66,8 +68,9 @@ static mote_status allocate_seeds(mote_tracked_body *body)
     return MOTE_OK;
 }
 
-/* The first seeds are those that n asks for; the rest of the level follows, so that launches
-   that take turns start from everywhere in the end. Seeds that move are no more than n. */
+/* The first n seeds are spread as the options say. The other nodes of the level follow, so that
+   launches, which take turns, eventually start everywhere. Where seeds move there are only n.
+ */
 static mote_status place_seeds(mote_tracked_body *body, const mote_tracker_options *options)
 {
     const uint32_t components = body->mesh->component_count;
@@ -118,7 +121,7 @@ static mote_status make_body(mote_tracker *t, int b, const mote_body *body)
     return status;
 }
 
-/* With forces the particles' positions are the tracker's too. */
+/* With forces, the tracker uses the particles' positions as its own. */
 static mote_status make_particles(mote_tracker *t, const mote_body *const bodies[2])
 {
     mote_particles_options options = mote_default_particles_options();
@@ -145,7 +148,7 @@ static mote_status make_particles(mote_tracker *t, const mote_body *const bodies
     return status;
 }
 
-/* The coarsest nodes of each body stand for all of it. */
+/* The motion of a body's coarsest nodes stands for that of all its vertices. */
 static mote_status make_coherence(mote_tracker *t, const mote_body *const bodies[2])
 {
     const uint32_t *probes[2];

@@ -1,22 +1,23 @@
-/* One query of the tracker: what has moved, what is searched, and what is kept for the next. */
+/* One query of the tracker: how far the bodies have moved, what is searched, and what is kept
+   for the next query. */
 #include "core/particle/tracker_state.h"
 
 #include <string.h>
 
-/* Relative motion since the last query, in units of L, after which nothing of it is used but
-   its minima. */
+/* Relative motion since the last query, in units of L, from which on only the minima of that
+   query are used. */
 #define COLD_MOTION 0.1
 
-/* Relative motion, in units of L, in which n seeds of each body are launched. */
+/* n seeds of each body are launched for every such relative motion, in units of L. */
 #define ROUND_MOTION 0.2
 
-/* Relative motion in which all of the nodes around the nearest pair are leapt to, in units of
-   their mean distance. */
+/* All nodes around the nearest pair are leapt to for every such relative motion, in units of
+   the mean distance of neighbouring nodes. */
 #define LEAP_MOTION 0.75
 
-/* Adds the motion since the last query to what was travelled and to the launches that are due.
+/* Adds the motion since the last query to the total and to the launches and leaps that are due.
  */
-static void travel(mote_request *r, double motion)
+static void add_motion(mote_request *r, double motion)
 {
     mote_tracker *t = r->tracker;
     const double part = motion / (ROUND_MOTION * t->length);
@@ -40,7 +41,7 @@ static void remember(mote_request *r)
         memcpy(t->last.vertex, r->best->vertex, sizeof t->last.vertex);
     }
     if (mote_found_enough(r))
-        return; /* the minima of the last full search are still the best that is known */
+        return; /* there was no full search: the minima of the last one are kept */
     t->pair_count = 0;
     for (uint32_t i = 0; i < t->pairs.count && i < t->options.track; ++i)
         t->pair[t->pair_count++] = t->pairs.list[i];
@@ -69,7 +70,7 @@ void mote_tracker_query(mote_tracker *tracker, const mote_frame *frame, bool use
     }
     *best = (mote_refined){.squared = HUGE_VAL};
     tracker->pairs.count = 0;
-    travel(&r, mote_coherence_motion(&tracker->coherence, frame, use_given));
+    add_motion(&r, mote_coherence_motion(&tracker->coherence, frame, use_given));
     if (tracker->last.known && !r.cold)
         mote_tracker_refine_last(&r);
     if (!mote_found_enough(&r))

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Motion is an estimate: what it may have brought nearer, in units of it. */
+/* Motion is an estimate. Bodies may have come nearer by this many times the estimate. */
 #define MOTION_MARGIN 2
 
 /* The square of the longest edge at a vertex, in the shape. */
@@ -38,7 +38,7 @@ static void keep_places(mote_request *r, const mote_place at[2], double squared)
 }
 
 /* The distance that a search has to come below. */
-static double wanted(const mote_request *r)
+static double distance_to_beat(const mote_request *r)
 {
     return sqrt(fmin(fmin(r->best->squared, r->worth_squared), r->nearest_squared));
 }
@@ -47,19 +47,19 @@ static double wanted(const mote_request *r)
 static bool worth_following(const mote_request *r, const mote_pair *c)
 {
     const double since = r->tracker->travelled - c->travelled;
-    return sqrt(c->squared) - mote_pair_edges(c) - MOTION_MARGIN * since <= wanted(r);
+    return sqrt(c->squared) - mote_pair_edges(c) - MOTION_MARGIN * since <= distance_to_beat(r);
 }
 
-/* Estimates whether an exact check of two vertices can come below what is wanted. Walks end by
-   the shape, not at a minimum of the frame, so that the gain is more than where no neighbour is
-   nearer: about half of the longest edges there. */
+/* Estimates whether an exact check of two vertices can come below the best distance. Walks are
+   guided by the rest shape and need not end at a minimum of the frame, so an exact check gains
+   more than it would at a minimum: about half of the longest edges there. */
 static bool worth_refining(const mote_request *r, const mote_pair *c)
 {
     return sqrt(c->squared) - 0.5 * mote_pair_edges(c) <=
            sqrt(fmin(r->best->squared, r->worth_squared));
 }
 
-static void take_result(mote_request *r, const mote_refined *result)
+static void keep_result(mote_request *r, const mote_refined *result)
 {
     ++r->refined;
     ++r->counters->refined;
@@ -68,7 +68,7 @@ static void take_result(mote_request *r, const mote_refined *result)
         *r->best = *result;
 }
 
-/* A candidate whose distance is looked up. */
+/* A candidate with its distance in this frame. */
 static mote_pair vertex_candidate(const mote_request *r, const uint32_t vertex[2])
 {
     return make_candidate(r, vertex,
@@ -97,7 +97,7 @@ void mote_tracker_refine_last(mote_request *r)
     mote_refined result;
     mote_refine_triangles(r->lazy, last->triangle[0], last->triangle[1], r->enough_squared,
                           &result);
-    take_result(r, &result);
+    keep_result(r, &result);
     const mote_pair end = result_candidate(r, &result);
     mote_pairs_keep(&r->tracker->pairs, &end);
 }
@@ -165,8 +165,8 @@ static mote_place nearest_place(const mote_tracked_body *body, mote_vec3 p)
     return body->place[best];
 }
 
-/* The node of the seeds' level that is nearest to a point of the world, by the shape where the
-   pose carries it: only its own position is looked up. */
+/* The node of the seeds' level that is nearest to a point of the world, by the rest shape in
+   its pose: only that node's position is evaluated. */
 static mote_place nearest_by_shape(const mote_request *r, int b, mote_vec3 world)
 {
     const mote_tracked_body *body = &r->tracker->body[b];
@@ -190,8 +190,8 @@ static mote_place nearest_by_shape(const mote_request *r, int b, mote_vec3 world
     return mote_place_at(ground, body->seed_level, best);
 }
 
-/* Where a launch from a place of body b starts on the other body. Seeds that are particles of
-   their own start at each other; from fixed ones, at what is nearest. */
+/* Where a launch from a place of body b starts on the other body: at the nearest seed where
+   seeds move or are not descended from, otherwise at the nearest node of the seeds' level. */
 static mote_place opposite(mote_request *r, int b, mote_vec3 world)
 {
     const mote_tracker *t = r->tracker;
@@ -225,8 +225,8 @@ static void launch(mote_request *r, int b, uint32_t i)
     }
     mote_outcome *end = &t->body[b].outcome[i];
     end->travelled = t->travelled;
-    const double squared = mote_descend(r->ground, level, at, wanted(r), nearest_known(r),
-                                        &end->least, &r->counters->moves);
+    const double squared = mote_descend(r->ground, level, at, distance_to_beat(r),
+                                        nearest_known(r), &end->least, &r->counters->moves);
     if (squared < HUGE_VAL)
         keep_places(r, at, squared);
 }
@@ -235,10 +235,10 @@ static void launch(mote_request *r, int b, uint32_t i)
 static bool worth_launching(const mote_request *r, const mote_outcome *last)
 {
     const double since = r->tracker->travelled - last->travelled;
-    return last->least - MOTION_MARGIN * since <= wanted(r);
+    return last->least - MOTION_MARGIN * since <= distance_to_beat(r);
 }
 
-/* Cold, launches the first seeds of each body; warm, those whose turn it is. */
+/* Launches the first n seeds of each body when cold, otherwise those whose turn it is. */
 static void launch_seeds(mote_request *r)
 {
     mote_tracker *t = r->tracker;
@@ -298,14 +298,14 @@ static void leap(mote_request *r, int b, const uint32_t vertex[2])
     at[b] = mote_place_at(&r->ground[b], level[b], body->near[body->near_turn]);
     at[1 - b] = mote_place_at(&r->ground[1 - b], MOTE_MESH_LEVEL, vertex[1 - b]);
     ++r->counters->launches;
-    const double squared = mote_descend(r->ground, level, at, wanted(r), nearest_known(r),
-                                        &least, &r->counters->moves);
+    const double squared = mote_descend(r->ground, level, at, distance_to_beat(r),
+                                        nearest_known(r), &least, &r->counters->moves);
     if (squared < HUGE_VAL)
         keep_places(r, at, squared);
 }
 
-/* Looks around the nearest pair that is known for others that no walk from it reaches: over a
-   gap, or along a ridge where many pairs are nearly as near. */
+/* Looks around the nearest known pair for others that no walk from it reaches: across a gap, or
+   along a ridge where many pairs are nearly as near. */
 static void make_leaps(mote_request *r)
 {
     mote_tracker *t = r->tracker;
@@ -336,7 +336,7 @@ static void launch_first(mote_request *r)
         r, at, mote_descend(r->ground, level, at, HUGE_VAL, NULL, &least, &r->counters->moves));
 }
 
-/* Checks the nearest candidates that no check has ended at. */
+/* Checks the nearest candidates that are not results of a check. */
 static void refine_candidates(mote_request *r)
 {
     mote_tracker *t = r->tracker;
@@ -350,14 +350,14 @@ static void refine_candidates(mote_request *r)
         if (!mote_refine_below(r->lazy, c->vertex, fmin(r->best->squared, r->worth_squared),
                                r->enough_squared, &result))
             continue;
-        take_result(r, &result);
+        keep_result(r, &result);
         const mote_pair end = result_candidate(r, &result);
         for (int b = 0; b < 2; ++b)
             c->vertex[b] = end.vertex[b];
     }
 }
 
-/* Everything but what the last query's closest pair tells. */
+/* Everything but the check of the last query's closest pair. */
 void mote_tracker_search(mote_request *r)
 {
     mote_tracker *t = r->tracker;

@@ -1,4 +1,4 @@
-/* What the sources of the tracker share. */
+/* The state of a tracker and of a query, shared by tracker_*.c. */
 #ifndef MOTE_CORE_TRACKER_STATE_H
 #define MOTE_CORE_TRACKER_STATE_H
 
@@ -13,8 +13,8 @@
 /* Nodes around the nearest pair that are leapt to in turn. */
 #define MOTE_NEAR_MAX 8
 
-/* What a search has come to: it could hardly end below a distance, when the bodies had
-   travelled so far. */
+/* How a launch ended: it could hardly have come below the distance `least`, when the bodies had
+   travelled that far. */
 typedef struct mote_outcome {
     double least, travelled;
 } mote_outcome;
@@ -61,21 +61,21 @@ struct mote_tracker {
     mote_nearest_pair last;
 };
 
-/* What a query is about. */
+/* A query in progress. */
 typedef struct mote_request {
     mote_tracker *tracker;
     mote_ground ground[2];
     mote_lazy *lazy[2];
     double worth_squared, enough_squared;
-    double nearest_squared; /* of the pairs of vertices that were looked at */
-    bool looked[2];         /* the places of the first seeds are of this frame */
-    bool cold;              /* nothing is known, or the bodies have moved far since */
+    double nearest_squared; /* of all pairs of vertices looked at so far */
+    bool looked[2];         /* the places of the first seeds are those of this frame */
+    bool cold;              /* nothing is known, or the bodies have moved far since then */
     uint32_t refined;
     mote_counters *counters;
     mote_refined *best;
 } mote_request;
 
-/* Finds what it can besides what the last query's closest pair tells. */
+/* Searches for nearer pairs than the last query's closest pair. */
 void mote_tracker_search(mote_request *r);
 
 /* Starts with the last query's closest pair, which must be known. */

@@ -44,8 +44,9 @@ static long double potential_at(const snapshot *s, const mote_particles_options 
     for (uint32_t j = 0; j < s->count; ++j) {
         if (j != i)
             sum += pair_potential(o->repel[b], place, s->place[b][j], length, HUGE_VAL);
-        if (o->reach > 0)
-            sum -= pair_potential(o->attract[b], place, s->place[1 - b][j], length, o->reach);
+        if (o->effective_radius > 0)
+            sum -= pair_potential(o->attract[b], place, s->place[1 - b][j], length,
+                                  o->effective_radius);
     }
     return sum;
 }
@@ -60,9 +61,9 @@ static long double total_energy(const snapshot *s, const mote_particles_options 
             for (int b = 0; b < 2 && j < i; ++b)
                 sum += pair_potential(o->repel[0], s->place[b][i], s->place[b][j], length,
                                       HUGE_VAL);
-            if (o->reach > 0)
+            if (o->effective_radius > 0)
                 sum -= pair_potential(o->repel[0], s->place[0][i], s->place[1][j], length,
-                                      o->reach);
+                                      o->effective_radius);
         }
     }
     return sum;
@@ -218,11 +219,11 @@ TEST(relax_moves_to_the_lowest_neighbour_and_energy_falls)
         scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
         mote_particles_options o = mote_default_particles_options();
         o.count = counts[k % 5];
-        o.reach = reaches[k / 5];
+        o.effective_radius = reaches[k / 5];
         o.start = k % 2 ? MOTE_START_RANDOM : MOTE_START_FARTHEST;
         const uint64_t moves = follow_moves(&s, &o, 3, true);
-        assert_true(moves > o.count || o.reach < 1);
-        assert_true(moves == 0 || o.count > 1 || o.reach > 0);
+        assert_true(moves > o.count || o.effective_radius < 1);
+        assert_true(moves == 0 || o.count > 1 || o.effective_radius > 0);
         scene_close(&s);
     }
 }
@@ -401,7 +402,7 @@ TEST(relax_without_reach_ignores_the_other_body)
     scene_open(&s, solid_icosphere(2), solid_torus(12, 7), 6, 1);
     mote_particles_options o = mote_default_particles_options();
     o.count = 9;
-    o.reach = 0;
+    o.effective_radius = 0;
     snapshot ends[2];
     for (int far = 0; far <= 1; ++far) {
         mote_particles *particles = scene_particles(&s, &o);
