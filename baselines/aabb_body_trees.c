@@ -1,11 +1,12 @@
-/* aabb-tree's trees for several bodies. */
+/* The trees of aabb-tree for several bodies. */
 #include "baselines/aabb_tree.h"
 #include "baselines/body_trees.h"
 #include "baselines/input.h"
 
 #include <stdlib.h>
 
-/* A tree that serves a body of its shape: boxes and positions of its own, the rest shared. */
+/* A tree in use for one body: its boxes and positions are its own, everything else is shared by
+   the shape. */
 typedef struct served {
     mote_box_tree tree;
     mote_vec3 *vertices;
@@ -21,7 +22,7 @@ typedef struct shape_trees {
 typedef struct aabb_bodies {
     mote_body_trees_setup setup;
     double scale;
-    float reach;         /* largest coordinate of all trees of the step */
+    float reach;         /* largest absolute coordinate in any tree of the step */
     shape_trees *shapes; /* [shape_count] */
     uint32_t *place;     /* [body_count]: which tree of its shape a body has */
 } aabb_bodies;
@@ -132,7 +133,8 @@ static mote_status move(void *state, uint32_t body)
         if (status != MOTE_OK)
             return status;
         return mote_fail(MOTE_EINVAL,
-                         "body %u: more than 1e38 L away; nearer bodies are needed", body);
+                         "body %u is more than 1e38 L away; its distance must be below that",
+                         body);
     }
     s->reach = reach > s->reach ? reach : s->reach;
     return MOTE_OK;

@@ -1,6 +1,6 @@
-/* aabb-tree: the tuned competitor. Two trees of axis-aligned boxes over world positions,
-   refitted in one pass each frame, traversed together from the root, nearer pair first, with
-   the last frame's closest pair of triangles as the first bound. */
+/* aabb-tree: a box tree tuned by us. Two trees of axis-aligned boxes over world positions,
+   refitted in one pass in each frame and traversed together from the roots, nearer pairs first,
+   with the last frame's closest pair of triangles as the first bound. */
 #include "baselines/aabb_tree.h"
 #include "baselines/box_tree.h"
 #include "baselines/input.h"
@@ -26,7 +26,7 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
 /* Bodies farther from the origin than this times L get a new origin. */
 #define FAR_FROM_ORIGIN 8
 
-/* Pairs of nodes that wait: opening one node replaces a pair by at most eight. */
+/* Pairs of nodes on the stack: opening one node replaces a pair by at most eight. */
 #define STACK (MOTE_BOX_WIDTH * 2 * MOTE_BOX_LEVELS)
 
 typedef struct tree_state {
@@ -34,7 +34,7 @@ typedef struct tree_state {
     bool seeded, wide;
     double scale; /* brings L near 1: a power of two */
     mote_vec3 origin;
-    float reach; /* largest coordinate of both trees */
+    float reach; /* largest absolute coordinate in either tree */
     bool placed; /* false before the first frame */
     mote_box_tree tree[2];
     uint32_t last[2]; /* the last query's triangles */
@@ -47,16 +47,16 @@ typedef struct node_pair {
     float four_squared;
 } node_pair;
 
-/* What is known of a leaf's triangles: their boxes, and how far each extends along the current
-   direction towards the other body. */
+/* A leaf's triangles: their boxes, and how far each extends along the current direction towards
+   the other body. */
 typedef struct leaf_view {
     uint32_t leaf, count;
-    uint32_t improvements;                  /* the best pair's, when the direction was taken */
+    uint32_t improvements;                  /* of the best pair, when extent was computed */
     float extent[MOTE_BOX_WIDTH], farthest; /* of all triangles */
     mote_box_block boxes;
 } leaf_view;
 
-/* A query under way. */
+/* A query in progress. */
 typedef struct search {
     const tree_state *state;
     const mote_vec3 *vertices[2];
@@ -115,7 +115,7 @@ static mote_status create(const mote_setup *setup, void **state)
     return MOTE_OK;
 }
 
-/* Takes a body's positions; MOTE_EINVAL if one is not finite. */
+/* Converts a body's positions; MOTE_EINVAL if one is not finite. */
 static mote_status move(tree_state *s, const mote_frame *frame, int b)
 {
     const mote_vec3 *vertices = frame->body[b].vertices;
@@ -128,13 +128,14 @@ static mote_status move(tree_state *s, const mote_frame *frame, int b)
         if (status != MOTE_OK)
             return status;
         return mote_fail(MOTE_EINVAL,
-                         "body %d: more than 1e38 L away; nearer bodies are needed", b);
+                         "body %d is more than 1e38 L away; its distance must be below that",
+                         b);
     }
     s->reach = reach > s->reach ? reach : s->reach;
     return MOTE_OK;
 }
 
-/* Takes the positions of the bodies that changed, or of both about a new origin. */
+/* Converts the positions of the bodies that changed, or of both relative to a new origin. */
 static mote_status move_changed(tree_state *s, const mote_frame *frame, bool both,
                                 bool moved[2])
 {
@@ -189,7 +190,7 @@ static void corners(const search *q, int b, uint32_t triangle, mote_vec3 corner[
         corner[k] = q->vertices[b][t[k]];
 }
 
-/* Takes the consequences of a new best pair, or of the first bound. */
+/* Updates the limit and the direction after a new best pair, or the first bound. */
 static void set_limits(search *q)
 {
     double scale = q->state->scale, distance = sqrt(q->squared) * scale;
@@ -206,8 +207,8 @@ static void set_limits(search *q)
     q->direction[2] = (float)(u.z * inverse);
 }
 
-/* As mote_triangle_triangle_below, but for pairs that are about as near as the bound in 113
- * bits. */
+/* As mote_triangle_triangle_below, but in 113 bits for pairs that are about as near as the
+   bound. */
 static double measure_wide(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared,
                            mote_vec3 *p, mote_vec3 *q)
 {
@@ -237,7 +238,7 @@ static void measure(search *q, uint32_t a, uint32_t b)
     set_limits(q);
 }
 
-/* Puts triangle i of a leaf, its corners given, into the leaf's view. */
+/* Stores triangle i of a leaf, given its corners, in the leaf's view. */
 static inline void view_triangle(leaf_view *view, int b, uint32_t i, const float *const p[3],
                                  const float *u, float margin)
 {
@@ -252,7 +253,7 @@ static inline void view_triangle(leaf_view *view, int b, uint32_t i, const float
     view->extent[i] = b == 0 ? largest(x[0], x[1], x[2]) : smallest(x[0], x[1], x[2]);
 }
 
-/* The view of a leaf of body b, which is often the one that was looked at before. */
+/* The view of a leaf of body b; often it is the last one used. */
 static const leaf_view *view_leaf(search *q, int b, uint32_t leaf)
 {
     leaf_view *view = &q->view[b];
@@ -276,8 +277,8 @@ static const leaf_view *view_leaf(search *q, int b, uint32_t leaf)
     return view;
 }
 
-/* Measures the triangles of two leaves, but for those that their boxes or the current direction
-   separate. */
+/* Measures the pairs of triangles of two leaves that neither their boxes nor the current
+   direction separate. */
 MOTE_CLONES
 static void measure_leaves(search *q, uint32_t leaf_a, uint32_t leaf_b)
 {
@@ -304,8 +305,8 @@ static float size_of(const mote_box *box)
     return box->half[2] > size ? box->half[2] : size;
 }
 
-/* Opens the larger node of a pair: the pairs of its children with the other that are not too
-   far go on the stack, the nearest on top. */
+/* Opens the larger node of a pair: pushes the pairs of its children with the other node that
+   are not too far apart, the nearest last. */
 MOTE_CLONES
 static void open_pair(search *q, const node_pair *pair)
 {

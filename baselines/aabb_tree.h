@@ -1,4 +1,4 @@
-/* aabb-tree's query for two trees that somebody else keeps and refits. */
+/* The query of aabb-tree for two trees that the caller keeps and refits. */
 #ifndef MOTE_BASELINES_AABB_TREE_H
 #define MOTE_BASELINES_AABB_TREE_H
 
@@ -7,12 +7,12 @@
 
 typedef struct mote_aabb_pair {
     const mote_box_tree *tree[2];
-    const mote_vec3 *vertices[2]; /* world positions that the trees were moved to */
+    const mote_vec3 *vertices[2]; /* world positions that the trees were refitted to */
     double scale;                 /* of the trees' positions */
-    float reach;                  /* that they were refitted with */
+    float reach;                  /* the value that they were refitted with */
     mote_ask ask;
     double tolerance;
-    uint32_t last[2]; /* triangles of the last answer, and then of this one */
+    uint32_t last[2]; /* triangles of the last answer; replaced by those of this one */
     bool has_last;
 } mote_aabb_pair;
 

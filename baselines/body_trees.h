@@ -1,7 +1,7 @@
-/* Baselines for several bodies: a hierarchy for each body that is looked at, refitted to the
-   body's deformed vertices once a step, however many pairs the body is in. Two kinds: FCL's
-   AABB models, and aabb-tree's. Models of a shape are made once each and serve any body of it;
-   a body that is not looked at has none. */
+/* Baselines for several bodies: a tree for each body that is in a pair, refitted to the body's
+   deformed vertices once in each step, however many pairs the body is in. There are two kinds:
+   FCL's AABB models, and those of aabb-tree. Models of a shape are built once and reused for
+   any body of that shape; a body in no pair has none. */
 #ifndef MOTE_BASELINES_BODY_TREES_H
 #define MOTE_BASELINES_BODY_TREES_H
 
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/* What the trees are made for; all borrowed until destroy. */
+/* The scene that the trees are for; everything is borrowed until destroy. */
 typedef struct mote_body_trees_setup {
     const mote_body *const *shapes; /* [shape_count] */
     uint32_t shape_count;
@@ -28,16 +28,16 @@ typedef struct mote_body_trees_memory {
     bool known;
 } mote_body_trees_memory;
 
-/* One thread at a time. A step is begin, then move for each body that is looked at, its
-   vertices written first, then refit, then queries of pairs of these bodies. */
+/* One thread at a time. A step calls begin; then, for each body in a pair, room and, once its
+   vertices are written, move; then refit; then query for pairs of these bodies. */
 typedef struct mote_body_trees_kind {
     const char *name;
 
-    /* MOTE_EINVAL for shapes that the library cannot take, MOTE_ENOMEM. */
+    /* MOTE_EINVAL for shapes that the library does not accept, MOTE_ENOMEM. */
     mote_status (*create)(const mote_body_trees_setup *setup, void **state);
     void (*destroy)(void *state); /* NULL is allowed */
 
-    /* No body has a tree. */
+    /* Starts a step: no body has a tree. */
     void (*begin)(void *state);
 
     /* Gives body a tree; *vertices is where its world positions go, valid until the next call
@@ -45,7 +45,7 @@ typedef struct mote_body_trees_kind {
        are needed than ever before. */
     mote_status (*room)(void *state, uint32_t body, mote_vec3 **vertices);
 
-    /* Takes over what was written. MOTE_EINVAL where a position is not finite. */
+    /* Uses the positions that were written. MOTE_EINVAL where one is not finite. */
     mote_status (*move)(void *state, uint32_t body);
 
     /* Brings all trees up to date. */
@@ -54,7 +54,7 @@ typedef struct mote_body_trees_kind {
     /* The box of a body's tree. */
     void (*box)(const void *state, uint32_t body, mote_scene_box *box);
 
-    /* Answers for two bodies that have trees, from the last answer's triangles on. */
+    /* Answers for two bodies that have trees, starting from the last answer's triangles. */
     mote_status (*query)(void *state, const uint32_t body[2], mote_body_trees_memory *memory,
                          mote_answer *answer);
 } mote_body_trees_kind;

@@ -18,7 +18,7 @@ void mote_box_tree_free(mote_box_tree *tree)
 /* --- building -------------------------------------------------------------------------------
  */
 
-/* What only building needs. */
+/* Data that only building needs. */
 typedef struct builder {
     mote_box_tree *tree;
     mote_vec3 *centroid; /* [triangle_count], times three */
@@ -29,7 +29,7 @@ static double coordinate(mote_vec3 v, int axis)
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-/* The axis along which the centroids of a range of triangles extend most. */
+/* The axis along which the centroids of a range of triangles have the largest extent. */
 static int longest_axis(const builder *b, uint32_t first, uint32_t end)
 {
     int best = 0;
@@ -55,8 +55,8 @@ static double median_of_three(double a, double b, double c)
     return c < low ? low : c > high ? high : c;
 }
 
-/* Orders the triangles first .. end - 1 so that those before `middle` are not above those from
-   it on, along the axis (Hoare's selection). */
+/* Reorders the triangles first .. end - 1 so that along the axis none before `middle` is above
+   one from `middle` on (Hoare's selection). */
 static void select_middle(const builder *b, int axis, uint32_t first, uint32_t end,
                           uint32_t middle)
 {
@@ -87,8 +87,8 @@ static void select_middle(const builder *b, int axis, uint32_t first, uint32_t e
     }
 }
 
-/* Arranges `count` leaves from leaf `first` on into subtrees of `unit` leaves each, the last of
-   which may have fewer: halves at a time, along the longest axis, down to single leaves. */
+/* Arranges `count` leaves, starting at leaf `first`, into subtrees of `unit` leaves each (the
+   last may have fewer), by halving along the longest axis down to single leaves. */
 static void arrange(const builder *b, uint32_t first, uint32_t count, uint32_t unit)
 {
     while (unit > 1 && count <= unit)
@@ -110,7 +110,7 @@ static uint32_t leaf_end(const mote_box_tree *tree, uint32_t leaf)
     return end < tree->mesh->triangle_count ? end : tree->mesh->triangle_count;
 }
 
-/* Appends a vertex to a leaf's list unless it is there. */
+/* Appends a vertex to a leaf's list unless it is already there. */
 static uint32_t add_vertex(uint32_t *list, uint32_t from, uint32_t end, uint32_t vertex)
 {
     for (uint32_t i = from; i < end; i++) {
@@ -121,7 +121,7 @@ static uint32_t add_vertex(uint32_t *list, uint32_t from, uint32_t end, uint32_t
     return end + 1;
 }
 
-/* Lists the vertices of every leaf once; the list is cut to its length afterwards. */
+/* Lists the vertices of every leaf, each once, and shrinks the list to its length. */
 static void list_vertices(mote_box_tree *tree)
 {
     uint32_t end = 0;
@@ -221,7 +221,7 @@ float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 
     return larger(larger(reach[0], reach[1]), reach[2]) + (bad[0] + bad[1] + bad[2]);
 }
 
-/* The box of leaf i into its lane. */
+/* Writes the box of leaf i to its lane. */
 static inline void refit_leaf(mote_box_tree *tree, uint32_t leaf, float margin)
 {
     const uint32_t *v = tree->leaf_vertex + tree->leaf_start[leaf];
@@ -264,7 +264,7 @@ static inline void enclose(const mote_box_block *block, int k, float margin, flo
     *half = 0.5f * (high[0] - low[0]) + margin;
 }
 
-/* Empties the lanes of the last block of a level that have no child. */
+/* Marks the lanes without a child in the last block of a level as empty. */
 static void empty_lanes(mote_box_tree *tree, uint32_t level, uint32_t nodes)
 {
     mote_box_block *block =

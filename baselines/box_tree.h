@@ -1,6 +1,6 @@
 /* A tree of axis-aligned boxes over the triangles of a mesh: built once at rest, refitted
-   bottom-up in one pass. Eight boxes a block, side by side for vector instructions; no
-   pointers. For aabb-tree. About 21 bytes a triangle. */
+   bottom-up in one pass. Blocks of eight boxes, stored by coordinate for vector
+   instructions, without pointers. Used by aabb-tree. About 21 bytes a triangle. */
 #ifndef MOTE_BASELINES_BOX_TREE_H
 #define MOTE_BASELINES_BOX_TREE_H
 
@@ -15,9 +15,9 @@
 /* Enough for 2^31 triangles. */
 #define MOTE_BOX_LEVELS 12
 
-/* The boxes of a node's children. Boxes contain what they bound with a margin for every
-   rounding of the conversion to float and of mote_box_block_distance. A lane without a child
-   has half -infinity: infinitely far from everything. */
+/* The boxes of a node's children, each with a margin that covers the rounding of the conversion
+   to float and of mote_box_block_distance. A lane without a child has half = -infinity, which
+   is infinitely far from everything. */
 typedef struct mote_box_block {
     float centre[3][MOTE_BOX_WIDTH], half[3][MOTE_BOX_WIDTH];
 } mote_box_block;
@@ -48,8 +48,8 @@ mote_status mote_box_tree_init(mote_box_tree *tree, const mote_mesh *mesh);
 
 void mote_box_tree_free(mote_box_tree *tree);
 
-/* Sets position from world[vertex_count], finite, and returns the largest absolute coordinate;
-   a value that is not finite if one of world is not. */
+/* Sets position from world[vertex_count]. Returns the largest absolute coordinate, or a value
+   that is not finite if one of world is not. */
 float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
                          double scale);
 
@@ -57,7 +57,7 @@ float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 
    compared. Cost: about 2 ns a triangle. */
 void mote_box_tree_refit(mote_box_tree *tree, float reach);
 
-/* A bound for the rounding of positions, sums of positions, and their differences. */
+/* A bound on the rounding errors of positions, sums of positions, and their differences. */
 static inline float mote_box_margin(float reach)
 {
     return 0x1p-20f * reach;
@@ -87,8 +87,8 @@ static inline const mote_box_block *mote_box_children(const mote_box_tree *tree,
     return &tree->blocks[tree->first_block[level] + node];
 }
 
-/* Four times the squared distance from box to each of eight boxes, rounded down; gap + |gap| is
-   twice max(gap, 0), without a choice. */
+/* Four times the squared distance from box to each of eight boxes, rounded down: gap + |gap| is
+   2 max(gap, 0), without a comparison. */
 static inline void mote_box_block_distance(const mote_box *box, const mote_box_block *block,
                                            float four_squared[MOTE_BOX_WIDTH])
 {

@@ -1,7 +1,6 @@
-/* brute-force: every pair of triangles of the two bodies. Only their boxes are compared, many
-   at a time, before the distance of the triangles is computed: no tree, no order, no state
-   between frames, so that nothing here can be wrong for the reasons that the other methods can.
- */
+/* brute-force: every pair of triangles of the two bodies. Only their boxes are compared first,
+   many at a time. There is no tree, no order and no state between frames, so that it cannot be
+   wrong for the same reasons as the other methods. */
 #include "baselines/input.h"
 #include "core/base/clones.h"
 #include "core/method/method.h"
@@ -21,8 +20,8 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
 #define BLOCK 64
 
 /* Boxes in floats, in the unit of the pair and relative to the frame's origin. Halves are
-   rounded up so far that the arithmetic of a comparison never makes a gap too large. The count
-   is padded to blocks with boxes that are infinitely far. */
+   rounded up so far that the rounding of a comparison never makes a gap too large. The count is
+   padded to whole blocks with boxes that are infinitely far away. */
 typedef struct box_list {
     uint32_t blocks;
     float *centre[3], *half[3]; /* [BLOCK * blocks] */
@@ -149,8 +148,9 @@ static mote_status update(void *state, const mote_frame *frame)
     return MOTE_OK;
 }
 
-/* How many boxes of a block are nearer than the bound to box i of a; their numbers in the block
-   go to near. gap + |gap| is twice max(gap, 0), so distances are compared times four. */
+/* Lists in near the boxes of a block that are nearer to box i of a than the bound; returns how
+   many there are. gap + |gap| is 2 max(gap, 0), so that four times the squared distances are
+   compared. */
 MOTE_CLONES
 static uint32_t near_boxes(const box_list *a, uint32_t i, const box_list *b, uint32_t block,
                            float bound_squared, uint32_t near[BLOCK])
@@ -194,7 +194,7 @@ static mote_vec3 nearest_vertex(const brute_state *s, const mote_frame *frame, i
     return best;
 }
 
-/* Two vertices, each of which is nearest to the other: a first bound. */
+/* A first bound: two vertices, each the nearest to the other. */
 static found first_bound(const brute_state *s, const mote_frame *frame)
 {
     mote_vec3 p = frame->body[0].vertices[0], q = nearest_vertex(s, frame, 1, p);

@@ -1,13 +1,13 @@
 /* ccd-convex: libccd on the convex parts of both bodies.
 
-   Each part stands for the hull of its vertices, so the answer is approximate: it can be too
-   small where a part is not quite convex, and, with support=climb, a climb may end early. Pairs
-   of parts are taken in the order of their centres' distance. A pair that the direction between
-   the centres does not separate goes to libccd's GJK (contact) and, when asked, to its EPA
-   (penetration). libccd has no distance: pairs that are apart are measured by our own GJK on
-   the same support points (baselines/gjk.h). libccd's thresholds are absolute, so support
-   points are handed to it scaled by a power of two to unit size; its iterations are capped, and
-   its MPR, which cannot be capped, is not used. */
+   Each part is replaced by the convex hull of its vertices, so the answer is approximate: it
+   can be too small where a part is not quite convex, and with support=climb a climb may end
+   early. Pairs of parts are visited in order of the distance of their centres. A pair that is
+   not separated along the line of centres goes to libccd's GJK (contact) and, on request, to
+   its EPA (penetration). libccd has no distance function: pairs that are apart are measured by
+   our own GJK on the same support points (baselines/gjk.h). libccd's thresholds are absolute,
+   so support points are scaled to unit size by a power of two. Its iterations are limited; its
+   MPR, which ignores such a limit, is not used. */
 #include "baselines/convex_part.h"
 #include "baselines/gjk.h"
 #include "baselines/input.h"
@@ -176,7 +176,7 @@ static void skew_direction(const void *first, const void *second, ccd_vec3_t *di
     ccdVec3Set(direction, 0.8, 0.5, 0.3);
 }
 
-/* Remembers the deepest penetration and a point in the middle of it. */
+/* Keeps the deepest penetration and a point in the middle of it. */
 static void measure_penetration(const convex both[2], const ccd_t *settings,
                                 mote_answer *answer)
 {

@@ -56,7 +56,7 @@ static void fill_part(const mote_mesh *mesh, const uint32_t *local, mote_convex_
     part->ring_start[i] = n;
 }
 
-/* Farthest points at rest, from the part's first vertex on. */
+/* Farthest points at rest, starting with the part's first vertex. */
 static void choose_landmarks(const mote_mesh *mesh, mote_convex_part *part, double *nearest)
 {
     for (uint32_t i = 0; i < part->count; ++i)
@@ -108,7 +108,7 @@ static mote_status build(const mote_mesh *mesh, const mote_parts *labels,
         return mote_fail(MOTE_ENOMEM, "no memory for %u convex parts", labels->count);
     }
     for (uint32_t k = 0; k < labels->count && status == MOTE_OK; ++k) {
-        /* A part without a triangle leaves its place to the next. */
+        /* A part without triangles is left out. */
         mote_convex_part *part = &parts->part[parts->count];
         status = build_part(mesh, labels->label, k, local, part);
         if (part->count > 0)
@@ -150,7 +150,7 @@ void mote_convex_parts_destroy(mote_convex_parts *parts)
     free(parts);
 }
 
-/* The best of some vertices: all of them (which NULL) or the local ones listed. */
+/* The farthest of some vertices: of all (which is NULL), or of the local ones listed. */
 static uint32_t best_of(const mote_convex_part *part, const mote_vec3 *positions,
                         mote_vec3 direction, const uint32_t *which, uint32_t count)
 {

@@ -23,18 +23,18 @@ typedef struct mote_convex_parts {
     mote_convex_part *part; /* [count] */
 } mote_convex_parts;
 
-/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part of
-   most of its vertices, the first one's on a tie; a vertex belongs to the parts of all its
-   triangles, so that the hulls of the parts cover the surface. Errors as mote_parts_create. The
-   caller destroys *parts. */
+/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part that
+   most of its vertices belong to, on a tie to that of the first; a vertex belongs to the parts
+   of all its triangles, so that the hulls of the parts cover the surface. Errors as
+   mote_parts_create. The caller destroys *parts. */
 mote_status mote_convex_parts_create(const mote_mesh *mesh, mote_convex_parts **parts);
 
 /* NULL is allowed. */
 void mote_convex_parts_destroy(mote_convex_parts *parts);
 
 /* The vertex of the mesh, among the part's, that is farthest along direction. positions are
-   those of all vertices of the mesh. With scan all of them are looked at; else the climb from
-   neighbour to neighbour may end early where the part is not convex, but costs O(sqrt count).
+   those of all vertices of the mesh. With scan, all of them are examined. Without, it climbs
+   from neighbour to neighbour in O(sqrt count), and may end early where the part is not convex.
  */
 uint32_t mote_convex_part_support(const mote_convex_part *part, const mote_vec3 *positions,
                                   mote_vec3 direction, bool scan);

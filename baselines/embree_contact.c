@@ -1,8 +1,8 @@
 /* embree-contact: Embree's collision of two scenes of user geometry, for contact only. Embree
    finds the pairs of triangles whose boxes meet; whether the triangles do is decided by our own
-   kernel. Built only where Embree 3 is found. One thread, as for every method; scenes are
-   refitted each frame (quality LOW: at a higher one Embree rebuilds). rtcCollide cannot be
-   stopped, so that an early yes saves only the triangle tests that follow. */
+   kernel. Built only where Embree 3 is installed. One thread, as for every method. Scenes are
+   refitted in each frame (quality LOW: at a higher one Embree rebuilds them). rtcCollide cannot
+   be stopped, so that finding a contact early saves only the remaining triangle tests. */
 #include "baselines/input.h"
 #include "core/body/triangle.h"
 
@@ -121,7 +121,7 @@ static mote_status create(const mote_setup *setup, void **state)
 {
     if (setup->ask != MOTE_ASK_CONTACT)
         return mote_fail(MOTE_EUNSUPPORTED,
-                         "Embree has no distance of two trees, only contact");
+                         "Embree has no distance between two scenes, only contact");
     mote_status status = mote_input_check(setup);
     if (status != MOTE_OK)
         return status;
@@ -131,7 +131,7 @@ static mote_status create(const mote_setup *setup, void **state)
     s->tolerance_squared = setup->tolerance * setup->tolerance;
     s->device = rtcNewDevice("threads=1,user_threads=1,set_affinity=0");
     if (!s->device)
-        status = mote_fail(MOTE_ENUMERIC, "Embree has no device for this processor");
+        status = mote_fail(MOTE_ENUMERIC, "Embree could not create a device on this processor");
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
         surface *body = &s->surface[b];
         body->mesh = setup->body[b]->mesh;

@@ -1,4 +1,4 @@
-/* fcl-aabb: FCL with axis-aligned boxes. Bottom-up refit is right and cheap for these. */
+/* fcl-aabb: FCL with axis-aligned boxes. Bottom-up refit is correct and cheap for these. */
 #include "baselines/fcl_aabb.hpp"
 
 namespace

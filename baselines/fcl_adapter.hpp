@@ -1,13 +1,13 @@
-/* What all FCL methods share: two models that live across frames, brought up to date by refit,
-   and queries by FCL's traversal nodes or public functions. A method is a volume (a struct that
-   names FCL's types and says what they can do) put into Adapter.
+/* Shared by all FCL methods: two models that are kept across frames and refitted, and queries
+   by FCL's traversal nodes or public functions. A method is Adapter with a volume, a struct
+   that names FCL's types and says what they can do.
 
-   Vertices are world positions and transforms are identities, except that a volume which takes
-   transforms in place (oriented) is refitted only when the shape changed: a motion without
-   change of shape becomes a transform.
+   Vertices are world positions and transforms are identities, except for volumes to which FCL
+   applies transforms in place (oriented): these are refitted only when the shape changed, and a
+   motion without change of shape becomes a transform.
 
-   Scale. FCL's triangle distance takes a triangle whose normal (edge cross edge) is shorter
-   than 3.2e-8 for a line, whatever its size, and its rectangle distances use an absolute 1e-7.
+   Scale. FCL's triangle distance treats a triangle whose normal (edge cross edge) is shorter
+   than 3.2e-8 as a line, whatever its size, and its rectangle distances use an absolute 1e-7.
    So everything is multiplied by the power of two that brings L into [2^20, 2^21), which costs
    three multiplications a vertex, changes no bit of a mantissa, and makes these
    thresholds 2.9e-20 L^2 and 1e-13 L. */
@@ -75,7 +75,7 @@ inline mote_vec3 from_fcl(const Vector &v, double factor)
     return mote_vec3_make(v[0] * factor, v[1] * factor, v[2] * factor);
 }
 
-/* Runs body and turns exceptions into a status: none may pass the C contract. */
+/* Runs body and turns exceptions into a status, since none may leave a C function. */
 template <class Body> mote_status guard(Body &&body) noexcept
 {
     try {
@@ -85,11 +85,11 @@ template <class Body> mote_status guard(Body &&body) noexcept
     } catch (const std::exception &error) {
         return mote_fail(MOTE_ENUMERIC, "FCL: %s", error.what());
     } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "FCL threw something unknown");
+        return mote_fail(MOTE_ENUMERIC, "FCL threw an unknown exception");
     }
 }
 
-/* A distance node that also stops once a pair within `enough` is found: the yes of a contact
+/* A distance node that also stops once a pair within `enough` is found, which answers a contact
    question. */
 template <class Node> class EarlyNode : public Node
 {
@@ -139,13 +139,13 @@ template <class Volume> class Pair
     /* Builds both trees over the rest pose. */
     mote_status build(const mote_setup *setup);
 
-    /* Makes the trees follow a frame. */
+    /* Updates the trees to a frame. */
     mote_status update(const mote_frame *frame);
 
     /* known: an upper bound that the caller has found. Adds to the answer's counters. */
     mote_status query(mote_answer *answer, const Bound &known = Bound());
 
-    /* A distance between two points of the surfaces, as query takes it. */
+    /* A distance between two points of the surfaces, in the form that query expects. */
     Bound bound(double distance, const mote_vec3 witness[2]) const;
 
   private:
@@ -160,8 +160,8 @@ template <class Volume> class Pair
     void report(const Result &result, const Bound &bound, mote_answer *answer);
 
     Model model[2];
-    Transform transform[2];  /* of the model as it is to the world */
-    mote_pose refit_pose[2]; /* that the model's vertices were taken at */
+    Transform transform[2];  /* from the model's vertices to the world */
+    mote_pose refit_pose[2]; /* the body's pose at the last refit */
     Options options;
     mote_ask ask;
     double scale;
@@ -269,7 +269,7 @@ template <class Volume> Bound Pair<Volume>::seed() const
 
 template <class Volume> void Pair<Volume>::collide(mote_answer *answer)
 {
-    fcl::CollisionRequest<double> request; /* one contact is enough, and no details of it */
+    fcl::CollisionRequest<double> request; /* asks for one contact, without details */
     fcl::CollisionResult<double> result;
     if (options.api) {
         fcl::collide(&model[0], transform[0], &model[1], transform[1], request, result);
@@ -394,7 +394,7 @@ Bound Pair<Volume>::bound(double distance, const mote_vec3 witness[2]) const
     return result;
 }
 
-/* The contract's functions for one volume. */
+/* The functions of a method (core/method/method.h) for one volume. */
 template <class Volume> struct Adapter {
     static mote_traits traits(const double *values)
     {
@@ -425,9 +425,10 @@ template <class Volume> struct Adapter {
         if (options.update != NO_UPDATE)
             return MOTE_OK;
         if (!Volume::oriented)
-            return mote_fail(MOTE_EUNSUPPORTED,
-                             "update=none needs a volume that takes transforms in place; this "
-                             "one is rebuilt at every transform");
+            return mote_fail(
+                MOTE_EUNSUPPORTED,
+                "update=none needs a volume that FCL transforms in place; this one "
+                "is rebuilt at every transform");
         for (int b = 0; b < 2; ++b) {
             if (setup->body[b]->field->count > 0)
                 return mote_fail(MOTE_EUNSUPPORTED,

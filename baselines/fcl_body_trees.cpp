@@ -1,5 +1,6 @@
-/* FCL's AABB models for several bodies: refitted bottom-up, asked by the traversal node with
-   the last pair of triangles as the first bound and a queue of 64 (the best that was found). */
+/* FCL's AABB models for several bodies: refitted bottom-up, queried by FCL's traversal node
+   with the last pair of triangles as the first bound and a queue of 64 (the best setting that
+   we found). */
 #include "baselines/body_trees.h"
 #include "baselines/fcl_adapter.hpp"
 
@@ -21,7 +22,7 @@ struct FclBodies {
     double scale, tolerance;
     std::vector<ShapeModels> shapes;
     std::vector<size_t> place;      /* which model of its shape a body has */
-    std::vector<mote_vec3> written; /* world positions of the body that is moved */
+    std::vector<mote_vec3> written; /* world positions of the body being moved */
 
     Model &model(uint32_t body) const
     {
@@ -120,7 +121,7 @@ mote_status move(void *state, uint32_t body)
     });
 }
 
-/* Models are refitted as they are moved. */
+/* Nothing to do: models are refitted when they are moved. */
 mote_status refit(void *)
 {
     return MOTE_OK;

@@ -11,7 +11,7 @@ namespace
 using Pair = std::array<uint32_t, 2>;
 static_assert(sizeof(Pair) == sizeof(uint32_t[2]), "pairs are handed out as they are");
 
-/* A box without a geometry: the manager looks at nothing else. */
+/* A box without a geometry: the manager uses only the box. */
 class Item : public fcl::CollisionObject<double>
 {
   public:
@@ -55,7 +55,7 @@ struct mote_broad_phase {
 mote_status mote_broad_phase_create(uint32_t body_count, mote_broad_phase **broad_phase)
 {
     if (body_count < 1)
-        return mote_fail(MOTE_EINVAL, "a broad phase of no bodies; give at least one");
+        return mote_fail(MOTE_EINVAL, "a broad phase needs at least one body");
     return mote_fcl::guard([&] {
         auto made = std::make_unique<mote_broad_phase>();
         made->items.reserve(body_count);

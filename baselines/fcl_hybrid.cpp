@@ -64,7 +64,7 @@ mote_traits traits(const double *values)
     return traits;
 }
 
-/* As many as asked for, or one a component where that is more. */
+/* The number asked for, or one for each component if that is more. */
 uint32_t count_of(const mote_setup *setup)
 {
     const mote_mesh *a = setup->body[0]->mesh, *b = setup->body[1]->mesh;

@@ -1,6 +1,6 @@
-/* fcl-obb: FCL with oriented boxes, refit top-down. FCL has contact for them and no distance;
-   the distance here is ours: a traversal node on FCL's trees, driven by FCL's traversal and
-   measuring triangles with FCL, which bounds two boxes from below by their separating axes. */
+/* fcl-obb: FCL with oriented boxes, refit top-down. FCL has contact for them, but no distance.
+   The distance is therefore ours: a node for FCL's traversal of FCL's trees, which bounds the
+   distance of two boxes from below by their separating axes; triangles are measured by FCL. */
 #include "baselines/fcl_adapter.hpp"
 
 namespace
@@ -32,7 +32,7 @@ double edge_gap_squared(const BoxPair &p, const Matrix &size, double best)
                            p.b[j1] * size(i, j2) + p.b[j2] * size(i, j1);
             double axis_squared = 1 - size(i, j) * size(i, j);
             double gap = apart - reach;
-            /* Edges that are nearly parallel give a direction made of rounding errors. */
+            /* The product of nearly parallel edges consists of rounding errors. */
             if (gap > 0 && axis_squared > 1e-6 && gap * gap > best * axis_squared)
                 best = gap * gap / axis_squared;
         }

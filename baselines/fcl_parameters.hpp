@@ -17,7 +17,7 @@ struct Options {
     int queue;   /* 2: depth first; more: entries of FCL's priority queue */
     bool seeded; /* start from the last query's triangle pair */
     bool api;    /* fcl::distance and fcl::collide instead of their traversal nodes */
-    bool given;  /* the vertices come free of charge */
+    bool given;  /* deforming the vertices is not charged */
 };
 
 inline Options read_options(const double *values)

@@ -2,8 +2,8 @@
 
 #include <stdbool.h>
 
-/* Up to four points of the difference of the sets, and the point of their hull nearest to the
-   origin as their weighted sum. */
+/* A simplex: up to four points of the difference of the sets, and the point of their hull
+   nearest to the origin as their weighted sum. */
 typedef struct simplex {
     mote_gjk_point point[4];
     mote_vec3 w[4]; /* a - b */
@@ -139,7 +139,8 @@ mote_gjk_result mote_gjk_distance(mote_gjk_support support, void *context, mote_
     for (unsigned i = 1; i <= max_iterations; ++i) {
         mote_vec3 v = nearest_point(&s);
         const double distance = mote_length(v);
-        /* The rounding of the coordinates: nothing below it can be told from contact. */
+        /* Below the rounding error of the coordinates, a distance cannot be distinguished from
+         * 0. */
         if (distance <= 4e-16 * size)
             return finish(&s, 0, 0, i);
         simplex before = s;
@@ -151,7 +152,7 @@ mote_gjk_result mote_gjk_distance(mote_gjk_support support, void *context, mote_
             return finish(&before, distance, fmin(lower, distance), i);
         if (solve(&s))
             return finish(&before, 0, 0, i);
-        /* No progress: the support points cannot be told apart any more. */
+        /* No progress: rounding no longer distinguishes the support points. */
         if (mote_length(nearest_point(&s)) >= distance)
             return finish(&before, distance, fmin(lower, distance), i);
     }

@@ -1,5 +1,5 @@
-/* The distance of two convex sets that are known by their support points (Gilbert, Johnson and
-   Keerthi 1988). Ours: libccd says only whether two sets intersect. */
+/* The distance of two convex sets given by their support functions (Gilbert, Johnson and
+   Keerthi 1988). Our own, since libccd says only whether two sets intersect. */
 #ifndef MOTE_BASELINES_GJK_H
 #define MOTE_BASELINES_GJK_H
 
@@ -10,8 +10,8 @@ typedef struct mote_gjk_point {
     mote_vec3 a, b;
 } mote_gjk_point;
 
-/* The points of both sets that are farthest along direction and against it: the one of a along
-   it, the one of b against it. direction need not have length 1. */
+/* The point of a that is farthest along direction, and the point of b that is farthest against
+   it. direction need not have length 1. */
 typedef mote_gjk_point (*mote_gjk_support)(void *context, mote_vec3 direction);
 
 typedef struct mote_gjk_result {
@@ -23,8 +23,8 @@ typedef struct mote_gjk_result {
 
 /* Distance of a and b, starting with any direction that is not zero, to a relative 1e-12 or the
    rounding of the coordinates. Stops early once the distance is proven to be at least `enough`
-   (infinite: never), or after max_iterations; distance is then an upper bound and lower says
-   what was proven. No allocation. */
+   (infinite: never), or after max_iterations; distance is then an upper bound, and lower is
+   what has been proven. No allocation. */
 mote_gjk_result mote_gjk_distance(mote_gjk_support support, void *context, mote_vec3 start,
                                   double enough, unsigned max_iterations);
 

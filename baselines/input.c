@@ -10,9 +10,10 @@ static mote_status check_face(const mote_mesh *mesh, uint32_t face, int body)
     const uint32_t *t = mesh->triangles[face];
     for (int k = 0; k < 3; ++k) {
         if (t[k] >= mesh->vertex_count)
-            return mote_fail(MOTE_EINVAL,
-                             "body %d: face %u uses vertex %u; there are %u vertices", body,
-                             face, t[k], mesh->vertex_count);
+            return mote_fail(
+                MOTE_EINVAL,
+                "body %d: face %u uses vertex %u, which does not exist; there are %u vertices",
+                body, face, t[k], mesh->vertex_count);
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
         return mote_fail(
@@ -40,10 +41,11 @@ static mote_status check_mesh(const mote_mesh *mesh, int body)
 mote_status mote_input_check(const mote_setup *setup)
 {
     if (!(setup->length > 0) || !isfinite(setup->length))
-        return mote_fail(MOTE_EINVAL, "length %g; a finite length > 0 is needed",
+        return mote_fail(MOTE_EINVAL, "length %g is not valid; it must be finite and above 0",
                          setup->length);
     if (!(setup->tolerance >= 0) || !isfinite(setup->tolerance))
-        return mote_fail(MOTE_EINVAL, "tolerance %g; a finite tolerance >= 0 is needed",
+        return mote_fail(MOTE_EINVAL,
+                         "tolerance %g is not valid; it must be finite and at least 0",
                          setup->tolerance);
     for (int body = 0; body < 2; ++body) {
         mote_status status = check_mesh(setup->body[body]->mesh, body);
@@ -57,7 +59,7 @@ mote_status mote_input_check_vertices(const mote_vec3 *vertices, uint32_t count,
 {
     if (!vertices)
         return mote_fail(MOTE_EINVAL,
-                         "body %d: the frame brings no vertices; this method needs them", body);
+                         "body %d: the frame has no vertices; this method needs them", body);
     /* x - x is 0 for a finite x and NaN else: one comparison in the usual case. */
     double sum = 0;
     for (uint32_t i = 0; i < count; ++i) {

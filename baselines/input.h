@@ -1,6 +1,6 @@
-/* Checks that every adapter makes before a library sees its input: none of the wrapped
-   libraries refuses all of it (an empty mesh or an index out of range crashes FCL, NaN passes
-   through). */
+/* Checks of the input that every adapter makes before it calls a library: none of the wrapped
+   libraries rejects all bad input (an empty mesh or an index out of range crashes FCL; NaN is
+   accepted silently). */
 #ifndef MOTE_BASELINES_INPUT_H
 #define MOTE_BASELINES_INPUT_H
 

@@ -1,6 +1,6 @@
-/* An independent, slow triangle distance, to settle disputes: every feature pair by its
-   textbook formula, in 113 bits where the compiler has them, without any of the shortcuts of
-   core/body/triangle.c. */
+/* An independent, slow triangle distance, to decide where other methods disagree: every pair of
+   features by its textbook formula, in 113 bits where the compiler has them, without any of the
+   shortcuts of core/body/triangle.c. */
 #ifndef MOTE_BASELINES_WIDE_TRIANGLE_H
 #define MOTE_BASELINES_WIDE_TRIANGLE_H
 
