@@ -1,5 +1,7 @@
 #include "harness/base/curve.h"
 
+#include "harness/base/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,21 +31,13 @@ mote_status mote_curve_create(const uint32_t *frames, const double *values, uint
                              "key %u is at frame %u and key %u at %u; let them rise", k - 1,
                              frames[k - 1], k, frames[k]);
     }
-    mote_curve *made = calloc(1, sizeof *made);
-    if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for a curve");
+    mote_curve *made = mote_allocate(1, sizeof *made);
     const size_t size = (size_t)count * width;
     made->count = count;
     made->width = width;
-    made->frames = malloc(count * sizeof *made->frames);
-    made->values = malloc(size * sizeof *made->values);
-    made->tangents = calloc(size, sizeof *made->tangents);
-    if (!made->frames || !made->values || !made->tangents) {
-        mote_curve_destroy(made);
-        return mote_fail(MOTE_ENOMEM, "no memory for a curve of %u keys", count);
-    }
-    memcpy(made->frames, frames, count * sizeof *frames);
-    memcpy(made->values, values, size * sizeof *values);
+    made->frames = mote_copy(frames, count * sizeof *frames);
+    made->values = mote_copy(values, size * sizeof *values);
+    made->tangents = mote_allocate(size, sizeof *made->tangents);
     fit_tangents(made);
     *curve = made;
     return MOTE_OK;

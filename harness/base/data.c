@@ -32,8 +32,6 @@ const char *mote_data_directory(void)
 mote_status mote_data_read(const char *name, size_t limit, char **text, size_t *size)
 {
     char *path = mote_format("%s/%s", mote_data_directory(), name);
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its name", name);
     mote_status status = mote_file_read(path, limit, text, size);
     free(path);
     return status;

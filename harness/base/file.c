@@ -1,5 +1,7 @@
 #include "harness/base/file.h"
 
+#include "harness/base/memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -24,9 +26,7 @@ static mote_status read_descriptor(int descriptor, const char *path, size_t limi
         return mote_fail(MOTE_EINVAL, "%s: %lld bytes; at most %zu are read", path,
                          (long long)info.st_size, limit);
     size_t expected = (size_t)info.st_size;
-    char *data = malloc(expected + 1);
-    if (!data)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for %zu bytes", path, expected);
+    char *data = mote_resize(NULL, expected + 1, 1);
     size_t done = 0;
     while (done < expected) {
         ssize_t got = read(descriptor, data + done, expected - done);
@@ -84,7 +84,7 @@ static bool sync_directory(const char *path)
     const char *slash = strrchr(path, '/');
     char *directory =
         slash ? mote_format("%.*s/", (int)(slash - path), path) : mote_format(".");
-    int descriptor = directory ? open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    int descriptor = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     /* Some file systems have no such thing: EINVAL. */
     bool synced = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);
     if (descriptor >= 0)
@@ -125,7 +125,7 @@ int mote_stream_open(const char *path)
 
 char *mote_path_follow(const char *path)
 {
-    char *at = mote_format("%s", path);
+    char *at = mote_duplicate(path);
     for (int links = 0; at; ++links) {
         char target[4096];
         const ssize_t length = readlink(at, target, sizeof target - 1);
@@ -178,13 +178,11 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
     if (mote_path_is_stream(path))
         return write_stream(path, data, size);
     char *target = mote_path_follow(path);
-    if (!target && errno == ELOOP)
+    if (!target)
         return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
-    char *beside = target ? mote_format("%s.%ld.part", target, (long)getpid()) : NULL;
+    char *beside = mote_format("%s.%ld.part", target, (long)getpid());
     mote_status status = MOTE_OK;
-    if (!beside)
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
-    else if (!replace_file(target, beside, data, size))
+    if (!replace_file(target, beside, data, size))
         status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
     free(target);
     free(beside);
@@ -209,9 +207,7 @@ static mote_status make_one(const char *path)
 
 mote_status mote_directory_make(const char *path)
 {
-    char *prefix = mote_format("%s", path);
-    if (!prefix)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", path);
+    char *prefix = mote_duplicate(path);
     mote_status status = MOTE_OK;
     for (char *slash = path[0] ? strchr(prefix + 1, '/') : NULL; slash && status == MOTE_OK;
          slash = strchr(slash + 1, '/')) {
@@ -233,18 +229,27 @@ mote_status mote_directory_make(const char *path)
     return status;
 }
 
+static void add_text(mote_text *text, const char *format, va_list arguments)
+{
+    va_list again;
+    va_copy(again, arguments);
+    const int size = vsnprintf(NULL, 0, format, arguments);
+    if (size < 0)
+        mote_out_of_memory(0); /* longer than INT_MAX */
+    text->data = mote_reserve(text->data, text->size + (size_t)size + 1, &text->capacity, 1);
+    (void)vsnprintf(text->data + text->size, (size_t)size + 1, format, again);
+    text->size += (size_t)size;
+    va_end(again);
+}
+
 char *mote_format(const char *format, ...)
 {
-    va_list arguments, again;
+    mote_text text = {0};
+    va_list arguments;
     va_start(arguments, format);
-    va_copy(again, arguments);
-    int size = vsnprintf(NULL, 0, format, arguments);
-    char *text = size < 0 ? NULL : malloc((size_t)size + 1);
-    if (text)
-        (void)vsnprintf(text, (size_t)size + 1, format, again);
-    va_end(again);
+    add_text(&text, format, arguments);
     va_end(arguments);
-    return text;
+    return text.data;
 }
 
 char *mote_path_beside(const char *file, const char *name)
@@ -259,34 +264,10 @@ bool mote_name_ends(const char *name, const char *ending)
     return length > size && strcmp(name + length - size, ending) == 0;
 }
 
-static bool reserve(mote_text *text, size_t more)
-{
-    size_t needed = text->size + more + 1;
-    if (needed <= text->capacity)
-        return true;
-    size_t capacity = needed * 2 < 256 ? 256 : needed * 2;
-    char *data = realloc(text->data, capacity);
-    if (!data)
-        return false;
-    text->data = data;
-    text->capacity = capacity;
-    return true;
-}
-
 void mote_text_add(mote_text *text, const char *format, ...)
 {
-    if (text->failed)
-        return;
-    va_list arguments, again;
+    va_list arguments;
     va_start(arguments, format);
-    va_copy(again, arguments);
-    int size = vsnprintf(NULL, 0, format, arguments);
-    if (size < 0 || !reserve(text, (size_t)size)) {
-        text->failed = 1;
-    } else {
-        (void)vsnprintf(text->data + text->size, (size_t)size + 1, format, again);
-        text->size += (size_t)size;
-    }
-    va_end(again);
+    add_text(text, format, arguments);
     va_end(arguments);
 }

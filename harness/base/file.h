@@ -29,30 +29,30 @@ bool mote_path_is_stream(const char *path);
 /* A descriptor for writing to a stream, which the caller closes; -1 with errno. */
 int mote_stream_open(const char *path);
 
-/* path with the links at its end followed, also to where there is no file yet. NULL when memory
-   ran out, and, with errno ELOOP, where links go round. The caller frees it. */
+/* path with the links at its end followed, also to where there is no file yet. NULL, with
+   errno ELOOP, where links go round. The caller frees it. */
 char *mote_path_follow(const char *path);
 
 /* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no
    directory, or cannot be written to; errno then says why. */
 mote_status mote_directory_make(const char *path);
 
-/* printf into new memory; NULL when memory ran out. The caller frees it. */
+/* printf into new memory. The caller frees it. */
 char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
 
 /* The path of what the file at `file` calls `name`: seen from that file's folder, unless it is
-   absolute. NULL when memory ran out. The caller frees it. */
+   absolute. The caller frees it. */
 char *mote_path_beside(const char *file, const char *name);
 
 /* Whether a name is longer than this ending and has it: mote_name_ends(name, ".json"). */
 bool mote_name_ends(const char *name, const char *ending);
 
-/* Text that grows. Zero-initialise; after a failure (out of memory) `failed` stays set and
-   further additions do nothing. Free data. */
+/* Text that grows, ended by a 0 byte. Zero-initialise: data is NULL until something is added.
+   Free data. */
 typedef struct mote_text {
     char *data;
     size_t size, capacity;
-    int failed;
+    int failed; /* always 0 */
 } mote_text;
 
 void mote_text_add(mote_text *text, const char *format, ...) MOTE_PRINTF(2, 3);

@@ -1,20 +1,9 @@
 #include "harness/base/json_print.h"
 
-#include "harness/base/json_memory.h"
-
 #include <stdlib.h>
 #include <string.h>
 
 #define WIDTH 96
-
-char *mote_json_text(const json_t *value, size_t flags)
-{
-    char *text = json_dumps(value, flags);
-    if (!mote_json_memory_short())
-        return text;
-    free(text);
-    return NULL;
-}
 
 static void print_value(const json_t *value, int digits, size_t indent, size_t before,
                         mote_text *text);
@@ -55,10 +44,8 @@ static void print_value(const json_t *value, int digits, size_t indent, size_t b
 {
     const size_t flags =
         JSON_ENCODE_ANY | JSON_REAL_PRECISION((size_t)digits) | JSON_PRESERVE_ORDER;
-    char *line = mote_json_text(value, flags);
-    if (!line)
-        text->failed = 1;
-    else if (indent + before + strlen(line) < WIDTH || json_is_string(value))
+    char *line = json_dumps(value, flags);
+    if (indent + before + strlen(line) < WIDTH || json_is_string(value))
         mote_text_add(text, "%s", line);
     else if (json_is_object(value))
         print_object(value, digits, indent, text);

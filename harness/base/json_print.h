@@ -6,12 +6,8 @@
 
 #include <jansson.h>
 
-/* json_dumps: value as text with jansson's flags, for the caller to free; NULL when memory ran
-   out while the value or its text was made, and where value is NULL. */
-char *mote_json_text(const json_t *value, size_t flags);
-
 /* Appends value, indented by two spaces a level, numbers with `digits` significant digits,
-   ended by a line feed. text fails where memory ran out since value was begun. */
+   ended by a line feed. */
 void mote_json_print(const json_t *value, int digits, mote_text *text);
 
 #endif

@@ -1,7 +1,7 @@
 #include "harness/base/json_read.h"
 
 #include "harness/base/file.h"
-#include "harness/base/json_memory.h"
+#include "harness/base/memory.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -15,12 +15,7 @@ mote_status mote_json_parse(const char *path, const char *text, size_t size, con
                             json_t **root)
 {
     json_error_t error;
-    (void)mote_json_memory_short(); /* of what was made before */
-    json_t *parsed = mote_json_load(text, size, JSON_REJECT_DUPLICATES, &error);
-    if (mote_json_memory_short()) {
-        json_decref(parsed);
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its JSON", path);
-    }
+    json_t *parsed = json_loadb(text, size, JSON_REJECT_DUPLICATES, &error);
     if (!parsed)
         return mote_fail(MOTE_EINVAL, "%s:%d:%d: %s; %s", path, error.line, error.column,
                          error.text, advice);
@@ -39,13 +34,13 @@ mote_status mote_json_open(const char *path, mote_json_file *file)
     size -= mark;
     memmove(opened.text, opened.text + mark, size + 1);
     status = mote_json_parse(path, opened.text, size, "correct the JSON there", &opened.root);
-    if (status == MOTE_OK && !(opened.path = mote_format("%s", path)))
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its name", path);
-    if (status == MOTE_OK)
-        *file = opened;
-    else
+    if (status != MOTE_OK) {
         mote_json_close(&opened);
-    return status;
+        return status;
+    }
+    opened.path = mote_duplicate(path);
+    *file = opened;
+    return MOTE_OK;
 }
 
 void mote_json_close(mote_json_file *file)

@@ -24,7 +24,7 @@ typedef struct mote_json {
 } mote_json;
 
 /* Parses a whole JSON text; a key that stands twice is an error. path is for the message:
-   MOTE_EINVAL with "PATH:LINE:COLUMN: what; ADVICE", MOTE_ENOMEM. The caller decrefs *root. */
+   MOTE_EINVAL with "PATH:LINE:COLUMN: what; ADVICE". The caller decrefs *root. */
 mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
                             json_t **root);
 

@@ -1,6 +1,5 @@
 #include "harness/base/record.h"
 
-#include "harness/base/json_print.h"
 #include "harness/base/json_read.h"
 
 #include <math.h>
@@ -14,8 +13,6 @@ static mote_status write_at(const char *directory, const char *name, const void 
                             size_t size)
 {
     char *path = mote_format("%s/%s", directory, name);
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
     mote_status status = mote_file_write(path, data, size);
     free(path);
     return status;
@@ -23,9 +20,7 @@ static mote_status write_at(const char *directory, const char *name, const void 
 
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text)
 {
-    mote_status status =
-        text->failed ? mote_fail(MOTE_ENOMEM, "%s/%s: no memory for the file", directory, name)
-                     : write_at(directory, name, text->data, text->size);
+    const mote_status status = write_at(directory, name, text->data, text->size);
     free(text->data);
     mote_text none = {0};
     *text = none;
@@ -34,11 +29,12 @@ mote_status mote_record_text(const char *directory, const char *name, mote_text 
 
 mote_status mote_record_json(const char *directory, const char *name, json_t *object)
 {
-    char *dump = mote_json_text(object, MOTE_JSON_FLAGS);
+    if (!object)
+        return mote_fail(MOTE_EINVAL, "%s/%s: a name in it is not UTF-8; rename what has it",
+                         directory, name);
+    char *dump = json_dumps(object, MOTE_JSON_FLAGS);
     mote_text text = {0};
-    text.failed = !dump;
-    if (dump)
-        mote_text_add(&text, "%s\n", dump);
+    mote_text_add(&text, "%s\n", dump);
     free(dump);
     json_decref(object);
     return mote_record_text(directory, name, &text);
@@ -49,8 +45,7 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
     char *path = mote_format("%s/%s", directory, name);
     char *data = NULL;
     size_t size = 0;
-    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &data, &size)
-                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a name", name);
+    mote_status status = mote_file_read(path, FILE_LIMIT, &data, &size);
     if (status == MOTE_OK)
         status = mote_json_parse(path, data, size, "expected JSON that mote wrote", object);
     free(data);
@@ -65,10 +60,10 @@ json_t *mote_json_number(double value)
 
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out)
 {
-    char *text = mote_json_text(object, flags);
+    if (!object)
+        return mote_fail(MOTE_EINVAL, "a name to be printed is not UTF-8; rename what has it");
+    char *text = json_dumps(object, flags);
     json_decref(object);
-    if (!text)
-        return mote_fail(MOTE_ENOMEM, "no memory for JSON");
     (void)fprintf(out, "%s\n", text);
     free(text);
     return MOTE_OK;

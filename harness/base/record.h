@@ -8,11 +8,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Writes directory/name, text taken over and freed. MOTE_ENOMEM when text failed. */
+/* Writes directory/name, text taken over and freed. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
 
-/* Writes directory/name, numbers with 17 digits; object is taken over (decref'd), NULL is
-   MOTE_ENOMEM. */
+/* Writes directory/name, numbers with 17 digits; object is taken over (decref'd). NULL, which
+   is what jansson makes of text that is not UTF-8, is MOTE_EINVAL. */
 mote_status mote_record_json(const char *directory, const char *name, json_t *object);
 
 /* Reads directory/name as JSON; MOTE_EINVAL with file, line and column when it is not. The
@@ -23,7 +23,7 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
 json_t *mote_json_number(double value);
 
 /* Prints object with jansson's flags and a line end; object is taken over
-   (decref'd), NULL is MOTE_ENOMEM. Whether out took it is the caller's to check. */
+   (decref'd), NULL is MOTE_EINVAL as above. Whether out took it is the caller's to check. */
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
 
 /* for each item of a JSON array, of none where it is no array: item is never NULL. */

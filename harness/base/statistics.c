@@ -1,5 +1,7 @@
 #include "harness/base/statistics.h"
 
+#include "harness/base/memory.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>

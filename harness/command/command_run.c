@@ -358,8 +358,8 @@ static int execute(request *q)
     mote_status status = q->until_share > 0 ? mote_run_until(&q->run, q->until_share, &outcome)
                                             : mote_run(&q->run, &outcome);
     if (status != MOTE_OK) {
-        (void)mote_command_fail();
-        return outcome.started ? MOTE_EXIT_CELL_FAILED : MOTE_EXIT_BAD_INPUT;
+        const int code = mote_command_fail();
+        return outcome.started && code == MOTE_EXIT_BAD_INPUT ? MOTE_EXIT_CELL_FAILED : code;
     }
     if (q->run.dry_run)
         return MOTE_EXIT_DONE;

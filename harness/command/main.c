@@ -62,7 +62,7 @@ int main(int argc, char **argv)
 {
     /* When whoever reads our output goes away, writing fails; the program is not ended. */
     (void)signal(SIGPIPE, SIG_IGN);
-    mote_json_heed_memory();
+    mote_json_use_memory();
     while (argc > 1) {
         const int is_strict = strcmp(argv[1], "--strict") == 0;
         if (is_strict)

@@ -161,14 +161,7 @@ static bool append(mote_child *child, const char *data, size_t size)
 {
     if (child->size + size > child->limit)
         return false;
-    if (child->size + size > child->capacity) {
-        size_t capacity = 2 * (child->size + size);
-        char *grown = realloc(child->output, capacity);
-        if (!grown)
-            return false;
-        child->output = grown;
-        child->capacity = capacity;
-    }
+    child->output = mote_reserve(child->output, child->size + size, &child->capacity, 1);
     memcpy(child->output + child->size, data, size);
     child->size += size;
     return true;

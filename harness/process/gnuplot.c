@@ -33,12 +33,9 @@ mote_status mote_gnuplot_draw(const char *folder, const char *script, const char
     char *file = mote_format("%s%s", base[0] == '/' ? "" : "./", base);
     char *plots = mote_format("%s/plots", mote_data_directory());
     char *draw = mote_format("%s/plots/draw.gp", mote_data_directory());
-    mote_status status = mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
-    if (file && plots && draw) {
-        const char *const argv[] = {"gnuplot", "-c",    draw,   plots,   script,
-                                    file,      heading, footer, formats, NULL};
-        status = mote_spawn(argv, folder, NULL, 0);
-    }
+    const char *const argv[] = {"gnuplot", "-c",    draw,   plots,   script,
+                                file,      heading, footer, formats, NULL};
+    const mote_status status = mote_spawn(argv, folder, NULL, 0);
     free(file);
     free(plots);
     free(draw);

@@ -134,7 +134,7 @@ static json_t *old_sessions(const char *directory)
 {
     char *path = mote_format("%s/manifest.json", directory);
     json_t *old = NULL;
-    if (path && access(path, F_OK) == 0 &&
+    if (access(path, F_OK) == 0 &&
         mote_record_read_json(directory, "manifest.json", &old) != MOTE_OK)
         old = NULL;
     free(path);
@@ -156,18 +156,13 @@ mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_
     json_t *session =
         json_pack("{s:s, s:s, s:I, s:s, s:o}", "started", started, "program", hash, "seed",
                   (json_int_t)seed, "machine", machine, "command", command_line(argc, argv));
-    if (!sessions || !session || json_array_append_new(sessions, session) != 0) {
-        json_decref(sessions);
-        return mote_fail(MOTE_ENOMEM, "%s/manifest.json: no memory", directory);
-    }
+    (void)json_array_append_new(sessions, session);
     json_t *object =
         json_pack("{s:i, s:s, s:s, s:s, s:s, s:s, s:s, s:I, s:o}", "schema", 1, "version",
                   MOTE_VERSION, "program", hash, "compiler", MOTE_COMPILER, "build_type",
                   MOTE_BUILD_TYPE, "flags", MOTE_FLAGS, "libraries", MOTE_LIBRARIES, "seed",
                   (json_int_t)seed, "sessions", sessions);
-    if (object) {
-        add_sources(object);
-        add_machine(object);
-    }
+    add_sources(object);
+    add_machine(object);
     return mote_record_json(directory, "manifest.json", object);
 }

@@ -1,5 +1,5 @@
 /* A scene as JSON: small numbers as they are; arrays, packed, in texts that are JSON again. */
-#include "harness/base/json_print.h"
+
 #include "harness/report/packed.h"
 #include "harness/report/replay.h"
 #include "harness/report/replay_series.h"

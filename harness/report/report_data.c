@@ -11,7 +11,7 @@
 
 #define FIGURE_LIMIT ((size_t)64 << 20)
 
-/* jansson's setters take NULL as a failure, which mote_json_text tells of at the end. */
+/* Text that is not UTF-8 is NULL, and left out. */
 static void set(json_t *object, const char *key, json_t *value)
 {
     (void)json_object_set_new(object, key, value);

@@ -2,7 +2,7 @@
    replay. It may load nothing: what it needs is in it. */
 #include "harness/base/data.h"
 #include "harness/base/escape.h"
-#include "harness/base/json_print.h"
+
 #include "harness/base/record.h"
 #include "harness/report/replay.h"
 #include "harness/report/report_data.h"
@@ -100,10 +100,8 @@ static mote_status add_scripts(mote_text *text)
 /* An element of data, which no text within it can end; data is taken over. */
 static mote_status add_data(const char *id, json_t *data, mote_text *text)
 {
-    char *json = mote_json_text(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));
+    char *json = json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));
     json_decref(data);
-    if (!json)
-        return mote_fail(MOTE_ENOMEM, "no memory for a report");
     mote_text_add(text, "<script type=\"application/json\" id=\"%s\">", id);
     mote_escape_script(text, json);
     mote_text_add(text, "</script>\n");

@@ -1,8 +1,8 @@
 /* The default scenario of two meshes: approach, touches, parting, both turning and deforming.
  */
+#include "harness/base/file.h"
 #include "harness/scene/scenario_read.h"
 
-#include "harness/base/json_print.h"
 #include "harness/base/options.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/scene/pair_motion.h"
@@ -133,7 +133,7 @@ static mote_status make_file(const char *name, const pair_name *pair, mote_json_
         return mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them",
                          pair->file[0], pair->file[1]);
     file->path = mote_format("%s", name);
-    file->text = mote_json_text(file->root, JSON_COMPACT);
+    file->text = json_dumps(file->root, JSON_COMPACT);
     return file->path && file->text ? MOTE_OK
                                     : mote_fail(MOTE_ENOMEM, "no memory for a pair of meshes");
 }

@@ -1,6 +1,5 @@
 #include "harness/summary/stored.h"
 
-#include "harness/base/json_print.h"
 #include "harness/run/plan.h"
 #include "harness/base/record.h"
 #include "harness/base/statistics.h"
@@ -231,8 +230,8 @@ static mote_status read_frames(const char *path, const char *text, mote_stored_c
    caches and method. */
 static char *group_name(const mote_stored_cell *cell)
 {
-    char *parameters = mote_json_text(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
-    char *frames = mote_json_text(json_object_get(cell->json, "frames"), JSON_COMPACT);
+    char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
+    char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
     char *group = NULL;
     if (parameters && frames)
         group = mote_format(

@@ -1,7 +1,6 @@
 #include "harness/summary/summary_row.h"
 
 #include "harness/base/file.h"
-#include "harness/base/json_print.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -251,7 +250,7 @@ static char *value_text(const mote_method *method, const char *key, const json_t
     else if (parameter && json_is_string(value))
         (void)snprintf(text, sizeof text, "%s", json_string_value(value));
     else
-        return mote_json_text(value, JSON_ENCODE_ANY);
+        return json_dumps(value, JSON_ENCODE_ANY);
     (void)mote_parameter_text(parameter, fallback, usual_text, sizeof usual_text);
     *usual = strcmp(text, usual_text) == 0;
     return mote_format("%s", text);

@@ -77,8 +77,10 @@ static void remove_tree(const char *path)
     (void)nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* What is wrong with the files that were left, or "". */
+/* What is wrong with the files that were left, or "". A process that ended at once may leave a
+   file under the name that it has while it is written. */
 static char wrong[512];
+static bool parts_may_be_left;
 static int files_left;
 
 static bool ends_with(const char *text, const char *ending)
@@ -95,7 +97,7 @@ static int look_at(const char *path, const struct stat *info, int type, struct F
     if (type != FTW_F)
         return 0;
     ++files_left;
-    if (ends_with(path, ".part"))
+    if (ends_with(path, ".part") && !parts_may_be_left)
         (void)snprintf(wrong, sizeof wrong, "%s is left", path);
     if (info->st_size == 0 || mote_file_read(path, 1 << 26, &text, &size) != MOTE_OK)
         return 0;
@@ -135,10 +137,25 @@ static bool has_error(void)
            !strstr(error, "(null)");
 }
 
-static bool is_good_end(const fault_line *l, const fault_end *end)
+/* The last line tells of it, and no other. */
+static bool has_memory_error(void)
+{
+    const char *told = strstr(said, "memory"), *last = told;
+    while (last > said && last[-1] != '\n')
+        --last;
+    return told && strncmp(last, "mote: ", 6) == 0 && last[strcspn(last, "\n") + 1] == '\0';
+}
+
+/* What has no memory ends: the program itself, or the process of a cell, which is then a row.
+ */
+static bool is_good_end(const fault_line *l, fault_kind kind, const fault_end *end)
 {
     if (end->status == l->status)
         return true;
+    if (kind == FAULT_MEMORY && end->status == MOTE_EXIT_OUT_OF_MEMORY)
+        return has_memory_error();
+    if (kind == FAULT_MEMORY)
+        return end->status == MOTE_EXIT_CELL_FAILED && has_error();
     return (end->status == MOTE_EXIT_CHECK_FAILED || end->status == MOTE_EXIT_BAD_INPUT ||
             end->status == MOTE_EXIT_CELL_FAILED) &&
            has_error();
@@ -152,8 +169,8 @@ static void clean(void)
 }
 
 /* Runs the line with its k-th call failing. */
-static void fail_call(const fault_line *l, const fault_work *work, fault_mode mode, size_t k,
-                      int usual_files)
+static void fail_call(const fault_line *l, const fault_work *work, fault_kind kind,
+                      fault_mode mode, size_t k, int usual_files)
 {
     static const char *const modes[] = {"", "failed", "was interrupted", "did a part"};
     fault_end end;
@@ -162,12 +179,14 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_mode mo
         return;
     ++faults;
     read_said(work->error);
+    parts_may_be_left = kind == FAULT_MEMORY;
     look_at_files();
+    parts_may_be_left = false;
     if (wrong[0])
         fail_msg("%s: call %ld, %s %s: %s", l->text, end.call, end.function, modes[mode],
                  wrong);
     const bool same = end.status == l->status && files_left >= usual_files;
-    if (mode == FAULT_FAIL ? !is_good_end(l, &end) : !same)
+    if (mode == FAULT_FAIL ? !is_good_end(l, kind, &end) : !same)
         fail_msg("%s: call %ld, %s %s: exit %d, %d files, not %d:\n%s", l->text, end.call,
                  end.function, modes[mode], end.status, files_left, usual_files, said);
 }
@@ -184,13 +203,13 @@ static size_t stride(size_t places)
 #endif
 }
 
-static void fail_each_call(const fault_line *l)
+static void fail_each_call(const fault_line *l, fault_kind kind)
 {
     fault_end end;
     fault_line copy = *l;
     const fault_work work = {run_line, &copy, "said", "error"};
     clean();
-    const size_t count = fault_points_find(&work, &end);
+    const size_t count = fault_points_find(&work, kind, &end);
     read_said(work.error);
     look_at_files();
     if (end.status != l->status || count == 0 || wrong[0])
@@ -199,7 +218,7 @@ static void fail_each_call(const fault_line *l)
     const size_t step = stride(count);
     for (size_t k = (size_t)lines % step; k < count; k += step) {
         for (int mode = FAULT_FAIL; mode <= FAULT_SHORT; ++mode)
-            fail_call(l, &work, (fault_mode)mode, k, usual_files);
+            fail_call(l, &work, kind, (fault_mode)mode, k, usual_files);
     }
     printf("%s: %zu places\n", l->text, count);
     ++lines;
@@ -208,7 +227,13 @@ static void fail_each_call(const fault_line *l)
 void fault_lines_fail(const fault_line *list, size_t count)
 {
     for (size_t i = 0; i < count; ++i)
-        fail_each_call(&list[i]);
+        fail_each_call(&list[i], FAULT_CALLS);
+}
+
+void fault_lines_exhaust(const fault_line *list, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        fail_each_call(&list[i], FAULT_MEMORY);
 }
 
 bool fault_lines_run(const fault_line *list, size_t count)
@@ -217,7 +242,7 @@ bool fault_lines_run(const fault_line *list, size_t count)
     for (size_t i = 0; i < count && end.status == 0; ++i) {
         fault_line copy = list[i];
         const fault_work work = {run_line, &copy, "said", "error"};
-        (void)fault_points_find(&work, &end);
+        (void)fault_points_find(&work, FAULT_CALLS, &end);
         read_said(work.error);
         if (end.status != 0)
             printf("%s: exit %d:\n%s", list[i].text, end.status, said);
@@ -233,7 +258,7 @@ bool fault_lines_write(const char *name, const char *text)
 bool fault_lines_open(void)
 {
     char path[64];
-    mote_json_heed_memory();
+    mote_json_use_memory();
     if (!mkdtemp(base) || chdir(base) != 0 || mkdir("bin", 0700) != 0 ||
         snprintf(path, sizeof path, "%s/bin", base) < 0 || setenv("PATH", path, 1) != 0)
         return false;

@@ -35,10 +35,15 @@ bool fault_lines_write(const char *name, const char *text);
 /* Runs lines without a fault; false when one does not end with 0. */
 bool fault_lines_run(const fault_line *list, size_t count);
 
-/* Each place of each line; the test fails where an end is not as it should be. `out` is removed
-   before each. */
+/* Each place of each line that calls for files and processes; the test fails where an end is
+   not as it should be. `out` is removed before each. */
 void fault_lines_fail(const fault_line *list, size_t count);
 
+/* The same for each place that asks for memory: the program says so in one line and ends with
+   MOTE_EXIT_OUT_OF_MEMORY, unless it goes without. */
+void fault_lines_exhaust(const fault_line *list, size_t count);
+
 #define FAIL_EACH(list) fault_lines_fail(list, sizeof(list) / sizeof(list)[0])
+#define EXHAUST_EACH(list) fault_lines_exhaust(list, sizeof(list) / sizeof(list)[0])
 
 #endif

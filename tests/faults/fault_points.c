@@ -96,6 +96,7 @@ typedef struct shared {
 static shared *told;
 static enum { IDLE, NOTING, FAILING } state;
 static fault_mode mode_now;
+static fault_kind kind_now;
 static long calls, target; /* of this process and of its parents before the fork */
 static uint64_t seen[SEEN];
 static const char *program_path; /* what /proc/self/exe leads to, or NULL */
@@ -138,7 +139,7 @@ static void note(function f)
 
 static bool is_due(function f)
 {
-    if (state == IDLE || noting)
+    if (state == IDLE || noting || (f <= ALIGNED) != (kind_now == FAULT_MEMORY))
         return false;
     ++calls;
     if (state == NOTING) {
@@ -354,7 +355,7 @@ void fault_points_be(const char *program)
     program_path = program;
 }
 
-size_t fault_points_find(const fault_work *work, fault_end *end)
+size_t fault_points_find(const fault_work *work, fault_kind kind, fault_end *end)
 {
     if (!told)
         told =
@@ -363,6 +364,7 @@ size_t fault_points_find(const fault_work *work, fault_end *end)
         abort();
     atomic_store(&told->count, 0);
     mode_now = FAULT_NONE;
+    kind_now = kind;
     target = 0;
     void *first[1];
     (void)backtrace(first, 1); /* loads what it needs */

@@ -1,9 +1,9 @@
 /* Calls of libc that fail, each once, wherever the code under test makes one.
 
    A work (a command of the program, say) is run once in a process of its own while every place
-   that calls for memory, files or processes is noted: a place is a function of libc and the
-   four innermost callers of our own. Then the work is run again for each place, and there the
-   call fails (MOTE_FAULT_FAIL), is interrupted by a signal (EINTR), or transfers one byte only.
+   that calls for files or processes, or for memory, is noted: a place is a function of libc and
+   the four innermost callers of our own. Then the work is run again for each place, and there
+   the call fails, is interrupted by a signal (EINTR), or transfers one byte only.
    The linker puts our functions in libc's place (--wrap: see tests/CMakeLists.txt); jansson is
    given ours for its memory. Children of the work are part of it. */
 #ifndef MOTE_TESTS_FAULT_POINTS_H
@@ -14,7 +14,7 @@
 
 typedef enum fault_mode {
     FAULT_NONE,
-    FAULT_FAIL,      /* no memory, no space, no such process */
+    FAULT_FAIL,      /* no space, no such process; no memory */
     FAULT_INTERRUPT, /* EINTR, of the calls that a signal interrupts */
     FAULT_SHORT      /* read and write move one byte */
 } fault_mode;
@@ -35,9 +35,11 @@ typedef struct fault_end {
 /* From now on the program is this one, for what asks /proc/self/exe. The path lives on. */
 void fault_points_be(const char *program);
 
-/* Runs the work in a child without a fault, and notes its places: their number. *end: how it
-   ended. */
-size_t fault_points_find(const fault_work *work, fault_end *end);
+typedef enum fault_kind { FAULT_CALLS, FAULT_MEMORY } fault_kind;
+
+/* Runs the work in a child without a fault, and notes its places of that kind: their number.
+ *end: how it ended. */
+size_t fault_points_find(const fault_work *work, fault_kind kind, fault_end *end);
 
 /* Runs the work with the fault at place k; false when there is no fault of that mode there. */
 bool fault_points_run(const fault_work *work, fault_mode mode, size_t k, fault_end *end);

@@ -3,10 +3,7 @@
    as in tests/faults/failing.h). */
 #include "core/method/method.h"
 #include "harness/base/file.h"
-#include "harness/base/json_memory.h"
-#include "harness/base/json_read.h"
-#include "harness/scene/probe.h"
-#include "harness/summary/summary.h"
+#include "harness/base/method_choice.h"
 #include "tests/faults/failing.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
@@ -61,14 +58,18 @@ typedef struct method_work {
 
 static mote_status answer_twice(const method_work *w, mote_answer *answer)
 {
-    mote_probe *probe = NULL;
-    mote_status status = mote_probe_create(&w->scene->body[0], &w->scene->body[1], &w->choice,
-                                           MOTE_ASK_DISTANCE, 0, 1, &probe);
-    if (status == MOTE_OK)
-        status = mote_probe_answer(probe, &w->scene->frame, answer);
-    if (status == MOTE_OK)
-        status = mote_probe_answer(probe, &w->scene->frame, answer);
-    mote_probe_destroy(probe);
+    const mote_method *method = w->choice.method;
+    const mote_setup setup = scene_setup(w->scene, MOTE_ASK_DISTANCE, 0, w->choice.values);
+    void *state = NULL;
+    mote_status status = mote_method_create(method, &setup, &state);
+    if (status != MOTE_OK)
+        return status;
+    for (int k = 0; k < 2 && status == MOTE_OK; ++k) {
+        status = method->update ? method->update(state, &w->scene->frame) : MOTE_OK;
+        if (status == MOTE_OK)
+            status = method->query(state, &w->scene->frame, answer);
+    }
+    mote_method_destroy(method, state);
     return status;
 }
 
@@ -119,59 +120,7 @@ TEST(mesh_create_when_an_allocation_fails_says_so)
     mote_mesh_destroy(like);
 }
 
-static mote_status load_scenario(void *context)
-{
-    mote_scenario *scenario = NULL;
-    mote_frame_buffer *buffer = NULL;
-    mote_status status = mote_scenario_load(context, &scenario);
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
-    if (status == MOTE_OK)
-        (void)mote_scenario_frame(scenario, buffer, 2, 1);
-    mote_frame_buffer_destroy(buffer);
-    mote_scenario_destroy(scenario);
-    return status;
-}
-
-TEST(scenario_load_when_an_allocation_fails_says_so)
-{
-    char path[] = MOTE_SOURCE_DIR "/tests/corpus/fuzz_scenario/sines.json";
-    fail_each_allocation(load_scenario, path, "mote_scenario_load");
-}
-
 static char folder[] = "/tmp/mote-faults-XXXXXX";
-
-static void write_cell(const char *name, const char *text)
-{
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/cells/%s", folder, name);
-    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
-}
-
-static mote_status make_summary(void *context)
-{
-    mote_summary summary;
-    const mote_status status = mote_summary_make(context, &summary);
-    if (status == MOTE_OK)
-        mote_summary_free(&summary);
-    return status;
-}
-
-TEST(summary_when_an_allocation_fails_says_so)
-{
-    char *text = NULL;
-    size_t size;
-    assert_int_equal(
-        mote_file_read(MOTE_SOURCE_DIR "/tests/corpus/fuzz_cell/whole", 1 << 20, &text, &size),
-        MOTE_OK);
-    char *cut = strstr(text, "\n====\n");
-    assert_non_null(cut);
-    *cut = '\0';
-    write_cell("fuzz.json", text);
-    write_cell("fuzz.csv", cut + 6);
-    free(text);
-    fail_each_allocation(make_summary, folder, "mote_summary_make");
-}
 
 static bool exists(const char *path)
 {
@@ -202,10 +151,13 @@ TEST(directory_make_of_what_cannot_be_one_says_so)
     char path[128];
     assert_int_equal(mote_directory_make(""), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "name a directory that can be written to"));
-    (void)snprintf(path, sizeof path, "%s/cells/fuzz.csv/a/b/c", folder);
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    assert_int_equal(mote_file_write(path, "12345", 5), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s/file/a/b/c", folder);
     assert_int_equal(mote_directory_make(path), MOTE_EIO);
-    assert_non_null(
-        strstr(mote_error_text(), "cells/fuzz.csv: cannot be made: Not a directory"));
+    assert_non_null(strstr(mote_error_text(), "/file: cannot be made: Not a directory"));
+    (void)snprintf(path, sizeof path, "%s/file", folder);
+    assert_int_equal(remove(path), 0);
 }
 
 TEST(file_write_when_a_step_fails_leaves_the_file_whole)
@@ -246,58 +198,17 @@ static void plant_leak(void)
 
 static int make_folder(void)
 {
-    char path[128];
     if (getenv("MOTE_PLANT_LEAK"))
         plant_leak();
-    if (!mkdtemp(folder))
-        return -1;
-    (void)snprintf(path, sizeof path, "%s/cells", folder);
-    return mkdir(path, 0700);
+    return mkdtemp(folder) ? 0 : -1;
 }
 
 static int remove_folder(void)
 {
-    char path[128];
-    static const char *const names[] = {"cells/fuzz.json", "cells/fuzz.csv", "cells", ""};
-    for (int k = 0; k < 4; ++k) {
-        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-        (void)remove(path);
-    }
+    (void)rmdir(folder);
     printf("%ld calls failed\n", calls_failed);
     (void)fflush(stdout); /* LeakSanitizer ends without */
     return 0;
 }
 
 TEST_GROUP(make_folder, remove_folder);
-
-enum { TEXTS = 40 };
-
-/* Texts of 1, 2, ..., TEXTS letters. */
-static mote_status parse_json(void *context)
-{
-    json_t *root;
-    const char *text = context;
-    const mote_status status = mote_json_parse("a file", text, strlen(text), "mend it", &root);
-    if (status != MOTE_OK)
-        return status;
-    assert_int_equal(json_array_size(root), TEXTS);
-    for (size_t i = 0; i < TEXTS; ++i)
-        assert_int_equal(json_string_length(json_array_get(root, i)), i + 1);
-    json_decref(root);
-    return MOTE_OK;
-}
-
-/* jansson's parser itself runs past a token's end where its text could not grow. Last: from
-   here on its memory fails, too. */
-TEST(json_parse_when_an_allocation_fails_says_so)
-{
-    static const char letters[] = "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz";
-    char text[TEXTS * (TEXTS + 4)];
-    size_t size = 0;
-    for (int i = 1; i <= TEXTS; ++i)
-        size += (size_t)snprintf(text + size, sizeof text - size, "%c\"%.*s\"",
-                                 i > 1 ? ',' : '[', i, letters);
-    (void)snprintf(text + size, sizeof text - size, "]");
-    mote_json_heed_memory();
-    fail_each_allocation(parse_json, text, "mote_json_parse");
-}

@@ -151,12 +151,19 @@ TEST(modules_when_a_call_fails_say_so)
     static const fault_line list[] = {{"the truth", keep_truth, 0},
                                       {"the study's figure", draw_study, 0},
                                       {"a variant", vary_scene, 0},
-                                      {"a sample", sample_method, 0},
-                                      {"cell fcl-aabb evict", measure_cell, 0},
-                                      {"cell particle:positions=given", measure_cell, 0},
                                       {"a claim's file", write_claim, 0},
                                       {"the machine", ask_machine, 0}};
     FAIL_EACH(list);
+}
+
+TEST(modules_whose_memory_runs_out_end_with_a_line)
+{
+    static const fault_line list[] = {{"the truth", keep_truth, 0},
+                                      {"a sample", sample_method, 0},
+                                      {"cell fcl-aabb evict", measure_cell, 0},
+                                      {"cell particle:positions=given", measure_cell, 0},
+                                      {"a claim's file", write_claim, 0}};
+    EXHAUST_EACH(list);
 }
 
 static int make_files(void)

@@ -1,5 +1,5 @@
 /* Figures and the report of a run that has what every figure needs, with each place where they
-   ask for memory, files or processes failing once; and more of what commands read and write. */
+   asks for files or processes failing once; and more of what commands read and write. */
 #include "tests/faults/fault_lines.h"
 
 #include "harness/base/file.h"
@@ -153,7 +153,6 @@ TEST(scenarios_of_other_forms_when_a_call_fails_say_so)
     static const fault_line list[] = {
         LINE(check, " ww-2k --json", 0),
         LINE(check, " " INSTALLED "tt.json --out out", 1),
-        LINE(list, " fields --json", 0),
         LINE(list, " scenarios --json", 0),
         LINE(mesh, " a.off", 0),
         LINE(mesh, " a.stl", 0),

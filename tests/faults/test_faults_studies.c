@@ -1,4 +1,4 @@
-/* Every place where a study asks for memory, files or processes, failing once. */
+/* Every place where a study asks for files or processes, failing once. */
 #include "harness/study/extreme.h"
 #include "harness/base/options.h"
 #include "tests/faults/fault_lines.h"
@@ -63,8 +63,14 @@ static int make_plain(int argc, char **argv)
 
 TEST(extremes_when_a_call_fails_say_so)
 {
-    static const fault_line list[] = {{"extreme", answer_extreme, 0}, {"plain", make_plain, 0}};
+    static const fault_line list[] = {{"extreme", answer_extreme, 0}};
     FAIL_EACH(list);
+}
+
+TEST(extremes_whose_memory_runs_out_end_with_a_line)
+{
+    static const fault_line list[] = {{"plain", make_plain, 0}};
+    EXHAUST_EACH(list);
 }
 
 static mote_status make_recipe(void)
