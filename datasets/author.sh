@@ -1,8 +1,8 @@
 #!/bin/sh
-# author.sh MOTE [NAME...]: places body 1 of the built-in scenarios anew, so that the gaps between
-# the bodies are as listed here (FRAME:GAP, of L; below 0: pushed on after first contact). Needed
-# only when a letter or a field has changed: `mote check NAME` says whether a scenario still is what
-# it claims.
+# author.sh MOTE [NAME...]: recomputes the positions of body 1 in the built-in scenarios, so that the
+# gaps between the bodies are as listed here (FRAME:GAP, in L; below 0 the body is pushed further
+# after first contact). Needed only when a letter or a field has changed: `mote check NAME` says
+# whether a scenario still is what it claims.
 set -eu
 mote=$1
 shift

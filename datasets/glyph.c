@@ -27,7 +27,7 @@ typedef struct design {
 } design;
 
 /* clang-format off */
-/* The next stroke: a line, an arc, or one of them that continues the stroke before it. */
+/* One stroke: a line, an arc, or either of them continuing the stroke before it. */
 #define LINE(x0, y0, x1, y1) {x0, y0, x1, y1, 0, 0, 0, false}
 #define ARC(x0, y0, x1, y1, radius, sine, cosine) {x0, y0, x1, y1, radius, sine, cosine, false}
 #define THEN_LINE(x0, y0, x1, y1) {x0, y0, x1, y1, 0, 0, 0, true}
@@ -134,7 +134,8 @@ static void grow(double x, double y, mote_vec3 *low, mote_vec3 *high)
     high->y = larger(high->y, y);
 }
 
-/* Grows the box by the centre line: its ends, and the sides of the circle that an arc spans. */
+/* Extends the box by the centre line: its ends, and the extreme points of the circle that an
+   arc covers. */
 static void stroke_box(const mote_stroke *s, mote_vec3 *low, mote_vec3 *high)
 {
     static const double sides[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
@@ -211,7 +212,7 @@ static void from_stroke(const mote_stroke *s, double x, double y, double *dx, do
     }
     const double across = py * s->ux - px * s->uy;
     if (s->cosine * fabs(across) > s->sine * along) {
-        /* Beyond the arc: its end on this side is nearest. */
+        /* Outside the arc's angle: its end on this side is nearest. */
         const double sine = across < 0 ? -s->sine : s->sine;
         *dx = px - s->extent * (s->cosine * s->ux - sine * s->uy);
         *dy = py - s->extent * (s->cosine * s->uy + sine * s->ux);
@@ -223,9 +224,9 @@ static void from_stroke(const mote_stroke *s, double x, double y, double *dx, do
     *dy = share * py;
 }
 
-/* Signed distance in the plane to the joined strokes (less than it near joints), and gradient.
-   A stroke that continues another belongs to the same curve: the nearer counts. Curves are
-   joined by a quadratic smooth minimum. */
+/* Signed distance in the plane to the joined strokes (smaller than the true one near joints),
+   and its gradient. A stroke that continues another belongs to the same curve, of which the
+   nearest stroke counts. Curves are joined by a quadratic smooth minimum. */
 static double plane_distance(const mote_glyph *glyph, double x, double y, double gradient[2])
 {
     const double blend = glyph->blend;
@@ -249,7 +250,7 @@ static double plane_distance(const mote_glyph *glyph, double x, double y, double
             }
         } while (i < glyph->stroke_count && glyph->strokes[i].continues);
         if (best >= (d + blend) * (d + blend))
-            continue; /* too far to have a share */
+            continue; /* too far away to contribute */
         const double e = sqrt(best);
         const double inverse = e > 0 ? 1 / e : 0;
         const double near = larger(blend - fabs(d - e), 0) / blend;

@@ -26,7 +26,7 @@ typedef struct mote_stroke {
     double extent;
     double sine, cosine;
     bool arc;
-    bool continues; /* goes on, in the same direction, where the stroke before it ends */
+    bool continues; /* starts where the stroke before it ends, in the same direction */
 } mote_stroke;
 
 typedef struct mote_glyph {
@@ -36,16 +36,17 @@ typedef struct mote_glyph {
     double half_width; /* of a stroke, in the plane */
     double half_depth; /* along z */
     double rounding;   /* radius of the rims; below half_width and half_depth */
-    double blend; /* how close two strokes' distances are where they begin to join smoothly */
+    double
+        blend; /* strokes are joined smoothly where their distances differ by less than this */
     mote_vec3 low, high;
 } mote_glyph;
 
-/* Fills *glyph for M, T, V or W. MOTE_EINVAL for any other character, with a text that lists
-   the letters. Cost O(1). */
+/* Fills *glyph for a capital letter, 'A' to 'Z'. MOTE_EINVAL for any other character, with a
+   text that says so. Cost O(1). */
 mote_status mote_glyph_make(char letter, mote_glyph *glyph);
 
-/* The field at p, and its gradient (length 1 away from the joints, shorter near them, never 0
-   near the surface). Once differentiable near the surface. */
+/* The field at p, and its gradient, whose length is 1 away from joints and less near them, but
+   never 0 near the surface. The field is once differentiable near the surface. */
 double mote_glyph_field(const mote_glyph *glyph, mote_vec3 p, mote_vec3 *gradient);
 
 /* Half of the extent along z of the letter's column at (x, y); 0 outside the letter. */

@@ -4,11 +4,12 @@
 #include "datasets/polygonise.h"
 #include "datasets/remesh.h"
 
-/* Squares of sines of 10 and 25 degrees: what is promised, and what is worked for. */
+/* Squares of the sines of 10 degrees, the smallest angle that is guaranteed, and of 25 degrees,
+   the smallest that is aimed at. */
 #define PROMISED_QUALITY 0.030153689607045831
 #define WANTED_QUALITY 0.17860619515673032
 
-/* More triangles than asked for leave room for collapsing the shortest edges. */
+/* Starting with more triangles than asked for leaves short edges to collapse. */
 #define SPARE 1.5
 #define SWEEPS 6
 #define EXTRA_SWEEPS 60
@@ -47,8 +48,10 @@ static mote_status check_arguments(size_t triangle_count)
 {
     if (triangle_count < MOTE_LETTER_MIN_TRIANGLES ||
         triangle_count > MOTE_LETTER_MAX_TRIANGLES)
-        return mote_fail(MOTE_EINVAL, "letter: %zu triangles; use an even number from %d to %d",
-                         triangle_count, MOTE_LETTER_MIN_TRIANGLES, MOTE_LETTER_MAX_TRIANGLES);
+        return mote_fail(
+            MOTE_EINVAL,
+            "letter: %zu triangles is out of range; use an even number from %d to %d",
+            triangle_count, MOTE_LETTER_MIN_TRIANGLES, MOTE_LETTER_MAX_TRIANGLES);
     if (triangle_count % 2 != 0)
         return mote_fail(
             MOTE_EINVAL,

@@ -20,7 +20,7 @@ extern "C" {
    every vertex on the implicit surface. The Euler characteristic is 2; 0 for A, D, O, P, Q, R,
    and -2 for B. The same bits on every machine and compiler. MOTE_EINVAL: another character, a
    count that is odd or outside MOTE_LETTER_MIN_TRIANGLES .. MOTE_LETTER_MAX_TRIANGLES.
-   MOTE_ENUMERIC: a promise above could not be kept (at no count that was tried). MOTE_ENOMEM.
+   MOTE_ENUMERIC: one of these properties could not be reached (never seen so far). MOTE_ENOMEM.
    Cost O(triangle_count), about 5 microseconds and 110 bytes a triangle. The caller destroys
    *mesh. */
 mote_status mote_letter_create(char letter, size_t triangle_count, mote_mesh **mesh);

@@ -12,8 +12,9 @@ static mote_status check_positions(const mote_vec3 *positions, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
         if (!isfinite(positions[i].x) || !isfinite(positions[i].y) || !isfinite(positions[i].z))
-            return mote_fail(MOTE_EINVAL,
-                             "obj: vertex %u is not finite; OBJ holds numbers only", i);
+            return mote_fail(
+                MOTE_EINVAL,
+                "obj: vertex %u is not finite; an OBJ file can hold finite numbers only", i);
     return MOTE_OK;
 }
 
@@ -31,7 +32,7 @@ static bool write_body(FILE *file, const mote_vec3 *positions, const mote_mesh *
     return fflush(file) == 0;
 }
 
-/* A decimal point whatever the locale of the program that uses us. */
+/* Writes a decimal point, whatever the locale of the calling program. */
 static bool write_in_c_locale(FILE *file, const mote_vec3 *positions, const mote_mesh *mesh)
 {
     const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);

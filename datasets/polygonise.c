@@ -3,15 +3,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The letter is symmetric in z and each of its columns is one piece. So the inside samples of a
-   grid column are all described by one number, its reach r: levels -r .. r - 1, where level k
-   is at z = (k + 1/2) * cell. Cell k of a column of cells lies between levels k and k + 1. */
+/* The letter is symmetric in z, and each of its columns is in one piece. So one number
+   describes the inside samples of a grid column, its half height r: levels -r .. r - 1, where
+   level k is at z = (k + 1/2) * cell. Cell k of a column of cells lies between levels k and k
+   + 1. */
 typedef struct grid {
     const mote_glyph *glyph;
     double cell;
     double x0, y0;          /* of column (0, 0) */
     size_t nx, ny;          /* columns; those at the rim are empty */
-    int32_t *reach;         /* [ny * nx] */
+    int32_t *half_height;   /* [ny * nx] */
     uint32_t *first_vertex; /* [(ny - 1) * (nx - 1)], of the column of cells at (i, j) */
     size_t vertex_count;
     size_t quad_count;
@@ -29,21 +30,21 @@ static int32_t larger(int32_t a, int32_t b)
 
 static void grid_clear(grid *g)
 {
-    free(g->reach);
+    free(g->half_height);
     free(g->first_vertex);
-    g->reach = 0;
+    g->half_height = 0;
     g->first_vertex = 0;
 }
 
-/* Two columns inside and the two on the other diagonal outside, at the same level, would give a
-   vertex or an edge with four sheets. Raising the higher of the outside columns opens it.
-   Returns whether anything changed. */
+/* Where, at one level, two columns on a diagonal are inside and the two on the other diagonal
+   are outside, four sheets would meet in a vertex or an edge. Raising the higher of the outside
+   columns avoids that. Returns whether anything changed. */
 static bool fill_diagonals(grid *g)
 {
     bool changed = false;
     for (size_t j = 0; j + 1 < g->ny; j++) {
         for (size_t i = 0; i + 1 < g->nx; i++) {
-            int32_t *a = &g->reach[j * g->nx + i];
+            int32_t *a = &g->half_height[j * g->nx + i];
             int32_t *b = a + 1;
             int32_t *c = a + g->nx;
             int32_t *d = c + 1;
@@ -72,15 +73,16 @@ static mote_status grid_sample(grid *g, double cell)
     g->ny = (size_t)((glyph->high.y - glyph->low.y + 2 * margin) / cell) + 2;
     g->x0 = glyph->low.x - margin;
     g->y0 = glyph->low.y - margin;
-    g->reach = malloc(g->nx * g->ny * sizeof *g->reach);
-    if (!g->reach)
+    g->half_height = malloc(g->nx * g->ny * sizeof *g->half_height);
+    if (!g->half_height)
         return mote_fail(MOTE_ENOMEM, "letter: no memory for a grid of %zu x %zu", g->nx,
                          g->ny);
     for (size_t j = 0; j < g->ny; j++) {
         for (size_t i = 0; i < g->nx; i++) {
             const double x = g->x0 + (double)i * cell;
             const double y = g->y0 + (double)j * cell;
-            g->reach[j * g->nx + i] = (int32_t)(mote_glyph_reach(glyph, x, y) / cell + 0.5);
+            g->half_height[j * g->nx + i] =
+                (int32_t)(mote_glyph_reach(glyph, x, y) / cell + 0.5);
         }
     }
     while (fill_diagonals(g))
@@ -88,7 +90,7 @@ static mote_status grid_sample(grid *g, double cell)
     g->quad_count = 0;
     for (size_t j = 0; j + 1 < g->ny; j++) {
         for (size_t i = 0; i + 1 < g->nx; i++) {
-            const int32_t *r = &g->reach[j * g->nx + i];
+            const int32_t *r = &g->half_height[j * g->nx + i];
             g->quad_count +=
                 2 * (size_t)(abs(r[0] - r[1]) + abs(r[0] - r[g->nx])) + (r[0] > 0 ? 2 : 0);
         }
@@ -98,10 +100,10 @@ static mote_status grid_sample(grid *g, double cell)
     return MOTE_OK;
 }
 
-/* The lowest and highest reach of the four columns round a column of cells. */
+/* The smallest and the largest half height of the four columns around a column of cells. */
 static void cell_range(const grid *g, size_t i, size_t j, int32_t *low, int32_t *high)
 {
-    const int32_t *r = &g->reach[j * g->nx + i];
+    const int32_t *r = &g->half_height[j * g->nx + i];
     const int32_t *s = r + g->nx;
     *low = smaller(smaller(r[0], r[1]), smaller(s[0], s[1]));
     *high = larger(larger(r[0], r[1]), larger(s[0], s[1]));
@@ -121,9 +123,9 @@ static uint32_t cell_vertex(const grid *g, size_t i, size_t j, int32_t k)
     return first + (uint32_t)(above + (-2 - k - lowest_mirrored));
 }
 
-static bool inside(int32_t reach, int32_t level)
+static bool inside(int32_t half_height, int32_t level)
 {
-    return level >= -reach && level < reach;
+    return level >= -half_height && level < half_height;
 }
 
 /* The mean of the midpoints of the crossed edges of cell k, moved onto the surface. */
@@ -131,8 +133,8 @@ static mote_vec3 cell_point(const grid *g, size_t i, size_t j, int32_t k)
 {
     bool corner[8];
     for (size_t n = 0; n < 8; n++) {
-        const int32_t reach = g->reach[(j + n / 2 % 2) * g->nx + i + n % 2];
-        corner[n] = inside(reach, k + (int32_t)(n / 4));
+        const int32_t half_height = g->half_height[(j + n / 2 % 2) * g->nx + i + n % 2];
+        corner[n] = inside(half_height, k + (int32_t)(n / 4));
     }
     double sum[3] = {0, 0, 0};
     double crossed = 0;
@@ -198,10 +200,11 @@ static uint32_t *quad(const mote_vec3 *p, uint32_t *out, const uint32_t q[4], bo
     return out;
 }
 
-/* Quads of the edges along x from column (i, j), whose surface looks to the lower reach. */
+/* Quads of the edges along x from column (i, j); they face the column of smaller half height.
+ */
 static uint32_t *quads_x(const grid *g, const mote_vec3 *p, uint32_t *out, size_t i, size_t j)
 {
-    const int32_t *r = &g->reach[j * g->nx + i];
+    const int32_t *r = &g->half_height[j * g->nx + i];
     for (int32_t n = smaller(r[0], r[1]); n < larger(r[0], r[1]); n++) {
         for (int32_t mirrored = 0; mirrored < 2; mirrored++) {
             const int32_t k = mirrored ? -1 - n : n;
@@ -215,8 +218,8 @@ static uint32_t *quads_x(const grid *g, const mote_vec3 *p, uint32_t *out, size_
 
 static uint32_t *quads_y(const grid *g, const mote_vec3 *p, uint32_t *out, size_t i, size_t j)
 {
-    const int32_t here = g->reach[j * g->nx + i];
-    const int32_t there = g->reach[(j + 1) * g->nx + i];
+    const int32_t here = g->half_height[j * g->nx + i];
+    const int32_t there = g->half_height[(j + 1) * g->nx + i];
     for (int32_t n = smaller(here, there); n < larger(here, there); n++) {
         for (int32_t mirrored = 0; mirrored < 2; mirrored++) {
             const int32_t k = mirrored ? -1 - n : n;
@@ -230,7 +233,7 @@ static uint32_t *quads_y(const grid *g, const mote_vec3 *p, uint32_t *out, size_
 
 static uint32_t *quads_z(const grid *g, const mote_vec3 *p, uint32_t *out, size_t i, size_t j)
 {
-    const int32_t r = g->reach[j * g->nx + i];
+    const int32_t r = g->half_height[j * g->nx + i];
     for (int32_t mirrored = 0; r > 0 && mirrored < 2; mirrored++) {
         const int32_t k = mirrored ? -1 - r : r - 1;
         const uint32_t q[4] = {cell_vertex(g, i - 1, j - 1, k), cell_vertex(g, i, j - 1, k),

@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Makes a closed surface of at least triangle_count triangles, and about that many where the
-   letter's strokes are at least six cells wide, of more otherwise. Vertices are on the glyph's
+/* Makes a closed surface of at least triangle_count triangles: about that many where the
+   letter's strokes are at least six cells wide, otherwise more. Vertices are on the glyph's
    surface, triangles are wound outward. MOTE_ENOMEM. Cost O(triangle_count). The caller clears
    *surface. Source: S. Gibson, Constrained elastic surface nets, 1998. */
 mote_status mote_polygonise(const mote_glyph *glyph, size_t triangle_count,

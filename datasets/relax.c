@@ -1,12 +1,14 @@
 #include "datasets/remesh.h"
 
-/* A flip must not fold the surface: the new triangles' normals may differ by this cosine at
-   most, or by no more than the old ones' did. */
+/* A flip must not fold the surface: the cosine between the new triangles' normals must be at
+   least this, or at least that of the old ones. */
 #define FLIP_COSINE 0.8
 #define FLIP_GAIN 1.02
-/* The square of the sine of 45 degrees: triangles this good are left alone. */
+/* The square of the sine of 45 degrees. Triangles whose smallest angle is at least that are
+   left as they are. */
 #define FLIP_BELOW 0.5
-/* Moving all the way to the weighted mean overshoots; by measurement this evens out best. */
+/* Moving all the way to the weighted mean overshoots. Of the parts tried on letters, this one
+   gave the most even triangles. */
 #define SMOOTH_PART 0.6
 
 static double cosine(mote_vec3 a, mote_vec3 b)
@@ -57,8 +59,8 @@ void mote_relax_flip(mote_surface *surface)
             flip_if_better(surface, c);
 }
 
-/* The smallest quality of the triangles round v if v were at p, and whether all of them look to
-   the outside there. */
+/* The lowest quality of the triangles around v if v were at p, and whether all of them would
+   still face outwards. */
 static double fan_quality(const mote_surface *s, uint32_t v, mote_vec3 p, mote_vec3 outward)
 {
     const uint32_t first = s->at_vertex[v];
@@ -76,8 +78,8 @@ static double fan_quality(const mote_surface *s, uint32_t v, mote_vec3 p, mote_v
     return least;
 }
 
-/* The mean of v's neighbours, weighted by the squared areas of the triangles that they span
-   with v: a plain mean would let the surface's tips run out of vertices. */
+/* The mean of v's neighbours, weighted by the squared areas of the triangles that they form
+   with v. An unweighted mean would draw vertices away from the tips of the surface. */
 static mote_vec3 neighbour_mean(const mote_surface *s, uint32_t v)
 {
     const mote_vec3 p = s->positions[v];
@@ -96,8 +98,8 @@ static mote_vec3 neighbour_mean(const mote_surface *s, uint32_t v)
     return weights > 0 ? mote_scale(sum, 0.5 / weights) : p;
 }
 
-/* Moves v by a part of the way to its neighbours' mean. `floor` is the quality that its
-   triangles may fall to; below it they may only improve. */
+/* Moves v a part of the way to its neighbours' mean. The quality of its triangles may fall to
+   `floor`; where it is already lower, it may only rise. */
 static bool move_vertex(const mote_glyph *glyph, mote_surface *s, uint32_t v, double part,
                         double floor)
 {
@@ -123,7 +125,7 @@ void mote_relax_smooth(const mote_glyph *glyph, mote_surface *surface)
             move_vertex(glyph, surface, v, SMOOTH_PART, 0.2);
 }
 
-/* Moves v where that enlarges the smallest angle round it, all the way or a part of it. */
+/* Moves v all or part of the way if that enlarges the smallest angle around it. */
 static void improve_vertex(const mote_glyph *glyph, mote_surface *s, uint32_t v)
 {
     double part = 1;

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* Collapses short edges, shortest first, until triangle_count (even, at most the live count)
-   triangles are left, and compacts. MOTE_ENUMERIC when no edge may be collapsed any more;
+   triangles are left, and compacts. MOTE_ENUMERIC when no further edge may be collapsed;
    MOTE_ENOMEM. Cost O(n) for a fixed ratio of the counts. */
 mote_status mote_simplify(const mote_glyph *glyph, size_t triangle_count,
                           mote_surface *surface);

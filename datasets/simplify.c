@@ -19,7 +19,7 @@ static double edge_square(const mote_surface *s, uint32_t c)
                                  s->positions[s->vertex[mote_corner_previous(c)]]);
 }
 
-/* The bucket of the edge opposite c, or BUCKETS if it takes no part. */
+/* The bucket of the edge opposite c, or BUCKETS if it is not a candidate. */
 static uint32_t edge_bucket(const mote_surface *s, uint32_t c, double limit)
 {
     if (s->vertex[c] == MOTE_NO_CORNER || s->opposite[c] < c)
@@ -49,8 +49,8 @@ static mote_status gather_edges(const mote_surface *s, collapse_round *r)
     return MOTE_OK;
 }
 
-/* Whether the triangles round u, those with v left out, keep their side and a fair shape when u
-   moves to p. */
+/* Whether the triangles around u, except those with v, keep their orientation and a reasonable
+   shape when u moves to p. */
 static bool fan_stays_sound(const mote_surface *s, uint32_t u, uint32_t v, mote_vec3 p,
                             mote_vec3 outward, double limit)
 {
@@ -77,7 +77,8 @@ static bool fan_stays_sound(const mote_surface *s, uint32_t u, uint32_t v, mote_
     return true;
 }
 
-/* Exactly two common neighbours, which keep at least four neighbours each. */
+/* Whether u and v have exactly two common neighbours, each of which keeps at least four
+   neighbours. */
 static bool may_merge(const mote_surface *s, uint32_t u, uint32_t v, uint8_t *locked)
 {
     uint32_t ring_u[MOTE_MAX_VALENCE];
@@ -137,7 +138,7 @@ static double area(const mote_surface *s)
 static mote_status collapse_rounds(const mote_glyph *glyph, size_t triangle_count,
                                    mote_surface *s, collapse_round *r)
 {
-    /* The squared edge length of as many equilateral triangles of the same area. */
+    /* The squared edge length of equilateral triangles of the same number and total area. */
     const double ideal = 4 / sqrt(3.0) * area(s) / (double)triangle_count;
     double share = 0.6;
     while (s->live_triangles > triangle_count) {
@@ -152,8 +153,10 @@ static mote_status collapse_rounds(const mote_glyph *glyph, size_t triangle_coun
         if (before - s->live_triangles < triangle_count / 20 + 2)
             share *= 1.15;
         if (share > 16)
-            return mote_fail(MOTE_ENUMERIC, "letter: stuck at %zu triangles on the way to %zu",
-                             s->live_triangles, triangle_count);
+            return mote_fail(
+                MOTE_ENUMERIC,
+                "letter: no edge can be collapsed below %zu triangles; %zu were asked for",
+                s->live_triangles, triangle_count);
         mote_relax_flip(s);
         mote_relax_smooth(glyph, s);
     }

@@ -123,7 +123,7 @@ void mote_surface_flip(mote_surface *surface, uint32_t corner)
 
 void mote_surface_collapse(mote_surface *surface, uint32_t corner)
 {
-    /* Triangles (v, a, b) and (w, b, a) go; b becomes a. */
+    /* Triangles (v, a, b) and (w, b, a) are removed; b becomes a. */
     mote_surface *s = surface;
     const uint32_t d = s->opposite[corner];
     const uint32_t a = s->vertex[mote_corner_next(corner)];

@@ -45,8 +45,9 @@ static inline uint32_t mote_corner_swing(const mote_surface *s, uint32_t corner)
     return mote_corner_next(s->opposite[mote_corner_next(corner)]);
 }
 
-/* Takes over positions, vertex (both from malloc; freed on failure too) and links the corners.
-   Every edge must have two triangles, wound alike: MOTE_EINVAL otherwise; MOTE_ENOMEM. O(n). */
+/* Takes ownership of positions and vertex (both from malloc; freed on failure too) and links
+   the corners. Every edge must have two triangles, consistently wound: MOTE_EINVAL otherwise;
+   MOTE_ENOMEM. O(n). */
 mote_status mote_surface_link(mote_vec3 *positions, size_t vertex_count, uint32_t *vertex,
                               size_t triangle_count, mote_surface *surface);
 
@@ -61,14 +62,14 @@ size_t mote_surface_ring(const mote_surface *surface, uint32_t v,
 /* Whether u and v share an edge. */
 bool mote_surface_adjacent(const mote_surface *surface, uint32_t u, uint32_t v);
 
-/* Turns the edge opposite the corner; the two vertices across must not be adjacent. */
+/* Flips the edge opposite the corner; the two vertices across it must not be adjacent. */
 void mote_surface_flip(mote_surface *surface, uint32_t corner);
 
 /* Merges the edge opposite the corner into its first vertex, vertex[next(corner)], which keeps
    its position; removes two triangles. The edge must meet the link condition. */
 void mote_surface_collapse(mote_surface *surface, uint32_t corner);
 
-/* Removes the holes that collapses left in the arrays, keeping the order. */
+/* Removes the unused slots that collapses left in the arrays; keeps the order. */
 mote_status mote_surface_compact(mote_surface *surface);
 
 /* Twice the area times the normal of triangle t. */
