@@ -62,6 +62,8 @@ static void list_options(const mote_option_reader *reader, char *text, size_t si
     text[0] = '\0';
     for (size_t i = 0; i < reader->count && used < size; ++i) {
         const mote_option *option = &reader->options[i];
+        if (!option->help)
+            continue;
         int put = snprintf(text + used, size - used, "%s%s%s%s%s", i ? ", " : "",
                            option->name[0] == '-' ? "" : "--", option->name,
                            option->value ? " " : "", option->value ? option->value : "");
@@ -108,10 +110,16 @@ int mote_option_next(mote_option_reader *reader, const char **value)
     return index;
 }
 
-int mote_study_options(int argc, char **argv, const char **directory, bool *quick)
+const mote_option mote_options_none[] = {{NULL, NULL, NULL}};
+
+const mote_option mote_options_study[] = {
+    {"out", "DIR", "where the results go (default: results/ and the command's name)"},
+    {"quick", NULL, "a smaller study (default: the whole one)"},
+    {NULL, NULL, NULL}};
+
+int mote_study_read(int argc, char **argv, const char **directory, bool *quick)
 {
-    static const mote_option options[] = {{"out", "DIR"}, {"quick", NULL}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_study, 2, argc, argv, 0};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

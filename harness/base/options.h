@@ -34,7 +34,12 @@ int mote_command_finish(int code);
 typedef struct mote_option {
     const char *name;  /* without the dashes, or "-o" for a short one */
     const char *value; /* what stands for the value in a message: "DIR"; NULL: takes none */
+    const char *help;  /* what it does, with its default; NULL: for the program's own use */
 } mote_option;
+
+/* Tables end with an option without a name. */
+extern const mote_option mote_options_none[];
+extern const mote_option mote_options_study[]; /* of mote_study_read */
 
 /* Reads a command line from left to right. Zero-initialise `next`. */
 typedef struct mote_option_reader {
@@ -68,7 +73,7 @@ mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
 
 /* Reads a study's options, "--out DIR" and "--quick"; argv[0] is its name, *directory where it
    writes unless told. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE, told on stderr. */
-int mote_study_options(int argc, char **argv, const char **directory, bool *quick);
+int mote_study_read(int argc, char **argv, const char **directory, bool *quick);
 
 /* Reads a command line that is one directory; argv[0] is the command's name. MOTE_EXIT_DONE, or
    MOTE_EXIT_USAGE, told on stderr. */

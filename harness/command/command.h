@@ -1,62 +1,70 @@
-/* The table of sub-commands. */
+/* The table of commands, which the program, its help, the manual and the completion follow. */
 #ifndef MOTE_HARNESS_COMMAND_H
 #define MOTE_HARNESS_COMMAND_H
 
-/* Every sub-command, X(name, usage, summary): a line here, and mote_command_NAME(argc, argv) in
-   harness/command_NAME.c. argv[0] is the sub-command's name; the result is a mote_exit. */
-#define MOTE_COMMANDS(X)                                                                       \
-    X(list, "list methods|scenarios|fields [--json]",                                          \
-      "the methods, scenarios and kinds of fields that there are")                             \
-    X(letter, "letter W --triangles 11920 -o W.obj", "makes a letter's mesh")                  \
-    X(check, "check SCENARIO [--json] [--out DIR]",                                            \
-      "fingerprint; whether the active interval is what it says")                              \
-    X(export, "export SCENARIO --frame K --out DIR [--method NAME[:key=value,...]]...",        \
-      "writes a frame's deformed meshes and what methods say of them")                         \
-    X(mesh, "mesh FILE [--json] [--strict]", "what a mesh is: counts, edges, parts, L")        \
-    X(distance, "distance A.obj B.obj [--method NAME[:key=value,...]]... [--json] [--strict]", \
-      "one query on two files")                                                                \
-    X(approach,                                                                                \
-      "approach SCENARIO --gaps FRAME:GAP,... [--every FRAMES] [--direction X,Y,Z] -o FILE",   \
-      "writes the scenario with body 1 placed so that the gaps are as wished")                 \
-    X(run,                                                                                     \
-      "run SCENARIO... [--method NAME[:key=a|b,...]]... [--particles 1,2,4-8]\n"               \
-      "           [--replicates K] [--frames A-B] [--out DIR] [--shard I/N] [--seed S]\n"      \
-      "           [--timeout SECONDS] [--cache hot|evict] [--stride auto|K] [--jobs N]\n"      \
-      "           [--until-ci 2%] [--budget SECONDS] [--fixed-seed] [--dry-run] [--force]\n"   \
-      "           [--strict]",                                                                 \
-      "measures cells, goes on where it stopped, writes DIR/summary.json")                     \
-    X(simulate,                                                                                \
-      "simulate SCENARIO --method NAME[:key=value,...] [--json] [--steps K] [--seed S]\n"      \
-      "           [--density D] [--restitution E] [--tolerance T] [--gravity X,Y,Z]\n"         \
-      "           [--time-step H] [--trace FILE.json] [--film FILE.gif]",                      \
-      "closed loop: bodies move freely and collide where the method says so")                  \
-    X(extremes, "extremes [--out DIR] [--quick]",                                              \
-      "every method where numbers are tiny, huge, equal or degenerate")                        \
-    X(dynamics,                                                                                \
-      "dynamics [--out DIR] [--quick] [--jobs K] [--scene NAME] [--approaches K] [--keep]",    \
-      "how often n particles let a body pass through, in the closed loop")                     \
-    X(bodies, "bodies [--out DIR] [--quick]",                                                  \
-      "several bodies by every method, over their number and density")                         \
-    X(summarize, "summarize DIR [--format table|json|csv|gbench|gha|bencher]",                 \
-      "the rows of a run, computed from its cells")                                            \
-    X(compare, "compare BASE NEW [--format table|json] [--floor SHARE]",                       \
-      "whether a run is worse than another: exit 0 no, 1 yes, 3 undecided")                    \
-    X(instructions,                                                                            \
-      "instructions SCENARIO --frames A-B --out DIR [--method NAME[:key=a|b,...]]...\n"        \
-      "           [--particles 1,2,4-8]",                                                      \
-      "what each method's frames execute, by callgrind; writes DIR/instructions.json")         \
-    X(tune, "tune DIR [--best-fcl SCENARIO]",                                                  \
-      "the best configuration of each method on each scenario of a run, or what was found")    \
-    X(merge, "merge OUT DIR...", "puts the cells of several runs into one directory")          \
-    X(history, "history [FILE] [--add DIR --why TEXT]",                                        \
-      "draws the accepted references, or adds one")                                            \
-    X(figures, "figures DIR", "draws the figures of a run again, measuring nothing")           \
-    X(report, "report DIR", "a run as a page and as plain text, from what is stored")          \
-    X(claims, "claims [--out DIR] [--quick]",                                                  \
-      "measures every claim of the paper, writes DIR/claims.json")
+#include "harness/base/options.h"
 
-#define MOTE_COMMAND_DECLARE(name, usage, summary)                                             \
-    int mote_command_##name(int argc, char **argv);
+/* Every command, X(name, arguments, summary, options): a line here, and in
+   harness/command/command_NAME.c mote_command_NAME(argc, argv) and its options. argv[0] is the
+   command's name; the result is a mote_exit. arguments: what has to stand in a command line. */
+#define MOTE_COMMANDS(X)                                                                       \
+    X(list, "methods|scenarios|fields",                                                        \
+      "lists the methods, the scenarios or the kinds of fields that there are",                \
+      mote_options_list)                                                                       \
+    X(letter, "LETTER --triangles COUNT -o FILE", "makes the mesh of a capital letter",        \
+      mote_options_letter)                                                                     \
+    X(check, "SCENARIO",                                                                       \
+      "prints a scenario's fingerprint and distances, and checks its active interval",         \
+      mote_options_check)                                                                      \
+    X(export, "SCENARIO --frame K --out DIR",                                                  \
+      "writes the deformed meshes of a frame, and what methods say of them",                   \
+      mote_options_export)                                                                     \
+    X(mesh, "FILE", "tells what a mesh is: counts, edges, components, parts, quality, L",      \
+      mote_options_mesh)                                                                       \
+    X(distance, "A.obj B.obj", "asks the distance of two meshes as their files place them",    \
+      mote_options_distance)                                                                   \
+    X(approach, "SCENARIO --gaps FRAME:GAP,... -o FILE",                                       \
+      "writes the scenario with body 1 moved so that the gaps are as wished",                  \
+      mote_options_approach)                                                                   \
+    X(run, "SCENARIO...|--pair A.obj B.obj",                                                   \
+      "measures methods on scenarios, goes on where it stopped, writes DIR/summary.json",      \
+      mote_options_run)                                                                        \
+    X(simulate, "SCENARIO --method NAME[:key=value,...]",                                      \
+      "closed loop: bodies move freely and collide where the method says so",                  \
+      mote_options_simulate)                                                                   \
+    X(extremes, "", "tries every method where numbers are tiny, huge, equal or degenerate",    \
+      mote_options_study)                                                                      \
+    X(dynamics, "",                                                                            \
+      "measures how often n particles let a body pass through, in the closed loop",            \
+      mote_options_dynamics)                                                                   \
+    X(bodies, "",                                                                              \
+      "measures scenes of several bodies by every method, over their number and density",      \
+      mote_options_study)                                                                      \
+    X(summarize, "DIR", "prints the rows of a run, computed from its cells",                   \
+      mote_options_summarize)                                                                  \
+    X(compare, "BASE NEW",                                                                     \
+      "tells whether a run is worse than another: exit 0 no, 1 yes, 3 undecided",              \
+      mote_options_compare)                                                                    \
+    X(instructions, "SCENARIO --frames A-B --out DIR",                                         \
+      "counts what each method's frames execute, by callgrind; writes DIR/instructions.json",  \
+      mote_options_instructions)                                                               \
+    X(tune, "DIR", "prints the best configuration of each method on each scenario of a run",   \
+      mote_options_tune)                                                                       \
+    X(merge, "OUT DIR...", "puts the cells of several runs into one directory",                \
+      mote_options_none)                                                                       \
+    X(history, "[FILE]",                                                                       \
+      "draws the accepted references of FILE (default: results/history.csv), or adds one",     \
+      mote_options_history)                                                                    \
+    X(figures, "DIR", "draws the figures of a run again, measuring nothing",                   \
+      mote_options_none)                                                                       \
+    X(report, "DIR", "makes a page and a plain text of a run, from what is stored",            \
+      mote_options_none)                                                                       \
+    X(claims, "", "measures every claim of the paper, writes DIR/claims.json",                 \
+      mote_options_study)
+
+#define MOTE_COMMAND_DECLARE(name, arguments, summary, options)                                \
+    int mote_command_##name(int argc, char **argv);                                            \
+    extern const mote_option options[];
 MOTE_COMMANDS(MOTE_COMMAND_DECLARE)
 #undef MOTE_COMMAND_DECLARE
 

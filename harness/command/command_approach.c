@@ -157,11 +157,20 @@ static mote_status approach(const request *wish, const mote_scenario *scenario)
     return status;
 }
 
+const mote_option mote_options_approach[] = {
+    {"gaps", "FRAME:GAP,...",
+     "the distance wished at each frame, in L; below 0: how far body 1 is pushed on from "
+     "contact; no default"},
+    {"every", "FRAMES", "a key pose each so many frames between the wished ones (default: 16)"},
+    {"direction", "X,Y,Z", "where body 1 lies as seen from body 0 (default: 1,0,0)"},
+    {"-o", "FILE",
+     "the scenario file to write; meshes outside of its folder are copied beside it; no "
+     "default"},
+    {NULL, NULL, NULL}};
+
 int mote_command_approach(int argc, char **argv)
 {
-    static const mote_option options[] = {
-        {"gaps", "FRAME:GAP,..."}, {"every", "FRAMES"}, {"direction", "X,Y,Z"}, {"-o", "FILE"}};
-    mote_option_reader reader = {options, 4, argc, argv, 0};
+    mote_option_reader reader = {mote_options_approach, 4, argc, argv, 0};
     request wish = {NULL, NULL, NULL, {1, 0, 0}, 16};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -7,7 +7,7 @@ int mote_command_bodies(int argc, char **argv)
 {
     const char *directory = "results/bodies";
     bool quick = false, met = false;
-    const int understood = mote_study_options(argc, argv, &directory, &quick);
+    const int understood = mote_study_read(argc, argv, &directory, &quick);
     if (understood != MOTE_EXIT_DONE)
         return understood;
     if (mote_study_bodies(directory, quick, argc, argv, &met) != MOTE_OK)

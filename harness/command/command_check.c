@@ -128,10 +128,15 @@ static int check(const char *name, bool json, const char *directory)
     return mote_command_finish(code);
 }
 
+const mote_option mote_options_check[] = {
+    {"json", NULL, "as JSON"},
+    {"out", "DIR",
+     "keep the exact distances in DIR/truth, or take them from there (default: neither)"},
+    {NULL, NULL, NULL}};
+
 int mote_command_check(int argc, char **argv)
 {
-    static const mote_option options[] = {{"json", NULL}, {"out", "DIR"}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_check, 2, argc, argv, 0};
     const char *name = NULL, *directory = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

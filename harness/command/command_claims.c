@@ -7,7 +7,7 @@ int mote_command_claims(int argc, char **argv)
 {
     const char *directory = "results/claims";
     bool quick = false, met = false;
-    const int understood = mote_study_options(argc, argv, &directory, &quick);
+    const int understood = mote_study_read(argc, argv, &directory, &quick);
     if (understood != MOTE_EXIT_DONE)
         return understood;
     mote_study study;

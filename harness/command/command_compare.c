@@ -75,10 +75,16 @@ static int print_json(const mote_comparison *c)
                                                                      : mote_command_fail();
 }
 
+const mote_option mote_options_compare[] = {
+    {"format", "table|json", "how (default: table)"},
+    {"floor", "SHARE",
+     "smaller differences of time count as none (default: 0.02, or the runs' own noise where "
+     "that is larger)"},
+    {NULL, NULL, NULL}};
+
 int mote_command_compare(int argc, char **argv)
 {
-    static const mote_option options[] = {{"format", "table|json"}, {"floor", "SHARE"}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_compare, 2, argc, argv, 0};
     const char *runs[2] = {NULL, NULL}, *value;
     size_t count = 0;
     bool json = false;

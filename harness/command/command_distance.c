@@ -1,4 +1,5 @@
-/* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, as they lie. */
+/* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, as they
+ * lie. */
 #include "harness/command/answer_json.h"
 #include "harness/command/command.h"
 #include "harness/base/method_choice.h"
@@ -127,11 +128,16 @@ static int distance(const request *wish)
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }
 
+const mote_option mote_options_distance[] = {
+    {"method", "NAME[:key=value,...]",
+     "a method to ask; may be given up to 64 times (default: fcl-aabb)"},
+    {"json", NULL, "as JSON"},
+    {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
+    {NULL, NULL, NULL}};
+
 static int read_request(int argc, char **argv, request *wish)
 {
-    static const mote_option options[] = {
-        {"method", "NAME[:key=value,...]"}, {"json", NULL}, {"strict", NULL}};
-    mote_option_reader reader = {options, 3, argc, argv, 0};
+    mote_option_reader reader = {mote_options_distance, 3, argc, argv, 0};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

@@ -12,8 +12,15 @@ typedef struct request {
     bool keep;
 } request;
 
-static const mote_option options[] = {{"out", "DIR"},      {"quick", NULL},   {"jobs", "K"},
-                                      {"approaches", "K"}, {"scene", "NAME"}, {"keep", NULL}};
+const mote_option mote_options_dynamics[] = {
+    {"out", "DIR", "where the results go (default: results/dynamics)"},
+    {"quick", NULL, "fewer approaches, and the paper's scenes only"},
+    {"jobs", "K", "rows at once, 1 to 64 (default: 1)"},
+    {"approaches", "K", "for every row (default: 1000, for FCL 200; with --quick 100 and 20)"},
+    {"scene", "NAME", "this scene only (default: all)"},
+    {"keep", NULL,
+     "keep rows that another build of the program measured (default: measure them again)"},
+    {NULL, NULL, NULL}};
 
 /* False, told on stderr, when the value is not right for the option. */
 static bool read_option(request *wish, int option, const char *value)
@@ -44,7 +51,8 @@ static bool read_option(request *wish, int option, const char *value)
         return true;
     }
     (void)mote_command_usage("dynamics", "--%s %s: give a whole number from 1 to %s",
-                             options[option].name, value, option == 2 ? "64" : "1000000");
+                             mote_options_dynamics[option].name, value,
+                             option == 2 ? "64" : "1000000");
     return false;
 }
 
@@ -64,7 +72,7 @@ static mote_status study(const request *wish, int argc, char **argv, bool *met)
 
 int mote_command_dynamics(int argc, char **argv)
 {
-    mote_option_reader reader = {options, sizeof options / sizeof options[0], argc, argv, 0};
+    mote_option_reader reader = {mote_options_dynamics, 6, argc, argv, 0};
     request wish = {.directory = "results/dynamics", .jobs = 1};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -154,12 +154,17 @@ static int export_request(const request *wish)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
+const mote_option mote_options_export[] = {
+    {"frame", "K", "the frame, counted from 1; no default"},
+    {"out", "DIR", "where A.obj, B.obj and answers.json go; no default"},
+    {"method", "NAME[:key=value,...]",
+     "a method to ask; may be given up to 64 times (default: fcl-aabb)"},
+    {NULL, NULL, NULL}};
+
 /* Reads the command line into wish; MOTE_EXIT_DONE when it is complete. */
 static int read_request(int argc, char **argv, request *wish)
 {
-    static const mote_option options[] = {
-        {"frame", "K"}, {"out", "DIR"}, {"method", "NAME[:key=value,...]"}};
-    mote_option_reader reader = {options, 3, argc, argv, 0};
+    mote_option_reader reader = {mote_options_export, 3, argc, argv, 0};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

@@ -8,7 +8,7 @@ int mote_command_extremes(int argc, char **argv)
 {
     const char *directory = "results/extremes";
     bool quick = false, met = false;
-    const int understood = mote_study_options(argc, argv, &directory, &quick);
+    const int understood = mote_study_read(argc, argv, &directory, &quick);
     if (understood != MOTE_EXIT_DONE)
         return understood;
     if (mote_study_extremes(directory, quick, &met) != MOTE_OK)

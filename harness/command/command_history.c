@@ -3,10 +3,14 @@
 #include "harness/base/options.h"
 #include "harness/summary/history.h"
 
+const mote_option mote_options_history[] = {
+    {"add", "DIR", "add this run; with --why (default: none is added)"},
+    {"why", "TEXT", "why the reference changes; with --add"},
+    {NULL, NULL, NULL}};
+
 int mote_command_history(int argc, char **argv)
 {
-    static const mote_option options[] = {{"add", "DIR"}, {"why", "TEXT"}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_history, 2, argc, argv, 0};
     const char *file = "results/history.csv", *value, *directory = NULL, *why = NULL;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

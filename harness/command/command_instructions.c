@@ -3,11 +3,14 @@
 #include "harness/base/options.h"
 #include "harness/run/instructions.h"
 
-static const mote_option options[] = {
-    {"frames", "A-B"},        {"method", "NAME[:key=value,...]"},
-    {"particles", "1,2,4-8"}, {"out", "DIR"},
-    {"inside", NULL},
-};
+const mote_option mote_options_instructions[] = {
+    {"frames", "A-B", "the frames, counted from 1; no default"},
+    {"method", "NAME[:key=a|b,...]", "a method; may be repeated (default: every method)"},
+    {"particles", "1,2,4-8",
+     "the numbers of particles for methods with a key n (default: the key's own)"},
+    {"out", "DIR", "where instructions.json goes; no default"},
+    {"inside", NULL, NULL},
+    {NULL, NULL, NULL}};
 enum {
     OPTION_FRAMES,
     OPTION_METHOD,
@@ -27,7 +30,7 @@ typedef struct request {
    particles are known. */
 static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = {mote_options_instructions, OPTION_COUNT, argc, argv, 0};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -56,7 +59,7 @@ static int read_arguments(int argc, char **argv, request *q)
 
 static mote_status read_methods(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = {mote_options_instructions, OPTION_COUNT, argc, argv, 0};
     const char *value;
     mote_status status = MOTE_OK;
     for (int option; status == MOTE_OK &&

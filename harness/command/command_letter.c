@@ -33,10 +33,14 @@ static mote_status write_mesh(const char *path, const mote_mesh *mesh)
     return status;
 }
 
+const mote_option mote_options_letter[] = {
+    {"triangles", "COUNT", "about how many triangles the mesh has; no default"},
+    {"-o", "FILE", "the OBJ file to write; no default"},
+    {NULL, NULL, NULL}};
+
 int mote_command_letter(int argc, char **argv)
 {
-    static const mote_option options[] = {{"triangles", "COUNT"}, {"-o", "FILE"}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_letter, 2, argc, argv, 0};
     const char *letter = NULL, *path = NULL, *value;
     uint64_t triangles = 0;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

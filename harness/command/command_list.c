@@ -89,10 +89,11 @@ static int list_scenarios(bool json)
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }
 
+const mote_option mote_options_list[] = {{"json", NULL, "as JSON"}, {NULL, NULL, NULL}};
+
 int mote_command_list(int argc, char **argv)
 {
-    static const mote_option options[] = {{"json", NULL}};
-    mote_option_reader reader = {options, 1, argc, argv, 0};
+    mote_option_reader reader = {mote_options_list, 1, argc, argv, 0};
     const char *what = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -115,10 +115,14 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
                                                                   : mote_command_fail();
 }
 
+const mote_option mote_options_mesh[] = {
+    {"json", NULL, "as JSON"},
+    {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
+    {NULL, NULL, NULL}};
+
 int mote_command_mesh(int argc, char **argv)
 {
-    static const mote_option options[] = {{"json", NULL}, {"strict", NULL}};
-    mote_option_reader reader = {options, 2, argc, argv, 0};
+    mote_option_reader reader = {mote_options_mesh, 2, argc, argv, 0};
     const char *path = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

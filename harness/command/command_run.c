@@ -12,28 +12,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const mote_option options[] = {
-    {"method", "NAME[:key=value,...]"},
-    {"particles", "1,2,4-8"},
-    {"replicates", "K"},
-    {"frames", "A-B"},
-    {"out", "DIR"},
-    {"shard", "I/N"},
-    {"seed", "S"},
-    {"timeout", "SECONDS"},
-    {"cache", "hot|evict"},
-    {"stride", "auto|K"},
-    {"dry-run", NULL},
-    {"force", NULL},
-    {"fixed-seed", NULL},
-    {"jobs", "N"},
-    {"until-ci", "2%"},
-    {"budget", "SECONDS"},
-    {"strict", NULL},
-    {"pairs", "all|contacts"},
-    {"pair", "A.obj B.obj"},
-    {"direction", "X,Y,Z"},
-};
+const mote_option mote_options_run[] = {
+    {"method", "NAME[:key=a|b,...]",
+     "a method, in one configuration for each combination of values; may be repeated (default: "
+     "every method)"},
+    {"particles", "1,2,4-8",
+     "the numbers of particles for methods with a key n (default: the key's own)"},
+    {"replicates", "K", "processes for each configuration, 1 to 1000 (default: 3)"},
+    {"frames", "A-B", "measure these frames only, counted from 1 (default: all)"},
+    {"out", "DIR", "the directory of the run (default: results/run)"},
+    {"shard", "I/N",
+     "every N-th scenario, from the I-th on (default: 1/1, or the task of a Slurm array)"},
+    {"seed", "S", "of all that is drawn at random, below 2^62 (default: 0)"},
+    {"timeout", "SECONDS", "a cell that takes longer is ended and recorded (default: 1800)"},
+    {"cache", "hot|evict", "whether 32 MB are walked between frames (default: hot)"},
+    {"stride", "auto|K",
+     "measure each K-th frame; auto: each 16th for slow methods without state (default: auto)"},
+    {"dry-run", NULL, "print the plan and measure nothing"},
+    {"force", NULL, "measure finished cells again"},
+    {"fixed-seed", NULL,
+     "the same seed for every replicate (default: one of its own for each)"},
+    {"jobs", "N", "cells at once, 1 to 256; for accuracy, not for times (default: 1)"},
+    {"until-ci", "2%",
+     "add replicates until every interval is within this share of its median (default: none "
+     "are added)"},
+    {"budget", "SECONDS", "--until-ci stops after this time (default: 600)"},
+    {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
+    {"pairs", "all|contacts",
+     "which near pairs of more than two bodies are kept in cells/ID.pairs.csv (default: all)"},
+    {"pair", "A.obj B.obj",
+     "a scenario of two mesh files: 1,000 frames of approach, contact in 10 to 20 % of them, "
+     "and parting, both deforming (default: none)"},
+    {"direction", "X,Y,Z",
+     "the direction in which B lies as seen from A, for --pair (default: searched for until "
+     "they touch)"},
+    {NULL, NULL, NULL}};
 enum {
     OPTION_METHOD,
     OPTION_PARTICLES,
@@ -141,7 +154,7 @@ static bool read_direction(const char *text, const char **direction)
 static bool take_option(request *q, int option, const char *value, const char **expected)
 {
     mote_plan_options *plan = &q->run.plan;
-    *expected = options[option].value;
+    *expected = mote_options_run[option].value;
     switch (option) {
     case OPTION_METHOD:
         q->methods[q->method_count++] = value;
@@ -240,7 +253,7 @@ static int add_pair(request *q, const char *command)
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {options, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = {mote_options_run, OPTION_COUNT, argc, argv, 0};
     for (;;) {
         const char *value, *expected;
         int option = mote_option_next(&reader, &value);
@@ -255,8 +268,8 @@ static int read_arguments(int argc, char **argv, request *q)
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
         } else if (!take_option(q, option, value, &expected)) {
-            return mote_command_usage(argv[0], "--%s %s: expected %s", options[option].name,
-                                      value, expected);
+            return mote_command_usage(argv[0], "--%s %s: expected %s",
+                                      mote_options_run[option].name, value, expected);
         }
     }
     if (q->until_share > 0 && q->run.plan.jobs > 1)

@@ -154,17 +154,21 @@ static bool read_vector(const char *text, mote_vec3 *v)
     return isfinite(mote_length(*v));
 }
 
-static const mote_option options[] = {{"method", "NAME[:key=value,...]"},
-                                      {"json", NULL},
-                                      {"steps", "K"},
-                                      {"seed", "S"},
-                                      {"density", "D"},
-                                      {"restitution", "E"},
-                                      {"tolerance", "T"},
-                                      {"gravity", "X,Y,Z"},
-                                      {"time-step", "H"},
-                                      {"trace", "FILE.json"},
-                                      {"film", "FILE.gif"}};
+const mote_option mote_options_simulate[] = {
+    {"method", "NAME[:key=value,...]", "the method that says where bodies touch; no default"},
+    {"json", NULL, "as JSON"},
+    {"steps", "K", "1 to 1000000 (default: all frames of the scenario)"},
+    {"seed", "S", "of the method, for two bodies (default: 1)"},
+    {"density", "D", "of all bodies (default: 1)"},
+    {"restitution", "E", "0: no rebound, 1: no energy is lost (default: 1)"},
+    {"tolerance", "T",
+     "distance of a contact, in L (default: the scenario's, or 0.005 where that is 0)"},
+    {"gravity", "X,Y,Z", "in L a frame squared (default: 0,0,0)"},
+    {"time-step", "H", "frames a step (default: 1)"},
+    {"trace", "FILE.json",
+     "write the motion as a scenario, for two bodies (default: not written)"},
+    {"film", "FILE.gif", "draw the motion, for two bodies (default: not drawn)"},
+    {NULL, NULL, NULL}};
 
 /* False, told on stderr, when the value is not right for the option. */
 static bool read_option(request *wish, int option, const char *value)
@@ -216,14 +220,14 @@ static bool read_option(request *wish, int option, const char *value)
         wish->film = value;
     }
     if (!good)
-        (void)mote_command_usage("simulate", "--%s %s: %s", options[option].name, value,
-                                 wanted[option]);
+        (void)mote_command_usage("simulate", "--%s %s: %s", mote_options_simulate[option].name,
+                                 value, wanted[option]);
     return good;
 }
 
 int mote_command_simulate(int argc, char **argv)
 {
-    mote_option_reader reader = {options, sizeof options / sizeof options[0], argc, argv, 0};
+    mote_option_reader reader = {mote_options_simulate, 11, argc, argv, 0};
     request wish = {.density = MOTE_NONE,
                     .restitution = MOTE_NONE,
                     .tolerance = MOTE_NONE,

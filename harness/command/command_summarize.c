@@ -85,10 +85,13 @@ static size_t find_format(const char *name)
     return format;
 }
 
+const mote_option mote_options_summarize[] = {
+    {"format", "table|json|csv|gbench|gha|bencher", "how (default: table)"},
+    {NULL, NULL, NULL}};
+
 int mote_command_summarize(int argc, char **argv)
 {
-    static const mote_option options[] = {{"format", "table|json|csv|gbench|gha|bencher"}};
-    mote_option_reader reader = {options, 1, argc, argv, 0};
+    mote_option_reader reader = {mote_options_summarize, 1, argc, argv, 0};
     const char *directory = NULL, *value;
     size_t format = FORMAT_TABLE;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
@@ -100,7 +103,7 @@ int mote_command_summarize(int argc, char **argv)
             directory = value;
         else if ((format = find_format(value)) == FORMAT_COUNT)
             return mote_command_usage(argv[0], "--format %s: choose %s", value,
-                                      options[0].value);
+                                      mote_options_summarize[0].value);
     }
     if (!directory)
         return mote_command_usage(argv[0],

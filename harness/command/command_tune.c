@@ -34,10 +34,15 @@ static int print_best(const char *directory, const char *scenario)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
+const mote_option mote_options_tune[] = {
+    {"best-fcl", "SCENARIO",
+     "print the best configuration of FCL on this scenario instead, as `mote run` takes it "
+     "(default: not)"},
+    {NULL, NULL, NULL}};
+
 int mote_command_tune(int argc, char **argv)
 {
-    static const mote_option options[] = {{"best-fcl", "SCENARIO"}};
-    mote_option_reader reader = {options, 1, argc, argv, 0};
+    mote_option_reader reader = {mote_options_tune, 1, argc, argv, 0};
     const char *directory = NULL, *scenario = NULL, *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

@@ -13,33 +13,122 @@
 typedef struct command {
     const char *name;
     int (*run)(int argc, char **argv);
-    const char *usage, *summary;
+    const char *arguments, *summary;
+    const mote_option *options;
 } command;
 
-#define COMMAND_ROW(name, usage, summary) {#name, mote_command_##name, usage, summary},
+#define COMMAND_ROW(name, arguments, summary, options)                                         \
+    {#name, mote_command_##name, arguments, summary, options},
 static const command commands[] = {MOTE_COMMANDS(COMMAND_ROW)};
 static const size_t command_count = sizeof commands / sizeof commands[0];
+
+#define WIDTH 80 /* of a line of help */
+
+/* Prints words from column `indent` on, where the cursor stands; lines begin there. */
+static void print_wrapped(const char *words, int indent)
+{
+    int column = indent;
+    while (*words) {
+        const int length = (int)strcspn(words, " ");
+        if (column > indent && column + 1 + length > WIDTH) {
+            (void)printf("\n%*s", indent, "");
+            column = indent;
+        } else if (column > indent) {
+            (void)putchar(' ');
+            ++column;
+        }
+        (void)printf("%.*s", length, words);
+        column += length;
+        words += length;
+        words += strspn(words, " ");
+    }
+    (void)putchar('\n');
+}
+
+static const char *dashes(const mote_option *option)
+{
+    return option->name[0] == '-' ? "" : "--";
+}
+
+static void print_synopsis(const command *c)
+{
+    (void)printf("mote %s%s%s%s\n", c->name, c->arguments[0] ? " " : "", c->arguments,
+                 c->options->name ? " [OPTION]..." : "");
+}
 
 static int print_help(void)
 {
     (void)printf(
         "mote measures what a particle-based collision query gives up in accuracy, and\n"
         "saves in time and memory, against bounding volume hierarchies.\n\n");
-    for (size_t i = 0; i < command_count; ++i)
-        (void)printf("  mote %s\n        %s\n", commands[i].usage, commands[i].summary);
+    for (size_t i = 0; i < command_count; ++i) {
+        (void)printf("  ");
+        print_synopsis(&commands[i]);
+        (void)printf("%8s", "");
+        print_wrapped(commands[i].summary, 8);
+    }
     (void)printf(
-        "\nExit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
-        "5 a cell failed, 6 out of memory.\n\n"
+        "\nmote COMMAND --help explains the options of a command.\n\n"
+        "Exit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
+        "5 a cell failed, 6 out of memory; 130 and 143 after Ctrl-C and SIGTERM.\n\n"
         "Scenario files name only files of their own folder, unless others are allowed:\n"
-        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n"
-        "Edges of more than two faces in mesh files are cut apart, unless they are refused:\n"
-        "mote --strict COMMAND ...\n");
+        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-static int is_help(const char *word)
+static int print_command_help(const command *c)
+{
+    print_synopsis(c);
+    print_wrapped(c->summary, 0);
+    for (const mote_option *option = c->options; option->name; ++option) {
+        if (!option->help)
+            continue;
+        (void)printf("%s  %s%s%s%s\n%6s", option == c->options ? "\n" : "", dashes(option),
+                     option->name, option->value ? " " : "", option->value ? option->value : "",
+                     "");
+        print_wrapped(option->help, 6);
+    }
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+/* For the manual and the completion: "command", its name, arguments and summary; then a line an
+   option: "option", its name, value and help. Tabs between them. */
+static int print_table(void)
+{
+    for (size_t i = 0; i < command_count; ++i) {
+        const command *c = &commands[i];
+        (void)printf("command\t%s\t%s\t%s\n", c->name, c->arguments, c->summary);
+        for (const mote_option *option = c->options; option->name; ++option) {
+            if (option->help)
+                (void)printf("option\t%s%s\t%s\t%s\n", dashes(option), option->name,
+                             option->value ? option->value : "", option->help);
+        }
+    }
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static const command *find_command(const char *name)
+{
+    for (size_t i = 0; i < command_count; ++i) {
+        if (strcmp(name, commands[i].name) == 0)
+            return &commands[i];
+    }
+    return NULL;
+}
+
+static bool is_help(const char *word)
 {
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
+}
+
+/* Whether --help stands among the arguments, before any "--". */
+static bool has_help(int argc, char **argv)
+{
+    for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; ++i) {
+        if (is_help(argv[i]))
+            return true;
+    }
+    return false;
 }
 
 static int unknown_command(const char *name)
@@ -78,20 +167,20 @@ int main(int argc, char **argv)
         (void)fprintf(stderr, "mote: no command; `mote --help` lists them\n");
         return MOTE_EXIT_USAGE;
     }
-    if (is_help(argv[1]) || strcmp(argv[1], "help") == 0)
+    const bool asks_help = strcmp(argv[1], "help") == 0;
+    if (is_help(argv[1]) || (asks_help && argc == 2))
         return print_help();
+    if (strcmp(argv[1], "--help-table") == 0)
+        return print_table();
     if (strcmp(argv[1], "--version") == 0) {
         (void)printf("mote %s\n", MOTE_VERSION);
         return mote_command_finish(MOTE_EXIT_DONE);
     }
-    for (size_t i = 0; i < command_count; ++i) {
-        if (strcmp(argv[1], commands[i].name) != 0)
-            continue;
-        if (argc > 2 && is_help(argv[2])) {
-            (void)printf("mote %s\n%s\n", commands[i].usage, commands[i].summary);
-            return mote_command_finish(MOTE_EXIT_DONE);
-        }
-        return stopped_code(commands[i].run(argc - 1, argv + 1));
-    }
-    return unknown_command(argv[1]);
+    const char *name = argv[asks_help ? 2 : 1];
+    const command *found = find_command(name);
+    if (!found)
+        return unknown_command(name);
+    if (asks_help || has_help(argc - 2, argv + 2))
+        return print_command_help(found);
+    return stopped_code(found->run(argc - 1, argv + 1));
 }

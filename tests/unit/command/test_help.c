@@ -1,0 +1,92 @@
+/* The help, the manual and the completion follow from one table, which tells of every option.
+ */
+#include "tests/support/command_lines.h"
+#include "tests/support/test.h"
+
+#define FOLDER "."
+
+/* The program's output for a command line, which must end with 0. */
+static void ask(const char *arguments, char *output, size_t size)
+{
+    const int status = command_run(FOLDER, arguments, "2>&1", output, size);
+    if (status != 0)
+        fail_msg("mote %s: exit %d: %s", arguments, status, output);
+}
+
+/* Cuts a line at its tabs into at most four fields; returns how many there are. */
+static int split(char *line, char *fields[4])
+{
+    int count = 0;
+    for (char *at = line; at && count < 4; ++count) {
+        fields[count] = at;
+        at = strchr(at, '\t');
+        if (at)
+            *at++ = '\0';
+    }
+    return count;
+}
+
+/* Without line breaks and indents: help is wrapped. */
+static void unwrap(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; ++from) {
+        const bool blank = *from == ' ' || *from == '\n';
+        if (!blank || (to > text && to[-1] != ' '))
+            *to++ = blank ? ' ' : *from;
+    }
+    *to = '\0';
+}
+
+TEST(help_of_each_command_explains_each_option_with_its_default)
+{
+    static char table[1 << 16];
+    char help[1 << 14] = "", command[32] = "";
+    int commands = 0, options = 0;
+    ask("--help-table", table, sizeof table);
+    for (char *line = strtok(table, "\n"); line; line = strtok(NULL, "\n")) {
+        char *field[4], arguments[64], again[1 << 14];
+        assert_int_equal(split(line, field), 4);
+        if (strcmp(field[0], "command") == 0) {
+            ++commands;
+            (void)snprintf(command, sizeof command, "%s", field[1]);
+            (void)snprintf(arguments, sizeof arguments, "%s --help", command);
+            ask(arguments, help, sizeof help);
+            (void)snprintf(arguments, sizeof arguments, "help %s", command);
+            ask(arguments, again, sizeof again);
+            assert_string_equal(help, again);
+            unwrap(help);
+            if (!strstr(help, field[3]))
+                fail_msg("mote %s --help does not say \"%s\"", command, field[3]);
+            continue;
+        }
+        ++options;
+        char *told =
+            mote_format("%s%s%s %s", field[1], field[2][0] ? " " : "", field[2], field[3]);
+        if (!strstr(help, told))
+            fail_msg("mote %s --help does not say \"%s\"", command, told);
+        free(told);
+        /* What takes a value has a default, or needs another option or none. */
+        if (field[2][0] && !strstr(field[3], "default") && !strstr(field[3], "with --"))
+            fail_msg("mote %s: no default of %s is told", command, field[1]);
+        /* The program knows it: without its value it is refused for that alone. */
+        (void)snprintf(arguments, sizeof arguments, "%s %s", command, field[1]);
+        if (field[2][0] && (command_run(FOLDER, arguments, "2>&1", again, sizeof again) != 2 ||
+                            !strstr(again, "needs a value")))
+            fail_msg("mote %s: not \"needs a value\" but %s", arguments, again);
+    }
+    assert_true(commands >= 20 && options >= 60);
+}
+
+TEST(help_tells_of_pairs_and_anywhere_in_a_line)
+{
+    char help[1 << 14];
+    ask("run --help", help, sizeof help);
+    assert_non_null(strstr(help, "--pair A.obj B.obj"));
+    assert_non_null(strstr(help, "--direction X,Y,Z"));
+    ask("run nothing --method -h", help, sizeof help);
+    assert_non_null(strstr(help, "--pair A.obj B.obj"));
+    assert_int_equal(command_run(FOLDER, "help nothing", "2>&1", help, sizeof help), 2);
+    assert_non_null(strstr(help, "unknown command nothing"));
+    assert_int_equal(command_run(FOLDER, "list -- --help", "2>&1", help, sizeof help), 2);
+}
