@@ -36,7 +36,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         read_word(word);
         words[count++] = word;
     }
-    static const mote_option options[] = {{"out", "DIR"}, {"json", NULL}, {"-o", "FILE"}};
+    static const mote_option options[] = {
+        {"out", "DIR", "A."}, {"json", NULL, "B."}, {"-o", "FILE", NULL}};
     mote_option_reader reader = {options, 3, count, words, 0};
     const char *value;
     for (int option = 0; option != MOTE_OPTION_END && option != MOTE_OPTION_ERROR;)
