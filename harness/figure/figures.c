@@ -76,7 +76,8 @@ typedef struct drawing {
     json_t *index;      /* figures.json's figures */
     json_t *missing;    /* what is missing, a line each */
     json_t *not_drawn;  /* the figures that another command measures */
-    size_t drawn, failed;
+    size_t failed;
+    mote_figures *result;
 } drawing;
 
 /* "20261121T104057Z-320b2871, commit 3b32655+": when the run began, with which program, from
@@ -153,9 +154,9 @@ static void make_heading(const drawing *d, const figure_kind *kind, const char *
         (void)snprintf(heading, size, "%s, %s and %s triangles", scenario, a, b);
 }
 
-/* Appends the figure to figures.json, and prints its files. */
-static mote_status add_index(drawing *d, const figure_kind *kind, const char *scenario,
-                             const char *name, const mote_figure *figure, uint64_t data)
+/* Appends the figure to figures.json, and its files to the result. */
+static void add_index(drawing *d, const figure_kind *kind, const char *scenario,
+                      const char *name, const mote_figure *figure, uint64_t data)
 {
     char hash[20], formats[32];
     (void)snprintf(hash, sizeof hash, "%016" PRIx64, data);
@@ -164,18 +165,16 @@ static mote_status add_index(drawing *d, const figure_kind *kind, const char *sc
     char *rest = formats;
     for (const char *format; (format = strtok_r(rest, " ", &rest)) != NULL;) {
         char *file = mote_format("%s.%s", name, format);
-        (void)json_array_append_new(files, json_string(file ? file : ""));
-        (void)printf("%s/figures/%s\n", d->run.directory, file ? file : "");
+        (void)json_array_append_new(files, json_string(file));
+        mote_text_add(&d->result->files, "%s/figures/%s\n", d->run.directory, file);
         free(file);
     }
     json_t *entry =
         json_pack("{s:i, s:s, s:s?, s:s, s:s, s:s, s:s, s:o}", "number", kind->number, "name",
                   name, "scenario", scenario, "title", kind->title, "caption",
                   figure->caption.data, "run", d->identity, "data", hash, "files", files);
-    ++d->drawn;
-    if (!entry || json_array_append_new(d->index, entry) != 0)
-        return mote_fail(MOTE_ENOMEM, "no memory for the list of figures");
-    return MOTE_OK;
+    (void)json_array_append_new(d->index, entry);
+    ++d->result->drawn;
 }
 
 /* Writes the data and draws it. */
@@ -186,17 +185,14 @@ static mote_status draw_data(drawing *d, const figure_kind *kind, const char *sc
     const uint64_t data =
         mote_hash_bytes(MOTE_HASH_START, figure->data.data, figure->data.size);
     char *name = file_name(kind, scenario);
-    char *file = name ? mote_format("figures/%s.dat", name) : NULL;
-    mote_status status =
-        file ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
-    if (status == MOTE_OK)
-        status = mote_record_text(d->run.directory, file, &figure->data);
+    char *file = mote_format("figures/%s.dat", name);
+    mote_status status = mote_record_text(d->run.directory, file, &figure->data);
     make_heading(d, kind, scenario, heading, sizeof heading);
     make_footer(d->identity, data, footer, sizeof footer);
     if (status == MOTE_OK)
         status = mote_gnuplot_draw(d->folder, kind->name, name, heading, footer, kind->formats);
     if (status == MOTE_OK)
-        status = add_index(d, kind, scenario, name, figure, data);
+        add_index(d, kind, scenario, name, figure, data);
     free(file);
     free(name);
     return status;
@@ -211,51 +207,53 @@ static char *command_text(const drawing *d, const figure_kind *kind)
     return mote_format("%.*s%s", (int)(place - kind->command), kind->command, d->run.directory);
 }
 
+/* The run has not what the figure needs: its command measures that. */
 static void add_not_drawn(drawing *d, const figure_kind *kind)
 {
     char *command = command_text(d, kind);
     (void)json_array_append_new(d->not_drawn,
                                 json_pack("{s:i, s:s, s:s}", "number", kind->number, "name",
-                                          kind->name, "command", command ? command : ""));
+                                          kind->name, "command", command));
     free(command);
 }
 
-static void say_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
-                        bool some)
+/* state: "not drawn" or "not whole". Where it is told, a command prints it, too. */
+static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
+                        const char *state, bool told)
 {
     char *text = mote_format("figure %d (%s) is %s; missing: %s", kind->number, kind->name,
-                             some ? "not whole" : "not drawn",
-                             figure->missing.data ? figure->missing.data : "");
-    (void)fprintf(stderr, "mote: %s: %s\n", d->run.directory, text ? text : kind->name);
-    (void)json_array_append_new(d->missing, json_string(text ? text : kind->name));
+                             state, figure->missing.data);
+    if (told)
+        mote_text_add(&d->result->notices, "mote: %s: %s\n", d->run.directory, text);
+    (void)json_array_append_new(d->missing, json_string(text));
     free(text);
-    if (!some)
-        add_not_drawn(d, kind);
 }
 
-/* One figure; *done: it was drawn. quiet: nothing is said when its rows are missing. */
+/* One figure; *done: the run has what it needs. quiet: nothing is said when it has not. */
 static mote_status draw(drawing *d, const figure_kind *kind, const char *scenario, bool quiet,
                         bool *done)
 {
     mote_figure figure = {0};
     mote_status status = kind->write(&d->run, scenario, &figure);
     const bool some = status == MOTE_OK && figure.data.size > 0;
-    if (status == MOTE_EINVAL) { /* what the run names is not what there is: only this figure */
+    const bool refused = status == MOTE_EINVAL; /* the scenario is not as the run names it */
+    if (refused) {
         mote_text_add(&figure.missing, "%s", mote_error_text());
         status = MOTE_OK;
     }
-    if (status == MOTE_OK && (figure.data.failed || figure.caption.failed))
-        status = mote_fail(MOTE_ENOMEM, "no memory for figure %d", kind->number);
-    if (status == MOTE_OK && figure.missing.size > 0 && (some || !quiet))
-        say_missing(d, kind, &figure, some);
-    if (status == MOTE_OK && some && figure.missing.size > 0)
+    if (status == MOTE_OK && some && figure.missing.size > 0) {
+        add_missing(d, kind, &figure, "not whole", true);
         mote_text_add(&figure.caption, " Not in it: %s.", figure.missing.data);
+    } else if (status == MOTE_OK && figure.missing.size > 0 && !quiet) {
+        add_missing(d, kind, &figure, "not drawn", refused);
+        add_not_drawn(d, kind);
+    }
     if (status == MOTE_OK && some)
         status = draw_data(d, kind, scenario, &figure);
     if (status == MOTE_EIO) { /* gnuplot's: the others are drawn all the same */
         figure.missing.size = 0;
         mote_text_add(&figure.missing, "%s", mote_error_text());
-        say_missing(d, kind, &figure, false);
+        add_missing(d, kind, &figure, "not drawn", true);
         ++d->failed;
         status = MOTE_OK;
     }
@@ -302,11 +300,49 @@ static mote_status draw_kind(drawing *d, const figure_kind *kind)
     return draw(d, kind, kind->scenario, false, &done);
 }
 
+/* Appends "2, 6": the numbers of the figures from entry `first` on that its command measures,
+   none twice. */
+static void add_numbers(const json_t *list, size_t first, mote_text *text)
+{
+    const json_t *command = json_object_get(json_array_get(list, first), "command");
+    json_int_t last = -1;
+    for (size_t i = first; i < json_array_size(list); ++i) {
+        const json_t *entry = json_array_get(list, i);
+        const json_int_t number = json_integer_value(json_object_get(entry, "number"));
+        if (!json_equal(json_object_get(entry, "command"), command) || number == last)
+            continue;
+        mote_text_add(text, "%s%" JSON_INTEGER_FORMAT, i > first ? ", " : "", number);
+        last = number;
+    }
+}
+
+/* Whether an earlier entry has the command of entry i, or it has none. */
+static bool is_told(const json_t *list, size_t i)
+{
+    const json_t *command = json_object_get(json_array_get(list, i), "command");
+    bool told = !json_is_string(command);
+    for (size_t k = 0; k < i && !told; ++k)
+        told = json_equal(json_object_get(json_array_get(list, k), "command"), command);
+    return told;
+}
+
+void mote_figures_elsewhere(const json_t *not_drawn, mote_text *text)
+{
+    for (size_t i = 0; i < json_array_size(not_drawn); ++i) {
+        if (is_told(not_drawn, i))
+            continue;
+        mote_text_add(text, "%s", text->size ? ", " : "figures that other commands measure: ");
+        add_numbers(not_drawn, i, text);
+        mote_text_add(
+            text, " (`%s`)",
+            json_string_value(json_object_get(json_array_get(not_drawn, i), "command")));
+    }
+}
+
 static mote_status draw_all(drawing *d)
 {
     d->folder = mote_format("%s/figures", d->run.directory);
-    mote_status status = d->folder ? mote_directory_make(d->folder)
-                                   : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_directory_make(d->folder);
     d->index = json_array();
     d->missing = json_array();
     d->not_drawn = json_array();
@@ -322,6 +358,7 @@ static mote_status draw_all(drawing *d)
         json_decref(d->not_drawn);
         return status;
     }
+    mote_figures_elsewhere(d->not_drawn, &d->result->elsewhere);
     return mote_record_json(d->run.directory, "figures/figures.json",
                             json_pack("{s:o, s:o, s:o}", "figures", d->index, "missing",
                                       d->missing, "not_drawn", d->not_drawn));
@@ -331,57 +368,78 @@ static bool is_file(const char *directory, const char *name)
 {
     struct stat info;
     char *path = mote_format("%s/%s", directory, name);
-    const bool found = path && stat(path, &info) == 0;
+    const bool found = stat(path, &info) == 0;
     free(path);
     return found;
 }
 
-/* The run's rows; without cells, none, which is said. */
-static mote_status read_run(const char *directory, mote_summary *summary)
+/* The run's rows; without cells, none, which is told. */
+static mote_status read_run(const char *directory, mote_summary *summary, mote_text *notices)
 {
     mote_text damaged = {0};
     memset(summary, 0, sizeof *summary);
     if (!is_file(directory, "cells")) {
-        (void)fprintf(stderr, "mote: %s/cells: not there; no cell of a run\n", directory);
+        mote_text_add(notices, "mote: %s/cells: not there; no cell of a run\n", directory);
         return MOTE_OK;
     }
     const mote_status status = mote_summary_make_whole(directory, &damaged, summary);
     if (status == MOTE_OK && damaged.size)
-        (void)fprintf(stderr, "%s", damaged.data);
+        mote_text_add(notices, "%s", damaged.data);
     free(damaged.data);
     return status;
 }
 
-mote_status mote_figures_draw(const char *directory, size_t *drawn)
+/* claims.json, NULL where there is none that can be read. */
+static json_t *read_claims(const char *directory, mote_text *notices)
 {
+    json_t *claims = NULL;
+    if (is_file(directory, "claims.json") &&
+        mote_record_read_json(directory, "claims.json", &claims) != MOTE_OK)
+        mote_text_add(notices, "mote: %s\n", mote_error_text());
+    return claims;
+}
+
+/* Draws what is there of a directory's run. */
+static mote_status draw_run(drawing *d)
+{
+    const char *directory = d->run.directory;
+    if (!is_file(directory, "manifest.json"))
+        mote_text_add(&d->result->notices,
+                      "mote: %s/manifest.json: not there; figures name no run\n", directory);
+    if (d->run.summary->count == 0 && !d->run.claims && !is_file(directory, "summary.json"))
+        return mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
+                         directory);
+    run_identity(directory, d->identity, sizeof d->identity);
+    const mote_status status = draw_all(d);
+    if (status == MOTE_OK && d->failed > 0)
+        return mote_fail(MOTE_EIO, "%s: %zu figures could not be drawn", directory, d->failed);
+    return status;
+}
+
+mote_status mote_figures_draw(const char *directory, mote_figures *result)
+{
+    *result = (mote_figures){0};
     if (!is_file(directory, "."))
         return mote_fail(MOTE_EIO, "%s: %s; name the directory of a run", directory,
                          strerror(errno));
     mote_summary summary;
-    json_t *claims = NULL;
-    mote_status status = read_run(directory, &summary);
-    if (status == MOTE_OK && is_file(directory, "claims.json") &&
-        mote_record_read_json(directory, "claims.json", &claims) != MOTE_OK)
-        (void)fprintf(stderr, "mote: %s\n", mote_error_text());
-    if (status == MOTE_OK && !is_file(directory, "manifest.json"))
-        (void)fprintf(stderr, "mote: %s/manifest.json: not there; figures name no run\n",
-                      directory);
-    drawing d = {.run = {directory, &summary, claims}};
-    if (status == MOTE_OK && summary.count == 0 && !claims &&
-        !is_file(directory, "summary.json"))
-        status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
-                           directory);
-    if (status == MOTE_OK) {
-        run_identity(directory, d.identity, sizeof d.identity);
-        status = draw_all(&d);
-    }
-    if (status == MOTE_OK && d.failed > 0)
-        status = mote_fail(MOTE_EIO, "%s: %zu figures could not be drawn", directory, d.failed);
-    if (status == MOTE_OK)
-        *drawn = d.drawn;
+    mote_status status = read_run(directory, &summary, &result->notices);
+    if (status != MOTE_OK)
+        return status;
+    json_t *claims = read_claims(directory, &result->notices);
+    drawing d = {.run = {directory, &summary, claims}, .result = result};
+    status = draw_run(&d);
     json_decref(claims);
     mote_summary_free(&summary);
     return status;
+}
+
+void mote_figures_free(mote_figures *result)
+{
+    free(result->files.data);
+    free(result->notices.data);
+    free(result->elsewhere.data);
+    *result = (mote_figures){0};
 }
 
 mote_status mote_figures_plot(const char *directory, const char *name, const char *script)
@@ -391,9 +449,7 @@ mote_status mote_figures_plot(const char *directory, const char *name, const cha
     char *path = mote_format("%s/figures/%s.dat", directory, name);
     char *text = NULL;
     size_t size = 0;
-    mote_status status = path && folder
-                             ? mote_file_read(path, (size_t)1 << 30, &text, &size)
-                             : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    mote_status status = mote_file_read(path, (size_t)1 << 30, &text, &size);
     if (status == MOTE_OK) {
         run_identity(directory, identity, sizeof identity);
         make_footer(identity, mote_hash_bytes(MOTE_HASH_START, text, size), footer,

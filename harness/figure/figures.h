@@ -1,24 +1,36 @@
-/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. Nothing is
-   timed. Figures are made from what the run stored, and three also from what its scenarios
+/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. Nothing
+   is timed. Figures are made from what the run stored, and three also from what its scenarios
    give again: the deformed vertices of a frame (1, 2), where particles stood, which are shown
-   only while the method answers as stored to the bit (1), and which of 100 letters touch (15, of
-   a coarse scenario made for the picture). The same cells give the same data and, but for PDF's
-   date, the same drawings. */
+   only while the method answers as stored to the bit (1), and which of 100 letters touch (15,
+   of a coarse scenario made for the picture). The same cells give the same data and, but for
+   PDF's date, the same drawings. */
 #ifndef MOTE_HARNESS_FIGURES_H
 #define MOTE_HARNESS_FIGURES_H
 
-#include "core/base/status.h"
+#include "harness/base/file.h"
 
-#include <stddef.h>
+#include <jansson.h>
+
+/* What drawing a run's figures has given; nothing of it is printed. */
+typedef struct mote_figures {
+    size_t drawn;        /* figures */
+    mote_text files;     /* their files, a line each */
+    mote_text notices;   /* "mote: ...", a line each: what cannot be read or drawn, and why */
+    mote_text elsewhere; /* as mote_figures_elsewhere; no text where all is drawn */
+} mote_figures;
 
 /* Draws what can be drawn of the run in a directory: SVG, PNG and PDF (the animation: GIF) in
    directory/figures, and figures.json: "figures", a list of {number, name, scenario, title,
-   caption, run, data, files}, "missing", lines, and "not_drawn", {number, name, command}: the
-   command that measures what such a figure needs. Prints the files' names to stdout, and a
-   line for what is missing (cells that cannot be read, figures whose rows the run has not, and
-   why) to stderr. *drawn is the number of figures. MOTE_EIO when gnuplot is missing or refuses.
- */
-mote_status mote_figures_draw(const char *directory, size_t *drawn);
+   caption, run, data, files}, "missing", lines that say which figures are not drawn or not
+   whole and why, and "not_drawn", {number, name, command}: the command that measures what such
+   a figure needs. MOTE_EIO when gnuplot is missing or refuses. The caller frees *result, after
+   an error, too. */
+mote_status mote_figures_draw(const char *directory, mote_figures *result);
+void mote_figures_free(mote_figures *result);
+
+/* Appends one line, without its end, for the list "not_drawn" of figures.json: "figures that
+   other commands measure: 2 (`make bench`), 6, 7 (`make sweep`)"; nothing for an empty one. */
+void mote_figures_elsewhere(const json_t *not_drawn, mote_text *text);
 
 /* Draws directory/figures/NAME.dat by plots/SCRIPT.gp beside it. MOTE_EIO as above. */
 mote_status mote_figures_plot(const char *directory, const char *name, const char *script);

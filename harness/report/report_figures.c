@@ -1,5 +1,6 @@
 /* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
 #include "harness/base/record.h"
+#include "harness/figure/figures.h"
 #include "harness/report/report.h"
 #include "harness/report/report_rows.h"
 
@@ -65,46 +66,13 @@ static mote_status add_entry(mote_report *report, const json_t *entry)
     return status;
 }
 
-/* Appends "2 and 6" to text: the numbers of the figures from entry `first` on that its command
-   measures, none twice. */
-static void add_numbers(const json_t *list, size_t first, mote_text *text)
-{
-    const json_t *command = json_object_get(json_array_get(list, first), "command");
-    double last = MOTE_NONE;
-    for (size_t i = first; i < json_array_size(list); ++i) {
-        const json_t *entry = json_array_get(list, i);
-        const double number = mote_report_number(entry, NULL, "number");
-        if (!json_equal(json_object_get(entry, "command"), command) || number == last)
-            continue;
-        mote_text_add(text, "%s%.0f", i > first ? ", " : "", number);
-        last = number;
-    }
-}
-
-/* Whether an earlier entry has the command of entry i, or it has none. */
-static bool is_told(const json_t *list, size_t i)
-{
-    const json_t *command = json_object_get(json_array_get(list, i), "command");
-    bool told = !json_is_string(command);
-    for (size_t k = 0; k < i && !told; ++k)
-        told = json_equal(json_object_get(json_array_get(list, k), "command"), command);
-    return told;
-}
-
-/* One text for all that other commands draw: "figures that other commands measure: 2 (`make
-   bench`), 6, 7 (`make sweep`)". */
-static mote_status add_not_drawn(mote_report *report, const json_t *list)
+/* One line for all that other commands measure. */
+static mote_status add_elsewhere(mote_report *report, const json_t *not_drawn)
 {
     mote_text text = {0};
-    for (size_t i = 0; i < json_array_size(list); ++i) {
-        if (is_told(list, i))
-            continue;
-        mote_text_add(&text, "%s", text.size ? ", " : "figures that other commands measure: ");
-        add_numbers(list, i, &text);
-        mote_text_add(&text, " (`%s`)", mote_report_text(json_array_get(list, i), "command"));
-    }
-    bool added = !text.failed;
-    if (added && text.size > 0)
+    mote_figures_elsewhere(not_drawn, &text);
+    bool added = true;
+    if (text.size > 0)
         added = json_array_append_new(report->missing, json_string(text.data)) == 0;
     free(text.data);
     return added ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a report");
@@ -120,7 +88,7 @@ static mote_status read_list(mote_report *report, const json_t *list)
         if (status == MOTE_OK)
             status = add_entry(report, item);
     }
-    return status == MOTE_OK ? add_not_drawn(report, json_object_get(list, "not_drawn"))
+    return status == MOTE_OK ? add_elsewhere(report, json_object_get(list, "not_drawn"))
                              : status;
 }
 

@@ -316,7 +316,7 @@ mote_status mote_study_bodies(const char *directory, bool quick, int argc, char 
 {
     study s = {.directory = directory, .quick = quick, .argc = argc, .argv = argv};
     char *folder = mote_format("%s/scenarios", directory);
-    size_t drawn;
+    mote_figures figures = {0};
     mote_status status =
         folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a study");
     free(folder);
@@ -329,6 +329,9 @@ mote_status mote_study_bodies(const char *directory, bool quick, int argc, char 
         mote_summary_free(&s.summary);
     }
     if (status == MOTE_OK)
-        status = mote_figures_draw(directory, &drawn);
+        status = mote_figures_draw(directory, &figures);
+    if (figures.notices.data)
+        (void)fputs(figures.notices.data, stderr);
+    mote_figures_free(&figures);
     return status;
 }

@@ -98,10 +98,10 @@ PLANT(mote_statistics_exponent, const double *x, const double *y, size_t count,
     return due("mote_statistics_exponent");
 }
 
-PLANT(mote_figures_draw, const char *directory, size_t *drawn)
+PLANT(mote_figures_draw, const char *directory, mote_figures *result)
 {
     (void)directory;
-    *drawn = 1;
+    *result = (mote_figures){.drawn = 1};
     return due("mote_figures_draw");
 }
 
