@@ -94,21 +94,21 @@ static void process_medians(const mote_replicate *replicates, size_t count, bool
     }
 }
 
-static mote_status t_of_medians(const mote_replicate *replicates, size_t count,
-                                bool logarithmic, mote_confidence *interval)
+static mote_confidence exponentials(mote_confidence interval)
 {
-    double *work = malloc((longest(replicates, count) + count + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for an interval");
+    const mote_confidence grown = {exp(interval.low), exp(interval.high)};
+    return grown;
+}
+
+static mote_confidence t_of_medians(const mote_replicate *replicates, size_t count,
+                                    bool logarithmic)
+{
+    double *work = mote_allocate(longest(replicates, count) + count, sizeof *work);
     double *medians = work + longest(replicates, count);
     process_medians(replicates, count, logarithmic, work, medians);
-    *interval = mote_statistics_t_interval(medians, count);
-    if (logarithmic) {
-        interval->low = exp(interval->low);
-        interval->high = exp(interval->high);
-    }
+    const mote_confidence interval = mote_statistics_t_interval(medians, count);
     free(work);
-    return MOTE_OK;
+    return logarithmic ? exponentials(interval) : interval;
 }
 
 /* What the resampling works on: all processes ran the same frames, so the frames are no sample,
@@ -122,16 +122,14 @@ typedef struct resample {
     double *medians;   /* [RESAMPLES] */
 } resample;
 
-static mote_status make_resample(const mote_replicate *replicates, size_t count,
-                                 bool logarithmic, resample *s)
+static void make_resample(const mote_replicate *replicates, size_t count, bool logarithmic,
+                          resample *s)
 {
     size_t frames = replicates[0].count, all = count * frames;
     s->count = count;
     s->frames = frames;
     s->logarithmic = logarithmic;
-    s->profile = malloc((frames + 2 * all + RESAMPLES) * sizeof *s->profile);
-    if (!s->profile)
-        return mote_fail(MOTE_ENOMEM, "no memory for a bootstrap of %zu values", all);
+    s->profile = mote_allocate(frames + 2 * all + RESAMPLES, sizeof *s->profile);
     s->residuals = s->profile + frames;
     s->drawn = s->residuals + all;
     s->medians = s->drawn + all;
@@ -145,7 +143,6 @@ static mote_status make_resample(const mote_replicate *replicates, size_t count,
                 logarithmic ? value / s->profile[k] : value - s->profile[k];
         }
     }
-    return MOTE_OK;
 }
 
 /* Draws one process: blocks of consecutive residuals (around the end), so that the dependence
@@ -163,48 +160,63 @@ static void draw_process(gsl_rng *random, const resample *s, double *to)
     }
 }
 
-static mote_status bootstrap(const mote_replicate *replicates, size_t count, bool logarithmic,
-                             uint64_t seed, mote_confidence *interval)
+/* GSL's errors are returned, except that memory which runs out ends the program. */
+static void handle_error(const char *reason, const char *file, int line, int code)
 {
-    (void)gsl_set_error_handler_off(); /* NULL, not the end of the program */
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    resample s = {0};
-    mote_status status = random ? make_resample(replicates, count, logarithmic, &s)
-                                : mote_fail(MOTE_ENOMEM, "no memory for a random generator");
-    if (status == MOTE_OK) {
-        gsl_rng_set(random, seed);
-        for (size_t k = 0; k < RESAMPLES; ++k) {
-            for (size_t r = 0; r < count; ++r)
-                draw_process(random, &s, s.drawn + r * s.frames);
-            s.medians[k] = mote_statistics_median(s.drawn, count * s.frames);
-        }
-        mote_statistics_sort(s.medians, RESAMPLES);
-        interval->low = mote_statistics_quantile(s.medians, RESAMPLES, 0.025);
-        interval->high = mote_statistics_quantile(s.medians, RESAMPLES, 0.975);
-    }
-    free(s.profile);
-    gsl_rng_free(random);
-    return status;
+    (void)reason, (void)file, (void)line;
+    if (code == GSL_ENOMEM)
+        mote_out_of_memory(0);
 }
 
-mote_status mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
-                                            bool logarithmic, uint64_t seed,
-                                            mote_confidence *interval)
+static gsl_rng *make_generator(uint64_t seed)
 {
-    mote_confidence none = {MOTE_NONE, MOTE_NONE};
-    *interval = none;
+    (void)gsl_set_error_handler(handle_error);
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(random, seed);
+    return random;
+}
+
+/* From the 2.5 % to the 97.5 % of sorted values. */
+static mote_confidence percentiles(const double *sorted, size_t count)
+{
+    const mote_confidence interval = {mote_statistics_quantile(sorted, count, 0.025),
+                                      mote_statistics_quantile(sorted, count, 0.975)};
+    return interval;
+}
+
+static mote_confidence bootstrap(const mote_replicate *replicates, size_t count,
+                                 bool logarithmic, uint64_t seed)
+{
+    gsl_rng *random = make_generator(seed);
+    resample s = {0};
+    make_resample(replicates, count, logarithmic, &s);
+    for (size_t k = 0; k < RESAMPLES; ++k) {
+        for (size_t r = 0; r < count; ++r)
+            draw_process(random, &s, s.drawn + r * s.frames);
+        s.medians[k] = mote_statistics_median(s.drawn, count * s.frames);
+    }
+    mote_statistics_sort(s.medians, RESAMPLES);
+    const mote_confidence interval = percentiles(s.medians, RESAMPLES);
+    free(s.profile);
+    gsl_rng_free(random);
+    return interval;
+}
+
+mote_confidence mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
+                                                bool logarithmic, uint64_t seed)
+{
+    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
+    bool same_frames = true;
     for (size_t r = 0; r < count; ++r) {
         if (replicates[r].count == 0)
-            return MOTE_OK;
-    }
-    bool same_frames = true;
-    for (size_t r = 1; r < count; ++r)
+            return none;
         same_frames = same_frames && replicates[r].count == replicates[0].count;
+    }
     if (count < 2)
-        return MOTE_OK;
+        return none;
     if (count < MOTE_BOOTSTRAP_REPLICATES || !same_frames)
-        return t_of_medians(replicates, count, logarithmic, interval);
-    return bootstrap(replicates, count, logarithmic, seed, interval);
+        return t_of_medians(replicates, count, logarithmic);
+    return bootstrap(replicates, count, logarithmic, seed);
 }
 
 /* Figures of each process alone, as logarithms; returns how many there are. */
@@ -236,32 +248,30 @@ static size_t drawn_figures(mote_process_figure figure, void *context, size_t pr
     return known;
 }
 
-mote_status mote_statistics_process_interval(mote_process_figure figure, void *context,
-                                             size_t processes, uint64_t seed,
-                                             mote_confidence *interval)
+/* The interval of resampled processes; values has room for RESAMPLES. */
+static mote_confidence resampled(mote_process_figure figure, void *context, size_t processes,
+                                 uint64_t seed, double *values)
 {
-    (void)gsl_set_error_handler_off();
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    double *values = malloc((RESAMPLES + processes) * sizeof *values);
-    size_t *drawn = malloc((processes + 1) * sizeof *drawn);
-    mote_status status = random && values && drawn
-                             ? MOTE_OK
-                             : mote_fail(MOTE_ENOMEM, "no memory for an interval");
-    if (status == MOTE_OK && processes < MOTE_BOOTSTRAP_REPLICATES) {
-        *interval = mote_statistics_t_interval(
-            values, single_figures(figure, context, processes, values));
-        interval->low = exp(interval->low);
-        interval->high = exp(interval->high);
-    } else if (status == MOTE_OK) {
-        gsl_rng_set(random, seed);
-        size_t known = drawn_figures(figure, context, processes, random, drawn, values);
-        interval->low = mote_statistics_quantile(values, known, 0.025);
-        interval->high = mote_statistics_quantile(values, known, 0.975);
-    }
+    gsl_rng *random = make_generator(seed);
+    size_t *drawn = mote_allocate(processes, sizeof *drawn);
+    const size_t known = drawn_figures(figure, context, processes, random, drawn, values);
     free(drawn);
-    free(values);
     gsl_rng_free(random);
-    return status;
+    return percentiles(values, known);
+}
+
+mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
+                                                 size_t processes, uint64_t seed)
+{
+    double *values = mote_allocate(RESAMPLES + processes, sizeof *values);
+    mote_confidence interval;
+    if (processes < MOTE_BOOTSTRAP_REPLICATES)
+        interval = exponentials(mote_statistics_t_interval(
+            values, single_figures(figure, context, processes, values)));
+    else
+        interval = resampled(figure, context, processes, seed, values);
+    free(values);
+    return interval;
 }
 
 double mote_statistics_mad(double *values, size_t count)
@@ -464,17 +474,14 @@ static int fit_logarithms(const double *x, const double *y, size_t count, double
     gsl_matrix *covariance = gsl_matrix_alloc(2, 2);
     gsl_multifit_robust_workspace *work =
         gsl_multifit_robust_alloc(gsl_multifit_robust_bisquare, count, 2);
-    int status = GSL_ENOMEM;
-    if (design && values && fitted && covariance && work) {
-        for (size_t i = 0; i < count; ++i) {
-            gsl_matrix_set(design, i, 0, 1);
-            gsl_matrix_set(design, i, 1, log(x[i]));
-            gsl_vector_set(values, i, log(y[i]));
-        }
-        status = gsl_multifit_robust(design, values, fitted, covariance, work);
-        *slope = gsl_vector_get(fitted, 1);
-        *error = sqrt(gsl_matrix_get(covariance, 1, 1));
+    for (size_t i = 0; i < count; ++i) {
+        gsl_matrix_set(design, i, 0, 1);
+        gsl_matrix_set(design, i, 1, log(x[i]));
+        gsl_vector_set(values, i, log(y[i]));
     }
+    const int status = gsl_multifit_robust(design, values, fitted, covariance, work);
+    *slope = gsl_vector_get(fitted, 1);
+    *error = sqrt(gsl_matrix_get(covariance, 1, 1));
     gsl_multifit_robust_free(work);
     gsl_matrix_free(covariance);
     gsl_vector_free(fitted);
@@ -494,14 +501,13 @@ mote_status mote_statistics_exponent(const double *x, const double *y, size_t co
     *interval = none;
     if (count < 4 || !spread)
         return MOTE_OK;
-    (void)gsl_set_error_handler_off();
+    (void)gsl_set_error_handler(handle_error);
     double slope = 0, error = 0;
     int status = fit_logarithms(x, y, count, &slope, &error);
     if (status == GSL_EMAXITER)
         return MOTE_OK;
     if (status != GSL_SUCCESS)
-        return mote_fail(status == GSL_ENOMEM ? MOTE_ENOMEM : MOTE_ENUMERIC, "no exponent: %s",
-                         gsl_strerror(status));
+        return mote_fail(MOTE_ENUMERIC, "no exponent: %s", gsl_strerror(status));
     double half = gsl_cdf_tdist_Pinv(0.975, (double)(count - 2)) * error;
     *exponent = slope;
     interval->low = slope - half;

@@ -57,9 +57,8 @@ typedef struct mote_replicate {
    percentiles of 1,000 hierarchical resamples, replicates first, then blocks of frames, drawn
    from seed. The frames themselves are no sample: what is drawn is how processes differ from
    the median over processes at each frame. */
-mote_status mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
-                                            bool logarithmic, uint64_t seed,
-                                            mote_confidence *interval);
+mote_confidence mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
+                                                bool logarithmic, uint64_t seed);
 
 /* A positive figure of some processes, drawn[count] of them, numbered from 0; a process may be
    drawn more than once. MOTE_NONE when it cannot be had from these. */
@@ -68,9 +67,8 @@ typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t
 /* Interval of a figure of processes: below MOTE_BOOTSTRAP_REPLICATES processes the t interval
    of the logarithms of the figure of each alone; from there on percentiles of 1,000 resamples
    of the processes, drawn from seed. MOTE_NONE when too few of them give a figure. */
-mote_status mote_statistics_process_interval(mote_process_figure figure, void *context,
-                                             size_t processes, uint64_t seed,
-                                             mote_confidence *interval);
+mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
+                                                 size_t processes, uint64_t seed);
 
 /* Median of the absolute distances to the median, times 1.4826: a standard deviation for normal
    values. values are reordered. */
@@ -110,7 +108,7 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
 
 /* The exponent e of y ~ x^e, by robust (bisquare) regression of the logarithms, with its 95 %
    interval. x, y > 0. MOTE_NONE for fewer than four points, one x only, or where the weights do
-   not settle. MOTE_ENOMEM, MOTE_ENUMERIC. */
+   not settle. MOTE_ENUMERIC. */
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 

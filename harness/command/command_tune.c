@@ -11,11 +11,10 @@ static int tune(const char *directory)
     mote_summary summary;
     if (mote_summary_make(directory, &summary) != MOTE_OK)
         return mote_command_fail();
-    mote_tuned *tuned = NULL;
     size_t count = 0;
-    mote_status status = mote_tune_make(&summary, &tuned, &count);
-    if (status == MOTE_OK)
-        status = mote_record_json(directory, "tune.json", mote_tune_json(tuned, count));
+    mote_tuned *tuned = mote_tune_make(&summary, &count);
+    const mote_status status =
+        mote_record_json(directory, "tune.json", mote_tune_json(tuned, count));
     if (status == MOTE_OK)
         mote_tune_print(tuned, count, stdout);
     free(tuned);

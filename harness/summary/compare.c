@@ -1,5 +1,6 @@
 #include "harness/summary/compare.h"
 
+#include "harness/base/memory.h"
 #include "harness/summary/column.h"
 #include "harness/summary/compared_run.h"
 
@@ -314,11 +315,9 @@ static void explain(mote_change *change, bool instructions)
 }
 
 /* Corrects p over all rows, and says of each what its time means. */
-static mote_status judge(mote_comparison *c)
+static void judge(mote_comparison *c)
 {
-    double *p = malloc((2 * c->count + 1) * sizeof *p);
-    if (!p)
-        return mote_fail(MOTE_ENOMEM, "no memory for a comparison");
+    double *p = mote_allocate(2 * c->count, sizeof *p);
     for (size_t i = 0; i < c->count; ++i)
         p[i] = c->changes[i].p;
     mote_statistics_holm(p, c->count, p + c->count);
@@ -344,7 +343,6 @@ static mote_status judge(mote_comparison *c)
                        (timed && change->verdict == MOTE_VERDICT_UNDECIDED);
     }
     free(p);
-    return MOTE_OK;
 }
 
 static double raised_floor(double floor, const json_t *base, const json_t *fresh)
@@ -359,9 +357,7 @@ static double raised_floor(double floor, const json_t *base, const json_t *fresh
 static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
                                 mote_comparison *c)
 {
-    c->changes = calloc(json_array_size(base_rows) + 1, sizeof *c->changes);
-    if (!c->changes)
-        return mote_fail(MOTE_ENOMEM, "no memory for a comparison");
+    c->changes = mote_allocate(json_array_size(base_rows), sizeof *c->changes);
     for (size_t i = 0; i < json_array_size(base_rows); ++i) {
         const json_t *row = json_array_get(base_rows, i);
         const json_t *partner = find_partner(new_rows, row);
@@ -452,7 +448,8 @@ static mote_status compare_runs(const mote_compared_run runs[2], double floor,
     c->instructions = runs[0].instructions && runs[1].instructions;
     if (c->instructions)
         compare_instructions(runs, !c->other_machine && !manifests_differ(runs, "compiler"), c);
-    return judge(c);
+    judge(c);
+    return MOTE_OK;
 }
 
 mote_status mote_compare(const char *base, const char *new_run, double floor,

@@ -8,11 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static mote_status no_memory(void)
-{
-    return mote_fail(MOTE_ENOMEM, "no memory for a name");
-}
-
 /* The directory of a path, for the caller to free, and the name of its summary's file. */
 static char *split(const char *path, const char **name)
 {
@@ -25,12 +20,12 @@ static char *split(const char *path, const char **name)
     return slash ? mote_format("%.*s", (int)(slash - path), path) : mote_format(".");
 }
 
-static mote_status exists(const char *directory, const char *name, bool *there)
+static bool exists(const char *directory, const char *name)
 {
     char *path = mote_format("%s/%s", directory, name);
-    *there = path && access(path, F_OK) == 0;
+    const bool there = access(path, F_OK) == 0;
     free(path);
-    return path ? MOTE_OK : no_memory();
+    return there;
 }
 
 static mote_status make_from_cells(const char *directory, json_t **summary)
@@ -41,19 +36,14 @@ static mote_status make_from_cells(const char *directory, json_t **summary)
         return status;
     *summary = mote_summary_json(&made);
     mote_summary_free(&made);
-    return *summary ? MOTE_OK : no_memory();
+    return MOTE_OK;
 }
 
 static mote_status read_summary(const char *directory, const char *name, json_t **summary)
 {
-    bool has_cells = false;
-    mote_status status =
-        strcmp(name, "summary.json") == 0 ? exists(directory, "cells", &has_cells) : MOTE_OK;
-    if (status != MOTE_OK)
-        return status;
-    if (has_cells)
+    if (strcmp(name, "summary.json") == 0 && exists(directory, "cells"))
         return make_from_cells(directory, summary);
-    status = mote_record_read_json(directory, name, summary);
+    const mote_status status = mote_record_read_json(directory, name, summary);
     if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows")))
         return mote_fail(MOTE_EINVAL, "%s/%s: no rows; name a run, or its summary.json",
                          directory, name);
@@ -63,9 +53,7 @@ static mote_status read_summary(const char *directory, const char *name, json_t 
 /* *object stays NULL where there is no such file. */
 static mote_status read_beside(const char *directory, const char *name, json_t **object)
 {
-    bool there;
-    const mote_status status = exists(directory, name, &there);
-    return status == MOTE_OK && there ? mote_record_read_json(directory, name, object) : status;
+    return exists(directory, name) ? mote_record_read_json(directory, name, object) : MOTE_OK;
 }
 
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
@@ -73,7 +61,7 @@ mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
     mote_compared_run made = {NULL, NULL, NULL};
     const char *name;
     char *directory = split(path, &name);
-    mote_status status = directory ? read_summary(directory, name, &made.summary) : no_memory();
+    mote_status status = read_summary(directory, name, &made.summary);
     if (status == MOTE_OK)
         status = read_beside(directory, "manifest.json", &made.manifest);
     if (status == MOTE_OK)

@@ -1,5 +1,7 @@
 #include "harness/summary/front.h"
 
+#include "harness/base/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -168,57 +170,47 @@ static void fill_row(const workshop *w, size_t index, double *work)
     }
 }
 
-static mote_status fill_rows(const workshop *w)
+static void fill_rows(const workshop *w)
 {
     const mote_stored *stored = &w->summary->stored;
     size_t frames = 0;
     for (size_t i = 0; i < stored->count; ++i)
         frames = stored->cells[i].frames > frames ? stored->cells[i].frames : frames;
-    double *work = malloc((frames + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    double *work = mote_allocate(frames, sizeof *work);
     for (size_t i = 0; i < w->summary->count; ++i)
         fill_row(w, i, work);
     free(work);
-    return MOTE_OK;
 }
 
-static mote_status make_workshop(const mote_summary *summary, workshop *w)
+static void make_workshop(const mote_summary *summary, workshop *w)
 {
     w->summary = summary;
     for (size_t i = 0; i < summary->stored.count; ++i) {
         size_t number = summary->stored.cells[i].replicate;
         w->processes = number > w->processes ? number : w->processes;
     }
-    const size_t rows = summary->count + 1, times = rows * (w->processes + 1);
-    w->total = malloc(2 * times * sizeof *w->total);
-    w->rows = malloc(2 * rows * sizeof *w->rows);
-    w->times = malloc((2 * rows + w->processes) * sizeof *w->times);
-    if (!w->total || !w->rows || !w->times)
-        return mote_fail(MOTE_ENOMEM, "no memory for the fronts of %zu rows", rows);
+    const size_t rows = summary->count, times = rows * w->processes;
+    w->total = mote_allocate(2 * times, sizeof *w->total);
+    w->rows = mote_allocate(2 * rows, sizeof *w->rows);
+    w->times = mote_allocate(2 * rows + w->processes, sizeof *w->times);
     w->given = w->total + times;
     w->others = w->rows + rows;
     w->errors = w->times + rows;
     w->drawn = w->errors + rows;
-    return fill_rows(w);
+    fill_rows(w);
 }
 
 /* The interval of the speed: how far processes spread around their own centre, laid around the
    estimate, which is of the frames of all of them. */
-static mote_status find_interval(const comparison *c, mote_front_speed *speed)
+static void find_interval(const comparison *c, mote_front_speed *speed)
 {
     const size_t processes = c->shop->processes;
-    mote_confidence spread;
     comparison context = *c;
-    mote_status status = mote_statistics_process_interval(drawn_speed, &context, processes,
-                                                          BOOTSTRAP_SEED, &spread);
-    if (status != MOTE_OK)
-        return status;
+    const mote_confidence spread =
+        mote_statistics_process_interval(drawn_speed, &context, processes, BOOTSTRAP_SEED);
     double centre = sqrt(spread.low * spread.high); /* of Student's interval */
     if (processes >= MOTE_BOOTSTRAP_REPLICATES) {
-        size_t *all = malloc(processes * sizeof *all);
-        if (!all)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu processes", processes);
+        size_t *all = mote_allocate(processes, sizeof *all);
         for (size_t k = 0; k < processes; ++k)
             all[k] = k;
         centre = drawn_speed(&context, all, processes);
@@ -226,16 +218,14 @@ static mote_status find_interval(const comparison *c, mote_front_speed *speed)
     }
     speed->interval.low = speed->faster * (spread.low / centre);
     speed->interval.high = speed->faster * (spread.high / centre);
-    return MOTE_OK;
 }
 
 /* Fills one family; its rows are w->rows, those of FCL w->others. */
-static mote_status make_front(const workshop *w, size_t row_count, size_t other_count,
-                              mote_front *front)
+static void make_front(const workshop *w, size_t row_count, size_t other_count,
+                       mote_front *front)
 {
     const bool given = w->summary->rows[front->first].given;
-    mote_status status = MOTE_OK;
-    for (size_t k = 0; k < MOTE_FRONT_LEVELS && status == MOTE_OK; ++k) {
+    for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
         mote_front_speed *speed = &front->speed[k];
         comparison c = {.shop = w,
                         .given = given,
@@ -248,9 +238,8 @@ static mote_status make_front(const workshop *w, size_t row_count, size_t other_
         speed->faster = c.theirs.time / c.mine.time;
         speed->interval = none;
         if (speed->faster == speed->faster)
-            status = find_interval(&c, speed);
+            find_interval(&c, speed);
     }
-    return status;
 }
 
 /* Collects the rows of one family, and those of FCL's in the same block that are accounted for
@@ -278,10 +267,9 @@ static bool collect(const workshop *w, size_t first, const char *title, size_t *
     return true;
 }
 
-static mote_status make_families(const workshop *w, mote_fronts *fronts)
+static void make_families(const workshop *w, mote_fronts *fronts)
 {
-    mote_status status = MOTE_OK;
-    for (size_t i = 0; i < w->summary->count && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < w->summary->count; ++i) {
         if (!has_point(&w->summary->rows[i]))
             continue;
         mote_front *front = &fronts->items[fronts->count];
@@ -290,27 +278,20 @@ static mote_status make_families(const workshop *w, mote_fronts *fronts)
         mote_front_title(&w->summary->rows[i], front->title, sizeof front->title);
         if (!collect(w, i, front->title, &rows, &others))
             continue;
-        status = make_front(w, rows, others, front);
+        make_front(w, rows, others, front);
         ++fronts->count;
     }
-    return status;
 }
 
-mote_status mote_fronts_make(const mote_summary *summary, mote_fronts *fronts)
+mote_fronts mote_fronts_make(const mote_summary *summary)
 {
     mote_fronts made = {.summary = summary};
     workshop w = {0};
-    made.items = calloc(summary->count + 1, sizeof *made.items);
-    mote_status status = made.items ? make_workshop(summary, &w)
-                                    : mote_fail(MOTE_ENOMEM, "no memory for fronts");
-    if (status == MOTE_OK)
-        status = make_families(&w, &made);
+    made.items = mote_allocate(summary->count, sizeof *made.items);
+    make_workshop(summary, &w);
+    make_families(&w, &made);
     free_workshop(&w);
-    if (status == MOTE_OK)
-        *fronts = made;
-    else
-        mote_fronts_free(&made);
-    return status;
+    return made;
 }
 
 void mote_fronts_free(mote_fronts *fronts)

@@ -42,8 +42,8 @@ typedef struct mote_fronts {
 } mote_fronts;
 
 /* Of rows with a distance and comparable times; others are in no family. The caller frees
- *fronts. */
-mote_status mote_fronts_make(const mote_summary *summary, mote_fronts *fronts);
+   them. */
+mote_fronts mote_fronts_make(const mote_summary *summary);
 void mote_fronts_free(mote_fronts *fronts);
 
 /* The time at which points reach an error of at most `error`; MOTE_NONE when none does. */
@@ -56,7 +56,7 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size);
 void mote_fronts_print(const mote_fronts *fronts, FILE *out);
 
 /* [{"scenario", "fingerprint", "cache", "accounting", "family", "speed": [{"error", "total_ns",
-   "faster", "ci_low", "ci_high"}]}]; NULL when memory ran out. */
+   "faster", "ci_low", "ci_high"}]}] */
 json_t *mote_fronts_json(const mote_fronts *fronts);
 
 /* Writes directory/fronts.csv, a line a row of the summary, with whether it is on the front and

@@ -3,6 +3,7 @@
 #include "harness/base/options.h"
 #include "harness/process/gnuplot.h"
 #include "harness/base/hash.h"
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/summary/summary.h"
 
@@ -120,8 +121,6 @@ mote_status mote_history_add(const char *file, const char *directory, const char
             if (summary.rows[i].status == MOTE_CELL_OK)
                 add_row(&text, date ? date : "", commit ? commit : "", why, &summary.rows[i]);
         }
-        if (status == MOTE_OK && text.failed)
-            status = mote_fail(MOTE_ENOMEM, "%s: no memory", file);
         if (status == MOTE_OK)
             status = mote_file_write(file, text.data, text.size);
         free(text.data);
@@ -179,9 +178,7 @@ static mote_status read_points(const char *file, char *text, points *p)
     size_t lines = 0;
     for (const char *c = text; *c; ++c)
         lines += *c == '\n' ? 1 : 0;
-    p->items = calloc(lines + 1, sizeof *p->items);
-    if (!p->items)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory", file);
+    p->items = mote_allocate(lines + 1, sizeof *p->items);
     while (line && line[1] != '\0') {
         char *start = line + 1, *fields[FIELDS];
         ++number;
@@ -226,11 +223,9 @@ static bool first_of_series(const points *p, size_t index)
 }
 
 /* The series that begins with a point, as a block "reference relative-time changed commit". */
-static mote_status add_series(const points *p, const point *start, mote_text *text)
+static void add_series(const points *p, const point *start, mote_text *text)
 {
-    double *moves = malloc((p->count + 1) * sizeof *moves);
-    if (!moves)
-        return mote_fail(MOTE_ENOMEM, "no memory for a history");
+    double *moves = mote_allocate(p->count, sizeof *moves);
     double first = MOTE_NONE, before = MOTE_NONE;
     size_t count = 0;
     for (size_t i = 0; i < p->count; ++i) {
@@ -257,7 +252,6 @@ static mote_status add_series(const points *p, const point *start, mote_text *te
                       changed ? 1 : 0, here->commit[0] ? here->commit : "-");
         before = here->time;
     }
-    return MOTE_OK;
 }
 
 static mote_status plot(const char *base, const mote_text *series)
@@ -283,15 +277,13 @@ mote_status mote_history_draw(const char *file)
         status = read_points(file, text, &p);
     for (size_t i = 0; status == MOTE_OK && i < p.count; ++i) {
         if (first_of_series(&p, i))
-            status = add_series(&p, &p.items[i], &series);
+            add_series(&p, &p.items[i], &series);
     }
     size_t length = strlen(file) > 4 && strcmp(file + strlen(file) - 4, ".csv") == 0
                         ? strlen(file) - 4
                         : strlen(file);
     char *base = mote_format("%.*s", (int)length, file);
     char *data = mote_format("%.*s.dat", (int)length, file);
-    if (status == MOTE_OK && (!base || !data || series.failed))
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory", file);
     if (status == MOTE_OK && series.size == 0)
         status = mote_fail(MOTE_EINVAL, "%s: nothing to draw; accept a reference first", file);
     if (status == MOTE_OK)

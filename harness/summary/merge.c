@@ -14,8 +14,7 @@ static mote_status copy_file(const char *from, const char *to, const char *name)
     char *source = mote_format("%s/%s", from, name), *target = mote_format("%s/%s", to, name);
     char *data = NULL;
     size_t size = 0;
-    mote_status status = source && target ? mote_file_read(source, FILE_LIMIT, &data, &size)
-                                          : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_file_read(source, FILE_LIMIT, &data, &size);
     if (status == MOTE_OK)
         status = mote_file_write(target, data, size);
     free(data);
@@ -27,7 +26,7 @@ static mote_status copy_file(const char *from, const char *to, const char *name)
 static bool exists(const char *directory, const char *name)
 {
     char *path = mote_format("%s/%s", directory, name);
-    bool found = path && access(path, F_OK) == 0;
+    bool found = access(path, F_OK) == 0;
     free(path);
     return found;
 }
@@ -39,11 +38,10 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     char *json = mote_format("cells/%s.json", cell->id);
     char *csv = mote_format("cells/%s.csv", cell->id);
     char *pairs = mote_format("cells/%s.pairs.csv", cell->id);
-    mote_status status =
-        json && csv && pairs ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    if (status == MOTE_OK && exists(to, json)) {
+    mote_status status = MOTE_OK;
+    if (exists(to, json)) {
         ++merged->present;
-    } else if (status == MOTE_OK) {
+    } else {
         if (cell->status == MOTE_CELL_OK)
             status = copy_file(from, to, csv);
         if (status == MOTE_OK && exists(from, pairs)) /* of more than two bodies */
@@ -72,8 +70,8 @@ static mote_status add_sessions(const char *directory, json_t *here, const json_
         bool known = false;
         for (size_t k = 0; k < before && !known; ++k)
             known = json_equal(json_array_get(mine, k), session);
-        if (!known && json_array_append(mine, session) != 0)
-            return mote_fail(MOTE_ENOMEM, "%s/manifest.json: no memory", directory);
+        if (!known)
+            (void)json_array_append(mine, session);
     }
     if (json_array_size(mine) == before)
         return MOTE_OK;
@@ -112,7 +110,7 @@ mote_status mote_merge(const char *directory, const char *run, mote_merged *merg
     if (status != MOTE_OK)
         return status;
     char *cells = mote_format("%s/cells", directory);
-    status = cells ? mote_directory_make(cells) : mote_fail(MOTE_ENOMEM, "no memory");
+    status = mote_directory_make(cells);
     if (status == MOTE_OK)
         status = merge_manifest(directory, run);
     for (size_t i = 0; i < stored.count && status == MOTE_OK; ++i)

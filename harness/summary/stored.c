@@ -1,6 +1,7 @@
 #include "harness/summary/stored.h"
 
 #include "harness/run/plan.h"
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/base/statistics.h"
 
@@ -69,28 +70,19 @@ double mote_stored_number(const mote_stored_cell *cell, const char *key)
     return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
 }
 
-static mote_status make_arrays(mote_stored_cell *cell, size_t frames)
+static void make_arrays(mote_stored_cell *cell, size_t frames)
 {
-    size_t some = frames + 1;
-    cell->frame = calloc(some, sizeof *cell->frame);
-    cell->deform_ns = calloc(some, sizeof *cell->deform_ns);
-    cell->update_ns = calloc(some, sizeof *cell->update_ns);
-    cell->query_ns = calloc(some, sizeof *cell->query_ns);
-    cell->total_ns = calloc(some, sizeof *cell->total_ns);
-    cell->error = calloc(some, sizeof *cell->error);
-    cell->truth = calloc(some, sizeof *cell->truth);
-    cell->contact = calloc(some, sizeof *cell->contact);
-    cell->contact_truth = calloc(some, sizeof *cell->contact_truth);
-    if (!cell->frame || !cell->deform_ns || !cell->update_ns || !cell->query_ns ||
-        !cell->total_ns || !cell->error || !cell->truth || !cell->contact ||
-        !cell->contact_truth)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
-    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT && cell->bodies > 0; ++k) {
-        cell->scene[k] = calloc(some, sizeof *cell->scene[k]);
-        if (!cell->scene[k])
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
-    }
-    return MOTE_OK;
+    cell->frame = mote_allocate(frames, sizeof *cell->frame);
+    cell->deform_ns = mote_allocate(frames, sizeof *cell->deform_ns);
+    cell->update_ns = mote_allocate(frames, sizeof *cell->update_ns);
+    cell->query_ns = mote_allocate(frames, sizeof *cell->query_ns);
+    cell->total_ns = mote_allocate(frames, sizeof *cell->total_ns);
+    cell->error = mote_allocate(frames, sizeof *cell->error);
+    cell->truth = mote_allocate(frames, sizeof *cell->truth);
+    cell->contact = mote_allocate(frames, sizeof *cell->contact);
+    cell->contact_truth = mote_allocate(frames, sizeof *cell->contact_truth);
+    for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT && cell->bodies > 0; ++k)
+        cell->scene[k] = mote_allocate(frames, sizeof *cell->scene[k]);
 }
 
 /* Which column of the file holds each column and count that is read; false when one is missing.
@@ -214,16 +206,16 @@ static mote_status read_frames(const char *path, const char *text, mote_stored_c
         lines += *p == '\n' ? 1 : 0;
     if (lines == 0 || !map_columns(text, &map))
         return mote_fail(MOTE_EINVAL, "%s:1: not the header of a cell that mote wrote", path);
-    mote_status status = make_arrays(cell, lines - 1);
+    make_arrays(cell, lines - 1);
     const char *line = strchr(text, '\n') + 1;
-    for (size_t row = 0; status == MOTE_OK && row + 1 < lines; ++row) {
+    for (size_t row = 0; row + 1 < lines; ++row) {
         line = read_row(line, &map, cell, row);
         if (!line || cell->frame[row] <= (row > 0 ? cell->frame[row - 1] : 0))
             return mote_fail(MOTE_EINVAL, "%s:%zu: not a frame's row; expected %zu fields",
                              path, row + 2, map.count);
         cell->frames = row + 1;
     }
-    return status;
+    return MOTE_OK;
 }
 
 /* What the replicates of one configuration have in common, as text that sorts by scenario,
@@ -232,14 +224,12 @@ static char *group_name(const mote_stored_cell *cell)
 {
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
     char *frames = json_dumps(json_object_get(cell->json, "frames"), JSON_COMPACT);
-    char *group = NULL;
-    if (parameters && frames)
-        group = mote_format(
-            "%s %s %s %s %s %s %s %.17g stride %u seed %" PRIu64 " on %s%s%s", cell->scenario,
-            cell->cache, cell->method, parameters, cell->fingerprint, frames, cell->ask,
-            mote_stored_number(cell, "tolerance"), cell->stride, cell->seed, cell->machine,
-            cell->jobs > 1 ? " jobs" : "",
-            json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
+    char *group =
+        mote_format("%s %s %s %s %s %s %s %.17g stride %u seed %" PRIu64 " on %s%s%s",
+                    cell->scenario, cell->cache, cell->method, parameters, cell->fingerprint,
+                    frames, cell->ask, mote_stored_number(cell, "tolerance"), cell->stride,
+                    cell->seed, cell->machine, cell->jobs > 1 ? " jobs" : "",
+                    json_is_true(json_object_get(cell->json, "fixed_seed")) ? " fixed" : "");
     free(parameters);
     free(frames);
     return group;
@@ -313,7 +303,7 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     const json_int_t bodies = json_integer_value(json_object_get(cell->json, "bodies"));
     cell->bodies = bodies > 0 && bodies <= MOTE_BODIES_MAX ? (uint32_t)bodies : 0;
     cell->group = group_name(cell);
-    return cell->group ? MOTE_OK : mote_fail(MOTE_ENOMEM, "%s: no memory", name);
+    return MOTE_OK;
 }
 
 /* A file that was cut at the end of a line looks whole; cells of older builds do not tell. */
@@ -334,8 +324,7 @@ static mote_status read_csv(const char *directory, mote_stored_cell *cell)
     char *path = mote_format("%s/cells/%s.csv", directory, cell->id);
     char *text = NULL;
     size_t size = 0;
-    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
     if (status == MOTE_OK)
         status = read_frames(path, text, cell);
     if (status == MOTE_OK)
@@ -350,8 +339,7 @@ static mote_status read_cell(const char *directory, const char *file, const char
                              mote_stored_cell *cell, bool *wanted)
 {
     char *name = mote_format("cells/%s", file);
-    mote_status status = name ? mote_record_read_json(directory, name, &cell->json)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_record_read_json(directory, name, &cell->json);
     if (status == MOTE_OK)
         status = read_fields(name, cell);
     const size_t length = status == MOTE_OK ? strlen(cell->id) : 0;
@@ -370,18 +358,16 @@ static mote_status read_cell(const char *directory, const char *file, const char
 }
 
 /* The program that measured last; "" without a manifest. */
-static mote_status manifest_program(const char *directory, char *program, size_t size)
+static void manifest_program(const char *directory, char *program, size_t size)
 {
     json_t *manifest = NULL;
     program[0] = '\0';
-    const mote_status status = mote_record_read_json(directory, "manifest.json", &manifest);
-    if (status != MOTE_OK)
-        return status == MOTE_ENOMEM ? status : MOTE_OK;
+    if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
+        return;
     const char *text = json_string_value(json_object_get(manifest, "program"));
     if (text && strlen(text) < size)
         memcpy(program, text, strlen(text) + 1);
     json_decref(manifest);
-    return MOTE_OK;
 }
 
 static int by_number(double a, double b)
@@ -431,17 +417,13 @@ static bool is_cell_file(const char *name)
 static mote_status add_file(const char *directory, const char *file, const char *program,
                             mote_text *damaged, mote_stored *stored)
 {
-    mote_stored_cell *cells =
-        realloc(stored->cells, (stored->count + 1) * sizeof *stored->cells);
-    if (!cells)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", stored->count + 1);
-    stored->cells = cells;
-    mote_stored_cell *cell = &cells[stored->count];
+    stored->cells = mote_resize(stored->cells, stored->count + 1, sizeof *stored->cells);
+    mote_stored_cell *cell = &stored->cells[stored->count];
     memset(cell, 0, sizeof *cell);
     ++stored->count;
     bool wanted = true;
     mote_status status = read_cell(directory, file, program, cell, &wanted);
-    const bool left_out = damaged && status != MOTE_OK && status != MOTE_ENOMEM;
+    const bool left_out = damaged && status != MOTE_OK;
     if (left_out) {
         mote_text_add(damaged, "mote: %s; left out\n", mote_error_text());
         status = MOTE_OK;
@@ -458,16 +440,13 @@ mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_sto
 {
     mote_stored read = {0};
     char program[32];
-    mote_status status = manifest_program(directory, program, sizeof program);
-    if (status != MOTE_OK)
-        return status;
+    manifest_program(directory, program, sizeof program);
     char *path = mote_format("%s/cells", directory);
-    DIR *folder = path ? opendir(path) : NULL;
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a name", directory);
-    status = folder ? MOTE_OK
-                    : mote_fail(MOTE_EIO, "%s/cells: %s; name the directory of a run",
-                                directory, strerror(errno));
+    DIR *folder = opendir(path);
+    mote_status status = folder
+                             ? MOTE_OK
+                             : mote_fail(MOTE_EIO, "%s/cells: %s; name the directory of a run",
+                                         directory, strerror(errno));
     for (const struct dirent *entry = folder ? readdir(folder) : NULL;
          entry && status == MOTE_OK; entry = readdir(folder)) {
         if (is_cell_file(entry->d_name))

@@ -1,5 +1,6 @@
 #include "harness/summary/summary.h"
 
+#include "harness/base/memory.h"
 #include "harness/summary/dominance.h"
 #include "harness/summary/scene_contacts.h"
 #include "harness/summary/summary_quiet.h"
@@ -91,61 +92,51 @@ static size_t find_reference(const mote_summary *summary, const mote_summary_row
 }
 
 /* Of rows on all of this row's frames, or else of any, the fastest over these frames. */
-static mote_status find_best_fcl(const mote_summary *summary, const mote_summary_row *row,
-                                 size_t *best)
+static size_t find_best_fcl(const mote_summary *summary, const mote_summary_row *row)
 {
     double least = MOTE_NONE;
     bool covered = false;
-    *best = SIZE_MAX;
+    size_t best = SIZE_MAX;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        double median = MOTE_NONE;
         if (!comparable(row, other) || !mote_summary_is_fcl(other))
             continue;
-        const mote_status status = mote_summary_median_within(
-            other, row->first->first, row->first->last, compared_part(row), &median);
-        if (status != MOTE_OK)
-            return status;
+        const double median = mote_summary_median_within(other, row->first->first,
+                                                         row->first->last, compared_part(row));
         const bool all = covers(other, row);
         if (median != median || (covered && !all))
             continue;
         if (all != covered || !(median >= least)) {
             least = median;
-            *best = i;
+            best = i;
         }
         covered = all;
     }
-    return MOTE_OK;
+    return best;
 }
 
-static mote_status make_ratio(const mote_summary *summary, const mote_summary_row *row,
-                              size_t to, mote_part part, mote_ratio *ratio)
+static void make_ratio(const mote_summary *summary, const mote_summary_row *row, size_t to,
+                       mote_part part, mote_ratio *ratio)
 {
     ratio->to = to;
-    if (to == SIZE_MAX)
-        return MOTE_OK;
-    return mote_summary_ratio(row, &summary->rows[to], part, ratio);
+    if (to != SIZE_MAX)
+        mote_summary_ratio(row, &summary->rows[to], part, ratio);
 }
 
-static mote_status make_row_ratios(const mote_summary *summary, mote_summary_row *row)
+static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)
 {
     const size_t to = find_reference(summary, row);
     const mote_summary_row *reference = to == SIZE_MAX ? NULL : &summary->rows[to];
     const mote_part part = compared_part(row);
-    mote_status status = make_ratio(summary, row, to, part, &row->ratio);
-    if (status == MOTE_OK)
-        status = make_ratio(summary, row, to, MOTE_PART_GIVEN, &row->ratio_given);
-    if (status == MOTE_OK && reference)
-        status = mote_summary_process_ratios(row, reference, part);
-    if (status == MOTE_OK)
-        status = mote_summary_quiet(row, reference);
-    size_t best = SIZE_MAX;
-    if (status == MOTE_OK)
-        status = find_best_fcl(summary, row, &best);
-    return status == MOTE_OK ? make_ratio(summary, row, best, part, &row->ratio_best) : status;
+    make_ratio(summary, row, to, part, &row->ratio);
+    make_ratio(summary, row, to, MOTE_PART_GIVEN, &row->ratio_given);
+    if (reference)
+        mote_summary_process_ratios(row, reference, part);
+    mote_summary_quiet(row, reference);
+    make_ratio(summary, row, find_best_fcl(summary, row), part, &row->ratio_best);
 }
 
-static mote_status make_rows(mote_summary *summary)
+static void make_rows(mote_summary *summary)
 {
     const mote_stored *stored = &summary->stored;
     for (size_t i = 0; i < stored->count;) {
@@ -153,14 +144,9 @@ static mote_status make_rows(mote_summary *summary)
         while (end < stored->count &&
                strcmp(stored->cells[end].group, stored->cells[i].group) == 0)
             ++end;
-        mote_status status =
-            mote_summary_row_make(&stored->cells[i], end - i, &summary->rows[summary->count]);
-        if (status != MOTE_OK)
-            return status;
-        ++summary->count;
+        summary->rows[summary->count++] = mote_summary_row_make(&stored->cells[i], end - i);
         i = end;
     }
-    return MOTE_OK;
 }
 
 /* The digits of a fingerprint that are shown. */
@@ -189,20 +175,7 @@ static char *name_scene(const mote_summary *summary, const mote_stored_cell *cel
         mote_text_add(&text, " (asks for %s)", cell->ask[0] ? cell->ask : "anything");
     if (tolerances)
         mote_text_add(&text, " (tolerance %g)", mote_stored_number(cell, "tolerance"));
-    if (!text.failed)
-        return text.data;
-    free(text.data);
-    return NULL;
-}
-
-static mote_status name_scenes(mote_summary *summary)
-{
-    for (size_t i = 0; i < summary->count; ++i) {
-        summary->rows[i].scene = name_scene(summary, summary->rows[i].first);
-        if (!summary->rows[i].scene)
-            return mote_fail(MOTE_ENOMEM, "no memory for a scene's name");
-    }
-    return MOTE_OK;
+    return text.data;
 }
 
 /* The median over the cells of a number of theirs. */
@@ -217,12 +190,10 @@ static double cells_median(const mote_summary *summary, const char *key, double 
     return mote_statistics_median(work, known);
 }
 
-static mote_status find_overhead(mote_summary *summary)
+static void find_overhead(mote_summary *summary)
 {
     double fastest = MOTE_NONE;
-    double *work = malloc((summary->stored.count + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", summary->stored.count);
+    double *work = mote_allocate(summary->stored.count, sizeof *work);
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         double calls = 1 + (row->update.median > 0 ? 1 : 0) + (row->deform.median > 0 ? 1 : 0);
@@ -234,7 +205,6 @@ static mote_status find_overhead(mote_summary *summary)
     summary->overhead.left_ns = cells_median(summary, "overhead_ns", work);
     summary->overhead.share = fabs(summary->overhead.left_ns) * fastest;
     free(work);
-    return MOTE_OK;
 }
 
 mote_status mote_summary_make(const char *directory, mote_summary *summary)
@@ -249,26 +219,18 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
     mote_status status = mote_stored_read(directory, damaged, &made.stored);
     if (status != MOTE_OK)
         return status;
-    made.rows = calloc(made.stored.count + 1, sizeof *made.rows);
-    status = made.rows ? make_rows(&made) : mote_fail(MOTE_ENOMEM, "no memory for a summary");
-    if (status == MOTE_OK && made.count > 0)
-        qsort(made.rows, made.count, sizeof *made.rows, by_place);
-    if (status == MOTE_OK)
-        status = name_scenes(&made);
-    for (size_t i = 0; i < made.count && status == MOTE_OK; ++i)
-        status = make_row_ratios(&made, &made.rows[i]);
-    if (status == MOTE_OK)
-        status = mote_scene_contacts_count(directory, made.rows, made.count);
+    made.rows = mote_allocate(made.stored.count, sizeof *made.rows);
+    make_rows(&made);
+    qsort(made.rows, made.count, sizeof *made.rows, by_place);
+    for (size_t i = 0; i < made.count; ++i)
+        made.rows[i].scene = name_scene(&made, made.rows[i].first);
+    for (size_t i = 0; i < made.count; ++i)
+        make_row_ratios(&made, &made.rows[i]);
+    status = mote_scene_contacts_count(directory, made.rows, made.count);
     mote_find_dominated(made.rows, made.count);
-    double noise_floor = 0, smallest_change = 0;
-    if (status == MOTE_OK)
-        status = mote_summary_noise_floor(made.rows, made.count, &noise_floor);
-    if (status == MOTE_OK)
-        status = find_overhead(&made);
-    if (status == MOTE_OK)
-        status = mote_summary_smallest_change(made.rows, made.count, &smallest_change);
-    made.noise_floor = noise_floor;
-    made.smallest_change = smallest_change;
+    made.noise_floor = mote_summary_noise_floor(made.rows, made.count);
+    find_overhead(&made);
+    made.smallest_change = mote_summary_smallest_change(made.rows, made.count);
     if (status == MOTE_OK)
         *summary = made;
     else

@@ -83,9 +83,7 @@ static json_t *summary_json(const mote_summary *summary, const mote_fronts *fron
 
 json_t *mote_summary_json(const mote_summary *summary)
 {
-    mote_fronts fronts;
-    if (mote_fronts_make(summary, &fronts) != MOTE_OK)
-        return NULL;
+    mote_fronts fronts = mote_fronts_make(summary);
     json_t *object = summary_json(summary, &fronts);
     mote_fronts_free(&fronts);
     return object;
@@ -93,11 +91,8 @@ json_t *mote_summary_json(const mote_summary *summary)
 
 mote_status mote_summary_write(const mote_summary *summary, const char *directory)
 {
-    mote_fronts fronts;
-    mote_status status = mote_fronts_make(summary, &fronts);
-    if (status != MOTE_OK)
-        return status;
-    status = mote_fronts_write(&fronts, directory);
+    mote_fronts fronts = mote_fronts_make(summary);
+    mote_status status = mote_fronts_write(&fronts, directory);
     if (status == MOTE_OK)
         status = mote_record_json(directory, "summary.json", summary_json(summary, &fronts));
     mote_fronts_free(&fronts);

@@ -1,5 +1,7 @@
 #include "harness/summary/summary_quiet.h"
 
+#include "harness/base/memory.h"
+
 #include <stdlib.h>
 
 static bool ran(const mote_stored_cell *cell)
@@ -46,15 +48,13 @@ static size_t fastest(const mote_summary_row *row, bool given, uint32_t last, ui
 
 /* The quiet total of a group, and its ratio to that of the reference's replicates of these
    numbers; MOTE_NONE without replicates. */
-static mote_status quiet_group(const mote_summary_row *row, const mote_summary_row *reference,
-                               uint32_t groups, uint32_t group, double *total, double *ratio)
+static void quiet_group(const mote_summary_row *row, const mote_summary_row *reference,
+                        uint32_t groups, uint32_t group, double *total, double *ratio)
 {
     size_t frames = row->frames, others = reference ? reference->frames : 0;
     const uint32_t last = last_replicate(row);
-    double *mine = malloc((2 * frames + others + 1) * sizeof *mine);
+    double *mine = mote_allocate(2 * frames + others, sizeof *mine);
     *total = *ratio = MOTE_NONE;
-    if (!mine)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
     double *ratios = mine + frames, *theirs = ratios + frames;
     bool measured = fastest(row, row->given, last, groups, group, mine) > 0;
     if (measured && reference &&
@@ -73,19 +73,16 @@ static mote_status quiet_group(const mote_summary_row *row, const mote_summary_r
     if (measured)
         *total = mote_statistics_median(mine, frames);
     free(mine);
-    return MOTE_OK;
 }
 
-mote_status mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference)
+void mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference)
 {
-    mote_status status = MOTE_OK;
-    for (uint32_t k = 0; k < MOTE_QUIET_GROUPS && status == MOTE_OK; ++k) {
+    for (uint32_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
         row->quiet.total[k] = row->quiet.ratio[k] = MOTE_NONE;
         if (row->finished >= MOTE_QUIET_REPLICATES)
-            status = quiet_group(row, reference, MOTE_QUIET_GROUPS, k, &row->quiet.total[k],
-                                 &row->quiet.ratio[k]);
+            quiet_group(row, reference, MOTE_QUIET_GROUPS, k, &row->quiet.total[k],
+                        &row->quiet.ratio[k]);
     }
-    return status;
 }
 
 /* Whether a row's times are taken relative to the reference. All of them are, or none: a time
@@ -115,8 +112,7 @@ static double half_of_processes(const mote_summary_row *row, uint32_t half)
     return count > 0 ? exp(sum / count) : MOTE_NONE;
 }
 
-static mote_status halves_differ(const mote_summary_row *row, const mote_summary_row *reference,
-                                 double *share)
+static double halves_differ(const mote_summary_row *row, const mote_summary_row *reference)
 {
     double halves[2];
     for (uint32_t half = 0; half < 2; ++half) {
@@ -124,13 +120,10 @@ static mote_status halves_differ(const mote_summary_row *row, const mote_summary
         if (row->finished < MOTE_QUIET_REPLICATES)
             continue;
         double total, ratio;
-        mote_status status = quiet_group(row, reference, 2, half, &total, &ratio);
-        if (status != MOTE_OK)
-            return status;
+        quiet_group(row, reference, 2, half, &total, &ratio);
         halves[half] = is_relative(row) ? ratio : total;
     }
-    *share = exp(fabs(log(halves[0] / halves[1]))) - 1;
-    return MOTE_OK;
+    return exp(fabs(log(halves[0] / halves[1]))) - 1;
 }
 
 /* Whether anything can be said of a row's times; the reference is always 1 to itself. */
@@ -139,26 +132,28 @@ static bool is_compared(const mote_summary_row *rows, size_t index)
     return rows[index].ratio.to != index && rows[index].finished > 0 && rows[index].jobs <= 1;
 }
 
-mote_status mote_summary_noise_floor(const mote_summary_row *rows, size_t count, double *floor)
+/* The value that 90 % of them stay below; MOTE_NONE of none. values are reordered. */
+static double most_of(double *values, size_t count)
 {
-    double *shares = malloc((count + 1) * sizeof *shares);
-    mote_status status =
-        shares ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for %zu rows", count);
+    mote_statistics_sort(values, count);
+    return mote_statistics_quantile(values, count, 0.9);
+}
+
+double mote_summary_noise_floor(const mote_summary_row *rows, size_t count)
+{
+    double *shares = mote_allocate(count, sizeof *shares);
     size_t known = 0;
-    for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         if (!is_compared(rows, i))
             continue;
-        double share = MOTE_NONE;
-        status = halves_differ(
-            &rows[i], rows[i].ratio.to == SIZE_MAX ? NULL : &rows[rows[i].ratio.to], &share);
+        const size_t to = rows[i].ratio.to;
+        const double share = halves_differ(&rows[i], to == SIZE_MAX ? NULL : &rows[to]);
         if (share == share)
             shares[known++] = share;
     }
-    if (known > 0)
-        mote_statistics_sort(shares, known);
-    *floor = known > 0 ? mote_statistics_quantile(shares, known, 0.9) : MOTE_NONE;
+    const double floor = most_of(shares, known);
     free(shares);
-    return status;
+    return floor;
 }
 
 /* The logarithms of what comparisons are made from; returns how many. */
@@ -177,16 +172,14 @@ static size_t comparable_logs(const mote_summary_row *row, double *logs)
     return count;
 }
 
-mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count, double *smallest)
+double mote_summary_smallest_change(mote_summary_row *rows, size_t count)
 {
     size_t compared = 0, known = 0, most = MOTE_QUIET_GROUPS;
     for (size_t i = 0; i < count; ++i) {
         compared += is_compared(rows, i) ? 1 : 0;
         most = rows[i].replicates > most ? rows[i].replicates : most;
     }
-    double *logs = malloc((most + count + 1) * sizeof *logs);
-    if (!logs)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu rows", count);
+    double *logs = mote_allocate(most + count, sizeof *logs);
     double *changes = logs + most;
     for (size_t i = 0; i < count; ++i) {
         rows[i].smallest_change = MOTE_NONE;
@@ -196,9 +189,7 @@ mote_status mote_summary_smallest_change(mote_summary_row *rows, size_t count, d
         if (rows[i].smallest_change == rows[i].smallest_change)
             changes[known++] = rows[i].smallest_change;
     }
-    if (known > 0)
-        mote_statistics_sort(changes, known);
-    *smallest = known > 0 ? mote_statistics_quantile(changes, known, 0.9) : MOTE_NONE;
+    const double smallest = most_of(changes, known);
     free(logs);
-    return MOTE_OK;
+    return smallest;
 }

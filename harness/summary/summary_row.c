@@ -1,6 +1,7 @@
 #include "harness/summary/summary_row.h"
 
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -43,19 +44,14 @@ static bool ran(const mote_stored_cell *cell)
 }
 
 /* Gathers the values of a row's replicates over the frames first .. last. */
-static mote_status gather(const mote_summary_row *row, value_of value, uint32_t first,
-                          uint32_t last, slice *s)
+static slice gather(const mote_summary_row *row, value_of value, uint32_t first, uint32_t last)
 {
     slice made = {0};
     size_t most = 0;
     for (size_t r = 0; r < row->replicates; ++r)
         most += ran(&row->cells[r]) ? row->cells[r].frames : 0;
-    made.all = malloc((most + 1) * sizeof *made.all);
-    made.replicas = calloc(row->replicates + 1, sizeof *made.replicas);
-    if (!made.all || !made.replicas) {
-        free_slice(&made);
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu values", most);
-    }
+    made.all = mote_allocate(most, sizeof *made.all);
+    made.replicas = mote_allocate(row->replicates, sizeof *made.replicas);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
         if (!ran(cell))
@@ -70,56 +66,45 @@ static mote_status gather(const mote_summary_row *row, value_of value, uint32_t 
             ++replicate->count;
         }
     }
-    *s = made;
-    return MOTE_OK;
+    return made;
 }
 
-static mote_status make_time(const mote_summary_row *row, value_of value, uint32_t first,
-                             uint32_t last, mote_time *time)
+static mote_time make_time(const mote_summary_row *row, value_of value, uint32_t first,
+                           uint32_t last)
 {
-    mote_time none = {MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE,
+    mote_time time = {MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE,
                       MOTE_NONE, MOTE_NONE, MOTE_NONE};
-    *time = none;
-    slice s = {0};
-    mote_status status = gather(row, value, first, last, &s);
-    if (status != MOTE_OK)
-        return status;
-    mote_confidence interval = {MOTE_NONE, MOTE_NONE};
+    slice s = gather(row, value, first, last);
     if (s.total > 0) {
         /* A time that is always 0 (no refit) has no logarithm. */
         double least = s.all[0];
         for (size_t i = 0; i < s.total; ++i)
             least = s.all[i] < least ? s.all[i] : least;
-        status = mote_statistics_median_interval(s.replicas, s.count, least > 0, BOOTSTRAP_SEED,
-                                                 &interval);
-        time->mean = mote_statistics_mean(s.all, s.total);
-        time->sum = time->mean * (double)s.total / (double)s.count;
+        const mote_confidence interval =
+            mote_statistics_median_interval(s.replicas, s.count, least > 0, BOOTSTRAP_SEED);
+        time.mean = mote_statistics_mean(s.all, s.total);
+        time.sum = time.mean * (double)s.total / (double)s.count;
         mote_statistics_sort(s.all, s.total);
-        time->median = mote_statistics_quantile(s.all, s.total, 0.5);
-        time->p95 = mote_statistics_quantile(s.all, s.total, 0.95);
-        time->max = s.all[s.total - 1];
-        time->low = interval.low;
-        time->high = interval.high;
+        time.median = mote_statistics_quantile(s.all, s.total, 0.5);
+        time.p95 = mote_statistics_quantile(s.all, s.total, 0.95);
+        time.max = s.all[s.total - 1];
+        time.low = interval.low;
+        time.high = interval.high;
     }
     free_slice(&s);
-    return status;
+    return time;
 }
 
-static mote_status make_times(mote_summary_row *row)
+static void make_times(mote_summary_row *row)
 {
-    uint32_t first = row->first->active_first, last = row->first->active_last;
-    mote_status status = make_time(row, total_of, 0, UINT32_MAX, &row->total);
-    if (status == MOTE_OK)
-        status = make_time(row, deform_of, 0, UINT32_MAX, &row->deform);
-    if (status == MOTE_OK)
-        status = make_time(row, update_of, 0, UINT32_MAX, &row->update);
-    if (status == MOTE_OK)
-        status = make_time(row, query_of, 0, UINT32_MAX, &row->query);
-    if (status == MOTE_OK)
-        status = make_time(row, given_of, 0, UINT32_MAX, &row->given_total);
-    if (status == MOTE_OK) /* last is 0 without an active interval: no frame, no figure */
-        status = make_time(row, total_of, first, last, &row->active_total);
-    return status;
+    row->total = make_time(row, total_of, 0, UINT32_MAX);
+    row->deform = make_time(row, deform_of, 0, UINT32_MAX);
+    row->update = make_time(row, update_of, 0, UINT32_MAX);
+    row->query = make_time(row, query_of, 0, UINT32_MAX);
+    row->given_total = make_time(row, given_of, 0, UINT32_MAX);
+    /* active_last is 0 without an active interval: no frame, no figure */
+    row->active_total =
+        make_time(row, total_of, row->first->active_first, row->first->active_last);
 }
 
 static value_of value_of_part(mote_part part)
@@ -127,15 +112,13 @@ static value_of value_of_part(mote_part part)
     return part == MOTE_PART_TOTAL ? total_of : given_of;
 }
 
-mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
-                                       uint32_t last, mote_part part, double *median)
+double mote_summary_median_within(const mote_summary_row *row, uint32_t first, uint32_t last,
+                                  mote_part part)
 {
-    slice s = {0};
-    const mote_status status = gather(row, value_of_part(part), first, last, &s);
-    if (status == MOTE_OK)
-        *median = mote_statistics_median(s.all, s.total);
+    slice s = gather(row, value_of_part(part), first, last);
+    const double median = mote_statistics_median(s.all, s.total);
     free_slice(&s);
-    return status;
+    return median;
 }
 
 static void count_exact(const mote_summary_row *row, mote_error_summary *error)
@@ -157,15 +140,12 @@ static void count_exact(const mote_summary_row *row, mote_error_summary *error)
     error->exact_rate_separated = separated > 0 ? exact_separated / separated : MOTE_NONE;
 }
 
-static mote_status make_error(const mote_summary_row *row, mote_error_summary *error)
+static void make_error(const mote_summary_row *row, mote_error_summary *error)
 {
     mote_error_summary none = {MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE,
                                MOTE_NONE, MOTE_NONE, MOTE_NONE, MOTE_NONE};
     *error = none;
-    slice s = {0};
-    mote_status status = gather(row, error_of, 0, UINT32_MAX, &s);
-    if (status != MOTE_OK)
-        return status;
+    slice s = gather(row, error_of, 0, UINT32_MAX);
     if (s.total > 0) {
         mote_statistics_sort(s.all, s.total);
         error->min_signed = s.all[0];
@@ -180,7 +160,6 @@ static mote_status make_error(const mote_summary_row *row, mote_error_summary *e
     }
     free_slice(&s);
     count_exact(row, error);
-    return MOTE_OK;
 }
 
 static void count_contacts(mote_summary_row *row)
@@ -269,31 +248,22 @@ static char *make_label(const mote_stored_cell *cell)
     {
         bool usual;
         char *shown = value_text(method, key, value, &usual);
-        text.failed = text.failed || !shown;
-        if (!text.failed && !usual) {
+        if (!usual) {
             mote_text_add(&text, "%c%s=%s", separator, key, shown);
             separator = ',';
         }
         free(shown);
     }
-    if (text.failed) {
-        free(text.data);
-        return NULL;
-    }
     return text.data;
 }
 
-static mote_status make_processes(mote_summary_row *row)
+static void make_processes(mote_summary_row *row)
 {
     size_t most = 0;
     for (size_t r = 0; r < row->replicates; ++r)
         most = row->cells[r].frames > most ? row->cells[r].frames : most;
-    double *work = malloc((most + 1) * sizeof *work);
-    row->processes = calloc(row->replicates, sizeof *row->processes);
-    if (!work || !row->processes) {
-        free(work);
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", most);
-    }
+    double *work = mote_allocate(most, sizeof *work);
+    row->processes = mote_allocate(row->replicates, sizeof *row->processes);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
         if (cell->frames > 0)
@@ -302,7 +272,6 @@ static mote_status make_processes(mote_summary_row *row)
         row->processes[r].ratio = MOTE_NONE;
     }
     free(work);
-    return MOTE_OK;
 }
 
 bool mote_summary_row_measured(const mote_summary_row *row)
@@ -343,8 +312,7 @@ static bool is_given(const mote_stored_cell *cell)
     return positions && strcmp(positions, "given") == 0;
 }
 
-mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
-                                  mote_summary_row *row)
+mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates)
 {
     mote_summary_row made = {.cells = cells, .replicates = replicates, .first = &cells[0]};
     for (size_t r = 0; r < replicates; ++r) {
@@ -362,8 +330,6 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
     made.smallest_change = made.near_pairs = MOTE_NONE;
     made.contacts_of = SIZE_MAX;
     made.label = make_label(made.first);
-    if (!made.label)
-        return mote_fail(MOTE_ENOMEM, "no memory for a label");
     const json_t *n = json_object_get(made.first->parameters, "n");
     made.n = json_is_number(n) ? json_number_value(n) : MOTE_NONE;
     made.ratio = made.ratio_given = made.ratio_best = no_ratio;
@@ -371,16 +337,10 @@ mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicat
     made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
     count_contacts(&made);
-    mote_status status = make_processes(&made);
-    if (status == MOTE_OK)
-        status = make_times(&made);
-    if (status == MOTE_OK)
-        status = make_error(&made, &made.error);
-    if (status == MOTE_OK)
-        *row = made;
-    else
-        mote_summary_row_free(&made);
-    return status;
+    make_processes(&made);
+    make_times(&made);
+    make_error(&made, &made.error);
+    return made;
 }
 
 /* The ratios other / row of the frames that two cells share; returns how many. */
@@ -411,19 +371,15 @@ static const mote_stored_cell *find_replicate(const mote_summary_row *row, uint3
     return NULL;
 }
 
-mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *other,
-                               mote_part part, mote_ratio *ratio)
+void mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *other,
+                        mote_part part, mote_ratio *ratio)
 {
     slice s = {0};
     size_t most = 0;
     for (size_t r = 0; r < row->replicates; ++r)
         most += row->cells[r].frames;
-    s.all = malloc((most + 1) * sizeof *s.all);
-    s.replicas = calloc(row->replicates + 1, sizeof *s.replicas);
-    if (!s.all || !s.replicas) {
-        free_slice(&s);
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu ratios", most);
-    }
+    s.all = mote_allocate(most, sizeof *s.all);
+    s.replicas = mote_allocate(row->replicates, sizeof *s.replicas);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
         const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
@@ -435,32 +391,25 @@ mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_r
         s.total += replicate->count;
         s.count += replicate->count ? 1 : 0;
     }
-    mote_confidence interval;
-    mote_status status =
-        mote_statistics_median_interval(s.replicas, s.count, true, BOOTSTRAP_SEED, &interval);
-    if (status == MOTE_OK) {
-        ratio->value = mote_statistics_median(s.all, s.total);
-        ratio->low = interval.low;
-        ratio->high = interval.high;
-    }
+    const mote_confidence interval =
+        mote_statistics_median_interval(s.replicas, s.count, true, BOOTSTRAP_SEED);
+    ratio->value = mote_statistics_median(s.all, s.total);
+    ratio->low = interval.low;
+    ratio->high = interval.high;
     free_slice(&s);
-    return status;
 }
 
-mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
-                                        mote_part part)
+void mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
+                                 mote_part part)
 {
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
         const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
         if (!ran(mine) || !theirs)
             continue;
-        double *ratios = malloc(mine->frames * sizeof *ratios);
-        if (!ratios)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu ratios", mine->frames);
+        double *ratios = mote_allocate(mine->frames, sizeof *ratios);
         size_t count = pair_frames(mine, theirs, value_of_part(part), ratios);
         row->processes[r].ratio = mote_statistics_median(ratios, count);
         free(ratios);
     }
-    return MOTE_OK;
 }

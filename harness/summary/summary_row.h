@@ -91,16 +91,15 @@ typedef struct mote_summary_row {
     double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
 } mote_summary_row;
 
-/* Fills a row from its cells [replicates], all but the ratios. */
-mote_status mote_summary_row_make(const mote_stored_cell *cells, size_t replicates,
-                                  mote_summary_row *row);
+/* A row from its cells [replicates], all but the ratios. */
+mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates);
 
 /* Which part of a frame's time is compared: all of it, or all but deformation. */
 typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
 
 /* Median time over the frames first .. last of all replicates; MOTE_NONE without any. */
-mote_status mote_summary_median_within(const mote_summary_row *row, uint32_t first,
-                                       uint32_t last, mote_part part, double *median);
+double mote_summary_median_within(const mote_summary_row *row, uint32_t first, uint32_t last,
+                                  mote_part part);
 
 /* Whether the row's method is one of FCL's. */
 bool mote_summary_is_fcl(const mote_summary_row *row);
@@ -115,12 +114,12 @@ bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *
 void mote_summary_row_free(mote_summary_row *row);
 
 /* Fills the ratios of the row's processes to other's, replicate by replicate. */
-mote_status mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
-                                        mote_part part);
+void mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
+                                 mote_part part);
 
 /* The paired ratio of other's time to row's, frame by frame within a replicate; both have
  * status ok. */
-mote_status mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *other,
-                               mote_part part, mote_ratio *ratio);
+void mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *other,
+                        mote_part part, mote_ratio *ratio);
 
 #endif

@@ -1,4 +1,5 @@
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/summary/table.h"
 
 #include <inttypes.h>
@@ -77,20 +78,18 @@ static json_t *gbench_context(const json_t *manifest, const mote_summary *summar
 static json_t *gbench_replicate(const mote_summary_row *row, const mote_stored_cell *cell,
                                 const char *name, size_t index)
 {
-    double *work = malloc((cell->frames + 1) * sizeof *work);
-    if (!work)
-        return NULL;
+    double *work = mote_allocate(cell->frames, sizeof *work);
     memcpy(work, cell->total_ns, cell->frames * sizeof *work);
     double median = mote_statistics_median(work, cell->frames);
     free(work);
     char *full = mote_format("%s/real_time", name);
-    json_t *entry = json_pack(
-        "{s:s, s:s, s:s, s:i, s:i, s:i, s:i, s:f, s:f, s:s}", "name", full ? full : name,
-        "run_name", full ? full : name, "run_type", "iteration", "repetitions",
-        (int)row->finished, "repetition_index", (int)index, "threads", 1, "iterations",
-        (int)cell->frames, "real_time", median, "cpu_time", median, "time_unit", "ns");
+    json_t *entry =
+        json_pack("{s:s, s:s, s:s, s:i, s:i, s:i, s:i, s:f, s:f, s:s}", "name", full,
+                  "run_name", full, "run_type", "iteration", "repetitions", (int)row->finished,
+                  "repetition_index", (int)index, "threads", 1, "iterations", (int)cell->frames,
+                  "real_time", median, "cpu_time", median, "time_unit", "ns");
     free(full);
-    for (int k = 0; entry && k < MOTE_STORED_COUNTS; ++k)
+    for (int k = 0; k < MOTE_STORED_COUNTS; ++k)
         (void)json_object_set_new(entry, mote_stored_count_names[k],
                                   json_real(cell->counts[k].sum / (double)cell->frames));
     return entry;
@@ -103,7 +102,7 @@ json_t *mote_gbench_json(const mote_summary *summary, const json_t *manifest)
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
         size_t index = 0;
-        for (size_t r = 0; name && row->jobs == 1 && r < row->replicates; ++r) {
+        for (size_t r = 0; row->jobs == 1 && r < row->replicates; ++r) {
             if (row->cells[r].frames > 0)
                 (void)json_array_append_new(
                     benchmarks, gbench_replicate(row, &row->cells[r], name, index++));
@@ -120,11 +119,11 @@ json_t *mote_gha_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (name && row->status == MOTE_CELL_OK && row->jobs == 1) {
+        if (row->status == MOTE_CELL_OK && row->jobs == 1) {
             json_t *entry = json_pack("{s:s, s:s, s:f}", "name", name, "unit", "ns", "value",
                                       row->total.median);
             char *range = mote_format("%.0f", (row->total.high - row->total.low) / 2);
-            if (range && row->total.high == row->total.high)
+            if (row->total.high == row->total.high)
                 (void)json_object_set_new(entry, "range", json_string(range));
             free(range);
             (void)json_array_append_new(list, entry);
@@ -140,7 +139,7 @@ json_t *mote_bencher_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (name && row->status == MOTE_CELL_OK && row->jobs == 1) {
+        if (row->status == MOTE_CELL_OK && row->jobs == 1) {
             json_t *latency = json_pack("{s:f}", "value", row->total.median);
             if (row->total.low == row->total.low) {
                 (void)json_object_set_new(latency, "lower_value", json_real(row->total.low));

@@ -1,5 +1,6 @@
 #include "harness/summary/tune.h"
 
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 
 #include <stdlib.h>
@@ -35,11 +36,9 @@ static void compete(const mote_summary_row *row, mote_tuned *group)
     group->right = right;
 }
 
-mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size_t *count)
+mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count)
 {
-    mote_tuned *groups = calloc(summary->count + 1, sizeof *groups);
-    if (!groups)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu configurations", summary->count);
+    mote_tuned *groups = mote_allocate(summary->count, sizeof *groups);
     size_t found = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         if (i > 0 && !same_group(&summary->rows[i - 1], &summary->rows[i]) &&
@@ -48,8 +47,7 @@ mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size
         compete(&summary->rows[i], &groups[found]);
     }
     *count = summary->count > 0 && groups[found].best ? found + 1 : found;
-    *tuned = groups;
-    return MOTE_OK;
+    return groups;
 }
 
 static json_t *row_json(const mote_tuned *group)
@@ -72,13 +70,9 @@ static json_t *row_json(const mote_tuned *group)
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count)
 {
     json_t *rows = json_array();
-    for (size_t i = 0; rows && i < count; ++i) {
-        if (json_array_append_new(rows, row_json(&tuned[i])) != 0) {
-            json_decref(rows);
-            return NULL;
-        }
-    }
-    return rows ? json_pack("{s:i, s:o}", "schema", 1, "rows", rows) : NULL;
+    for (size_t i = 0; i < count; ++i)
+        (void)json_array_append_new(rows, row_json(&tuned[i]));
+    return json_pack("{s:i, s:o}", "schema", 1, "rows", rows);
 }
 
 mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
@@ -112,11 +106,8 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
             best = text;
         }
     }
-    char *found = mote_format("%s", best);
+    *configuration = mote_duplicate(best);
     json_decref(object);
-    if (!found)
-        return mote_fail(MOTE_ENOMEM, "no memory for a configuration");
-    *configuration = found;
     return MOTE_OK;
 }
 

@@ -17,13 +17,13 @@ typedef struct mote_tuned {
 
 /* Groups the rows of a summary, which are sorted by scene, caches and method, and compares
    within each group the configurations that are right, or all of them where none is. Groups
-   without any that ran well are left out. The caller frees *tuned; it points into summary. */
-mote_status mote_tune_make(const mote_summary *summary, mote_tuned **tuned, size_t *count);
+   without any that ran well are left out. The caller frees the array; it points into summary.
+ */
+mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count);
 
 /* {"schema": 1, "rows": [{"scenario", "fingerprint", "accounting", "cache", "method",
    "configuration", "parameters", "right", "configurations", "stride", "total_ns", "deform_ns",
-   "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]}; NULL when
-   memory ran out. */
+   "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]} */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
 /* The configuration of FCL that directory/tune.json calls the fastest right one on a scenario

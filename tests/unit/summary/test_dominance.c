@@ -156,8 +156,7 @@ TEST(speed_at_exact_is_of_rows_exact_in_every_frame)
               (answers){.query_ns = 10, .error = 8.7e-3, .inexact = 1});
     write_row((stored_cell){.method = "certified"}, (answers){.query_ns = 20});
     make_summary();
-    mote_fronts fronts;
-    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 3);
     for (size_t i = 0; i < fronts.count; ++i) {
         const mote_front *front = &fronts.items[i];
@@ -186,8 +185,7 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
     assert_true(fabs(charged->ratio_given.value - 10) < 1e-9);
     /* Faster than all, and exact; yet it dominates only its like. */
     assert_true(mote_on_front(charged) && mote_on_front(ours));
-    mote_fronts fronts;
-    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < fronts.count; ++i) {
         if (&summary.rows[fronts.items[i].first] == ours)
             assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
@@ -231,8 +229,7 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
                           (answers){.query_ns = 50});
         }
         make_summary();
-        mote_fronts fronts;
-        assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+        mote_fronts fronts = mote_fronts_make(&summary);
         const mote_front_speed *speed = &fronts.items[1].speed[0];
         if (!(speed->interval.low < speed->faster && speed->interval.high > speed->faster &&
               speed->interval.low > 19 && speed->interval.high < 21))

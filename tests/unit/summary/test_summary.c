@@ -116,8 +116,7 @@ TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
         }
     }
     make_summary();
-    mote_fronts fronts;
-    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 6);
     for (size_t i = 0; i < fronts.count; ++i) {
         const bool ours = strcmp(fronts.items[i].title, "certified") == 0;
@@ -186,8 +185,7 @@ TEST(summary_ratios_are_of_rows_on_the_same_frames)
     assert_non_null(out);
     mote_table_print(&summary, out);
     (void)fclose(out);
-    mote_fronts fronts;
-    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 8);
     for (size_t i = 0; i < fronts.count; ++i) {
         const char *id = summary.rows[fronts.items[i].first].first->id;
@@ -214,8 +212,7 @@ TEST(fronts_are_of_the_figures_of_the_rows)
         }
     }
     make_summary();
-    mote_fronts fronts;
-    assert_int_equal(mote_fronts_make(&summary, &fronts), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 2);
     const mote_front *ours = &fronts.items[1];
     assert_true(fabs(summary.rows[ours->first].error.p99 - 0.09) < 1e-9);
