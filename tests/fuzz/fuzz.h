@@ -1,6 +1,6 @@
-/* What every fuzz target (tests/fuzz_*.c) defines: libFuzzer's entry point. Built with clang's
-   fuzzer by the preset fuzz; everywhere else linked with fuzz_replay.c, which runs the corpus
-   (tests/corpus/TARGET) through it once, as a test. */
+/* What every fuzz target (tests/fuzz/fuzz_*.c) defines: libFuzzer's entry point. Built with
+   clang's fuzzer by the preset fuzz; everywhere else linked with fuzz_replay.c, which runs the
+   corpus (tests/corpus/TARGET) through it once, as a test. */
 #ifndef MOTE_TESTS_FUZZ_H
 #define MOTE_TESTS_FUZZ_H
 
