@@ -3,6 +3,7 @@
 #include "harness/base/options.h"
 #include "harness/summary/front.h"
 #include "harness/base/record.h"
+#include "harness/summary/screen.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 
@@ -77,33 +78,63 @@ static size_t find_format(const char *name)
 
 const mote_option mote_options_summarize[] = {
     {"format", "table|json|csv|gbench|gha|bencher", "how (default: table)"},
+    {"best", NULL,
+     "only the best rows, sorted by time, in at most 100 columns (default: all, in a wide "
+     "table)"},
     {NULL, NULL, NULL}};
+enum { OPTION_FORMAT, OPTION_BEST, OPTION_COUNT };
 
-int mote_command_summarize(int argc, char **argv)
+typedef struct request {
+    const char *directory;
+    size_t format;
+    bool best;
+} request;
+
+/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
+static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {mote_options_summarize, 1, argc, argv, 0};
-    const char *directory = NULL, *value;
-    size_t format = FORMAT_TABLE;
+    mote_option_reader reader = {mote_options_summarize, OPTION_COUNT, argc, argv, 0};
+    const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN && directory)
+        if (option == MOTE_OPTION_PLAIN && q->directory)
             return mote_command_usage(argv[0], "%s: one directory at a time", value);
         if (option == MOTE_OPTION_PLAIN)
-            directory = value;
-        else if ((format = find_format(value)) == FORMAT_COUNT)
+            q->directory = value;
+        else if (option == OPTION_BEST)
+            q->best = true;
+        else if ((q->format = find_format(value)) == FORMAT_COUNT)
             return mote_command_usage(argv[0], "--format %s: choose %s", value,
-                                      mote_options_summarize[0].value);
+                                      mote_options_summarize[OPTION_FORMAT].value);
     }
-    if (!directory)
+    if (!q->directory)
         return mote_command_usage(argv[0],
                                   "no directory; write `mote summarize results/paper`");
+    if (q->best && q->format != FORMAT_TABLE)
+        return mote_command_usage(argv[0],
+                                  "--best is for --format table; leave out one of them");
+    return MOTE_EXIT_DONE;
+}
+
+int mote_command_summarize(int argc, char **argv)
+{
+    request q = {.format = FORMAT_TABLE};
+    const int understood = read_arguments(argc, argv, &q);
+    if (understood != MOTE_EXIT_DONE)
+        return understood;
     mote_summary summary;
-    if (mote_summary_make(directory, &summary) != MOTE_OK)
+    if (mote_summary_make(q.directory, &summary) != MOTE_OK)
         return mote_command_fail();
-    int code = mote_summary_write(&summary, directory) == MOTE_OK
-                   ? print(&summary, directory, format)
-                   : mote_command_fail();
+    int code = MOTE_EXIT_DONE;
+    if (mote_summary_write(&summary, q.directory) != MOTE_OK) {
+        code = mote_command_fail();
+    } else if (q.best) {
+        mote_screen_print(&summary, stdout);
+        code = mote_command_finish(MOTE_EXIT_DONE);
+    } else {
+        code = print(&summary, q.directory, q.format);
+    }
     mote_summary_free(&summary);
     return code;
 }

@@ -2,6 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/process/child.h"
 #include "harness/base/options.h"
+#include "harness/base/wrap.h"
 #include "harness/base/json_memory.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/scene/fence.h"
@@ -24,25 +25,9 @@ static const size_t command_count = sizeof commands / sizeof commands[0];
 
 #define WIDTH 80 /* of a line of help */
 
-/* Prints words from column `indent` on, where the cursor stands; lines begin there. */
 static void print_wrapped(const char *words, int indent)
 {
-    int column = indent;
-    while (*words) {
-        const int length = (int)strcspn(words, " ");
-        if (column > indent && column + 1 + length > WIDTH) {
-            (void)printf("\n%*s", indent, "");
-            column = indent;
-        } else if (column > indent) {
-            (void)putchar(' ');
-            ++column;
-        }
-        (void)printf("%.*s", length, words);
-        column += length;
-        words += length;
-        words += strspn(words, " ");
-    }
-    (void)putchar('\n');
+    mote_print_wrapped(words, indent, indent, WIDTH, stdout);
 }
 
 static const char *dashes(const mote_option *option)

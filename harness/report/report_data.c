@@ -72,7 +72,7 @@ static json_t *cells_data(const mote_summary_row *row)
 }
 
 /* A row of the summary without what no table of the page shows. */
-static json_t *row_data(const mote_report *report, size_t first, size_t end, size_t i)
+static json_t *row_data(const mote_report *report, size_t i)
 {
     static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint"};
     const json_t *row = mote_report_row(report, i);
@@ -82,7 +82,7 @@ static json_t *row_data(const mote_report *report, size_t first, size_t end, siz
         (void)json_object_del(data, unused[k]);
     set(data, "scene", json_string(mote_report_scene(row))); /* also of older summaries */
     set(data, "notes", notes_data(row));
-    set(data, "stands", json_boolean(mote_report_stands_for_method(report, first, end, i)));
+    set(data, "stands", json_boolean(mote_report_stands_for_method(row)));
     set(data, "cells", cells_data(mote_report_cells(report, i)));
     return data;
 }
@@ -101,7 +101,7 @@ static void set_rows(const mote_report *report, json_t *data)
                                  (json_int_t)end, "right", index_or_null(glance.right),
                                  "fastest", index_or_null(glance.fastest)));
         for (size_t i = first; i < end; ++i)
-            append(rows, row_data(report, first, end, i));
+            append(rows, row_data(report, i));
         first = end;
     }
     set(data, "columns", columns);

@@ -5,6 +5,7 @@
 #include "harness/report/report_facts.h"
 #include "harness/report/report_rows.h"
 #include "harness/summary/column.h"
+#include "harness/summary/dominance.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -222,7 +223,7 @@ static void add_table(const mote_report *report, size_t first, size_t end, bool 
     const int width = label_width(report, first, end);
     add_head(width, text);
     for (size_t i = first; i < end; ++i) {
-        if (all || mote_report_stands_for_method(report, first, end, i))
+        if (all || mote_report_stands_for_method(mote_report_row(report, i)))
             add_row(report, i, width, text);
     }
 }
@@ -230,7 +231,7 @@ static void add_table(const mote_report *report, size_t first, size_t end, bool 
 static bool all_stand(const mote_report *report, size_t first, size_t end)
 {
     size_t i = first;
-    while (i < end && mote_report_stands_for_method(report, first, end, i))
+    while (i < end && mote_report_stands_for_method(mote_report_row(report, i)))
         ++i;
     return i == end;
 }
@@ -273,7 +274,7 @@ static void add_results(const mote_report *report, mote_text *text)
         "absolute, over L. The numbers in the last column link to the cells that a row was "
         "computed\nfrom. Intervals and more columns are in [report.html](report.html) and "
         "[summary.json](summary.json).\n",
-        MOTE_REPORT_CLOSE);
+        MOTE_CLOSE_ERROR);
     for (size_t first = 0; first < count;) {
         size_t end = mote_report_block_end(report, first);
         add_block(report, first, end, text);

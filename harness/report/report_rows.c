@@ -53,20 +53,12 @@ const char *mote_report_scene(const json_t *row)
 
 bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE])
 {
-    const double stride = mote_report_number(row, NULL, "stride");
-    const double jobs = mote_report_number(row, NULL, "jobs");
-    const double failed = mote_report_number(row, NULL, "replicates_failed");
-    const double ended = mote_report_number(row, NULL, "replicates");
-    const bool some[MOTE_REPORT_NOTES] = {stride > 1, jobs > 1, failed > 0 && ended > 0};
-    if (some[i] && i == 0)
-        (void)snprintf(text, MOTE_REPORT_NOTE, "every %.0fth frame", stride);
-    else if (some[i] && i == 1)
-        (void)snprintf(text, MOTE_REPORT_NOTE, "times not comparable: %.0f cells at once",
-                       jobs);
-    else if (some[i])
-        (void)snprintf(text, MOTE_REPORT_NOTE, "%.0f of %.0f replicates ended badly", failed,
-                       failed + ended);
-    return some[i];
+    const mote_row_facts facts = {.stride = mote_report_number(row, NULL, "stride"),
+                                  .jobs = mote_report_number(row, NULL, "jobs"),
+                                  .replicates = mote_report_number(row, NULL, "replicates"),
+                                  .replicates_failed =
+                                      mote_report_number(row, NULL, "replicates_failed")};
+    return mote_row_note(&facts, (int)i, text);
 }
 
 bool mote_report_same_block(const json_t *a, const json_t *b)
@@ -165,44 +157,7 @@ mote_report_glance mote_report_block_glance(const mote_report *report, size_t fi
     return glance;
 }
 
-/* Wrong contacts and error of a row; of rows that are good enough, its time decides. */
-typedef struct standing {
-    double wrong, error, time;
-} standing;
-
-static standing standing_of(const json_t *row)
+bool mote_report_stands_for_method(const json_t *row)
 {
-    const double missed = mote_report_number(row, NULL, "missed");
-    const double invented = mote_report_number(row, NULL, "false_contacts");
-    const double error = mote_report_number(row, "error", "p99");
-    const double wrong = missed + invented;
-    const bool asked = strcmp(mote_report_text(row, "ask"), "contact") != 0;
-    return (standing){wrong == wrong ? wrong : HUGE_VAL,
-                      asked && error > MOTE_REPORT_CLOSE ? error : 0, time_of(row)};
-}
-
-static bool is_better(const standing *a, const standing *b)
-{
-    if (a->wrong < b->wrong || a->wrong > b->wrong)
-        return a->wrong < b->wrong;
-    if (a->error < b->error || a->error > b->error)
-        return a->error < b->error;
-    return a->time < b->time;
-}
-
-bool mote_report_stands_for_method(const mote_report *report, size_t first, size_t end,
-                                   size_t i)
-{
-    const json_t *row = mote_report_row(report, i);
-    const standing own = standing_of(row);
-    for (size_t k = first; k < end; ++k) {
-        const json_t *other = mote_report_row(report, k);
-        if (k == i || is_given(other) != is_given(row) ||
-            strcmp(mote_report_text(other, "method"), mote_report_text(row, "method")) != 0)
-            continue;
-        const standing theirs = standing_of(other);
-        if (is_better(&theirs, &own) || (k < i && !is_better(&own, &theirs)))
-            return false;
-    }
-    return true;
+    return !json_is_false(json_object_get(row, "stands_for_method"));
 }

@@ -4,6 +4,7 @@
 #define MOTE_HARNESS_REPORT_ROWS_H
 
 #include "harness/report/report.h"
+#include "harness/summary/row_note.h"
 
 /* The rows in the order in which they are shown: block by block, within a block by median total
    time, rows without a time that can be compared last. Part of mote_report_gather. */
@@ -32,8 +33,8 @@ const char *mote_report_scene(const json_t *row);
 
 /* What a reader of a row's figures must know: the stride, that others ran beside it, replicates
    that failed. i from 0, below MOTE_REPORT_NOTES; false: nothing. */
-#define MOTE_REPORT_NOTES 3
-#define MOTE_REPORT_NOTE 80
+#define MOTE_REPORT_NOTES MOTE_ROW_NOTES
+#define MOTE_REPORT_NOTE MOTE_ROW_NOTE
 bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE]);
 
 /* Whether two rows stand in one table: one scenario, state of caches, machine,
@@ -53,14 +54,8 @@ typedef struct mote_report_glance {
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first,
                                             size_t end);
 
-/* Whether row i of the block first .. end - 1 stands for its method where one row a method is
-   shown: of the method's rows the fastest without a wrong contact and with an error of at most
-   MOTE_REPORT_CLOSE at the 99th percentile, if distances were asked; where no row is so good,
-   the one with the fewest wrong contacts, then the smallest error. Methods whose positions are
-   given count as others.
- */
-#define MOTE_REPORT_CLOSE 0.01
-bool mote_report_stands_for_method(const mote_report *report, size_t first, size_t end,
-                                   size_t i);
+/* Whether a row stands for its method where one row a method is shown (mote_find_method_rows);
+   all rows of an older summary, which does not say, do. */
+bool mote_report_stands_for_method(const json_t *row);
 
 #endif

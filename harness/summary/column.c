@@ -53,6 +53,7 @@ DEFINE_NUMBER(replicates_failed, row->replicates - row->finished)
 DEFINE_NUMBER(jobs, row->jobs)
 DEFINE_NUMBER(times_comparable, row->jobs == 1)
 DEFINE_NUMBER(on_front, mote_on_front(row))
+DEFINE_NUMBER(stands_for_method, row->stands_for_method)
 
 DEFINE_STORED(parameters, "parameters")
 DEFINE_STORED(triangles, "triangles")
@@ -464,8 +465,14 @@ const mote_column mote_columns[] = {
      .quoted = true,
      .optional = true,
      .unit = "",
-     .meaning = "Label of the fastest row that is",
+     .meaning = "Label of the fastest row that is faster and no worse",
      .text = dominated_by},
+    {.key = "stands_for_method",
+     .type = MOTE_COLUMN_FLAG,
+     .unit = "",
+     .meaning = "Shown where there is room for one row a method: the fastest without a wrong "
+                "contact and with p99 of at most 0.01 L, or else the most accurate",
+     .number = stands_for_method},
     {.key = "parameters",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",

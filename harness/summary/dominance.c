@@ -1,5 +1,6 @@
 #include "harness/summary/dominance.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Whether a figure of which less is better is no worse; not known on both sides is equal. */
@@ -42,6 +43,53 @@ void mote_find_dominated(mote_summary_row *rows, size_t count)
                 *by = k;
         }
     }
+}
+
+/* Wrong contacts and error of a row; of rows that are good enough, the time decides. */
+typedef struct standing {
+    double wrong, error, time;
+} standing;
+
+static standing standing_of(const mote_summary_row *row)
+{
+    const double wrong = row->missed + row->false_contacts, time = row->total.median;
+    const bool asked = strcmp(row->first->ask, "contact") != 0;
+    const bool timed = row->status == MOTE_CELL_OK && row->jobs == 1 && time == time;
+    return (standing){wrong == wrong ? wrong : HUGE_VAL,
+                      asked && row->error.p99 > MOTE_CLOSE_ERROR ? row->error.p99 : 0,
+                      timed ? time : HUGE_VAL};
+}
+
+static bool is_better(const standing *a, const standing *b)
+{
+    if (a->wrong < b->wrong || a->wrong > b->wrong)
+        return a->wrong < b->wrong;
+    if (a->error < b->error || a->error > b->error)
+        return a->error < b->error;
+    return a->time < b->time;
+}
+
+static bool stands_for_method(const mote_summary_row *rows, size_t count, size_t index)
+{
+    const mote_summary_row *row = &rows[index];
+    const standing own = standing_of(row);
+    for (size_t k = 0; k < count; ++k) {
+        const mote_summary_row *other = &rows[k];
+        if (k == index || other->given != row->given ||
+            strcmp(other->first->method, row->first->method) != 0 ||
+            !mote_summary_same_block(other, row))
+            continue;
+        const standing theirs = standing_of(other);
+        if (is_better(&theirs, &own) || (k < index && !is_better(&own, &theirs)))
+            return false;
+    }
+    return true;
+}
+
+void mote_find_method_rows(mote_summary_row *rows, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        rows[i].stands_for_method = stands_for_method(rows, count, i);
 }
 
 bool mote_on_front(const mote_summary_row *row)

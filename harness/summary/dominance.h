@@ -1,4 +1,5 @@
-/* Which rows of a summary another row beats in everything. */
+/* Which rows of a summary are read first: those that no other row beats in everything, and one
+   a method. */
 #ifndef MOTE_HARNESS_DOMINANCE_H
 #define MOTE_HARNESS_DOMINANCE_H
 
@@ -14,6 +15,13 @@ bool mote_dominates(const mote_summary_row *a, const mote_summary_row *b);
 /* Sets dominated_by of each row: the fastest row that dominates it. Part of mote_summary_make.
    Cost O(count^2). */
 void mote_find_dominated(mote_summary_row *rows, size_t count);
+
+/* Sets stands_for_method of each row. Of a method's rows in one block and of one accounting it
+   is the fastest without a wrong contact and with an error of at most MOTE_CLOSE_ERROR at the
+   99th percentile, if distances were asked; where no row is so good, the one with the fewest
+   wrong contacts, then the smallest error. Part of mote_summary_make. Cost O(count^2). */
+#define MOTE_CLOSE_ERROR 0.01
+void mote_find_method_rows(mote_summary_row *rows, size_t count);
 
 /* Whether a row stands on the front of its block: measured, and no other row dominates it. */
 bool mote_on_front(const mote_summary_row *row);

@@ -228,6 +228,7 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
         make_row_ratios(&made, &made.rows[i]);
     status = mote_scene_contacts_count(directory, made.rows, made.count);
     mote_find_dominated(made.rows, made.count);
+    mote_find_method_rows(made.rows, made.count);
     made.noise_floor = mote_summary_noise_floor(made.rows, made.count);
     find_overhead(&made);
     made.smallest_change = mote_summary_smallest_change(made.rows, made.count);

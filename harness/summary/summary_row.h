@@ -88,6 +88,7 @@ typedef struct mote_summary_row {
     double near_pairs;  /* mean a frame */
     size_t
         dominated_by; /* the fastest row that is better in all (dominance.h); SIZE_MAX: none */
+    bool stands_for_method; /* where one row a method is shown it is this one (likewise) */
     double heap_live_bytes, heap_peak_bytes, rss_peak_bytes; /* largest, or MOTE_NONE */
 } mote_summary_row;
 

@@ -3,6 +3,7 @@
 #include "harness/base/escape.h"
 #include "harness/summary/column.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* A change that is larger than this says nothing. */
@@ -25,14 +26,13 @@ static int column_width(const mote_column *column)
         return 6;
     if (column->show == mote_show_percent)
         return 7;
-    return column->show == mote_show_time || column->show == mote_show_bytes ? 9 : 8;
+    return column->show == mote_show_ratio ? 8 : 9;
 }
 
-/* Two lines: what belongs together, each above its columns, and the columns. */
-static void print_column_heads(int width, FILE *out)
+void mote_table_heads(mote_view view, int width, FILE *out)
 {
     const mote_column *columns[MOTE_VIEW_MAX];
-    const size_t count = mote_column_view(MOTE_VIEW_TABLE, columns);
+    const size_t count = mote_column_view(view, columns);
     (void)fprintf(out, "%-*s", width, "");
     for (size_t k = 0; k < count;) {
         const char *group = columns[k]->group ? columns[k]->group : "";
@@ -45,6 +45,17 @@ static void print_column_heads(int width, FILE *out)
     for (size_t k = 0; k < count; ++k)
         (void)fprintf(out, " %*s", column_width(columns[k]), columns[k]->head);
     (void)fprintf(out, "\n");
+}
+
+void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out)
+{
+    const mote_column *columns[MOTE_VIEW_MAX];
+    const size_t count = mote_column_view(view, columns);
+    for (size_t k = 0; k < count; ++k) {
+        char shown[MOTE_NUMBER_TEXT];
+        (void)fprintf(out, " %*s", column_width(columns[k]),
+                      columns[k]->show(mote_column_number(columns[k], row), shown));
+    }
 }
 
 /* "11920 and 11920 triangles", or "100 bodies of 1380 to 11920 triangles". */
@@ -63,50 +74,63 @@ static const char *describe_bodies(const mote_stored_cell *cell, char *text, siz
     return text;
 }
 
-/* The largest number of frames and of replicates in the block that starts at a row. */
-static void print_head(const mote_summary *summary, size_t start, int width, FILE *out)
+size_t mote_table_block_end(const mote_summary *summary, size_t start)
+{
+    size_t end = start;
+    while (end < summary->count &&
+           mote_summary_same_block(&summary->rows[start], &summary->rows[end]))
+        ++end;
+    return end;
+}
+
+/* With the largest number of frames and of replicates of its rows. */
+char *mote_table_heading(const mote_summary *summary, size_t start)
 {
     const mote_summary_row *row = &summary->rows[start];
     size_t frames = 0, replicates = 0;
-    for (size_t i = start;
-         i < summary->count && mote_summary_same_block(row, &summary->rows[i]); ++i) {
+    for (size_t i = start; i < mote_table_block_end(summary, start); ++i) {
         const mote_summary_row *other = &summary->rows[i];
         frames = other->frames > frames ? other->frames : frames;
         replicates = other->replicates > replicates ? other->replicates : replicates;
     }
     char what[96];
-    bool several = mote_summary_machines_differ(summary);
-    (void)fprintf(out, "%s%s: %s, %zu frames, %zu replicates, caches %s%s%s\n",
-                  start ? "\n" : "", row->scene,
-                  describe_bodies(row->first, what, sizeof what), frames, replicates,
-                  row->first->cache, several ? ", on " : "",
-                  several ? row->first->machine : "");
-    print_column_heads(width, out);
+    const bool several = mote_summary_machines_differ(summary);
+    return mote_format("%s: %s, %zu frames, %zu replicates, caches %s%s%s", row->scene,
+                       describe_bodies(row->first, what, sizeof what), frames, replicates,
+                       row->first->cache, several ? ", on " : "",
+                       several ? row->first->machine : "");
+}
+
+bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
+{
+    const mote_row_facts facts = {.stride = row->first->stride,
+                                  .jobs = row->jobs,
+                                  .replicates = (double)row->finished,
+                                  .replicates_failed =
+                                      (double)(row->replicates - row->finished)};
+    return mote_row_note(&facts, i, text);
+}
+
+const char *mote_table_reason(const mote_summary_row *row)
+{
+    const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
+    return reason ? reason : "";
 }
 
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
-    const mote_column *columns[MOTE_VIEW_MAX];
-    const size_t count = mote_column_view(MOTE_VIEW_TABLE, columns);
     (void)fprintf(out, "%-*s", width, row->label);
     if (row->status != MOTE_CELL_OK) {
-        const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
         (void)fprintf(out, " %s: %s\n", mote_cell_status_names[row->status],
-                      reason ? reason : "");
+                      mote_table_reason(row));
         return;
     }
-    for (size_t k = 0; k < count; ++k) {
-        char shown[MOTE_NUMBER_TEXT];
-        (void)fprintf(out, " %*s", column_width(columns[k]),
-                      columns[k]->show(mote_column_number(columns[k], row), shown));
+    mote_table_values(MOTE_VIEW_TABLE, row, out);
+    for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
+        char note[MOTE_ROW_NOTE];
+        if (mote_table_note(row, i, note))
+            (void)fprintf(out, "  %s", note);
     }
-    if (row->first->stride > 1)
-        (void)fprintf(out, "  every %uth frame", row->first->stride);
-    if (row->jobs > 1)
-        (void)fprintf(out, "  times not comparable: %u cells at once", row->jobs);
-    if (row->finished < row->replicates)
-        (void)fprintf(out, "  %zu of %zu replicates ended badly",
-                      row->replicates - row->finished, row->replicates);
     (void)fprintf(out, "\n");
 }
 
@@ -144,19 +168,21 @@ static void print_quality(const mote_summary *summary, FILE *out)
 
 void mote_table_print(const mote_summary *summary, FILE *out)
 {
-    int width = (int)label_width(summary);
-    for (size_t i = 0; i < summary->count;) {
-        size_t start = i;
-        const mote_summary_row *measured = &summary->rows[i];
-        print_head(summary, i, width, out);
-        for (; i < summary->count &&
-               mote_summary_same_block(&summary->rows[start], &summary->rows[i]);
-             ++i) {
+    const int width = (int)label_width(summary);
+    for (size_t start = 0; start < summary->count;) {
+        const size_t end = mote_table_block_end(summary, start);
+        const mote_summary_row *measured = &summary->rows[start];
+        char *heading = mote_table_heading(summary, start);
+        (void)fprintf(out, "%s%s\n", start ? "\n" : "", heading);
+        free(heading);
+        mote_table_heads(MOTE_VIEW_TABLE, width, out);
+        for (size_t i = start; i < end; ++i) {
             print_row(&summary->rows[i], width, out);
             if (summary->rows[i].status == MOTE_CELL_OK)
                 measured = &summary->rows[i];
         }
         print_foot(summary, measured, out);
+        start = end;
     }
     print_quality(summary, out);
     if (summary->stored.left_out > 0)

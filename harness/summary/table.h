@@ -3,12 +3,31 @@
 #define MOTE_HARNESS_TABLE_H
 
 #include "harness/base/file.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/column.h"
+#include "harness/summary/row_note.h"
 
 #include <stdio.h>
 
 /* A block a scenario and caches, a line a configuration. */
 void mote_table_print(const mote_summary *summary, FILE *out);
+
+/* "ww: 11920 and 11920 triangles, 1984 frames, 3 replicates, caches hot": the heading of the
+   block that begins at row start. The caller frees it. */
+char *mote_table_heading(const mote_summary *summary, size_t start);
+
+/* One after the last row of that block. */
+size_t mote_table_block_end(const mote_summary *summary, size_t start);
+
+/* The columns of a view: two lines of heads behind `width` characters, of which the second
+   begins with "method"; and the values of a row, below them, without a line end. */
+void mote_table_heads(mote_view view, int width, FILE *out);
+void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out);
+
+/* Note i < MOTE_ROW_NOTES of a row; false: there is none (row_note.h). */
+bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE]);
+
+/* Why a row that is not ok ended; "" where nobody knows. */
+const char *mote_table_reason(const mote_summary_row *row);
 
 /* A line of names, then one line a configuration, times in nanoseconds, an empty field for what
    there is not. */

@@ -239,3 +239,36 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
         mote_summary_free(&summary);
     }
 }
+
+/* One row a method and accounting: the fastest that is good enough, or else the one with the
+   fewest wrong contacts, then the smallest error. */
+TEST(the_row_that_stands_for_a_method_is_its_fastest_good_one)
+{
+    static const struct {
+        const char *id, *method, *parameters;
+        answers a;
+        bool stands;
+    } rows[] = {
+        {"a1", "ours", "{\"n\": 1}", {0, 10, 0.5, 50, 3, 0}, false},
+        {"a2", "ours", "{\"n\": 2}", {0, 20, 0.009, 50, 0, 0}, true},
+        {"a3", "ours", "{\"n\": 3}", {0, 30, 0, 0, 0, 0}, false},
+        {"b1", "poor", "{\"n\": 1}", {0, 10, 0.4, 50, 0, 3}, false},
+        {"b2", "poor", "{\"n\": 2}", {0, 20, 0.5, 50, 0, 2}, false},
+        {"b3", "poor", "{\"n\": 3}", {0, 30, 0.4, 50, 1, 1}, true},
+        {"c1", "ours", "{\"positions\": \"given\"}", {0, 99, 0, 0, 0, 0}, true},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
+        write_answers((stored_cell){.id = rows[i].id,
+                                    .method = rows[i].method,
+                                    .parameters = rows[i].parameters},
+                      rows[i].a);
+    make_summary();
+    assert_int_equal(summary.count, sizeof rows / sizeof rows[0]);
+    for (size_t i = 0; i < summary.count; ++i) {
+        for (size_t k = 0; k < summary.count; ++k) {
+            if (strcmp(summary.rows[i].first->id, rows[k].id) == 0 &&
+                summary.rows[i].stands_for_method != rows[k].stands)
+                fail_msg("%s", rows[k].id);
+        }
+    }
+}

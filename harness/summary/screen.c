@@ -1,0 +1,173 @@
+#include "harness/summary/screen.h"
+
+#include "harness/base/memory.h"
+#include "harness/base/wrap.h"
+#include "harness/summary/dominance.h"
+#include "harness/summary/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Columns for the method, of which the first two are for the mark of the front. */
+#define LABEL_WIDTH 39
+#define INDENT 2
+
+/* The rows of one block and one accounting. */
+typedef struct choice {
+    const mote_summary_row **rows; /* the best, at most MOTE_SCREEN_ROWS */
+    size_t count;
+    size_t others;   /* that are left out */
+    bool any_marked; /* a row is on the front */
+} choice;
+
+/* Prints words, from the left, in lines that begin with two spaces from the second on. */
+static void print_words(const mote_text *words, FILE *out)
+{
+    mote_print_wrapped(words->data, 0, INDENT, MOTE_SCREEN_WIDTH, out);
+}
+
+static bool is_best(const mote_summary_row *row)
+{
+    return row->status == MOTE_CELL_OK && (row->stands_for_method || mote_on_front(row));
+}
+
+/* Rows whose times cannot be compared come last. */
+static int by_time(const void *a, const void *b)
+{
+    const mote_summary_row *first = *(const mote_summary_row *const *)a;
+    const mote_summary_row *second = *(const mote_summary_row *const *)b;
+    const bool one = mote_summary_row_measured(first),
+               other = mote_summary_row_measured(second);
+    if (one != other)
+        return one ? -1 : 1;
+    const double x = first->total.median, y = second->total.median;
+    return (x > y) - (x < y);
+}
+
+/* Takes out the least accurate row that does not stand for its method; false: there is none. */
+static bool drop_worst(choice *c)
+{
+    size_t worst = SIZE_MAX;
+    for (size_t i = 0; i < c->count; ++i) {
+        const mote_summary_row *row = c->rows[i];
+        if (!row->stands_for_method &&
+            (worst == SIZE_MAX || row->error.p99 > c->rows[worst]->error.p99))
+            worst = i;
+    }
+    if (worst == SIZE_MAX)
+        return false;
+    c->rows[worst] = c->rows[--c->count];
+    ++c->others;
+    return true;
+}
+
+static choice choose(const mote_summary *summary, size_t start, size_t end, bool given)
+{
+    choice c = {.rows = mote_allocate(end - start, sizeof *c.rows)};
+    for (size_t i = start; i < end; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (row->given != given || row->status != MOTE_CELL_OK)
+            continue;
+        if (is_best(row))
+            c.rows[c.count++] = row;
+        else
+            ++c.others;
+    }
+    while (c.count > MOTE_SCREEN_ROWS && drop_worst(&c))
+        continue;
+    for (size_t i = 0; i < c.count; ++i)
+        c.any_marked = c.any_marked || mote_on_front(c.rows[i]);
+    qsort(c.rows, c.count, sizeof(*c.rows), by_time);
+    return c;
+}
+
+/* A row on one line, or on two where its label is too long; its notes on one of their own. */
+static void print_row(const mote_summary_row *row, FILE *out)
+{
+    (void)fprintf(out, "%-*s%-*s", INDENT, mote_on_front(row) ? "*" : "", LABEL_WIDTH - INDENT,
+                  row->label);
+    if (strlen(row->label) > LABEL_WIDTH - INDENT)
+        (void)fprintf(out, "\n%*s", LABEL_WIDTH, "");
+    mote_table_values(MOTE_VIEW_SCREEN, row, out);
+    (void)fprintf(out, "\n");
+    for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
+        char note[MOTE_ROW_NOTE];
+        if (mote_table_note(row, i, note))
+            (void)fprintf(out, "    %s\n", note);
+    }
+}
+
+/* The row of FCL that ratios are taken to, of the first row that has any. */
+static const char *best_fcl(const mote_summary *summary, const choice *c)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        if (c->rows[i]->ratio_best.to != SIZE_MAX)
+            return summary->rows[c->rows[i]->ratio_best.to].label;
+    }
+    return NULL;
+}
+
+static void print_foot(const mote_summary *summary, const choice *c, FILE *out)
+{
+    mote_text words = {0};
+    const char *fcl = best_fcl(summary, c), *separator = "";
+    if (c->any_marked) {
+        mote_text_add(&words, "* on the front: no row is surely faster and as accurate");
+        separator = "; ";
+    }
+    if (fcl) {
+        mote_text_add(&words, "%sbest FCL: %s", separator, fcl);
+        separator = "; ";
+    }
+    if (c->others > 0)
+        mote_text_add(&words, "%s%zu more in the report", separator, c->others);
+    if (words.size > 0)
+        print_words(&words, out);
+    free(words.data);
+}
+
+static void print_choice(const mote_summary *summary, const choice *c, bool given, FILE *out)
+{
+    if (c->count == 0)
+        return;
+    if (given)
+        (void)fprintf(out,
+                      "\npositions=given: nobody is charged for deformation, FCL neither\n");
+    mote_table_heads(MOTE_VIEW_SCREEN, LABEL_WIDTH, out);
+    for (size_t i = 0; i < c->count; ++i)
+        print_row(c->rows[i], out);
+    print_foot(summary, c, out);
+}
+
+/* Rows without a figure, and why. */
+static void print_failures(const mote_summary *summary, size_t start, size_t end, FILE *out)
+{
+    for (size_t i = start; i < end; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (row->status == MOTE_CELL_OK)
+            continue;
+        mote_text words = {0};
+        mote_text_add(&words, "%s %s: %s", row->label, mote_cell_status_names[row->status],
+                      mote_table_reason(row));
+        print_words(&words, out);
+        free(words.data);
+    }
+}
+
+void mote_screen_print(const mote_summary *summary, FILE *out)
+{
+    for (size_t start = 0; start < summary->count;) {
+        const size_t end = mote_table_block_end(summary, start);
+        char *heading = mote_table_heading(summary, start);
+        (void)fprintf(out, "%s", start ? "\n" : "");
+        mote_print_wrapped(heading, 0, INDENT, MOTE_SCREEN_WIDTH, out);
+        free(heading);
+        for (int given = 0; given < 2; ++given) {
+            const choice c = choose(summary, start, end, given != 0);
+            print_choice(summary, &c, given != 0, out);
+            free(c.rows);
+        }
+        print_failures(summary, start, end, out);
+        start = end;
+    }
+}

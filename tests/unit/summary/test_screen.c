@@ -1,0 +1,137 @@
+/* What `mote summarize --best` shows, at the end of `make bench`: runs that the test writes
+   itself. */
+#include "harness/summary/screen.h"
+#include "tests/support/stored_run.h"
+
+/* Two replicates that answer two frames, in `error` of the first. */
+static void write_method(stored_cell cell, double ns, double error, int missed)
+{
+    static int number;
+    for (cell.replicate = 1; cell.replicate <= 2; ++cell.replicate) {
+        char id[32], rows[160];
+        (void)snprintf(id, sizeof id, "c%d", ++number);
+        (void)snprintf(rows, sizeof rows, "1,0,0,%g,0.5,%g,0,0,7\n2,0,0,%g,0,0,%d,1,7\n",
+                       ns * (1 + 0.001 * cell.replicate), error, ns, 1 - missed);
+        cell.id = id;
+        cell.rows = rows;
+        write_cell(cell);
+    }
+}
+
+static int summarize_best(void)
+{
+    return mote("summarize --best");
+}
+
+static size_t longest_line(const char *of)
+{
+    size_t most = 0;
+    for (const char *line = of; *line; line += strcspn(line, "\n") + 1) {
+        const size_t length = strcspn(line, "\n");
+        most = length > most ? length : most;
+    }
+    return most;
+}
+
+/* The texts stand in this order. */
+static void in_order(const char *const *parts, size_t count)
+{
+    const char *at = text;
+    for (size_t i = 0; i < count; ++i) {
+        const char *found = strstr(at, parts[i]);
+        if (!found)
+            fail_msg("no \"%s\" in its place in\n%s", parts[i], text);
+        at = found + strlen(parts[i]);
+    }
+}
+#define IN_ORDER(...)                                                                          \
+    do {                                                                                       \
+        static const char *const parts[] = {__VA_ARGS__};                                      \
+        in_order(parts, sizeof parts / sizeof parts[0]);                                       \
+    } while (false)
+
+TEST(best_rows_are_sorted_by_time_and_the_front_is_marked)
+{
+    write_method((stored_cell){.method = "fcl-aabb"}, 1000, 0, 0);
+    write_method((stored_cell){.method = "fcl-obb"}, 4000, 0, 0);
+    write_method((stored_cell){.method = "exact"}, 50, 0, 0);
+    write_method((stored_cell){.method = "rough"}, 5, 0.3, 1);
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("s: 8 and 8 triangles, 2 frames, 2 replicates, caches hot\n", "best FCL", "method",
+             "\n* rough ", "5.00 ns", "200", "3.0e-01", "50.0 %", " 1 ", "\n* exact ",
+             "50.0 ns", "20.0", "100.0 %", "\n  fcl-aabb ", "1.00", "\n  fcl-obb ", "0.25",
+             "\n* on the front", "best FCL: fcl-aabb\n");
+    assert_true(longest_line(text) <= MOTE_SCREEN_WIDTH);
+}
+
+/* Of the configurations of one method those that are on no front and do not stand for it are
+   counted, and no more. */
+TEST(rows_that_are_not_among_the_best_are_counted)
+{
+    static const char *const numbers[] = {"{\"n\": 1}", "{\"n\": 2}", "{\"n\": 3}"};
+    for (int k = 0; k < 3; ++k)
+        write_method((stored_cell){.method = "ours", .parameters = numbers[k]}, 10 + 10 * k, 0,
+                     0);
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("\n* ours:n=1 ", "2 more in the report\n");
+    assert_null(strstr(text, "ours:n=2"));
+}
+
+/* The front has more rows than a screen: the least accurate go, and those that stand for a
+   method stay. */
+TEST(a_long_front_is_cut_where_it_is_least_accurate)
+{
+    for (int k = 1; k <= 30; ++k) {
+        char n[32];
+        (void)snprintf(n, sizeof n, "{\"n\": %d}", k);
+        write_method((stored_cell){.method = "ours", .parameters = n}, 10 * k, 0.5 - 0.01 * k,
+                     0);
+    }
+    write_method((stored_cell){.method = "poor"}, 5, 0.9, 1);
+    assert_int_equal(summarize_best(), 0);
+    size_t rows = 0;
+    for (const char *at = text; (at = strstr(at, "\n* ")) != NULL; ++at)
+        ++rows;
+    assert_int_equal(rows, MOTE_SCREEN_ROWS + 1); /* and the line that explains them */
+    IN_ORDER("\n* poor ", "\n* ours:n=12 ", "\n* ours:n=30 ", "11 more in the report");
+    assert_null(strstr(text, "n=11 "));
+}
+
+/* Rows with positions given are never among those that pay for deformation. */
+TEST(rows_with_positions_given_stand_apart)
+{
+    write_method((stored_cell){.method = "fcl-aabb"}, 1000, 0, 0);
+    write_method((stored_cell){.method = "ours"}, 50, 0, 0);
+    write_method((stored_cell){.method = "ours", .parameters = "{\"positions\": \"given\"}"}, 5,
+                 0, 0);
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("\n* ours  ", "\n  fcl-aabb ", "\npositions=given", "method",
+             "\n* ours:positions=\"given\" ");
+}
+
+TEST(long_names_and_failures_keep_lines_short)
+{
+    static const char name[] = "a-method-with-a-name-that-is-longer-than-its-column";
+    static const char much[] = "{\"key\": \"value\", \"other\": \"some other value of it\"}";
+    write_method((stored_cell){.method = name, .parameters = much}, 50, 0, 0);
+    write_cell((stored_cell){.method = "broken",
+                             .status = "crashed",
+                             .more = ", \"reason\": \"a reason of many words, of more than a "
+                                     "line, so that it goes on in a second one below it\""});
+    write_cell((stored_cell){
+        .id = "lost", .method = name, .parameters = much, .replicate = 3, .status = "timeout"});
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("\n* a-method-with", "\n    ", "50.0 ns", "\n    1 of 3 replicates ended badly\n",
+             "\nbroken crashed: a reason", "\n  ");
+    assert_true(longest_line(text) <= MOTE_SCREEN_WIDTH);
+}
+
+TEST(best_is_for_the_table_alone)
+{
+    write_method((stored_cell){.method = "ours"}, 50, 0, 0);
+    char line[256];
+    (void)snprintf(line, sizeof line, "summarize --best --format csv %s", directory);
+    assert_int_equal(program_wait(program_start(line, said)), 2);
+    program_read(said, text, sizeof text);
+    assert_non_null(strstr(text, "--best is for --format table"));
+}
