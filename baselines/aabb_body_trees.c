@@ -10,7 +10,7 @@
 typedef struct served {
     mote_box_tree tree;
     mote_vec3 *vertices;
-    float reach;
+    float coordinate_max;
 } served;
 
 typedef struct shape_trees {
@@ -22,9 +22,9 @@ typedef struct shape_trees {
 typedef struct aabb_bodies {
     mote_body_trees_setup setup;
     double scale;
-    float reach;         /* largest absolute coordinate in any tree of the step */
-    shape_trees *shapes; /* [shape_count] */
-    uint32_t *place;     /* [body_count]: which tree of its shape a body has */
+    float coordinate_max; /* largest absolute coordinate in any tree of the step */
+    shape_trees *shapes;  /* [shape_count] */
+    uint32_t *place;      /* [body_count]: which tree of its shape a body has */
 } aabb_bodies;
 
 static void destroy(void *state)
@@ -70,7 +70,7 @@ static mote_status create(const mote_body_trees_setup *setup, void **state)
 static void begin(void *state)
 {
     aabb_bodies *s = state;
-    s->reach = 0;
+    s->coordinate_max = 0;
     for (uint32_t i = 0; i < s->setup.shape_count; ++i)
         s->shapes[i].used = 0;
 }
@@ -125,9 +125,9 @@ static mote_status move(void *state, uint32_t body)
 {
     aabb_bodies *s = state;
     served *t = tree_of(s, body);
-    const float reach =
+    const float coordinate_max =
         mote_box_tree_move(&t->tree, t->vertices, mote_vec3_make(0, 0, 0), s->scale);
-    if (!isfinite(reach)) {
+    if (!isfinite(coordinate_max)) {
         mote_status status =
             mote_input_check_vertices(t->vertices, t->tree.mesh->vertex_count, (int)body);
         if (status != MOTE_OK)
@@ -136,7 +136,7 @@ static mote_status move(void *state, uint32_t body)
                          "body %u is more than 1e38 L away; its distance must be below that",
                          body);
     }
-    s->reach = reach > s->reach ? reach : s->reach;
+    s->coordinate_max = coordinate_max > s->coordinate_max ? coordinate_max : s->coordinate_max;
     return MOTE_OK;
 }
 
@@ -145,7 +145,7 @@ static mote_status refit(void *state)
     aabb_bodies *s = state;
     for (uint32_t i = 0; i < s->setup.shape_count; ++i) {
         for (uint32_t k = 0; k < s->shapes[i].used; ++k)
-            mote_box_tree_refit(&s->shapes[i].trees[k].tree, s->reach);
+            mote_box_tree_refit(&s->shapes[i].trees[k].tree, s->coordinate_max);
     }
     return MOTE_OK;
 }
@@ -171,7 +171,7 @@ static mote_status query(void *state, const uint32_t body[2], mote_body_trees_me
     mote_aabb_pair pair = {.tree = {&a->tree, &b->tree},
                            .vertices = {a->vertices, b->vertices},
                            .scale = s->scale,
-                           .reach = s->reach,
+                           .coordinate_max = s->coordinate_max,
                            .ask = s->setup.ask,
                            .tolerance = s->setup.tolerance,
                            .last = {memory->triangle[0], memory->triangle[1]},

@@ -34,8 +34,8 @@ typedef struct tree_state {
     bool seeded, wide;
     double scale; /* brings L near 1: a power of two */
     mote_vec3 origin;
-    float reach; /* largest absolute coordinate in either tree */
-    bool placed; /* false before the first frame */
+    float coordinate_max; /* largest absolute coordinate in either tree */
+    bool placed;          /* false before the first frame */
     mote_box_tree tree[2];
     uint32_t last[2]; /* the last query's triangles */
     bool has_last;
@@ -122,8 +122,8 @@ static mote_status move(tree_state *s, const mote_frame *frame, int b)
     uint32_t count = s->tree[b].mesh->vertex_count;
     if (!vertices)
         return mote_input_check_vertices(vertices, count, b);
-    float reach = mote_box_tree_move(&s->tree[b], vertices, s->origin, s->scale);
-    if (!isfinite(reach)) {
+    float coordinate_max = mote_box_tree_move(&s->tree[b], vertices, s->origin, s->scale);
+    if (!isfinite(coordinate_max)) {
         mote_status status = mote_input_check_vertices(vertices, count, b);
         if (status != MOTE_OK)
             return status;
@@ -131,7 +131,7 @@ static mote_status move(tree_state *s, const mote_frame *frame, int b)
                          "body %d is more than 1e38 L away; its distance must be below that",
                          b);
     }
-    s->reach = reach > s->reach ? reach : s->reach;
+    s->coordinate_max = coordinate_max > s->coordinate_max ? coordinate_max : s->coordinate_max;
     return MOTE_OK;
 }
 
@@ -156,17 +156,17 @@ static mote_status update(void *state, const mote_frame *frame)
     mote_status status = MOTE_OK;
     if (s->placed)
         status = move_changed(s, frame, false, moved);
-    if (status == MOTE_OK && (!s->placed || s->reach > FAR_FROM_ORIGIN)) {
+    if (status == MOTE_OK && (!s->placed || s->coordinate_max > FAR_FROM_ORIGIN)) {
         if (!frame->body[0].vertices)
             return mote_input_check_vertices(NULL, 0, 0);
         s->origin = frame->body[0].vertices[0];
-        s->reach = 0;
+        s->coordinate_max = 0;
         status = move_changed(s, frame, true, moved);
     }
     s->placed = status == MOTE_OK;
     for (int b = 0; b < 2 && s->placed; b++) {
         if (moved[b])
-            mote_box_tree_refit(&s->tree[b], s->reach);
+            mote_box_tree_refit(&s->tree[b], s->coordinate_max);
     }
     return status;
 }
@@ -197,9 +197,9 @@ static void set_limits(search *q)
     double limit = 4 * q->squared * scale * scale * (1 + 0x1p-20);
     q->limit =
         limit < 1e38 ? (float)limit + 0x1p-126f : HUGE_VALF; /* above 0: boxes that meet */
-    q->distance = distance < 1e38
-                      ? (float)(distance * (1 + 0x1p-20)) + mote_box_margin(q->state->reach)
-                      : HUGE_VALF;
+    q->distance = distance < 1e38 ? (float)(distance * (1 + 0x1p-20)) +
+                                        mote_box_margin(q->state->coordinate_max)
+                                  : HUGE_VALF;
     mote_vec3 u = mote_sub(q->q, q->p);
     double length = mote_length(u), inverse = length > 0 ? 1 / length : 0;
     q->direction[0] = (float)(u.x * inverse);
@@ -264,7 +264,7 @@ static const leaf_view *view_leaf(search *q, int b, uint32_t leaf)
     view->leaf = leaf;
     view->improvements = q->improvements;
     view->count = count < MOTE_BOX_LEAF ? count : MOTE_BOX_LEAF;
-    float margin = mote_box_margin(q->state->reach);
+    float margin = mote_box_margin(q->state->coordinate_max);
     for (uint32_t i = 0; i < view->count; i++) {
         const uint32_t *t = tree->mesh->triangles[tree->order[first + i]];
         const float *corner[3] = {tree->position[t[0]], tree->position[t[1]],
@@ -387,7 +387,7 @@ mote_status mote_aabb_pair_query(mote_aabb_pair *pair, mote_answer *answer)
     tree_state state = {.setup = {.ask = pair->ask, .tolerance = pair->tolerance},
                         .seeded = true,
                         .scale = pair->scale,
-                        .reach = pair->reach,
+                        .coordinate_max = pair->coordinate_max,
                         .placed = true,
                         .tree = {*pair->tree[0], *pair->tree[1]},
                         .last = {pair->last[0], pair->last[1]},

@@ -9,7 +9,7 @@ typedef struct mote_aabb_pair {
     const mote_box_tree *tree[2];
     const mote_vec3 *vertices[2]; /* world positions that the trees were refitted to */
     double scale;                 /* of the trees' positions */
-    float reach;                  /* the value that they were refitted with */
+    float coordinate_max;         /* the value that they were refitted with */
     mote_ask ask;
     double tolerance;
     uint32_t last[2]; /* triangles of the last answer; replaced by those of this one */

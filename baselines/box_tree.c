@@ -207,18 +207,19 @@ MOTE_CLONES
 float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
                          double scale)
 {
-    float reach[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, 0};
+    float coordinate_max[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, 0};
     for (uint32_t i = 0; i < tree->mesh->vertex_count; i++) {
         float p[4] = {(float)((world[i].x - origin.x) * scale),
                       (float)((world[i].y - origin.y) * scale),
                       (float)((world[i].z - origin.z) * scale), 0};
         for (int k = 0; k < 4; k++) {
             tree->position[i][k] = p[k];
-            reach[k] = larger(fabsf(p[k]), reach[k]);
+            coordinate_max[k] = larger(fabsf(p[k]), coordinate_max[k]);
             bad[k] += p[k] - p[k];
         }
     }
-    return larger(larger(reach[0], reach[1]), reach[2]) + (bad[0] + bad[1] + bad[2]);
+    return larger(larger(coordinate_max[0], coordinate_max[1]), coordinate_max[2]) +
+           (bad[0] + bad[1] + bad[2]);
 }
 
 /* Writes the box of leaf i to its lane. */
@@ -278,9 +279,9 @@ static void empty_lanes(mote_box_tree *tree, uint32_t level, uint32_t nodes)
 }
 
 MOTE_CLONES
-void mote_box_tree_refit(mote_box_tree *tree, float reach)
+void mote_box_tree_refit(mote_box_tree *tree, float coordinate_max)
 {
-    float margin = mote_box_margin(reach);
+    float margin = mote_box_margin(coordinate_max);
     for (uint32_t leaf = 0; leaf < tree->leaves; leaf++)
         refit_leaf(tree, leaf, margin);
     empty_lanes(tree, tree->height - 1, tree->leaves);

@@ -53,14 +53,14 @@ void mote_box_tree_free(mote_box_tree *tree);
 float mote_box_tree_move(mote_box_tree *tree, const mote_vec3 *world, mote_vec3 origin,
                          double scale);
 
-/* Sets all boxes from position. reach is the largest coordinate of both trees that will be
-   compared. Cost: about 2 ns a triangle. */
-void mote_box_tree_refit(mote_box_tree *tree, float reach);
+/* Sets all boxes from position. coordinate_max is the largest coordinate of both trees that
+   will be compared. Cost: about 2 ns a triangle. */
+void mote_box_tree_refit(mote_box_tree *tree, float coordinate_max);
 
 /* A bound on the rounding errors of positions, sums of positions, and their differences. */
-static inline float mote_box_margin(float reach)
+static inline float mote_box_margin(float coordinate_max)
 {
-    return 0x1p-20f * reach;
+    return 0x1p-20f * coordinate_max;
 }
 
 static inline mote_box mote_box_lane(const mote_box_block *block, uint32_t lane)

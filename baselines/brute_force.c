@@ -35,10 +35,10 @@ typedef struct brute_state {
 } brute_state;
 
 /* The best pair so far. */
-typedef struct found {
+typedef struct pair_bound {
     double squared;
     mote_vec3 p, q;
-} found;
+} pair_bound;
 
 static mote_traits traits(const double *values)
 {
@@ -195,10 +195,10 @@ static mote_vec3 nearest_vertex(const brute_state *s, const mote_frame *frame, i
 }
 
 /* A first bound: two vertices, each the nearest to the other. */
-static found first_bound(const brute_state *s, const mote_frame *frame)
+static pair_bound first_bound(const brute_state *s, const mote_frame *frame)
 {
     mote_vec3 p = frame->body[0].vertices[0], q = nearest_vertex(s, frame, 1, p);
-    found best = {mote_distance_squared(p, q), p, q};
+    pair_bound best = {mote_distance_squared(p, q), p, q};
     for (int turn = 0;; turn = 1 - turn) {
         if (turn == 0)
             p = nearest_vertex(s, frame, 0, q);
@@ -207,7 +207,7 @@ static found first_bound(const brute_state *s, const mote_frame *frame)
         double squared = mote_distance_squared(p, q);
         if (!(squared < best.squared))
             return best;
-        best = (found){squared, p, q};
+        best = (pair_bound){squared, p, q};
     }
 }
 
@@ -220,7 +220,7 @@ static float float_bound(const brute_state *s, double squared)
 
 /* Measures box i of body 0 against the near boxes of one block of body 1. */
 static void measure_block(const brute_state *s, const mote_frame *frame, uint32_t i,
-                          uint32_t block, found *best, mote_counters *counters)
+                          uint32_t block, pair_bound *best, mote_counters *counters)
 {
     uint32_t near[BLOCK];
     uint32_t count =
@@ -233,7 +233,7 @@ static void measure_block(const brute_state *s, const mote_frame *frame, uint32_
         corners(s, frame, 1, block * BLOCK + near[k], b);
         double squared = mote_triangle_triangle_below(a, b, best->squared, &p, &q);
         if (squared < best->squared)
-            *best = (found){squared, p, q};
+            *best = (pair_bound){squared, p, q};
     }
     counters->triangle_tests += count;
 }
@@ -243,7 +243,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     const brute_state *s = state;
     bool contact_only = s->setup.ask == MOTE_ASK_CONTACT;
     double enough = contact_only ? s->setup.tolerance * s->setup.tolerance : 0;
-    found best = first_bound(s, frame);
+    pair_bound best = first_bound(s, frame);
     if (contact_only && best.squared > enough)
         best.squared = nextafter(enough, HUGE_VAL);
     uint32_t triangles = s->setup.body[0]->mesh->triangle_count;

@@ -33,9 +33,9 @@ typedef struct candidate {
 /* A triangle o, o + e1, o + e2 with its normal n = e1 x e2. */
 typedef struct face {
     mote_vec3 o, e1, e2, n;
-    double nn;    /* |n|^2 */
-    double ee;    /* |e1|^2 |e2|^2 */
-    double reach; /* |e1|^2 + |e2|^2 */
+    double nn;            /* |n|^2 */
+    double ee;            /* |e1|^2 |e2|^2 */
+    double squared_edges; /* |e1|^2 + |e2|^2 */
 } face;
 
 typedef enum side_kind { SIDE_CLEAR, SIDE_ONE, SIDE_BOTH, SIDE_DOUBTFUL } side_kind;
@@ -115,7 +115,7 @@ static void measure_face(face *f)
     double a = mote_length_squared(f->e1), b = mote_length_squared(f->e2);
     f->nn = mote_length_squared(f->n);
     f->ee = a * b;
-    f->reach = a + b;
+    f->squared_edges = a + b;
 }
 
 static face make_face(const mote_vec3 t[3])
@@ -504,7 +504,7 @@ double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
     candidate c;
     if (doubtful || !face_decides(s, t, &fs, &ft, &ss, &st, &c))
         edge_candidate(s, t, &c);
-    bool near = c.squared <= NEAR * NEAR * (fs.reach + ft.reach);
+    bool near = c.squared <= NEAR * NEAR * (fs.squared_edges + ft.squared_edges);
     if (near)
         settle_contact(s, t, &c);
     if ((doubtful || near) && c.squared > 0) {

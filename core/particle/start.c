@@ -60,7 +60,7 @@ static mote_status choose_random(const mote_mesh *mesh, uint32_t count, mote_ran
 
 /* squared[i] becomes the squared distance of vertex i to the nearest chosen one; a chosen
    vertex has -1, so that it is never chosen again even where vertices coincide. */
-static void take(const mote_mesh *mesh, uint32_t chosen, double *squared)
+static void mark_chosen(const mote_mesh *mesh, uint32_t chosen, double *squared)
 {
     const mote_vec3 p = mesh->positions[chosen];
     for (uint32_t i = 0; i < mesh->vertex_count; ++i)
@@ -105,7 +105,7 @@ static mote_status choose_farthest(const mote_mesh *mesh, uint32_t count, mote_r
             next = farthest(mesh, squared, covered, i < mesh->component_count);
         vertices[i] = next;
         covered[mesh->component[next]] = 1;
-        take(mesh, next, squared);
+        mark_chosen(mesh, next, squared);
     }
     free(squared);
     free(covered);

@@ -20,7 +20,7 @@
 typedef struct mote_bodies_shape {
     mote_body body;
     mote_body_motion motion; /* of its controls; no path */
-    double reach;            /* from the middle of the box to its farthest vertex at rest */
+    double radius;           /* from the middle of the box to its farthest vertex at rest */
 } mote_bodies_shape;
 
 /* Where a body starts and how it moves. Lengths are absolute. */

@@ -58,11 +58,11 @@ static void place_body(placing *p, uint32_t i)
 static void set_box(placing *p, mote_vec3 half)
 {
     mote_bodies *b = p->bodies;
-    double reach = 0;
+    double radius = 0;
     for (uint32_t s = 0; s < b->shape_count; ++s)
-        reach = fmax(reach, b->shapes[s].reach);
+        radius = fmax(radius, b->shapes[s].radius);
     b->box = half;
-    b->room = mote_sub(half, mote_vec3_make(reach, reach, reach));
+    b->room = mote_sub(half, mote_vec3_make(radius, radius, radius));
     for (uint32_t i = 0; i < b->count; ++i)
         place_body(p, i);
 }
@@ -110,14 +110,14 @@ static mote_status not_reached(const placing *p, double found)
 static mote_status find_box(placing *p)
 {
     mote_bodies *b = p->bodies;
-    double reach = 0, found = 0;
+    double radius = 0, found = 0;
     for (uint32_t s = 0; s < b->shape_count; ++s)
-        reach = fmax(reach, b->shapes[s].reach);
+        radius = fmax(radius, b->shapes[s].radius);
     double low = 0, high = b->length * (1 + cbrt((double)b->count) * 16);
     mote_status status = MOTE_OK;
     for (int k = 0; k < 30 && status == MOTE_OK; ++k) {
         const double room = (low + high) / 2;
-        const double half = room + reach;
+        const double half = room + radius;
         set_box(p, mote_vec3_make(half, half, half));
         status = near_pairs(p, &found);
         if (fabs(found - p->wish->near_pairs) <= NEAR_SHARE / 4 * p->wish->near_pairs)

@@ -25,9 +25,9 @@ static mote_status read_shape(const mote_json *node, mote_bodies_shape *shape)
         return status;
     shape->motion.centre = mote_mesh_centre(mesh);
     for (uint32_t v = 0; v < mesh->vertex_count; ++v)
-        shape->reach =
-            fmax(shape->reach, mote_distance_squared(mesh->positions[v], shape->motion.centre));
-    shape->reach = sqrt(shape->reach);
+        shape->radius = fmax(shape->radius,
+                             mote_distance_squared(mesh->positions[v], shape->motion.centre));
+    shape->radius = sqrt(shape->radius);
     return MOTE_OK;
 }
 
@@ -189,7 +189,8 @@ static mote_status read_bodies(const mote_json_file *file, mote_bodies *bodies)
 bool mote_bodies_is(const char *name_or_path)
 {
     mote_json_file file;
-    if (mote_scenario_is_pair(name_or_path) || mote_scenario_open(name_or_path, &file) != MOTE_OK)
+    if (mote_scenario_is_pair(name_or_path) ||
+        mote_scenario_open(name_or_path, &file) != MOTE_OK)
         return false;
     const bool is = mote_scenario_of_bodies(&file);
     mote_json_close(&file);

@@ -205,17 +205,17 @@ mote_status mote_claim_longest_route(mote_study *study, mote_claim *claim)
 }
 
 /* What happened while the queries of one seed relaxed. */
-typedef struct rest {
+typedef struct relaxation {
     double moving, steps_counted; /* sum of shares of particles that moved; steps */
     double steps, steps_saved;    /* until rest; of these after the stop by N_min */
     double *change;               /* [frames] |closest at the stop - closest at rest| / L */
     size_t frames;
-} rest;
+} relaxation;
 
 #define STEPS_MAX 4096
 
 /* Steps one query to rest. The second half of its steps is "near equilibrium". */
-static void relax_query(mote_particles *particles, double length, rest *r)
+static void relax_query(mote_particles *particles, double length, relaxation *r)
 {
     const double all = 2.0 * mote_particles_count(particles);
     const uint32_t nmin = mote_particles_count(particles) / 10;
@@ -245,7 +245,7 @@ static void relax_query(mote_particles *particles, double length, rest *r)
 }
 
 static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool cold,
-                                uint64_t seed, rest *r)
+                                uint64_t seed, relaxation *r)
 {
     const mote_body *const bodies[2] = {&scenario->body[0], &scenario->body[1]};
     mote_particles_options options = mote_default_particles_options();
@@ -280,7 +280,7 @@ static mote_status add_rest(const mote_study *study, const mote_subject *subject
     double *changes = malloc(512 * sizeof *changes);
     mote_status status = changes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a query");
     for (size_t s = 0; s < study->seeds && status == MOTE_OK; ++s) {
-        rest r = {.change = changes};
+        relaxation r = {.change = changes};
         status = relax_frames(subject->scenario, n, cold, s + 1, &r);
         if (status != MOTE_OK)
             break;

@@ -43,7 +43,7 @@ typedef struct mote_extreme {
     /* Of each frame: the distance of the vertices as doubles, computed in 113 bits, and that of
        the same input without rounding the vertices: what 64 bits cost every method. */
     double truth[MOTE_EXTREME_FRAMES], unrounded[MOTE_EXTREME_FRAMES];
-    double reach; /* largest coordinate of a vertex in any frame */
+    double coordinate_max; /* largest coordinate of a vertex in any frame */
 } mote_extreme;
 
 /* Makes bodies of a recipe. What the mesh, the field or its fit refuses becomes e->refusal, not
@@ -60,8 +60,8 @@ mote_status mote_extreme_plain(mote_extreme_recipe *recipe);
    Nothing moves where bodies that should be apart intersect. */
 mote_status mote_extreme_set_gap(mote_extreme_recipe *recipe, uint32_t frame, double gap);
 
-/* Fills truth, unrounded and reach: brute force over all pairs of triangles, none of which is
-   left out but for its box. */
+/* Fills truth, unrounded and coordinate_max: brute force over all pairs of triangles, none of
+   which is left out but for its box. */
 mote_status mote_extreme_measure(mote_extreme *e);
 
 /* Squared distance of a point from body b's surface at a frame, in 113 bits. */

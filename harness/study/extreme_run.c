@@ -91,7 +91,7 @@ static bool is_finite(mote_vec3 v)
 static double excuse(const mote_extreme *e, const mote_extreme_said *said)
 {
     const double unit = said->single ? (double)FLT_EPSILON : DBL_EPSILON;
-    return ROUNDING * unit * e->reach / e->length;
+    return ROUNDING * unit * e->coordinate_max / e->length;
 }
 
 static mote_extreme_verdict judge_witness(const mote_extreme *e, uint32_t frame,

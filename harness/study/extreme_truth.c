@@ -137,13 +137,14 @@ static double distance(const wide_body body[2])
 
 /* Takes a frame's positions, rounded to doubles as every method gets them, or not. */
 static void place(const mote_extreme *e, uint32_t frame, bool rounded, wide_body body[2],
-                  double *reach)
+                  double *coordinate_max)
 {
     for (int b = 0; b < 2; ++b) {
         const mote_body_state *state = &e->frame[frame].body[b];
         for (uint32_t v = 0; v < e->mesh[b]->vertex_count; ++v) {
             const mote_vec3 p = mote_body_position(&e->body[b], state, v);
-            *reach = fmax(fmax(*reach, fabs(p.x)), fmax(fabs(p.y), fabs(p.z)));
+            *coordinate_max =
+                fmax(fmax(*coordinate_max, fabs(p.x)), fmax(fabs(p.y), fabs(p.z)));
             body[b].world[v] = rounded ? wide_from(p) : position(&e->body[b], state, v);
         }
         for (uint32_t t = 0; t < e->mesh[b]->triangle_count; ++t)
@@ -161,11 +162,11 @@ mote_status mote_extreme_measure(mote_extreme *e)
         if (!body[b].world || !body[b].boxes)
             status = mote_fail(MOTE_ENOMEM, "no memory for a body's truth");
     }
-    e->reach = 0;
+    e->coordinate_max = 0;
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES && status == MOTE_OK; ++f) {
-        place(e, f, true, body, &e->reach);
+        place(e, f, true, body, &e->coordinate_max);
         e->truth[f] = distance(body);
-        place(e, f, false, body, &e->reach);
+        place(e, f, false, body, &e->coordinate_max);
         e->unrounded[f] = distance(body);
     }
     for (int b = 0; b < 2; ++b) {
