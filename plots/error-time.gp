@@ -14,12 +14,12 @@ array line[2] = [orange, dark]
 array mark[2] = [2, 1]
 
 set multiplot
-set lmargin at screen 0.13
+set lmargin at screen 0.15
 set rmargin at screen 0.95
 set bmargin at screen 0.53
 set tmargin at screen 0.9
 eval show_heading
-set ylabel "distance, L"
+set ylabel "distance, L" offset 1,0
 set yrange [0:highest > 0 ? 1.05 * highest : 0.01]
 set format x ""
 unset key
@@ -30,14 +30,15 @@ set bmargin at screen 0.25
 set tmargin at screen 0.5
 set format x "%g"
 set xlabel "frame"
-set ylabel "error, L"
+set ylabel "error, L" offset 1,0
 set logscale y
+unset mytics
 set format y "10^{%L}"
 set yrange [floor_error / 12 : 2]
 set ytics 100
-set ytics add ("exact" floor_error)
+set ytics add ("≤ 10^{-6}" floor_error)
 eval show_footer
-set key at screen 0.5,0.09 center center vertical maxrows 2 width 2 samplen 2.5
+set key at screen 0.5,0.09 center center vertical maxrows 2 samplen 2 font ",11"
 plot keyentry with lines lw 5 lc rgb "#b9cfe6" title "exact distance", \
      for [i=0:blocks-1] data index i using 1:($4 > floor_error ? $4 : floor_error) with lines lw 1.2 \
          lc rgb line[i+1] title columnheader(1), \

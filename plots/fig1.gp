@@ -24,14 +24,15 @@ red = "#c01818"
 violet = "#1030b0"
 hidden(flag, value) = flag == 1 ? value : NaN
 shown(flag, value) = flag == 0 ? value : NaN
-set key at screen 0.5,0.1 center center vertical maxrows 1 samplen 0.5 width 2
-splot data index 4 using 1:2:3 with lines lw 2 dt 2 lc rgb "black" notitle, \
-      data index 2 using 1:2:(shown($4, $3)) with points pt 7 ps 1.6 lc rgb "white" notitle, \
+set key at screen 0.5,0.1 center center vertical maxrows 1 samplen 0.5 width -2
+splot data index 2 using 1:2:(shown($4, $3)) with points pt 7 ps 1.6 lc rgb "white" notitle, \
       data index 2 using 1:2:(shown($4, $3)) with points pt 7 ps 1.2 lc rgb red notitle, \
       data index 2 using 1:2:(hidden($4, $3)) with points pt 6 ps 1.1 lw 2 lc rgb red notitle, \
       data index 3 using 1:2:(shown($4, $3)) with points pt 5 ps 1.5 lc rgb "white" notitle, \
       data index 3 using 1:2:(shown($4, $3)) with points pt 5 ps 1.1 lc rgb violet notitle, \
       data index 3 using 1:2:(hidden($4, $3)) with points pt 4 ps 1 lw 2 lc rgb violet notitle, \
+      data index 4 using 1:2:3 with lines lw 3 lc rgb "white" notitle, \
+      data index 4 using 1:2:3 with lines lw 1.5 lc rgb "black" notitle, \
       keyentry with points pt 7 ps 1.2 lc rgb red title "on the first T", \
       keyentry with points pt 5 ps 1.1 lc rgb violet title "on the second T", \
       keyentry with points pt 6 ps 1.1 lw 2 lc rgb ink title "hidden"

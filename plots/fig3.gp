@@ -12,12 +12,12 @@ set ylabel "time of a query, ms"
 set xrange [1:1984]
 set yrange [1e-3:500]
 
-# Queries 950-1984 are the active interval, 1-49 the warming ones.
+# Queries 950-1984 are the active interval, 1-49 the warm-up.
 set object 1 rectangle from 950,graph 0 to 1984,graph 1 fillcolor rgb pale fillstyle solid noborder \
     behind
 set object 2 rectangle from 1,graph 0 to 49,graph 1 fillcolor rgb pale fillstyle solid noborder behind
 set label 1 "active interval" at 1467,280 center textcolor rgb ink font ",11"
-set label 2 "warming" at 60,280 left textcolor rgb ink font ",11"
+set label 2 "warm-up" at 60,280 left textcolor rgb ink font ",11"
 
 # The paper's own times on both (its Figure 3; Pentium 4, 2.53 GHz).
 average(x) = x >= 950 ? 12.67 : x <= 49 ? 12.06 : NaN
@@ -30,7 +30,7 @@ set lmargin at screen 0.14
 set rmargin at screen 0.96
 set bmargin at screen 0.335
 set tmargin at screen 0.91
-set key at screen 0.5,0.125 center center vertical maxrows 3 samplen 2 width 2
+set key at screen 0.5,0.125 center center vertical maxrows 3 samplen 2 font ",11"
 
 plot for [i=0:blocks-1] data index i using 1:2 with lines lw width[i+1] lc rgb colour[i+1] \
          title columnheader(1), \

@@ -123,9 +123,8 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
     free(verdicts.data);
     mote_text_add(
         &figure->caption,
-        "The paper's claims as measured: for each claim its first figure with its 95 %% "
-        "interval, and the verdict, which follows from all of its figures and their "
-        "thresholds (claims.json).");
+        "For each claim its first figure with its 95 %% interval, and the verdict, which "
+        "follows from all of its figures and their thresholds (claims.json).");
     return MOTE_OK;
 }
 
@@ -149,8 +148,8 @@ mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenari
             mote_text_add(&figure->data, "%s", text);
         mote_text_add(
             &figure->caption,
-            "Numerical extremes: each row is a method and each column a case, coloured "
-            "by the verdict. Cases of one family stand side by side.");
+            "Each row is a method and each column a case, coloured by the verdict. Cases of "
+            "one family stand side by side.");
     }
     free(text);
     free(path);

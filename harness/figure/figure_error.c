@@ -106,8 +106,7 @@ static mote_status add_errors(const mote_summary_row *row, mote_text *text)
 
 /* A family's block, where it has rows that tell a distance; *points counts them. */
 static mote_status add_series(const mote_summary *summary, const char *scenario,
-                              const char *family, const char *title, size_t *points,
-                              mote_text *text)
+                              const char *family, size_t *points, mote_text *text)
 {
     mote_status status = MOTE_OK;
     bool begun = false;
@@ -119,7 +118,7 @@ static mote_status add_series(const mote_summary *summary, const char *scenario,
             !mote_figure_shows(summary, row, scenario))
             continue;
         if (!begun)
-            mote_gnuplot_block(text, title);
+            mote_gnuplot_block(text, family);
         begun = true;
         status = add_errors(row, text);
         ++*points;
@@ -130,37 +129,30 @@ static mote_status add_series(const mote_summary *summary, const char *scenario,
 mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
-    static const struct {
-        const char *family, *title;
-    } series[] = {{"particle-paper:refine=no", "paper mode"},
-                  {"particle-paper", "refined when near"},
-                  {"particle-paper:refine=always", "refined always"},
-                  {"particle", "tracked"}};
+    static const char *const families[] = {"particle-paper:refine=no", "particle-paper",
+                                           "particle-paper:refine=always", "particle"};
     mote_status status = MOTE_OK;
     size_t points = 0;
-    for (size_t s = 0; s < sizeof series / sizeof series[0] && status == MOTE_OK; ++s)
-        status = add_series(run->summary, scenario, series[s].family, series[s].title, &points,
-                            &figure->data);
+    for (size_t s = 0; s < sizeof families / sizeof families[0] && status == MOTE_OK; ++s)
+        status = add_series(run->summary, scenario, families[s], &points, &figure->data);
     if (points < 2) {
         figure->data.size = 0;
         mote_text_add(&figure->missing, "particles with several n on %s", scenario);
     }
     mote_text_add(
         &figure->caption,
-        "Error over the number of particles on %s: median, 95th and 99th percentile of "
-        "the absolute error over frames, in L, and the share of contacts missed, with "
-        "95 %% intervals over processes, whose particles start at different places. Points at "
-        "the foot of an axis are exact, or miss no contact.",
-        scenario);
+        "Median, 95th and 99th percentile of the absolute error over frames, in L, and the "
+        "share of contacts missed, with 95 %% intervals over processes, whose particles start "
+        "at different places. Errors of at most 1e-6 L are drawn on the lowest line.");
     return status;
 }
 
 /* A line a frame: frame, truth, distance, error (in L), 1 where a contact was missed. */
-static void add_history(const mote_summary_row *row, const char *title, mote_text *text)
+static void add_history(const mote_summary_row *row, mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
     const double length = mote_figure_length(row);
-    mote_gnuplot_block(text, title);
+    mote_gnuplot_block(text, row->label);
     for (size_t k = 0; k < cell->frames; ++k) {
         const double truth = cell->truth[k] / length, error = cell->error[k];
         const bool missed = cell->contact_truth[k] == 1 && cell->contact[k] == 0;
@@ -176,19 +168,15 @@ mote_status mote_figure_history(const mote_figure_run *run, const char *scenario
                                 mote_figure *figure)
 {
     static const struct {
-        const char *family, *title;
+        const char *family;
         double n;
-    } series[] = {{"particle-paper:refine=no", "paper mode", 5}, {"particle", "tracked", 8}};
+    } series[] = {{"particle-paper:refine=no", 5}, {"particle", 8}};
     for (size_t s = 0; s < sizeof series / sizeof series[0]; ++s) {
         const mote_summary_row *row =
             mote_figure_near(run->summary, scenario, series[s].family, series[s].n);
         if (!row || !mote_figure_has_error(row))
             continue;
-        char title[64];
-        (void)snprintf(title, sizeof title, "%s, n = %.0f", series[s].title, row->n);
-        if (row->n != row->n)
-            (void)snprintf(title, sizeof title, "%s", series[s].title);
-        add_history(row, title, &figure->data);
+        add_history(row, &figure->data);
     }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
@@ -196,9 +184,8 @@ mote_status mote_figure_history(const mote_figure_run *run, const char *scenario
                       scenario);
     mote_text_add(
         &figure->caption,
-        "Distance and error on %s: the exact and the reported distance of each frame, in "
-        "L, and below the absolute error; one process of each method. Crosses mark "
-        "contacts that the method missed.",
-        scenario);
+        "The exact and the reported distance of each frame, in L, and below them the absolute "
+        "error; one process of each method. Errors of at most 1e-6 L are drawn on the lowest "
+        "line. Crosses mark contacts that the method missed.");
     return MOTE_OK;
 }

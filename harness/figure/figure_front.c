@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As plots/front.gp has it: errors up to here are drawn as exact, the axes' ends beyond the
-   first and last point, and their length in its units. */
+/* As plots/front.gp has it: errors up to here are drawn on the lowest line, the axes' ends
+   beyond the first and last point, and their length in its units. */
 #define FLOOR 1e-5
 #define BEYOND_X 3.0
 #define LOWEST_Y (FLOOR / 3)
 #define HIGHEST_Y 2.0
-#define WIDTH 459.0
+#define WIDTH 448.0
 #define HEIGHT 269.0
 
 typedef struct canvas {
@@ -139,12 +139,11 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
         mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
     mote_text_add(
         &figure->caption,
-        "Speed against error on %s: median time of a query, with deformation and refitting, "
-        "and "
-        "99th percentile of the absolute error, each with its 95 %% interval over processes. "
-        "Lines join configurations of one method; the number of particles stands beside a "
-        "point "
-        "where there is room.",
-        scenario);
+        "Median time of a query, deformation and refitting included, against the 99th "
+        "percentile of the absolute error, each with its 95 %% interval over processes. Lines "
+        "join configurations of one method that differ in the number of particles, which "
+        "stands beside a point where there is room. Errors of at most %g L are drawn on the "
+        "lowest line.",
+        FLOOR);
     return status;
 }

@@ -138,13 +138,11 @@ mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scen
     figure->data = data;
     mote_text_add(
         &figure->caption,
-        "What each ingredient of the tracked particles adds: in each row one is left out, or "
-        "added. From left to right: frames without the exact distance (error above 1e-9 L, of "
-        "those in which the bodies are apart), contacts missed, and the median time of a "
-        "query, "
-        "deformation included, relative to that of the whole method, with its 95 %% interval "
-        "over processes. `last pair only` is n = 0; forces are the paper's. Shares below %g %% "
-        "are drawn as none.",
+        "In each row one ingredient is left out, or added. From left to right: frames without "
+        "the exact distance (error above 1e-9 L, of those in which the bodies are apart), "
+        "contacts missed, and the median time of a query, deformation included, relative to "
+        "that of the whole method, with its 95 %% interval over processes. `last pair only` is "
+        "n = 0; forces are the paper's. Shares below %g %% are drawn as none.",
         LEAST_PERCENT);
     add_failures(run->summary, &figure->caption);
     return MOTE_OK;
@@ -260,14 +258,12 @@ mote_status mote_figure_tracked(const mote_figure_run *run, const char *scenario
         add_series(&f, s, &figure->data);
     mote_text_add(
         &figure->caption,
-        "Tracked particles on %s, speed against error: median time of a query with its 95 %% "
-        "interval over processes, deformation included, and the share of frames without the "
-        "exact distance (error above 1e-9 L, of those in which the bodies are apart). Each "
-        "line "
-        "varies one parameter and keeps the others at n = 8, launch = 0, track = 8; its value "
-        "stands beside the point where there is room. n: seeds on a body; launch: searches "
-        "started in each query, besides those that motion calls for; track: minima followed. "
-        "Shares below %g %% are drawn as none.",
-        scenario, LEAST_PERCENT);
+        "Median time of a query, deformation included, with its 95 %% interval over processes, "
+        "against the share of frames without the exact distance (error above 1e-9 L, of those "
+        "in which the bodies are apart). Each line varies one parameter and keeps the others "
+        "at n = 8, launch = auto, track = 8; its value stands beside the point where there is "
+        "room. n: seeds on a body; launch: searches started in each query, besides those that "
+        "motion calls for; track: minima followed. Shares below %g %% are drawn as none.",
+        LEAST_PERCENT);
     return MOTE_OK;
 }

@@ -111,11 +111,10 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
         say_missing(figure);
     mote_text_add(
         &figure->caption,
-        "Time over the number of triangles: two letters W, median time of a query, with "
-        "deformation and refitting, and 95 %% intervals. All sizes have the same frames, but "
-        "for "
-        "ww-10m, whose frames are around a touch. Exponents of the number of triangles t, from "
-        "robust fits, with 95 %% intervals:");
+        "Two letters W: median time of a query, deformation and refitting included, with its "
+        "95 %% interval. All sizes have the same frames, except ww-10m, whose frames are "
+        "around a touch. Exponents of the number of triangles t, from robust fits, with 95 %% "
+        "intervals:");
     for (size_t s = 0; s < count && status == MOTE_OK; ++s) {
         char title[320];
         status = fit_title(&series[s], title, sizeof title, &figure->caption);
@@ -157,9 +156,10 @@ mote_status mote_figure_size_bytes(const mote_figure_run *run, const char *scena
     }
     if (count == 0)
         say_missing(figure);
-    mote_text_add(&figure->caption,
-                  "Memory over the number of triangles: two letters W, the heap that a method "
-                  "holds after its run, without meshes and fields, and the same per vertex of "
-                  "both bodies. Bytes are counted, not sampled, and have no interval.");
+    mote_text_add(
+        &figure->caption,
+        "Two letters W: the heap that a method holds after its run, without meshes and "
+        "fields, and the same per vertex of both bodies. Bytes are counted, not "
+        "sampled, and so have no interval.");
     return MOTE_OK;
 }

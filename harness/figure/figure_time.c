@@ -49,8 +49,7 @@ static void add_span(const span *s, const char *name, uint32_t first, uint32_t l
 #define ACTIVE_FIRST 950u
 #define ACTIVE_LAST 1984u
 
-static mote_status add_queries(const mote_summary_row *row, const char *title,
-                               mote_figure *figure)
+static mote_status add_queries(const mote_summary_row *row, mote_figure *figure)
 {
     const mote_stored_cell *first = row->first;
     double *values = malloc((first->frames + 1) * sizeof *values);
@@ -58,16 +57,16 @@ static mote_status add_queries(const mote_summary_row *row, const char *title,
         return mote_fail(MOTE_ENOMEM, "no memory for a figure");
     const mote_status status = mote_figure_frames(row, MOTE_FIGURE_TOTAL, values);
     if (status == MOTE_OK) {
-        mote_gnuplot_block(&figure->data, title);
+        mote_gnuplot_block(&figure->data, row->label);
         for (size_t k = 0; k < first->frames; ++k)
             mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
         const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
         const span warm = over_frames(row, values, 1, WARM_LAST);
         if (active.last > 0 || warm.last > 0) {
-            mote_text_add(&figure->caption, " %s:", title);
+            mote_text_add(&figure->caption, " %s:", row->label);
             add_span(&active, "active interval", ACTIVE_FIRST, ACTIVE_LAST, "",
                      &figure->caption);
-            add_span(&warm, "warming queries", 1, WARM_LAST, active.last > 0 ? ";" : "",
+            add_span(&warm, "warm-up", 1, WARM_LAST, active.last > 0 ? ";" : "",
                      &figure->caption);
             mote_text_add(&figure->caption, ".");
         }
@@ -79,21 +78,15 @@ static mote_status add_queries(const mote_summary_row *row, const char *title,
 mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario,
                                 mote_figure *figure)
 {
-    static const struct {
-        const char *label, *title;
-    } series[] = {
-        {"particle-paper:n=5", "particles, n = 5"},
-        {"fcl-aabb", "FCL AABB"},
-        {"fcl-aabb:queue=64,seed=previous", "FCL AABB, seeded"},
-        {"fcl-obbrss", "FCL OBBRSS"},
-    };
-    enum { SERIES = sizeof series / sizeof series[0] };
+    static const char *const labels[] = {"particle-paper:n=5", "fcl-aabb",
+                                         "fcl-aabb:queue=64,seed=previous", "fcl-obbrss"};
+    enum { SERIES = sizeof labels / sizeof labels[0] };
     const mote_summary_row *rows[SERIES];
     for (int i = 0; i < SERIES; ++i) {
-        rows[i] = mote_figure_row(run->summary, scenario, series[i].label);
+        rows[i] = mote_figure_row(run->summary, scenario, labels[i]);
         if (!rows[i])
             mote_text_add(&figure->missing, "%s%s", figure->missing.size ? ", " : "",
-                          series[i].label);
+                          labels[i]);
     }
     if (figure->missing.size)
         mote_text_add(&figure->missing, " on %s", scenario);
@@ -102,8 +95,8 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
     mote_text_add(
         &figure->caption,
         "The paper's Figure 3: collision detection between two letters W of 11,920 "
-        "triangles with 5 particles on each. Time of each query, with all deformation and "
-        "refitting, over its number; the median of %zu process%s. Shaded: the warm-up (queries "
+        "triangles with 5 particles on each. Time of each query, deformation and refitting "
+        "included; the median of %zu process%s. Shaded: the warm-up (queries "
         "1-49) and the active interval (950-1984). The paper (Pentium 4, 2.53 GHz): active "
         "interval 12.67 ms on average, 47 ms at most; warm-up 12.06 ms on average, 47 ms at "
         "most.",
@@ -111,7 +104,7 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
     mote_status status = MOTE_OK;
     for (int i = 0; i < SERIES && status == MOTE_OK; ++i) {
         if (rows[i])
-            status = add_queries(rows[i], series[i].title, figure);
+            status = add_queries(rows[i], figure);
     }
     return status;
 }
@@ -206,12 +199,10 @@ mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
         mote_text_add(&figure->missing, "a method that ran on %s", scenario);
     mote_text_add(
         &figure->caption,
-        "Where the time goes on %s: how the mean time of a frame, given at the right, "
-        "divides into deforming all vertices, refitting the bounding volumes, and the "
-        "query. The time of each frame is the median over processes. Of configurations "
-        "that differ only in n, the one nearest to n = 5 (the paper's method) or n = 8 "
-        "is shown.",
-        scenario);
+        "How the mean time of a frame, given at the right, divides into deforming all "
+        "vertices, refitting the bounding volumes, and the query. The time of each frame is "
+        "the median over processes. Of configurations that differ only in n, the one nearest "
+        "to n = 5 (the paper's method) or n = 8 is shown.");
     return MOTE_OK;
 }
 
@@ -275,7 +266,7 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
 
 /* A block of parts; none where no process has a frame in common with its partner. */
 static mote_status add_ratios(const mote_summary_row *row, const mote_summary_row *other,
-                              const char *title, mote_text *text)
+                              mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
     size_t longest = 0;
@@ -291,7 +282,7 @@ static mote_status add_ratios(const mote_summary_row *row, const mote_summary_ro
     for (int p = 0; p < PARTS; ++p)
         add_ratio(row, other, from + p * width, from + (p + 1) * width, values, work, &lines);
     if (lines.size > 0) {
-        mote_gnuplot_block(text, title);
+        mote_gnuplot_block(text, row->label);
         mote_text_add(text, "%s", lines.data);
     }
     text->failed |= lines.failed;
@@ -304,11 +295,9 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
     static const struct {
-        const char *family, *title;
+        const char *family;
         double n;
-    } series[] = {{"particle-paper:refine=no", "paper mode", 5},
-                  {"particle", "tracked", 8},
-                  {"certified", "certified", 0}};
+    } series[] = {{"particle-paper:refine=no", 5}, {"particle", 8}, {"certified", 0}};
     mote_status status = MOTE_OK;
     size_t least = SIZE_MAX;
     for (size_t i = 0; i < sizeof series / sizeof series[0] && status == MOTE_OK; ++i) {
@@ -324,12 +313,8 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
                           "ratios paired frame by frame within each process, with 95 %% "
                           "intervals over processes. Below the dashed line FCL is faster.",
                           best->label, scenario, PARTS);
-        char title[64];
-        (void)snprintf(title, sizeof title, "%s", series[i].title);
-        if (row->n == row->n)
-            (void)snprintf(title, sizeof title, "%s, n = %.0f", series[i].title, row->n);
         least = row->finished < least ? row->finished : least;
-        status = add_ratios(row, best, title, &figure->data);
+        status = add_ratios(row, best, &figure->data);
     }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,

@@ -23,8 +23,13 @@ function bytesText(bytes) {
     return `${(bytes / scale).toFixed(1)}${NARROW}${unit}`;
 }
 
-// "1.2e-3"; 0 as it is.
-const errorText = (error) => (error === 0 ? "0" : error.toExponential(1));
+// "1.2e-3", "0.46", "1.1"; 0 as it is.
+function errorText(error) {
+    if (error === 0) return "0";
+    if (error < 0.095) return error.toExponential(1);
+    return error.toFixed(error < 0.995 ? 2 : 1);
+}
+
 const countText = (value) => String(Number(value.toPrecision(4)));
 
 // A share of nearly all frames is not all of them.
@@ -72,6 +77,9 @@ function el(name, attributes = {}, ...children) {
     element.append(...wanted);
     return element;
 }
+
+// A configuration, which may be broken behind its colon and its commas.
+const labelElements = (label) => label.split(/(?<=[:,])/).flatMap((part, k) => (k ? [el("wbr"), part] : [part]));
 
 // A relative path as an address: a colon too, so that no path is read as a scheme.
 const pathAddress = (path) => path.split("/").map(encodeURIComponent).join("/");

@@ -171,7 +171,7 @@ function cellsSection(data) {
             " has a row a frame. The numbers stand for the replicates."),
         el("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Raw cells" },
             el("table", { class: "cells" }, el("thead", {}, el("tr", {}, head)), el("tbody", {},
-                data.rows.map((row, k) => el("tr", { id: `cells-${k + 1}` }, el("th", { scope: "row" }, row.label),
+                data.rows.map((row, k) => el("tr", { id: `cells-${k + 1}` }, el("th", { scope: "row" }, labelElements(row.label)),
                     el("td", {}, row.scene), el("td", {}, row.cache), el("td", {}, el("ul", {}, row.cells.map(links)))))))));
 }
 

@@ -160,7 +160,7 @@ class Block {
         const cells = row.status === "ok"
             ? columns.map((column) => this.cell(row, column, address))
             : [el("td", { class: "ended", colspan: columns.length }, `${textOf(row.status)}: ${textOf(row.reason)}`)];
-        const line = el("tr", {}, el("th", { scope: "row" }, el("a", { href: address }, textOf(row.label)), notes), cells);
+        const line = el("tr", {}, el("th", { scope: "row" }, el("a", { href: address }, labelElements(textOf(row.label))), notes), cells);
         this.lines.set(row, line);
         return line;
     }

@@ -69,6 +69,10 @@ async function testFilters(page, { check, equal, truth }, run) {
     const block = 1;
     const choose = (key, value) => page.locator(`#choice-${key}`).selectOption(value);
     const rowOf = (label) => ww.find((row) => row.label === label);
+    await check("errors near L and above are written without an exponent", async () => {
+        const texts = await page.locator(".results td").allTextContents();
+        truth(!texts.some((text) => /e\+/.test(text)), "a number with e+");
+    });
     await check("one a method shows each method once", async () => {
         await choose("rows", "one");
         const methods = (await labels(page, block)).map((label) => rowOf(label).method);
