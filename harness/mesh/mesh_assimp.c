@@ -1,5 +1,6 @@
 /* Meshes by assimp: PLY, STL, glTF and what else it knows. The only file that includes it.
  */
+#include "harness/base/memory.h"
 #include "harness/mesh/mesh_soup.h"
 
 #include <assimp/cimport.h>
@@ -55,8 +56,10 @@ static mote_status add_face(const char *path, const struct aiMesh *mesh, unsigne
                              f, face->mIndices[i], mesh->mNumVertices, mesh->mNumVertices - 1);
         corners[i] = base + face->mIndices[i];
     }
-    if (face->mNumIndices == 3)
-        return mote_soup_add_triangle(soup, corners[0], corners[1], corners[2]);
+    if (face->mNumIndices == 3) {
+        mote_soup_add_triangle(soup, corners[0], corners[1], corners[2]);
+        return MOTE_OK;
+    }
     const mote_status status = mote_soup_add_polygon(soup, corners, face->mNumIndices);
     return status == MOTE_OK ? status
                              : mote_fail(status, "%s: face %u of mesh %.60s: %s", path, f,
@@ -69,9 +72,7 @@ static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32
     size_t most = 0;
     for (unsigned f = 0; f < mesh->mNumFaces; ++f)
         most = mesh->mFaces[f].mNumIndices > most ? mesh->mFaces[f].mNumIndices : most;
-    uint32_t *corners = malloc((most + 1) * sizeof *corners);
-    if (!corners)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a face of %zu corners", path, most);
+    uint32_t *corners = mote_allocate(most, sizeof *corners);
     mote_status status = MOTE_OK;
     for (unsigned f = 0; f < mesh->mNumFaces && status == MOTE_OK; ++f) {
         if (mesh->mFaces[f].mNumIndices >= 3) /* no points and lines */

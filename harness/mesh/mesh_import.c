@@ -3,6 +3,7 @@
 #include "harness/process/child.h"
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
+#include "harness/base/memory.h"
 #include "harness/mesh/mesh_soup.h"
 
 #include <errno.h>
@@ -38,7 +39,9 @@ static mote_status read_text(const char *path, const char *text, size_t size, bo
         return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
     const mote_status status = is_off ? mote_soup_read_off(path, text, size, soup)
                                       : mote_soup_read_obj(path, text, soup);
-    return status == MOTE_OK ? mote_soup_compact(soup) : status;
+    if (status == MOTE_OK)
+        mote_soup_compact(soup);
+    return status;
 }
 
 static mote_status read_soup(const char *path, mote_soup *soup)
@@ -58,7 +61,9 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     if (status != MOTE_OK || is_obj || is_off)
         return status;
     status = mote_soup_read_assimp(path, soup);
-    return status == MOTE_OK ? mote_soup_weld(soup) : status;
+    if (status == MOTE_OK)
+        mote_soup_weld(soup);
+    return status;
 }
 
 /* assimp prints its failed assertions; what is wrong is told by our own text. */
@@ -80,7 +85,7 @@ static mote_status import_in_child(void *context, int output)
     memset(&head, 0, sizeof head);
     mote_status status = read_soup(context, &soup);
     if (status == MOTE_OK)
-        status = mote_soup_split(&soup, &head.import.split);
+        mote_soup_split(&soup, &head.import.split);
     head.vertex_count = soup.vertex_count;
     head.triangle_count = soup.triangle_count;
     head.import.single_precision = soup.single_precision;
@@ -158,20 +163,14 @@ static mote_status make_mesh(const char *path, const char *data, size_t size, mo
     head.import.split.where[MOTE_SPLIT_TEXT - 1] = '\0';
     if (is_strict && mote_import_refuse_split(path, &head.import) != MOTE_OK)
         return MOTE_EINVAL;
-    double *xyz = malloc(head.vertex_count * vertex_bytes + 1);
-    uint32_t *indices = malloc(head.triangle_count * triangle_bytes + 1);
-    mote_status status = MOTE_OK;
-    if (!xyz || !indices) {
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its mesh", path);
-    } else {
-        data += sizeof head;
-        memcpy(xyz, data, head.vertex_count * vertex_bytes);
-        memcpy(indices, data + head.vertex_count * vertex_bytes,
-               head.triangle_count * triangle_bytes);
-        status = mote_mesh_create(xyz, head.vertex_count, indices, head.triangle_count, mesh);
-        if (status != MOTE_OK)
-            status = mote_fail(status, "%s: %s", path, mote_error_text());
-    }
+    data += sizeof head;
+    double *xyz = mote_copy(data, head.vertex_count * vertex_bytes);
+    uint32_t *indices = mote_copy(data + head.vertex_count * vertex_bytes,
+                                  head.triangle_count * triangle_bytes);
+    mote_status status =
+        mote_mesh_create(xyz, head.vertex_count, indices, head.triangle_count, mesh);
+    if (status != MOTE_OK)
+        status = mote_fail(status, "%s: %s", path, mote_error_text());
     free(xyz);
     free(indices);
     if (status == MOTE_OK && import)

@@ -36,7 +36,7 @@ static mote_status read_face(mote_mesh_reader *reader, const char *at)
         uint32_t corner = 0;
         status = read_corner(reader, &at, &corner);
         if (status == MOTE_OK)
-            status = mote_mesh_add_corner(reader, corner);
+            mote_mesh_add_corner(reader, corner);
     }
     return status == MOTE_OK ? mote_mesh_end_face(reader) : status;
 }

@@ -85,10 +85,9 @@ static mote_status read_face(off_reader *reader, const char *at)
 {
     char *end;
     const long long corners = strtoll(at, &end, 10);
-    mote_status status = MOTE_OK;
     if (end == at || corners < 0 || !(mote_is_blank(*end) || mote_is_end(*end)))
         return fail_at(reader, "a face without its number of corners; write 3 0 1 2");
-    for (long long i = 0; i < corners && status == MOTE_OK; ++i) {
+    for (long long i = 0; i < corners; ++i) {
         at = mote_skip_blanks(end);
         const long long index = mote_is_end(*at) ? 0 : strtoll(at, &end, 10);
         if (mote_is_end(*at) || end == at || !(mote_is_blank(*end) || mote_is_end(*end)))
@@ -98,9 +97,9 @@ static mote_status read_face(off_reader *reader, const char *at)
             return mote_fail(MOTE_EINVAL, "%s:%zu: face with vertex %lld of %zu; use 0 to %zu",
                              reader->common.path, reader->common.line, index, reader->vertices,
                              reader->vertices - 1);
-        status = mote_mesh_add_corner(&reader->common, (uint32_t)index);
+        mote_mesh_add_corner(&reader->common, (uint32_t)index);
     }
-    return status == MOTE_OK ? mote_mesh_end_face(&reader->common) : status;
+    return mote_mesh_end_face(&reader->common);
 }
 
 static mote_status read_all(off_reader *reader)

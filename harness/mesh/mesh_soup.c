@@ -1,5 +1,6 @@
 #include "harness/mesh/mesh_soup.h"
 
+#include "harness/base/memory.h"
 #include "harness/mesh/polygon.h"
 
 #include <stdlib.h>
@@ -7,58 +8,30 @@
 
 #define VERTICES_MAX ((size_t)1 << 31)
 
-static mote_status no_memory(void)
-{
-    return mote_fail(MOTE_ENOMEM, "no memory for so many triangles");
-}
-
-/* Makes room for one more element of `size` bytes. */
-static void *grow(void *data, size_t count, size_t *capacity, size_t size)
-{
-    if (count < *capacity)
-        return data;
-    const size_t wanted = *capacity ? 2 * *capacity : 1024;
-    void *grown = realloc(data, wanted * size);
-    if (grown)
-        *capacity = wanted;
-    return grown;
-}
-
 mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z)
 {
     if (soup->vertex_count + 1 >= VERTICES_MAX)
         return mote_fail(MOTE_EINVAL, "2^31 vertices or more; give fewer");
-    double *xyz =
-        grow(soup->xyz, soup->vertex_count, &soup->vertex_capacity, 3 * sizeof *soup->xyz);
-    if (!xyz)
-        return no_memory();
-    soup->xyz = xyz;
-    double *at = xyz + 3 * soup->vertex_count++;
+    soup->xyz = mote_reserve(soup->xyz, soup->vertex_count + 1, &soup->vertex_capacity,
+                             3 * sizeof *soup->xyz);
+    double *at = soup->xyz + 3 * soup->vertex_count++;
     at[0] = x;
     at[1] = y;
     at[2] = z;
     return MOTE_OK;
 }
 
-mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c)
+void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c)
 {
-    size_t capacity = soup->triangle_capacity;
-    uint32_t *indices =
-        grow(soup->indices, soup->triangle_count, &capacity, 3 * sizeof *soup->indices);
-    if (!indices)
-        return no_memory();
-    soup->indices = indices;
-    uint32_t *lines =
-        grow(soup->lines, soup->triangle_count, &soup->triangle_capacity, sizeof *soup->lines);
-    if (!lines)
-        return no_memory();
-    soup->lines = lines;
-    lines[soup->triangle_count] = soup->line;
-    uint32_t *at = indices + 3 * soup->triangle_count++;
+    const size_t count = soup->triangle_count + 1;
+    soup->indices =
+        mote_reserve(soup->indices, count, &soup->index_capacity, 3 * sizeof *soup->indices);
+    soup->lines = mote_reserve(soup->lines, count, &soup->line_capacity, sizeof *soup->lines);
+    soup->lines[soup->triangle_count] = soup->line;
+    uint32_t *at = soup->indices + 3 * soup->triangle_count++;
     at[0] = a;
     at[1] = b;
     at[2] = c;
-    return MOTE_OK;
 }
 
 static int compare_corners(const void *a, const void *b)
@@ -88,18 +61,16 @@ static mote_status add_polygon(mote_soup *soup, const uint32_t *corners, size_t 
     if (status == MOTE_OK)
         status = mote_polygon_triangulate(places, count, triangles);
     for (size_t i = 0; i + 2 < count && status == MOTE_OK; ++i)
-        status = mote_soup_add_triangle(soup, corners[triangles[i][0]],
-                                        corners[triangles[i][1]], corners[triangles[i][2]]);
+        mote_soup_add_triangle(soup, corners[triangles[i][0]], corners[triangles[i][1]],
+                               corners[triangles[i][2]]);
     return status;
 }
 
 mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count)
 {
-    double *places = malloc(3 * count * sizeof *places);
-    uint32_t(*triangles)[3] = malloc(count * sizeof *triangles);
-    const mote_status status = places && triangles
-                                   ? add_polygon(soup, corners, count, places, triangles)
-                                   : no_memory();
+    double *places = mote_allocate(3 * count, sizeof *places);
+    uint32_t(*triangles)[3] = mote_allocate(count, sizeof *triangles);
+    const mote_status status = add_polygon(soup, corners, count, places, triangles);
     free(places);
     free(triangles);
     return status;
@@ -169,37 +140,28 @@ static void apply_map(mote_soup *soup, const uint32_t *map)
     soup->triangle_count = kept;
 }
 
-mote_status mote_soup_weld(mote_soup *soup)
+void mote_soup_weld(mote_soup *soup)
 {
     size_t slot_count = 64;
     while (slot_count < 2 * soup->vertex_count)
         slot_count *= 2;
-    uint32_t *slots = malloc(slot_count * sizeof *slots);
-    uint32_t *map = malloc((soup->vertex_count + 1) * sizeof *map);
-    if (!slots || !map) {
-        free(slots);
-        free(map);
-        return no_memory();
-    }
+    uint32_t *slots = mote_allocate(slot_count, sizeof *slots);
+    uint32_t *map = mote_allocate(soup->vertex_count, sizeof *map);
     memset(slots, 0xff, slot_count * sizeof *slots);
     find_first(soup, slots, slot_count, map);
     const size_t welded_before = soup->welded;
     apply_map(soup, map);
     free(slots);
     free(map);
-    mote_status status = mote_soup_compact(soup);
-    /* Welded vertices are in no face any more, and are told as welded only. */
-    if (status == MOTE_OK)
-        soup->unused -= soup->welded - welded_before;
-    return status;
+    mote_soup_compact(soup);
+    /* Welded vertices are in no face any more; they count as welded only. */
+    soup->unused -= soup->welded - welded_before;
 }
 
-mote_status mote_soup_compact(mote_soup *soup)
+void mote_soup_compact(mote_soup *soup)
 {
-    uint32_t *place = malloc((soup->vertex_count + 1) * sizeof *place);
-    if (!place)
-        return no_memory();
-    memset(place, 0xff, (soup->vertex_count + 1) * sizeof *place);
+    uint32_t *place = mote_allocate(soup->vertex_count, sizeof *place);
+    memset(place, 0xff, soup->vertex_count * sizeof *place);
     for (size_t i = 0; i < 3 * soup->triangle_count; ++i)
         place[soup->indices[i]] = 0;
     uint32_t kept = 0;
@@ -214,5 +176,4 @@ mote_status mote_soup_compact(mote_soup *soup)
     soup->unused += soup->vertex_count - kept;
     soup->vertex_count = kept;
     free(place);
-    return MOTE_OK;
 }

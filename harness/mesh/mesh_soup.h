@@ -14,16 +14,16 @@ typedef struct mote_soup {
     uint32_t *lines;   /* [triangle_count] of the file; 0: unknown */
     uint32_t line;     /* of the triangles that are added next */
     size_t vertex_count, triangle_count;
-    size_t vertex_capacity, triangle_capacity;
+    size_t vertex_capacity, index_capacity, line_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */
     size_t welded;         /* vertices that stood at the place of another one */
     size_t collapsed;      /* faces that had two equal vertices after welding, left out */
     size_t unused;         /* vertices in no face, left out */
 } mote_soup;
 
-/* Adding to a zero-initialised soup; MOTE_ENOMEM. Free with mote_soup_free. */
+/* Adding to a zero-initialised soup. MOTE_EINVAL: 2^31 vertices. Free with mote_soup_free. */
 mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
-mote_status mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
+void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
 
 /* Adds a polygon as triangles, convex or not. corners: count >= 3 vertices of the soup, in
    order around it. MOTE_EINVAL: a corner that stands twice, or what mote_polygon_triangulate
@@ -33,11 +33,11 @@ void mote_soup_free(mote_soup *soup);
 
 /* Makes one vertex of all that have equal coordinates, and leaves out the faces that collapse.
    Expected cost O(v + t). */
-mote_status mote_soup_weld(mote_soup *soup);
+void mote_soup_weld(mote_soup *soup);
 
 /* Leaves out the vertices that are in no face, keeping the order of the others. Indices must be
    in range. */
-mote_status mote_soup_compact(mote_soup *soup);
+void mote_soup_compact(mote_soup *soup);
 
 /* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, any
    simple polygon, indices from 1 or from the end; other lines are passed over. path is for

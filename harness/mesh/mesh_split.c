@@ -1,5 +1,7 @@
 #include "harness/mesh/mesh_split.h"
 
+#include "harness/base/memory.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -53,21 +55,13 @@ static void splitter_free(splitter *s)
     free(s->wings);
 }
 
-static mote_status no_memory(const splitter *s)
-{
-    return mote_fail(MOTE_ENOMEM, "no memory for the adjacency of %zu vertices",
-                     s->soup->vertex_count);
-}
-
-static mote_status splitter_create(mote_soup *soup, splitter *s)
+static void splitter_create(mote_soup *soup, splitter *s)
 {
     const size_t v = soup->vertex_count, corners = 3 * soup->triangle_count;
     *s = (splitter){.soup = soup, .vertex_count = (uint32_t)v};
-    s->first_corner = calloc(v + 1, sizeof *s->first_corner);
-    s->corner_of = malloc((corners + 1) * sizeof *s->corner_of);
-    s->mark = calloc(v + 1, sizeof *s->mark);
-    if (!s->first_corner || !s->corner_of || !s->mark)
-        return no_memory(s);
+    s->first_corner = mote_allocate(v + 1, sizeof *s->first_corner);
+    s->corner_of = mote_allocate(corners, sizeof *s->corner_of);
+    s->mark = mote_allocate(v, sizeof *s->mark);
     for (size_t c = 0; c < corners; ++c)
         ++s->first_corner[soup->indices[c]];
     uint32_t sum = 0;
@@ -77,7 +71,6 @@ static mote_status splitter_create(mote_soup *soup, splitter *s)
     }
     for (size_t c = corners; c-- > 0;)
         s->corner_of[--s->first_corner[soup->indices[c]]] = (uint32_t)c;
-    return MOTE_OK;
 }
 
 /* The other two vertices of a corner's face, in the order of its winding. */
@@ -88,65 +81,42 @@ static void neighbours_of(const splitter *s, uint32_t corner, uint32_t others[2]
     others[1] = s->soup->indices[3 * face + (k + 2) % 3];
 }
 
-static void *grow(void *data, size_t count, size_t *capacity, size_t size)
+static void add_wing(splitter *s, uint32_t face, bool forward)
 {
-    if (count < *capacity)
-        return data;
-    const size_t wanted = *capacity ? 2 * *capacity : 64;
-    void *grown = realloc(data, wanted * size);
-    if (grown)
-        *capacity = wanted;
-    return grown;
-}
-
-static mote_status add_wing(splitter *s, uint32_t face, bool forward)
-{
-    wing *grown = grow(s->wings, s->wing_count, &s->wing_capacity, sizeof *grown);
-    if (!grown)
-        return no_memory(s);
-    s->wings = grown;
+    s->wings = mote_reserve(s->wings, s->wing_count + 1, &s->wing_capacity, sizeof *s->wings);
     s->wings[s->wing_count++] = (wing){face, NONE, forward, 0};
-    return MOTE_OK;
 }
 
 /* The edge from a to the larger vertex b, with all of its faces. */
-static mote_status add_edge(splitter *s, uint32_t a, uint32_t b)
+static void add_edge(splitter *s, uint32_t a, uint32_t b)
 {
-    heavy_edge *grown = grow(s->edges, s->edge_count, &s->edge_capacity, sizeof *grown);
-    if (!grown)
-        return no_memory(s);
-    s->edges = grown;
+    s->edges = mote_reserve(s->edges, s->edge_count + 1, &s->edge_capacity, sizeof *s->edges);
     heavy_edge *edge = &s->edges[s->edge_count++];
     *edge = (heavy_edge){{a, b}, (uint32_t)s->wing_count, 0};
-    mote_status status = MOTE_OK;
-    for (uint32_t i = s->first_corner[a]; i < s->first_corner[a + 1] && status == MOTE_OK;
-         ++i) {
+    for (uint32_t i = s->first_corner[a]; i < s->first_corner[a + 1]; ++i) {
         uint32_t others[2];
         neighbours_of(s, s->corner_of[i], others);
         if (others[0] == b || others[1] == b)
-            status = add_wing(s, s->corner_of[i] / 3, others[0] == b);
+            add_wing(s, s->corner_of[i] / 3, others[0] == b);
     }
     edge->wing_count = (uint32_t)s->wing_count - edge->first_wing;
-    return status;
 }
 
 /* Adds the edges of more than two faces from v to larger vertices. mark: 0 before and after. */
-static mote_status find_edges_at(splitter *s, uint32_t v)
+static void find_edges_at(splitter *s, uint32_t v)
 {
-    mote_status status = MOTE_OK;
     uint32_t others[2];
     for (uint32_t i = s->first_corner[v]; i < s->first_corner[v + 1]; ++i) {
         neighbours_of(s, s->corner_of[i], others);
         for (int k = 0; k < 2; ++k) {
-            if (others[k] > v && ++s->mark[others[k]] == 3 && status == MOTE_OK)
-                status = add_edge(s, v, others[k]);
+            if (others[k] > v && ++s->mark[others[k]] == 3)
+                add_edge(s, v, others[k]);
         }
     }
     for (uint32_t i = s->first_corner[v]; i < s->first_corner[v + 1]; ++i) {
         neighbours_of(s, s->corner_of[i], others);
         s->mark[others[0]] = s->mark[others[1]] = 0;
     }
-    return status;
 }
 
 static int compare_edges(const void *a, const void *b)
@@ -414,16 +384,16 @@ static void tell_edge(const splitter *s, const heavy_edge *edge, mote_split *spl
         append(split->where, sizeof split->where, ", ...");
 }
 
-static mote_status apply(splitter *s, mote_split *split)
+static void apply(splitter *s, mote_split *split)
 {
     mote_soup *soup = s->soup;
     const size_t before = soup->vertex_count;
-    mote_status status = MOTE_OK;
     for (size_t e = 0; e < s->edge_count && e < MOTE_SPLIT_EDGES_TOLD; ++e)
         tell_edge(s, &s->edges[e], split);
-    while (soup->vertex_count < s->vertex_count && status == MOTE_OK)
-        status = mote_soup_add_vertex(soup, 0, 0, 0);
-    for (size_t c = 0; c < 3 * soup->triangle_count && status == MOTE_OK; ++c) {
+    soup->xyz =
+        mote_reserve(soup->xyz, s->vertex_count, &soup->vertex_capacity, 3 * sizeof *soup->xyz);
+    soup->vertex_count = s->vertex_count;
+    for (size_t c = 0; c < 3 * soup->triangle_count; ++c) {
         if (s->vertex[c] >= before)
             memcpy(soup->xyz + (size_t)3 * s->vertex[c],
                    soup->xyz + (size_t)3 * soup->indices[c], 3 * sizeof *soup->xyz);
@@ -431,35 +401,29 @@ static mote_status apply(splitter *s, mote_split *split)
     }
     split->edges = s->edge_count;
     split->vertices = s->vertex_count - before;
-    return status;
 }
 
-static mote_status split_edges(splitter *s, mote_split *split)
+static void split_edges(splitter *s, mote_split *split)
 {
     const size_t corners = 3 * s->soup->triangle_count;
-    s->parent = malloc(corners * sizeof *s->parent);
-    s->vertex = malloc(corners * sizeof *s->vertex);
-    s->scratch = malloc(s->wing_count * sizeof *s->scratch);
-    if (!s->parent || !s->vertex || !s->scratch)
-        return no_memory(s);
+    s->parent = mote_allocate(corners, sizeof *s->parent);
+    s->vertex = mote_allocate(corners, sizeof *s->vertex);
+    s->scratch = mote_allocate(s->wing_count, sizeof *s->scratch);
     qsort(s->edges, s->edge_count, sizeof *s->edges, compare_edges);
     for (size_t e = 0; e < s->edge_count; ++e)
         pair_wings(s, &s->edges[e]);
     split_until_light(s);
-    return apply(s, split);
+    apply(s, split);
 }
 
-mote_status mote_soup_split(mote_soup *soup, mote_split *split)
+void mote_soup_split(mote_soup *soup, mote_split *split)
 {
     splitter s;
-    mote_split made = {0};
-    mote_status status = splitter_create(soup, &s);
-    for (uint32_t v = 0; v < soup->vertex_count && status == MOTE_OK; ++v)
-        status = find_edges_at(&s, v);
-    if (status == MOTE_OK && s.edge_count > 0)
-        status = split_edges(&s, &made);
+    splitter_create(soup, &s);
+    *split = (mote_split){0};
+    for (uint32_t v = 0; v < soup->vertex_count; ++v)
+        find_edges_at(&s, v);
+    if (s.edge_count > 0)
+        split_edges(&s, split);
     splitter_free(&s);
-    if (status == MOTE_OK)
-        *split = made;
-    return status;
 }

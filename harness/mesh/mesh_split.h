@@ -21,8 +21,7 @@ typedef struct mote_split {
    an inside (two solids that touch along an edge both stay closed); what is left over becomes
    open there. Vertices that are on no such edge keep their fans.
 
-   *split is written on success. MOTE_ENOMEM. Cost O(v + t), and O(k log k) for each edge of k
-   faces. */
-mote_status mote_soup_split(mote_soup *soup, mote_split *split);
+   Cost O(v + t), and O(k log k) for each edge of k faces. */
+void mote_soup_split(mote_soup *soup, mote_split *split);
 
 #endif

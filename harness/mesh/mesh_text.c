@@ -1,5 +1,7 @@
 #include "harness/mesh/mesh_text.h"
 
+#include "harness/base/memory.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,18 +39,11 @@ mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, cons
     return mote_soup_add_vertex(reader->soup, xyz[0], xyz[1], xyz[2]);
 }
 
-mote_status mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex)
+void mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex)
 {
-    if (reader->corner_count == reader->corner_capacity) {
-        const size_t wanted = reader->corner_capacity ? 2 * reader->corner_capacity : 16;
-        uint32_t *grown = realloc(reader->corners, wanted * sizeof *grown);
-        if (!grown)
-            return mote_fail(MOTE_ENOMEM, "no memory for a face of %zu corners", wanted);
-        reader->corners = grown;
-        reader->corner_capacity = wanted;
-    }
+    reader->corners = mote_reserve(reader->corners, reader->corner_count + 1,
+                                   &reader->corner_capacity, sizeof *reader->corners);
     reader->corners[reader->corner_count++] = vertex;
-    return MOTE_OK;
 }
 
 mote_status mote_mesh_end_face(mote_mesh_reader *reader)

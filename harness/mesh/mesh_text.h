@@ -53,8 +53,8 @@ static inline bool mote_mesh_word_ends(const mote_mesh_reader *reader, const cha
    with file and line; `right` says what would be right ("write v x y z"). */
 mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, const char *right);
 
-/* Adds a corner to the face being read. MOTE_ENOMEM. */
-mote_status mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex);
+/* Adds a corner to the face being read. */
+void mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex);
 
 /* Ends the face being read: its triangles go into the soup. MOTE_EINVAL with file and line for
    fewer than three corners and for what mote_soup_add_polygon refuses. */

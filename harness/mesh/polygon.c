@@ -1,5 +1,6 @@
 #include "harness/mesh/polygon.h"
 
+#include "harness/base/memory.h"
 #include "harness/mesh/orientation.h"
 
 #include <float.h>
@@ -45,19 +46,15 @@ static void outline_free(outline *o)
     free(o->spans);
 }
 
-static mote_status outline_create(size_t count, outline *o)
+static void outline_create(size_t count, outline *o)
 {
     o->count = (uint32_t)count;
-    o->at = malloc(count * sizeof *o->at);
-    o->next = malloc(count * sizeof *o->next);
-    o->previous = malloc(count * sizeof *o->previous);
-    o->obstacle = malloc(count * sizeof *o->obstacle);
-    o->ear = malloc(count);
-    o->spans = malloc(count * sizeof *o->spans);
-    if (o->at && o->next && o->previous && o->obstacle && o->ear && o->spans)
-        return MOTE_OK;
-    outline_free(o);
-    return mote_fail(MOTE_ENOMEM, "no memory for a face of %zu corners", count);
+    o->at = mote_allocate(count, sizeof *o->at);
+    o->next = mote_allocate(count, sizeof *o->next);
+    o->previous = mote_allocate(count, sizeof *o->previous);
+    o->obstacle = mote_allocate(count, sizeof *o->obstacle);
+    o->ear = mote_allocate(count, sizeof *o->ear);
+    o->spans = mote_allocate(count, sizeof *o->spans);
 }
 
 /* The whole polygon, in the coordinates u and v of xyz, times unit. */
@@ -365,9 +362,7 @@ mote_status mote_polygon_triangulate(const double *xyz, size_t count, uint32_t (
     }
     outline o = {.triangles = triangles};
     uint32_t clash[2];
-    mote_status status = outline_create(count, &o);
-    if (status != MOTE_OK)
-        return status;
+    outline_create(count, &o);
     const view seen = triangulate_views(&o, xyz, unit, &sum, clash);
     outline_free(&o);
     if (seen != VIEW_CLASH)

@@ -19,7 +19,7 @@
    thinner than a millionth of its length is taken as lying on a line.
 
    MOTE_EINVAL: in every projection the polygon crosses or touches itself; the text names two
-   edges, and what would be right. MOTE_ENOMEM. Cost O(n log n + n r) as a rule, r being the
+   edges, and what would be right. Cost O(n log n + n r) as a rule, r being the
    number of corners with an inner angle of 180 degrees or more; O(n^2) at worst.
 
    Source: Meisters, Polygons have ears, 1975. */
