@@ -4,6 +4,7 @@
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/run/run.h"
+#include "harness/summary/screen.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 #include "harness/summary/until.h"
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 const mote_option mote_options_run[] = {
     {"method", "NAME[:key=a|b,...]",
@@ -37,6 +39,10 @@ const mote_option mote_options_run[] = {
      "add replicates until every interval is within this share of its median (default: none "
      "are added)"},
     {"budget", "SECONDS", "--until-ci stops after this time (default: 600)"},
+    {"progress", "SECONDS",
+     "where stderr is no terminal, a line of progress after so long, and not one a cell "
+     "(default: "
+     "0, one a cell)"},
     {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
     {"pairs", "all|contacts",
      "which near pairs of more than two bodies are kept in cells/ID.pairs.csv (default: all)"},
@@ -64,6 +70,7 @@ enum {
     OPTION_JOBS,
     OPTION_UNTIL_CI,
     OPTION_BUDGET,
+    OPTION_PROGRESS,
     OPTION_STRICT,
     OPTION_PAIRS,
     OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
@@ -197,6 +204,9 @@ static bool take_option(request *q, int option, const char *value, const char **
     case OPTION_BUDGET:
         *expected = "seconds";
         return mote_read_real(value, 0, 1e9, &q->run.budget);
+    case OPTION_PROGRESS:
+        *expected = "seconds";
+        return mote_read_real(value, 0, 1e9, &q->run.progress);
     case OPTION_STRICT:
         mote_mesh_import_strictly();
         return true;
@@ -350,14 +360,20 @@ static mote_status read_frames(request *q)
     return status == MOTE_OK ? MOTE_OK : mote_fail(status, "--frames %s", mote_error_text());
 }
 
-/* Summary and table, also of a run that was cut short. */
+/* Summary and table, also of a run that was cut short. The whole table is wider than a
+ * terminal. */
 static int report(const char *directory)
 {
     mote_summary summary;
     if (mote_summary_make(directory, &summary) != MOTE_OK ||
         mote_summary_write(&summary, directory) != MOTE_OK)
         return mote_command_fail();
-    mote_table_print(&summary, stdout);
+    if (isatty(STDOUT_FILENO) == 1) {
+        mote_screen_print(&summary, stdout);
+        (void)printf("every row and column: mote summarize %s\n", directory);
+    } else {
+        mote_table_print(&summary, stdout);
+    }
     mote_summary_free(&summary);
     return mote_command_finish(MOTE_EXIT_DONE);
 }

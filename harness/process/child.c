@@ -254,34 +254,42 @@ static int patience_ms(const mote_child *children, size_t count)
     return (int)(seconds * 1000) + 1;
 }
 
-mote_status mote_child_wait(mote_child *children, size_t count, size_t *index)
+mote_status mote_child_look(mote_child *children, size_t count, size_t *index, bool *ended)
 {
     struct pollfd watch[MOTE_CHILDREN_MAX];
-    for (;;) {
-        for (size_t i = 0; i < count; ++i) {
-            const struct pollfd input = {.fd = children[i].pid > 0 ? children[i].input : -1,
-                                         .events = POLLIN};
-            watch[i] = input;
-        }
-        int ready = poll(watch, count, patience_ms(children, count));
-        if (stop_signal != 0) {
-            mote_child_stop(children, count);
-            return mote_fail(MOTE_EIO,
-                             "stopped by a signal; run the same command again to go on");
-        }
-        for (size_t i = 0; i < count; ++i) {
-            mote_child_end end = MOTE_CHILD_RUNNING;
-            if (ready > 0 && watch[i].revents != 0)
-                end = receive(&children[i]);
-            else if (children[i].pid > 0 && is_late(&children[i]))
-                end = MOTE_CHILD_TIMEOUT;
-            if (end != MOTE_CHILD_RUNNING) {
-                reap(&children[i], end);
-                *index = i;
-                return MOTE_OK;
-            }
+    *ended = false;
+    for (size_t i = 0; i < count; ++i) {
+        const struct pollfd input = {.fd = children[i].pid > 0 ? children[i].input : -1,
+                                     .events = POLLIN};
+        watch[i] = input;
+    }
+    int ready = poll(watch, count, patience_ms(children, count));
+    if (stop_signal != 0) {
+        mote_child_stop(children, count);
+        return mote_fail(MOTE_EIO, "stopped by a signal; run the same command again to go on");
+    }
+    for (size_t i = 0; i < count; ++i) {
+        mote_child_end end = MOTE_CHILD_RUNNING;
+        if (ready > 0 && watch[i].revents != 0)
+            end = receive(&children[i]);
+        else if (children[i].pid > 0 && is_late(&children[i]))
+            end = MOTE_CHILD_TIMEOUT;
+        if (end != MOTE_CHILD_RUNNING) {
+            reap(&children[i], end);
+            *index = i;
+            *ended = true;
+            return MOTE_OK;
         }
     }
+    return MOTE_OK;
+}
+
+mote_status mote_child_wait(mote_child *children, size_t count, size_t *index)
+{
+    mote_status status = MOTE_OK;
+    for (bool ended = false; status == MOTE_OK && !ended;)
+        status = mote_child_look(children, count, index, &ended);
+    return status;
 }
 
 mote_status mote_child_run(const char *what, mote_child_work work, void *context,

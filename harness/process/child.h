@@ -54,6 +54,9 @@ mote_status mote_child_start(mote_child_work work, void *context, mote_child_lim
    running. MOTE_EIO when a signal asked to stop: all have then been ended. */
 mote_status mote_child_wait(mote_child *children, size_t count, size_t *index);
 
+/* Likewise, but waits a fifth of a second at most; *ended: one has. */
+mote_status mote_child_look(mote_child *children, size_t count, size_t *index, bool *ended);
+
 /* From now on SIGINT and SIGTERM only ask to stop: whoever waits for children ends them. A file
    beyond the size allowed is an error and no signal. */
 void mote_child_heed_signals(void);

@@ -33,12 +33,17 @@ static mote_status start_task(const mote_crew *crew, places *p, size_t task)
 static mote_status finish_task(const mote_crew *crew, places *p)
 {
     size_t place;
-    mote_status status = mote_child_wait(p->children, crew->places, &place);
-    if (status != MOTE_OK)
-        return status;
+    bool ended = false;
+    while (!ended) {
+        const mote_status status = mote_child_look(p->children, crew->places, &place, &ended);
+        if (status != MOTE_OK)
+            return status;
+        if (!ended && crew->meanwhile)
+            crew->meanwhile(crew->context);
+    }
     --p->busy;
-    status = crew->finish(crew->context, p->tasks[place], &p->children[place],
-                          seconds_now() - p->starts[place]);
+    const mote_status status = crew->finish(crew->context, p->tasks[place], &p->children[place],
+                                            seconds_now() - p->starts[place]);
     mote_child_release(&p->children[place]);
     return status;
 }

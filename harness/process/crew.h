@@ -16,6 +16,9 @@ typedef struct mote_crew {
 
     /* A child has ended: reads what it put, within the call. seconds: how long it ran. */
     mote_status (*finish)(void *context, size_t task, mote_child *child, double seconds);
+
+    /* Called while children are waited for, several times a second; NULL: nothing. */
+    void (*meanwhile)(void *context);
 } mote_crew;
 
 /* Runs all tasks to their end. The first failure of a function is returned, or MOTE_EIO when a

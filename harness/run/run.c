@@ -6,11 +6,13 @@
 #include "harness/process/load.h"
 #include "harness/process/manifest.h"
 #include "harness/run/measure.h"
+#include "harness/run/progress.h"
 #include "harness/base/record.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +49,10 @@ typedef struct run {
     int lock;            /* descriptor, or -1 */
     bool locked;
     bool output_failed; /* the directory cannot be written, whatever its name */
+    mote_progress progress;
+    size_t current;     /* cell of the plan that was started last */
+    uint64_t began_ns;  /* when it was */
+    uint64_t opened_ns; /* when the first was */
 } run;
 
 static mote_status load_subjects(run *r)
@@ -136,6 +142,14 @@ static mote_status probe_configuration(run *r, size_t index)
     return MOTE_OK;
 }
 
+/* Before anything is measured. */
+static void tell_preparing(run *r, const char *what, const mote_subject *subject)
+{
+    char *text = mote_format("%s %s", what, mote_subject_facts_of(subject).name);
+    mote_progress_say(&r->progress, text);
+    free(text);
+}
+
 static mote_status look_ahead(run *r)
 {
     r->prospects = calloc(r->plan.count + 1, sizeof *r->prospects);
@@ -148,11 +162,18 @@ static mote_status look_ahead(run *r)
         for (size_t k = 0; first && k < i; ++k)
             first = r->prospects[k].done ||
                     !same_configuration(&r->plan.cells[k], &r->plan.cells[i]);
-        mote_status status = first ? probe_configuration(r, i) : MOTE_OK;
+        if (first)
+            tell_preparing(r, "trying every configuration on", r->plan.cells[i].subject);
+        const mote_status status = first ? probe_configuration(r, i) : MOTE_OK;
         if (status != MOTE_OK)
             return status;
     }
     return MOTE_OK;
+}
+
+static double seconds_since(uint64_t start_ns)
+{
+    return (double)(mote_clock_ns() - start_ns) * 1e-9;
 }
 
 static double seconds_left(const run *r)
@@ -266,25 +287,64 @@ static mote_status load_truth(run *r)
         mote_subject *subject = &r->subjects[i];
         if (subject->bodies)
             continue;
+        tell_preparing(r, "exact distances of", subject);
         status = mote_truth_load_or_compute_known(subject->scenario, subject->fingerprint,
                                                   r->options->directory, &subject->truth);
     }
     return status;
 }
 
-static void print_progress(const run *r, const mote_cell *cell, const mote_cell_end *end,
-                           double seconds)
+/* "[3/84] ww particle:n=8 r2 hot" */
+static char *cell_text(const run *r, const mote_cell *cell)
+{
+    return mote_format("[%zu/%zu] %s %s r%u %s", r->done, r->plan.count,
+                       mote_subject_facts_of(cell->subject).name, cell->choice->text,
+                       cell->replicate, mote_cache_names[cell->cache]);
+}
+
+/* A cell that has ended. What went wrong stays on the terminal. */
+static void tell_end(run *r, const mote_cell *cell, const mote_cell_end *end, double seconds)
 {
     char left[32];
     duration_text(seconds_left(r), left, sizeof left);
-    bool terminal = isatty(STDERR_FILENO) == 1;
-    bool ok = end->status == MOTE_CELL_OK;
-    (void)fprintf(stderr, "%s[%zu/%zu] %s %s r%u %s: %s%s%s, %.1f s, %s left%s",
-                  terminal ? "\r\033[K" : "", r->done, r->plan.count,
-                  mote_subject_facts_of(cell->subject).name, cell->choice->text,
-                  cell->replicate, mote_cache_names[cell->cache],
-                  mote_cell_status_names[end->status], ok ? "" : ": ", ok ? "" : end->reason,
-                  seconds, left, terminal && ok && r->done < r->plan.count ? "" : "\n");
+    const bool ok = end->status == MOTE_CELL_OK;
+    char *which = cell_text(r, cell);
+    char *text =
+        mote_format("%s: %s%s%s, %.1f s, %s left", which, mote_cell_status_names[end->status],
+                    ok ? "" : ": ", ok ? "" : end->reason, seconds, left);
+    if (ok)
+        mote_progress_cell(&r->progress, text);
+    else
+        mote_progress_keep(&r->progress, text);
+    free(text);
+    free(which);
+}
+
+/* While cells are measured: which was started last, and what is left, less the time since. */
+static void tell_current(void *context)
+{
+    run *r = context;
+    if (!mote_progress_is_due(&r->progress))
+        return;
+    char left[32];
+    const prospect *current = &r->prospects[r->current];
+    const double spent = fmin(seconds_since(r->began_ns), current->done ? 0 : current->seconds);
+    duration_text(seconds_left(r) - spent / r->process.jobs, left, sizeof left);
+    char *which = cell_text(r, &r->plan.cells[r->current]);
+    char *text = mote_format("%s, %s left", which, left);
+    mote_progress_say(&r->progress, text);
+    free(text);
+    free(which);
+}
+
+static void tell_total(run *r, size_t before)
+{
+    char took[32];
+    duration_text(seconds_since(r->opened_ns), took, sizeof took);
+    char *text = mote_format("%zu cells measured in %s", r->done - before, took);
+    if (r->progress.terminal && r->done > before)
+        mote_progress_keep(&r->progress, text);
+    free(text);
 }
 
 static void warn_of_load(const run *r)
@@ -300,10 +360,13 @@ static void warn_of_load(const run *r)
 
 static mote_status start_cell(void *context, size_t task, mote_child *child)
 {
-    const run *r = context;
+    run *r = context;
     const size_t index = r->begun + task;
     if (r->prospects[index].done)
         return MOTE_OK;
+    r->current = index;
+    r->began_ns = mote_clock_ns();
+    tell_current(r);
     return mote_cell_start(&r->plan.cells[index], &r->process, child);
 }
 
@@ -318,7 +381,7 @@ static mote_status finish_cell(void *context, size_t task, mote_child *child, do
     r->prospects[r->begun + task].done = true;
     r->done += 1;
     r->failed += end.status == MOTE_CELL_CRASHED || end.status == MOTE_CELL_TIMEOUT ? 1 : 0;
-    print_progress(r, cell, &end, seconds);
+    tell_end(r, cell, &end, seconds);
     return MOTE_OK;
 }
 
@@ -329,7 +392,8 @@ static mote_status measure(run *r, size_t first)
                             .places = r->process.jobs,
                             .context = r,
                             .start = start_cell,
-                            .finish = finish_cell};
+                            .finish = finish_cell,
+                            .meanwhile = tell_current};
     r->begun = first;
     return mote_crew_run(&crew);
 }
@@ -430,6 +494,7 @@ static mote_status prepare(run *r)
     r->plan = made;
     if (status == MOTE_OK)
         status = look_ahead(r);
+    mote_progress_end(&r->progress);
     if (status == MOTE_OK)
         print_plan(r);
     return status;
@@ -446,12 +511,18 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
                                      options->argc, options->argv);
     if (status == MOTE_OK)
         status = load_truth(r);
+    mote_progress_end(&r->progress);
+    const size_t before = r->done;
+    r->opened_ns = mote_clock_ns();
     if (status == MOTE_OK) {
         warn_of_load(r);
         status = measure(r, 0);
     }
     if (status == MOTE_OK && options->further)
         status = add_replicates(r);
+    mote_progress_end(&r->progress);
+    if (status == MOTE_OK)
+        tell_total(r, before);
     if (status != MOTE_OK && r->locked)
         sweep_parts(options->directory); /* of processes that were ended */
     return status;
@@ -459,7 +530,10 @@ static mote_status carry_out(run *r, mote_run_outcome *outcome)
 
 mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
 {
-    run r = {.options = options, .replicates = options->plan.replicates, .lock = -1};
+    run r = {.options = options,
+             .replicates = options->plan.replicates,
+             .lock = -1,
+             .progress = mote_progress_begin(options->progress)};
     r.process.directory = options->directory;
     r.process.timeout = options->timeout;
     /* Of several at once none has a core of its own. */

@@ -19,9 +19,11 @@ typedef struct mote_run_options {
     const mote_choices *scene_choices; /* for those of more; NULL: the same */
     mote_plan_options plan;            /* program is filled in by the run */
     const char *directory;
-    double timeout;           /* seconds a cell; 0: none */
-    bool dry_run;             /* print the plan, measure and write nothing */
-    bool force;               /* measure also what is there already */
+    double timeout;  /* seconds a cell; 0: none */
+    double progress; /* where stderr is no terminal: seconds between two lines of it; 0:
+                        a line a cell */
+    bool dry_run;    /* print the plan, measure and write nothing */
+    bool force;      /* measure also what is there already */
     mote_run_further further; /* or NULL: no more replicates than planned */
     void *context;            /* that it is called with */
     double budget;            /* seconds for further replicates */

@@ -3,7 +3,7 @@
 failed=0
 measure() {
     status=0
-    "$mote" run "$@" --out "$out" >/dev/null || status=$?
+    "$mote" run "$@" --out "$out" --progress 10 >/dev/null || status=$?
     case $status in
     0) ;;
     5) failed=5 ;;

@@ -2,8 +2,8 @@
 
 #include "harness/base/record.h"
 #include "harness/figure/figures.h"
+#include "harness/summary/screen.h"
 #include "harness/summary/summary_json.h"
-#include "harness/summary/table.h"
 #include "harness/run/run.h"
 
 #include <math.h>
@@ -32,6 +32,9 @@ static const char *const every_way[] = {"certified", FIRST_CONTROL,  "fcl-aabb",
 static const char *const own_ways[] = {"certified"};
 static const char *const threaded[] = {"certified:ahead=3", "certified:threads=2",
                                        "certified:threads=2,ahead=3"};
+
+/* Seconds between two lines of progress where there is no terminal. */
+#define PROGRESS_PAUSE 10
 
 /* What must hold. */
 #define LEAST_RATIO 20.0
@@ -112,6 +115,7 @@ static mote_status measure_scene(const study *s, const scene *of)
                                                .contacts_only = true},
                                       .directory = s->directory,
                                       .timeout = 1800,
+                                      .progress = PROGRESS_PAUSE,
                                       .argc = s->argc,
                                       .argv = s->argv};
     if (status == MOTE_OK)
@@ -298,7 +302,7 @@ static mote_status write_csv(const study *s)
 
 static mote_status report(const study *s, bool *met)
 {
-    mote_table_print(&s->summary, stdout);
+    mote_screen_print(&s->summary, stdout);
     json_t *gained = gains(s);
     (void)printf("\n");
     json_t *required = requirements(s, met);

@@ -1,0 +1,125 @@
+#define _DEFAULT_SOURCE /* forkpty */
+/* What a person sees while a run goes on: one line that moves on a terminal, lines elsewhere.
+ */
+#include "tests/support/program.h"
+#include "tests/support/test.h"
+
+#include <pty.h>
+#include <stdbool.h>
+
+static char base[] = "/tmp/mote-test-progress-XXXXXX";
+static char said[64], text[1 << 16];
+static int directories;
+
+static int make_base(void)
+{
+    return mkdtemp(base) ? 0 : -1;
+}
+
+static int remove_base(void)
+{
+    return program_remove(base);
+}
+
+TEST_GROUP(make_base, remove_base);
+
+/* Two configurations in two replicates: four cells. */
+static void run_line(char *line, size_t size, const char *more)
+{
+    (void)snprintf(line, size,
+                   "run tt --frames 1-20 --method certified --method particle-paper:n=3 "
+                   "--replicates 2 --out %s/run-%d %s",
+                   base, ++directories, more);
+}
+
+static void run_into_file(const char *more)
+{
+    char line[512];
+    run_line(line, sizeof line, more);
+    (void)snprintf(said, sizeof said, "%s/said", base);
+    assert_int_equal(program_wait(program_start(line, said)), 0);
+    program_read(said, text, sizeof text);
+}
+
+static void run_on_terminal(unsigned short columns)
+{
+    char line[512], *argv[PROGRAM_ARGUMENTS];
+    const struct winsize size = {.ws_row = 24, .ws_col = columns};
+    int terminal;
+    run_line(line, sizeof line, "");
+    const pid_t pid = forkpty(&terminal, NULL, NULL, &size);
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        program_split(line, argv);
+        (void)execv(argv[0], argv);
+        _exit(127);
+    }
+    size_t used = 0;
+    for (ssize_t got; used + 1 < sizeof text; used += (size_t)got) {
+        got = read(terminal, text + used, sizeof text - 1 - used);
+        if (got <= 0) /* EIO: the program has ended */
+            break;
+    }
+    text[used] = '\0';
+    (void)close(terminal);
+    assert_int_equal(program_wait(pid), 0);
+}
+
+static size_t count(const char *what)
+{
+    size_t times = 0;
+    for (const char *at = text; (at = strstr(at, what)) != NULL; ++at)
+        ++times;
+    return times;
+}
+
+TEST(progress_in_a_file_is_a_line_a_cell)
+{
+    run_into_file("");
+    assert_int_equal(count("plan: 4 cells, 0 of them done"), 1);
+    assert_int_equal(count(": ok, "), 4);
+    assert_int_equal(count("\r"), 0);
+}
+
+/* The pause is longer than the run. */
+TEST(progress_in_a_file_with_a_pause_is_a_line_after_each)
+{
+    run_into_file("--progress 1000");
+    assert_int_equal(count("plan: 4 cells, 0 of them done"), 1);
+    assert_int_equal(count(": ok, "), 0);
+    run_into_file("--progress 1e-9");
+    assert_true(count(": ok, ") == 4 && count("[0/4] tt ") >= 1);
+}
+
+/* Lines that move are cut to the terminal: one that is longer would not be taken back. */
+TEST(progress_on_a_terminal_is_one_line_that_moves)
+{
+    static const char begin[] = "\r\033[K";
+    run_on_terminal(30);
+    size_t moved = 0;
+    for (const char *at = text; (at = strstr(at, begin)) != NULL; ++moved) {
+        at += strlen(begin);
+        const char *next = strstr(at, begin), *feed = strchr(at, '\n');
+        if (next && (!feed || next < feed) && next - at > 29)
+            fail_msg("%.60s", at);
+    }
+    assert_true(moved > 4);
+    assert_int_equal(count("\r\033[K4 cells measured in "), 1);
+    assert_int_equal(count(" s left\r\n"), 0); /* none stays */
+}
+
+/* The table of all columns is twice as wide as a terminal. */
+TEST(a_run_on_a_terminal_ends_with_the_best_rows)
+{
+    run_on_terminal(100);
+    assert_int_equal(count("* certified"), 1);
+    assert_int_equal(count("mote summarize "), 1);
+    for (const char *line = strstr(text, "tt: 1380"); line && *line;) {
+        const size_t length = strcspn(line, "\r\n");
+        assert_true(length <= 100);
+        line += length + strspn(line + length, "\r\n");
+    }
+    run_into_file("--progress 1000");
+    assert_null(strstr(text, "* certified"));
+    assert_non_null(strstr(text, "p95"));
+}
