@@ -229,7 +229,7 @@ mote_status mote_directory_make(const char *path)
     return status;
 }
 
-static void add_text(mote_text *text, const char *format, va_list arguments)
+static void MOTE_PRINTF(2, 0) add_text(mote_text *text, const char *format, va_list arguments)
 {
     va_list again;
     va_copy(again, arguments);

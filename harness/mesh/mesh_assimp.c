@@ -7,8 +7,33 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define SAID_MAX 200
+
+/* What assimp or a file says, fit for one line: no control characters, no full stop at the
+   end. */
+static const char *one_line(const char *text, char said[SAID_MAX])
+{
+    (void)snprintf(said, SAID_MAX, "%.*s", SAID_MAX - 1, text);
+    size_t length = strlen(said);
+    while (length > 0 && strchr(" .,\r\n", said[length - 1]))
+        said[--length] = '\0';
+    for (char *at = said; *at; ++at)
+        *at = (unsigned char)*at < ' ' ? ' ' : *at;
+    return said;
+}
+
+/* " of mesh NAME", where it has a name. */
+static const char *of_mesh(const struct aiMesh *mesh, char text[SAID_MAX])
+{
+    char name[SAID_MAX];
+    (void)one_line(mesh->mName.data, name);
+    (void)snprintf(text, SAID_MAX, "%s%.60s", name[0] ? " of mesh " : "", name);
+    return text;
+}
 
 /* parent * child, in double precision. */
 static void multiply(const double parent[12], const struct aiMatrix4x4 *m, double out[12])
@@ -36,10 +61,10 @@ static mote_status add_vertices(const char *path, const struct aiMesh *mesh, con
         const double wx = m[0] * x + m[1] * y + m[2] * z + m[3];
         const double wy = m[4] * x + m[5] * y + m[6] * z + m[7];
         const double wz = m[8] * x + m[9] * y + m[10] * z + m[11];
+        char name[SAID_MAX];
         if (!isfinite(wx) || !isfinite(wy) || !isfinite(wz))
-            return mote_fail(MOTE_EINVAL,
-                             "%s: vertex %u of mesh %.60s is not finite; give finite numbers",
-                             path, v, mesh->mName.data);
+            return mote_fail(MOTE_EINVAL, "%s: vertex %u%s is not finite; give finite numbers",
+                             path, v, of_mesh(mesh, name));
         status = mote_soup_add_vertex(soup, wx, wy, wz);
     }
     return status;
@@ -61,9 +86,10 @@ static mote_status add_face(const char *path, const struct aiMesh *mesh, unsigne
         return MOTE_OK;
     }
     const mote_status status = mote_soup_add_polygon(soup, corners, face->mNumIndices);
+    char name[SAID_MAX];
     return status == MOTE_OK ? status
-                             : mote_fail(status, "%s: face %u of mesh %.60s: %s", path, f,
-                                         mesh->mName.data, mote_error_text());
+                             : mote_fail(status, "%s: face %u%s: %s", path, f,
+                                         of_mesh(mesh, name), mote_error_text());
 }
 
 static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32_t base,
@@ -114,6 +140,21 @@ static void note_dropped(const char *message, char *dropped)
         *dropped = 1;
 }
 
+static mote_status fail_as_assimp_says(const char *path)
+{
+    char said[SAID_MAX];
+    (void)one_line(aiGetErrorString(), said);
+    if (strncmp(said, "No suitable reader", strlen("No suitable reader")) == 0)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: no mesh format that is known by this name or content; give a "
+                         "mesh in OBJ, PLY, STL, OFF or glTF",
+                         path);
+    return mote_fail(
+        MOTE_EINVAL,
+        "%s: assimp cannot read it (%s); give a mesh in OBJ, PLY, STL, OFF or glTF", path,
+        said);
+}
+
 mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
 {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -125,8 +166,7 @@ mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
     const struct aiScene *scene = aiImportFile(path, 0);
     aiDetachLogStream(&log);
     if (!scene)
-        return mote_fail(MOTE_EINVAL, "%s: %.200s; give a mesh in OBJ, PLY, STL, OFF or glTF",
-                         path, aiGetErrorString());
+        return fail_as_assimp_says(path);
     mote_status status = MOTE_OK;
     soup->single_precision = true;
     if (dropped)

@@ -14,6 +14,7 @@ typedef struct ply_element {
     char name[16]; /* cut */
     unsigned long long count;
     bool has_properties, begins_with_list; /* its first property is a list */
+    size_t bytes;                          /* of one, in a binary file, its lists being empty */
 } ply_element;
 
 typedef struct ply_header {
@@ -60,18 +61,37 @@ static const char *after(const char *at, const char *word)
     return mote_skip_blanks(at + length);
 }
 
+/* Bytes of a number in a binary file; 0: a type that is not known. */
+static size_t type_bytes(const char *type)
+{
+    static const struct {
+        const char *name;
+        size_t bytes;
+    } types[] = {{"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},
+                 {"short", 2}, {"ushort", 2},  {"int16", 2},  {"uint16", 2},
+                 {"int", 4},   {"uint", 4},    {"int32", 4},  {"uint32", 4},
+                 {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; ++i) {
+        if (after(type, types[i].name))
+            return types[i].bytes;
+    }
+    return 0;
+}
+
 static void note_property(ply_element *e, const char *property)
 {
+    const char *list = after(property, "list");
     if (!e->has_properties)
-        e->begins_with_list = after(property, "list") != NULL;
+        e->begins_with_list = list != NULL;
     e->has_properties = true;
+    e->bytes += type_bytes(list ? list : property);
 }
 
 /* Up to a line end_header, without which assimp reads for ever; *body is what follows. */
 static mote_status read_header(const char *path, const char *text, size_t size, ply_header *h,
                                const char **body)
 {
-    for (const char *line = text; *line; line = next_line(line), ++h->lines) {
+    for (const char *line = mote_skip_mark(text); *line; line = next_line(line), ++h->lines) {
         const char *element = after(line, "element"), *property = after(line, "property");
         const char *format = after(line, "format");
         mote_status status = MOTE_OK;
@@ -149,12 +169,29 @@ static mote_status check_ply_body(const char *path, const ply_header *h, const c
     return MOTE_OK;
 }
 
+/* The declared elements must not be longer than a binary body is. */
+static mote_status check_binary_ply(const char *path, const ply_header *h, size_t body_size)
+{
+    size_t least = 0;
+    for (size_t e = 0; e < h->count; ++e)
+        least += h->element[e].bytes * (size_t)h->element[e].count;
+    if (least > body_size)
+        return mote_fail(MOTE_EINVAL,
+                         "%s: ends early: what its header declares takes %zu bytes at least, "
+                         "and %zu follow; give all elements, or declare fewer",
+                         path, least, body_size);
+    return MOTE_OK;
+}
+
 static mote_status check_ply(const char *path, const char *text, size_t size)
 {
     ply_header header = {0};
     const char *body = NULL;
     const mote_status status = read_header(path, text, size, &header, &body);
-    return status == MOTE_OK && header.ascii ? check_ply_body(path, &header, body) : status;
+    if (status != MOTE_OK)
+        return status;
+    return header.ascii ? check_ply_body(path, &header, body)
+                        : check_binary_ply(path, &header, size - (size_t)(body - text));
 }
 
 static bool begins(const char *line, const char *word)
@@ -214,7 +251,7 @@ mote_status mote_soup_check_text(const char *path, const char *text, size_t size
 {
     const char *ending = strrchr(path, '.');
     if (ending && strcasecmp(ending, ".ply") == 0)
-        return check_ply(path, mote_skip_mark(text), size);
+        return check_ply(path, text, size);
     if (ending && strcasecmp(ending, ".stl") == 0)
         return check_stl(path, text, size);
     return MOTE_OK;

@@ -35,6 +35,8 @@ static bool has_ending(const char *path, const char *ending)
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
                              mote_soup *soup)
 {
+    if (strncmp(text, "\xff\xfe", 2) == 0 || strncmp(text, "\xfe\xff", 2) == 0)
+        return mote_fail(MOTE_EINVAL, "%s: a text in UTF-16; save it as UTF-8", path);
     if (strlen(text) != size)
         return mote_fail(MOTE_EINVAL, "%s: a zero byte at %zu; give text", path, strlen(text));
     const mote_status status = is_off ? mote_soup_read_off(path, text, size, soup)
@@ -53,7 +55,9 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
     if (status != MOTE_OK)
         return status;
-    if (is_obj || is_off)
+    if (size == 0)
+        status = mote_fail(MOTE_EINVAL, "%s: an empty file, no face in it; give a mesh", path);
+    else if (is_obj || is_off)
         status = read_text(path, text, size, is_off, soup);
     else
         status = mote_soup_check_text(path, text, size);
@@ -63,6 +67,11 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     status = mote_soup_read_assimp(path, soup);
     if (status == MOTE_OK)
         mote_soup_weld(soup);
+    if (status == MOTE_OK && soup->triangle_count == 0)
+        status = mote_fail(MOTE_EINVAL,
+                           "%s: each of its %zu faces has two corners at one place; give "
+                           "triangles with three places",
+                           path, soup->collapsed);
     return status;
 }
 
@@ -193,13 +202,16 @@ mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *im
                                       .memory_bytes = MEMORY_BYTES + 60 * size,
                                       .output_bytes = MEMORY_BYTES + 60 * size,
                                       .confined = true};
-    char *output = NULL;
+    char *output = NULL, *reader = mote_format("%s: the reader of this format", path);
     size_t got = 0;
     /* The child only reads the name. */
     mote_status status =
-        mote_child_run(path, import_in_child, (void *)(uintptr_t)path, limits, &output, &got);
+        mote_child_run(reader, import_in_child, (void *)(uintptr_t)path, limits, &output, &got);
     if (status == MOTE_OK)
         status = make_mesh(path, output, got, mesh, import);
+    else if (strncmp(mote_error_text(), reader, strlen(reader)) == 0)
+        status = mote_fail(status, "%s; give the mesh in OBJ or OFF", mote_error_text());
     free(output);
+    free(reader);
     return status;
 }

@@ -211,7 +211,23 @@ static const bad_text bad_texts[] = {
     {"b.ply", "ply\nformat ascii 1.0\nelement vertex 77777777\nend_header\n",
      "declares 77777777"},
     {"b.stl", "solid t\nendsolid t\n", "b.stl"},
-    {"b.xyz", "what is this?", "b.xyz"},
+    {"b.xyz", "what is this?", "b.xyz: no mesh format that is known by this name or content"},
+    {"b.ac", "AC3Db\nOBJECT", "b.ac: assimp cannot read it ("},
+    {"b.ply", "", "b.ply: an empty file"},
+    {"b.obj", "", "b.obj: an empty file"},
+    {"b.obj", "\xff\xfev", "a text in UTF-16; save it as UTF-8"},
+    {"b.ply",
+     "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+     "property double y\nelement face 1\nproperty list uchar int vertex_indices\n"
+     "end_header\n1234",
+     "takes 37 bytes at least, and 4 follow"},
+    {"b.stl",
+     "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 0 0\n"
+     "endloop\nendfacet\nendsolid t\n",
+     "each of its 1 faces has two corners at one place"},
+    /* assimp 5.2 crashes on two groups. */
+    {"b.raw", "a\n1 1 1 0 0 0 0 1 0 1 0 0\n\nb\n1 1 1 0 0 0 0 1 0 1 0 0\n",
+     "b.raw: the reader of this format: crashed: "},
 };
 
 static double seconds_now(void)

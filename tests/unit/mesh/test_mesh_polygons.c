@@ -179,7 +179,7 @@ TEST(polygon_that_is_not_simple_names_its_place)
         {"w.off", "OFF\n4 1 0\n0 0 0\n2 2 0\n2 0 0\n0 2 0\n4 0 1 2 3\n",
          "w.off:7: a face whose edges 1 and 3 cross or touch; give triangles"},
         {"w.ply", PLY_HEAD "0 0 0\n2 2 0\n2 0 0\n0 2 0\n4 0 1 2 3\n",
-         "w.ply: face 0 of mesh : a face whose edges 1 and 3 cross"},
+         "w.ply: face 0: a face whose edges 1 and 3 cross"},
         {"w.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 1 4\n",
          "w.obj:5: a face with a vertex twice; give different ones"},
     };
