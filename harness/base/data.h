@@ -6,8 +6,9 @@
 
 #include <stddef.h>
 
-/* The folder that holds datasets/ and plots/: ../share/mote beside the folder of an installed
-   program, else the sources that it was built from. Never NULL; lives on. Not for threads. */
+/* The folder that holds datasets/ and plots/: ../share/mote beside the folder of an
+   installed program, else the sources that it was built from. Never NULL, and valid until
+   the program ends. Not thread-safe. */
 const char *mote_data_directory(void);
 
 /* mote_file_read of a file in there: "plots/page/report.css". */

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LINKS_MAX 40 /* followed from one path, as by the kernel */
+#define LINKS_MAX 40 /* links followed for one path; the kernel's limit is the same */
 
 static mote_status read_descriptor(int descriptor, const char *path, size_t limit, char **text,
                                    size_t *size)
@@ -78,14 +78,14 @@ static bool write_all(int descriptor, const char *data, size_t size)
     return true;
 }
 
-/* Makes a rename in the path's directory last: without this, a power cut may undo it. */
+/* Syncs the directory of the path: without this, a power cut may undo a rename in it. */
 static bool sync_directory(const char *path)
 {
     const char *slash = strrchr(path, '/');
     char *directory =
         slash ? mote_format("%.*s/", (int)(slash - path), path) : mote_format(".");
     int descriptor = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    /* Some file systems have no such thing: EINVAL. */
+    /* Some file systems cannot sync a directory and fail with EINVAL. */
     bool synced = descriptor >= 0 && (fsync(descriptor) == 0 || errno == EINVAL);
     if (descriptor >= 0)
         (void)close(descriptor);

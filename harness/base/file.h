@@ -17,9 +17,9 @@ mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *
 /* The text after its UTF-8 byte-order mark, which some editors write, or all of it. */
 const char *mote_skip_mark(const char *text);
 
-/* Writes a file beside its final name, syncs and renames it: what has the name is whole. Links
-   at the end of path are followed and stay. A stream is written to and never replaced. MOTE_EIO
-   with a text. */
+/* Writes a file beside its final name, syncs and renames it: a file of that name is always
+   whole. Links at the end of path are followed and stay. A stream is written to and never
+   replaced. MOTE_EIO with a text. */
 mote_status mote_file_write(const char *path, const void *data, size_t size);
 
 /* Whether a path is that of a stream: a device, a FIFO or a socket, or whatever this program's
@@ -30,7 +30,7 @@ bool mote_path_is_stream(const char *path);
 int mote_stream_open(const char *path);
 
 /* path with the links at its end followed, also to where there is no file yet. NULL, with
-   errno ELOOP, where links go round. The caller frees it. */
+   errno ELOOP, where links form a circle. The caller frees it. */
 char *mote_path_follow(const char *path);
 
 /* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no

@@ -28,7 +28,7 @@ void mote_heap_reset_peak(void)
 #include <stddef.h>
 #include <stdlib.h>
 
-/* What glibc exports for exactly this purpose. */
+/* glibc exports these so that programs can replace malloc. */
 /* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
@@ -77,7 +77,8 @@ EXPORTED void *realloc(void *block, size_t size)
 {
     size_t before = block ? malloc_usable_size(block) : 0;
     void *moved = __libc_realloc(block, size);
-    /* Nothing was freed when it failed; realloc(block, 0) of glibc frees and returns NULL. */
+    /* A realloc that fails frees nothing, but glibc's realloc(block, 0) frees and returns
+       NULL. */
     if (moved || size == 0)
         count_out(before);
     return count_in(moved);

@@ -1,5 +1,6 @@
-/* The heap of this process, counted: the program's own malloc family passes every call on to
-   the C library and keeps the books, C++ operator new and libraries included. */
+/* Counts the heap of this process: the program's own malloc, calloc, realloc and free count
+   each call and pass it on to the C library. Allocations by C++ operator new and by
+   libraries are included. */
 #ifndef MOTE_HARNESS_HEAP_COUNT_H
 #define MOTE_HARNESS_HEAP_COUNT_H
 

@@ -1,5 +1,5 @@
-/* Where a value stands in a JSON text. jansson does not keep the lines of what it read, so the
-   text, known to be valid, is walked again along the path when an error has to be told. */
+/* Where a value stands in a JSON text. jansson does not keep the lines of what it read, so
+   the text, known to be valid, is searched again along the path when an error is reported. */
 #include "harness/base/json_read.h"
 
 #include <stdlib.h>

@@ -1,10 +1,11 @@
-/* jansson when memory runs out: its parser does not look whether a token's text could grow, and
-   reads and writes past its end then (2.14), and json_dumps leaves out a key without a word. */
+/* What jansson does when memory runs out: its parser (2.14) does not check whether the text
+   of a token could grow, and then reads and writes past its end; json_dumps silently leaves
+   out a key. */
 #ifndef MOTE_HARNESS_JSON_MEMORY_H
 #define MOTE_HARNESS_JSON_MEMORY_H
 
-/* From now on memory that runs out within jansson ends the process, as in memory.h. Once,
-   before anything is made of JSON. */
+/* From now on an allocation that fails within jansson ends the process, as in memory.h. To
+   be called once, before any other function of jansson. */
 void mote_json_use_memory(void);
 
 #endif

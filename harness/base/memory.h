@@ -1,6 +1,6 @@
-/* Memory for the program: what cannot be had ends the process with one line and a status of its
-   own, so that nobody else has to ask whether memory was there. Finished files are whole by
-   then, and a run goes on where it stopped. core/ is a library and returns MOTE_ENOMEM instead.
+/* Memory for the program: an allocation that fails ends the process with one line and an
+   exit status of its own, so that callers need not check. Finished files are whole by then,
+   and a run goes on where it stopped. core/ is a library and returns MOTE_ENOMEM instead.
    All blocks are released by free. */
 #ifndef MOTE_HARNESS_MEMORY_H
 #define MOTE_HARNESS_MEMORY_H
@@ -22,13 +22,13 @@ void *mote_reserve(void *block, size_t needed, size_t *capacity, size_t size);
 void *mote_copy(const void *data, size_t size);
 char *mote_duplicate(const char *text);
 
-/* Prints "mote: out of memory ..." to stderr, or tells it as below, and ends the process with
-   MOTE_EXIT_OUT_OF_MEMORY. What is in the buffers of streams is not written. bytes: how many
-   were asked for; 0: unknown. */
+/* Prints "mote: out of memory ..." to stderr, or calls the function set below, and ends the
+   process with MOTE_EXIT_OUT_OF_MEMORY. What is in the buffers of streams is not written.
+   bytes: how many were asked for; 0: unknown. */
 _Noreturn void mote_out_of_memory(size_t bytes);
 
-/* tell is called in the place of the line, once; it may end the process itself. It must not
-   allocate. NULL: the line. */
+/* tell is called once, instead of printing the line; it may end the process itself. It must
+   not allocate. NULL: the line. */
 void mote_out_of_memory_tell(void (*tell)(const char *text));
 
 #endif

@@ -13,7 +13,7 @@ typedef enum mote_exit {
     MOTE_EXIT_DONE = 0,
     MOTE_EXIT_CHECK_FAILED = 1, /* a check failed */
     MOTE_EXIT_USAGE = 2,        /* the command line cannot be understood */
-    MOTE_EXIT_UNDECIDED = 3,    /* a comparison that is neither */
+    MOTE_EXIT_UNDECIDED = 3,    /* a comparison that is undecided */
     MOTE_EXIT_BAD_INPUT = 4,    /* bad input, or output that cannot be written */
     MOTE_EXIT_CELL_FAILED = 5,  /* a cell failed */
     MOTE_EXIT_OUT_OF_MEMORY = 6 /* memory ran out; finished files are whole */
@@ -52,7 +52,7 @@ typedef struct mote_option_reader {
 
 #define MOTE_OPTION_PLAIN (-1) /* an argument that is no option */
 #define MOTE_OPTION_END (-2)   /* nothing left */
-#define MOTE_OPTION_ERROR (-3) /* told on stderr: return MOTE_EXIT_USAGE */
+#define MOTE_OPTION_ERROR (-3) /* reported on stderr: return MOTE_EXIT_USAGE */
 
 /* The next option's index in reader->options, or one of the above. *value: the option's value
    or the plain argument, else NULL. "--" ends the options. */
@@ -71,12 +71,12 @@ bool mote_read_triple(const char *text, double value[3]);
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,
                             uint64_t *last);
 
-/* Reads a study's options, "--out DIR" and "--quick"; argv[0] is its name, *directory where it
-   writes unless told. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE, told on stderr. */
+/* Reads a study's options, "--out DIR" and "--quick"; argv[0] is its name, *directory starts
+   as its default. MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 int mote_study_read(int argc, char **argv, const char **directory, bool *quick);
 
-/* Reads a command line that is one directory; argv[0] is the command's name. MOTE_EXIT_DONE, or
-   MOTE_EXIT_USAGE, told on stderr. */
+/* Reads a command line that is one directory; argv[0] is the command's name. MOTE_EXIT_DONE,
+   or MOTE_EXIT_USAGE after a line on stderr. */
 int mote_directory_argument(int argc, char **argv, const char **directory);
 
 #endif

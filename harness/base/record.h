@@ -8,11 +8,11 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Writes directory/name, text taken over and freed. */
+/* Writes directory/name. Frees text. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
 
-/* Writes directory/name, numbers with 17 digits; object is taken over (decref'd). NULL, which
-   is what jansson makes of text that is not UTF-8, is MOTE_EINVAL. */
+/* Writes directory/name, numbers with 17 digits, and decrefs object. An object that is NULL,
+   as jansson returns for text that is not UTF-8, is MOTE_EINVAL. */
 mote_status mote_record_json(const char *directory, const char *name, json_t *object);
 
 /* Reads directory/name as JSON; MOTE_EINVAL with file, line and column when it is not. The
@@ -22,8 +22,8 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
 /* A real, or null where it is not finite. */
 json_t *mote_json_number(double value);
 
-/* Prints object with jansson's flags and a line end; object is taken over
-   (decref'd), NULL is MOTE_EINVAL as above. Whether out took it is the caller's to check. */
+/* Prints object with jansson's flags and a line end, and decrefs it; NULL is MOTE_EINVAL as
+   above. The caller checks out for errors. */
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
 
 /* for each item of a JSON array, of none where it is no array: item is never NULL. */

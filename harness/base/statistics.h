@@ -1,6 +1,6 @@
-/* Statistics of the experiments; the one file that uses GSL's. All arrays are borrowed and left
-   as they were unless said otherwise; all values are finite. A result that cannot be had (no
-   values, one replicate) is MOTE_NONE. */
+/* Statistics of the experiments; the one file that uses GSL's. All arrays are borrowed and
+   left as they were unless said otherwise; all values are finite. A result that does not
+   exist (no values, one replicate) is MOTE_NONE. */
 #ifndef MOTE_HARNESS_STATISTICS_H
 #define MOTE_HARNESS_STATISTICS_H
 
@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A figure that cannot be had: a NaN. */
+/* Stands for a value that does not exist: a NaN. */
 #define MOTE_NONE ((double)NAN)
 
 /* A two-sided 95 % interval; both MOTE_NONE when there are too few values. */
@@ -60,8 +60,8 @@ typedef struct mote_replicate {
 mote_confidence mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
                                                 bool logarithmic, uint64_t seed);
 
-/* A positive figure of some processes, drawn[count] of them, numbered from 0; a process may be
-   drawn more than once. MOTE_NONE when it cannot be had from these. */
+/* A positive figure of some processes, drawn[count] of them, numbered from 0; a process may
+   be drawn more than once. MOTE_NONE where these do not give one. */
 typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t count);
 
 /* Interval of a figure of processes: below MOTE_BOOTSTRAP_REPLICATES processes the t interval
@@ -79,13 +79,14 @@ double mote_statistics_mad(double *values, size_t count);
 mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count);
 
 /* Two-sided p of Wilcoxon's signed-rank test that differences have median 0. Zeros are left
-   out; exact for at most 50 different sizes, else normal with corrections for ties and
-   continuity. MOTE_NONE when nothing is left; work holds 2 * count doubles. */
+   out. Exact for at most 50 differences of different sizes, else by the normal approximation
+   with corrections for ties and continuity. MOTE_NONE when nothing is left; work holds 2 *
+   count doubles. */
 double mote_statistics_wilcoxon(const double *differences, size_t count, double *work);
 
-/* Two-sided p of Mann and Whitney's test that a and b have one distribution. Exact for at most
-   50 values in all, all different, else normal with corrections for ties and continuity. work
-   holds 2 * (a_count + b_count) doubles. */
+/* Two-sided p of Mann and Whitney's test that a and b have one distribution. Exact for at
+   most 50 values in all, all different, else by the normal approximation with corrections
+   for ties and continuity. work holds 2 * (a_count + b_count) doubles. */
 double mote_statistics_mann_whitney(const double *a, size_t a_count, const double *b,
                                     size_t b_count, double *work);
 
@@ -112,8 +113,9 @@ mote_difference mote_statistics_welch(const double *a, size_t a_count, const dou
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 
-/* A change is called one below this p: half of the usual 0.05, so that a method compared with
-   itself is called faster or slower in clearly fewer than 5 % of comparisons. */
+/* A difference counts as a change when its p is below this: half of the usual 0.05, so that
+   a method compared with itself is called faster or slower in clearly fewer than 5 % of
+   comparisons. */
 #define MOTE_SIGNIFICANT 0.025
 
 /* The smallest ratio of times that a comparison calls a change four times in five, when both

@@ -16,16 +16,16 @@
 #include <time.h>
 #include <unistd.h>
 
-/* How often a waiting parent looks for a signal that asked it to stop. */
+/* How often a waiting parent checks for a signal that asked it to stop. */
 #define POLL_MS 200
 
-/* The child's last words, after its output. */
+/* What the child sends last, after its output. */
 typedef struct last_words {
     uint32_t status;
     char text[1024];
 } last_words;
 
-static volatile sig_atomic_t stop_signal; /* 0: none has come */
+static volatile sig_atomic_t stop_signal; /* 0: none received */
 
 static void ask_to_stop(int signal_number)
 {
@@ -39,7 +39,9 @@ void mote_child_heed_signals(void)
     action.sa_handler = ask_to_stop;
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
-    (void)signal(SIGXFSZ, SIG_IGN); /* a file that becomes too large is an error of write */
+    (void)signal(
+        SIGXFSZ,
+        SIG_IGN); /* a file that becomes too large makes write fail, without a signal */
 }
 
 bool mote_child_stop_asked(void)
@@ -79,7 +81,7 @@ static size_t mapped_bytes(void)
     return got ? strtoul(line, NULL, 10) * (size_t)sysconf(_SC_PAGESIZE) : 0;
 }
 
-static int parent_end; /* of a child: where the parent listens */
+static int parent_end; /* in a child: the pipe that the parent reads */
 
 static _Noreturn void say_last_words(mote_status status, const char *text)
 {
@@ -91,7 +93,7 @@ static _Noreturn void say_last_words(mote_status status, const char *text)
     _exit(0);
 }
 
-/* Memory that runs out ends the child's work, as a status of it, and not the parent. */
+/* When memory runs out, only the child ends, and reports that as its status. */
 static void tell_parent(const char *text)
 {
     say_last_words(MOTE_ENOMEM, text);
@@ -103,12 +105,12 @@ static _Noreturn void be_child(mote_child_work work, void *context,
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
         _exit(1); /* the parent died before the line above */
-    /* A terminal's Ctrl-C reaches the whole group: the parent decides, and no cell looks as if
-       it had crashed. */
+    /* Ctrl-C reaches every process of the terminal's group: children ignore it and the
+       parent ends them, so that no cell is recorded as crashed. */
     (void)signal(SIGINT, SIG_IGN);
     (void)signal(SIGTERM, SIG_IGN);
     if (limits->confined)
-        (void)mote_confine(); /* as far as this kernel can */
+        (void)mote_confine(); /* as far as this kernel supports it */
     if (limits->memory_bytes > 0) {
         const rlim_t bytes = mapped_bytes() + limits->memory_bytes;
         const struct rlimit limit = {bytes, bytes};
@@ -179,7 +181,7 @@ static mote_child_end receive(mote_child *child)
     return append(child, block, (size_t)got) ? MOTE_CHILD_RUNNING : MOTE_CHILD_TOO_MUCH;
 }
 
-/* What became of a child that closed its side, given its wait status. */
+/* How a child that closed its side ended, given its wait status. */
 static void conclude(mote_child *child, int ended)
 {
     last_words last;
@@ -198,7 +200,7 @@ static void conclude(mote_child *child, int ended)
                            memchr(last.text, '\0', sizeof last.text) && WEXITSTATUS(ended) == 0;
         child->status = sense ? (mote_status)last.status : MOTE_EIO;
         (void)snprintf(child->text, sizeof child->text, "%s",
-                       sense ? last.text : "ended with what is no answer");
+                       sense ? last.text : "ended with an incomplete answer");
         if (!sense)
             child->end = MOTE_CHILD_CRASHED;
     }
@@ -219,7 +221,8 @@ static void reap(mote_child *child, mote_child_end end)
         conclude(child, ended);
     else
         (void)snprintf(child->text, sizeof child->text, "%s",
-                       end == MOTE_CHILD_TIMEOUT ? "took too long" : "gave more than fits");
+                       end == MOTE_CHILD_TIMEOUT ? "took too long"
+                                                 : "returned more than is allowed");
 }
 
 void mote_child_stop(mote_child *children, size_t count)

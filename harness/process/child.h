@@ -1,6 +1,6 @@
-/* Work done in a child process: what it allocates, leaks, crashes on or waits for for ever does
-   not reach the parent. A child ends with its parent; signals that ask the parent to stop
-   (SIGINT, SIGTERM) are the parent's business alone. */
+/* Work done in a child process, so that its leaks, crashes and endless loops do not affect
+   the parent. A child ends with its parent. It ignores the signals that ask the parent to
+   stop (SIGINT, SIGTERM). */
 #ifndef MOTE_HARNESS_CHILD_H
 #define MOTE_HARNESS_CHILD_H
 
@@ -23,7 +23,7 @@ typedef mote_status (*mote_child_work)(void *context, int output);
 typedef enum mote_child_end {
     MOTE_CHILD_RUNNING,
     MOTE_CHILD_DONE,    /* its work returned: see status */
-    MOTE_CHILD_CRASHED, /* it died before */
+    MOTE_CHILD_CRASHED, /* it ended before that */
     MOTE_CHILD_TIMEOUT, /* it was ended: out of time */
     MOTE_CHILD_TOO_MUCH /* it was ended: it put more than output_bytes */
 } mote_child_end;
@@ -36,12 +36,12 @@ typedef struct mote_child {
     size_t limit;    /* of output */
     mote_child_end end;
     mote_status status; /* of its work, when DONE */
-    char text[1024];    /* of an error of its work; how it died, or why it was ended */
+    char text[1024];    /* the error of its work, how it crashed, or why it was ended */
     char *output;       /* what it put; mote_child_release frees it */
     size_t size, capacity;
 } mote_child;
 
-/* Starts a child. MOTE_EIO when there is no process to be had. context need not outlive the
+/* Starts a child. MOTE_EIO when no process can be created. context need not outlive the
    call. */
 mote_status mote_child_start(mote_child_work work, void *context, mote_child_limits limits,
                              mote_child *child);
@@ -57,8 +57,8 @@ mote_status mote_child_wait(mote_child *children, size_t count, size_t *index);
 /* Likewise, but waits a fifth of a second at most; *ended: one has. */
 mote_status mote_child_look(mote_child *children, size_t count, size_t *index, bool *ended);
 
-/* From now on SIGINT and SIGTERM only ask to stop: whoever waits for children ends them. A file
-   beyond the size allowed is an error and no signal. */
+/* From now on SIGINT and SIGTERM only ask to stop: functions that wait for children then end
+   them. A write beyond the file size limit fails with an error instead of a signal. */
 void mote_child_heed_signals(void);
 bool mote_child_stop_asked(void);
 
@@ -71,13 +71,13 @@ void mote_child_stop(mote_child *children, size_t count);
 /* Frees the output. */
 void mote_child_release(mote_child *child);
 
-/* Runs work in a child to its end. Returns its status, its error text becoming ours; MOTE_EIO
-   when it crashed, was out of time, or said too much: the text then begins with `what`. *output
-   (unless NULL) is what it put, freed by the caller. */
+/* Runs work in a child to its end. Returns its status and takes over its error text;
+   MOTE_EIO when it crashed, ran out of time, or returned more than allowed: the text then
+   begins with `what`. *output (unless NULL) is what it put, freed by the caller. */
 mote_status mote_child_run(const char *what, mote_child_work work, void *context,
                            mote_child_limits limits, char **output, size_t *size);
 
-/* Sends bytes to the parent; MOTE_EIO when it does not listen. */
+/* Sends bytes to the parent; MOTE_EIO when it no longer reads. */
 mote_status mote_child_put(int output, const void *data, size_t size);
 
 #endif

@@ -37,7 +37,7 @@ static bool refuse_changes(void)
 bool mote_confine(void)
 {
     const struct rlimit nothing = {0, 0};
-    (void)signal(SIGXFSZ, SIG_IGN); /* an error of write instead */
+    (void)signal(SIGXFSZ, SIG_IGN); /* write then fails instead */
     (void)setrlimit(RLIMIT_FSIZE, &nothing);
     return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && refuse_changes();
 }

@@ -1,4 +1,4 @@
-/* What a process gives up before it reads other people's files. */
+/* The rights that a process gives up before it reads files of unknown origin. */
 #ifndef MOTE_HARNESS_CONFINE_H
 #define MOTE_HARNESS_CONFINE_H
 

@@ -14,7 +14,8 @@ typedef struct mote_crew {
     /* Starts the child of a task, or leaves its pid 0 where there is nothing to do. */
     mote_status (*start)(void *context, size_t task, mote_child *child);
 
-    /* A child has ended: reads what it put, within the call. seconds: how long it ran. */
+    /* Called when a child has ended, to read its output, which is freed afterwards. seconds:
+       how long it ran. */
     mote_status (*finish)(void *context, size_t task, mote_child *child, double seconds);
 
     /* Called while children are waited for, several times a second; NULL: nothing. */

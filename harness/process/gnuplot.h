@@ -10,7 +10,8 @@
 mote_status mote_gnuplot_draw(const char *folder, const char *script, const char *base,
                               const char *heading, const char *footer, const char *formats);
 
-/* Appends text in quotes: what would end them or the line is replaced by its like. */
+/* Appends text in quotes. Characters that would end the string or the line are replaced by
+   similar ones. */
 void mote_gnuplot_quote(mote_text *text, const char *string);
 
 /* Starts a block below a title, after two empty lines unless it is the first. */

@@ -8,8 +8,8 @@ double mote_load_average(void);
 /* The clock of a core (-1: any) in MHz; 0 where the kernel does not say. */
 double mote_core_clock(int core);
 
-/* How many cores others kept busy during the next tenth of a second, while this process sleeps;
-   0 when unknown. */
+/* How many cores other processes keep busy during the next tenth of a second, in which this
+   process sleeps; 0 when unknown. */
 double mote_busy_cores(void);
 
 #endif

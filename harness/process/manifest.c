@@ -129,7 +129,7 @@ static void now_text(char *text, size_t size)
         text[0] = '\0';
 }
 
-/* The sessions so far, or none; the caller decrefs. */
+/* The sessions so far, an empty array if there are none; the caller decrefs. */
 static json_t *old_sessions(const char *directory)
 {
     char *path = mote_format("%s/manifest.json", directory);

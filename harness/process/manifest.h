@@ -1,4 +1,4 @@
-/* Where figures come from: program, sources, compiler, libraries, machine. */
+/* The origin of measurements: program, sources, compiler, libraries, machine. */
 #ifndef MOTE_HARNESS_MANIFEST_H
 #define MOTE_HARNESS_MANIFEST_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Hash of this program's own file: changes with anything that was compiled in. MOTE_EIO when it
+/* Hash of this program's own file, which changes with anything compiled in. MOTE_EIO when it
    cannot be read. */
 mote_status mote_program_hash(uint64_t *hash);
 
@@ -16,8 +16,8 @@ mote_status mote_program_hash(uint64_t *hash);
 #define MOTE_MACHINE_SIZE 320
 void mote_machine_name(char *text, size_t size);
 
-/* Writes directory/manifest.json: what is true now, and under "sessions" a line for each time
-   that something was measured into the directory, this one added. */
+/* Writes directory/manifest.json: the present state, and under "sessions" an entry for each
+   time that something was measured into the directory, this one included. */
 mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,
                                 int argc, char **argv);
 

@@ -88,13 +88,13 @@ TEST(run_of_children_that_say_rubbish_is_an_error)
     char *text = NULL;
     assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
                      MOTE_EIO);
-    assert_string_equal(mote_error_text(), "it: gave more than fits");
+    assert_string_equal(mote_error_text(), "it: returned more than is allowed");
     mote_child child = {0};
     size_t index;
     assert_int_equal(mote_child_start(say_rubbish, &wanted, limits, &child), MOTE_OK);
     assert_int_equal(mote_child_wait(&child, 1, &index), MOTE_OK);
     assert_int_equal(child.end, MOTE_CHILD_TOO_MUCH);
-    assert_string_equal(child.text, "gave more than fits");
+    assert_string_equal(child.text, "returned more than is allowed");
     mote_child_release(&child);
 }
 
@@ -131,7 +131,7 @@ TEST(run_of_children_whose_last_words_make_no_sense_is_an_error)
     static const mote_child_work works[] = {say_endless_text, say_well_and_fail};
     for (int k = 0; k < 2; ++k) {
         assert_int_equal(mote_child_run("it", works[k], NULL, limits, &text, &size), MOTE_EIO);
-        assert_string_equal(mote_error_text(), "it: crashed: ended with what is no answer");
+        assert_string_equal(mote_error_text(), "it: crashed: ended with an incomplete answer");
         assert_null(text);
     }
     assert_int_equal(mote_child_run("it", say_nothing, NULL, limits, NULL, NULL), MOTE_OK);
