@@ -1,5 +1,5 @@
-/* Meshes by assimp: PLY, STL, glTF and what else it knows. The only file that includes it.
- */
+/* Meshes read by assimp: PLY, STL, glTF and the other formats that it knows. The only file
+   that includes it. */
 #include "harness/base/memory.h"
 #include "harness/mesh/mesh_soup.h"
 
@@ -133,7 +133,7 @@ static mote_status add_node(const char *path, const struct aiScene *scene,
     return status;
 }
 
-/* assimp leaves out faces with an index that no vertex has, and says so in its log only. */
+/* assimp drops faces with an index out of range and reports them in its log only. */
 static void note_dropped(const char *message, char *dropped)
 {
     if (strstr(message, "out-of-range") || strstr(message, "dropped"))
@@ -161,8 +161,8 @@ mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
     char dropped = 0;
     const struct aiLogStream log = {note_dropped, &dropped};
     aiAttachLogStream(&log);
-    /* Vertices are joined by ourselves, after they were found finite; so are polygons made
-       triangles, of which assimp makes wrong ones where a face is concave and not flat. */
+    /* We weld vertices ourselves, after checking that they are finite, and triangulate
+       polygons ourselves: assimp makes wrong triangles where a face is concave and not flat. */
     const struct aiScene *scene = aiImportFile(path, 0);
     aiDetachLogStream(&log);
     if (!scene)

@@ -1,6 +1,6 @@
-/* Before assimp sees a file: what it would get wrong without a word. It believes declared
-   counts, and loops or allocates for minutes; takes a comma for a decimal point; and takes an
-   index modulo 2^32. */
+/* Checks a file before assimp reads it, for errors that assimp passes over in silence: it
+   believes declared counts, and then loops or allocates for minutes; it takes a comma for a
+   decimal point, and an index modulo 2^32. */
 #include "harness/mesh/mesh_text.h"
 
 #include <stdlib.h>
@@ -87,7 +87,8 @@ static void note_property(ply_element *e, const char *property)
     e->bytes += type_bytes(list ? list : property);
 }
 
-/* Up to a line end_header, without which assimp reads for ever; *body is what follows. */
+/* Reads up to the line end_header, without which assimp would read for ever; *body is what
+   follows. */
 static mote_status read_header(const char *path, const char *text, size_t size, ply_header *h,
                                const char **body)
 {
@@ -111,7 +112,7 @@ static mote_status read_header(const char *path, const char *text, size_t size, 
     return mote_fail(MOTE_EINVAL, "%s: a header without a line end_header; add it", path);
 }
 
-/* "3 0 1 2", and what else the line has. */
+/* "3 0 1 2", and anything else on the line. */
 static mote_status check_face(const char *path, size_t number, const char *line,
                               unsigned long long vertices)
 {

@@ -31,7 +31,7 @@ static bool has_ending(const char *path, const char *ending)
     return length > end && strcasecmp(path + length - end, ending) == 0;
 }
 
-/* A file that is read by ourselves. */
+/* A format that we read ourselves. */
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
                              mote_soup *soup)
 {
@@ -75,7 +75,7 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     return status;
 }
 
-/* assimp prints its failed assertions; what is wrong is told by our own text. */
+/* assimp prints its failed assertions; our own text says what is wrong. */
 static void silence(void)
 {
     int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -154,13 +154,13 @@ void mote_import_tell_split(const char *path, const mote_import *import)
                   import->split.edges > MOTE_SPLIT_EDGES_TOLD ? "; ..." : "");
 }
 
-/* A mesh of what the child put. The counts are checked against the size that came. */
+/* Makes a mesh of the child's output. The counts are checked against its size. */
 static mote_status make_mesh(const char *path, const char *data, size_t size, mote_mesh **mesh,
                              mote_import *import)
 {
     header head;
     if (size < sizeof head)
-        return mote_fail(MOTE_EIO, "%s: nothing came of reading it", path);
+        return mote_fail(MOTE_EIO, "%s: reading it gave no result", path);
     memcpy(&head, data, sizeof head);
     const uint64_t vertex_bytes = 3 * sizeof(double);
     const uint64_t triangle_bytes = 3 * sizeof(uint32_t);

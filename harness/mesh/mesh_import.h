@@ -8,21 +8,21 @@
 /* What happened to a file's triangles on the way to a mesh. */
 typedef struct mote_import {
     bool single_precision; /* coordinates went through 32-bit floats (all but OBJ and OFF) */
-    size_t welded;         /* vertices that stood at the place of another one */
+    size_t welded;         /* vertices at the place of another one, welded to it */
     size_t collapsed;      /* faces left out: two vertices at one place */
     size_t unused;         /* vertices left out: in no face */
     mote_split split;      /* edges of more than two faces, cut apart */
 } mote_import;
 
-/* From now on an edge of more than two faces is an error (--strict) instead of being cut apart.
-   Not for threads. */
+/* From now on an edge of more than two faces is an error (--strict) instead of being cut
+   apart. Not thread-safe. */
 void mote_mesh_import_strictly(void);
 
 /* MOTE_EINVAL, with where they are, if edges of the file were cut apart. */
 mote_status mote_import_refuse_split(const char *path, const mote_import *import);
 
-/* Says on stderr, once for each file, that edges of it were cut apart, if any were. Not for
-   threads. */
+/* Says on stderr, once for each file, that edges of it were cut apart, if any were. Not
+   thread-safe. */
 void mote_import_tell_split(const char *path, const mote_import *import);
 
 /* Reads a mesh: OBJ and OFF in double precision by ourselves; PLY, STL, glTF and others by

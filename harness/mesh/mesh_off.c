@@ -1,5 +1,5 @@
-/* OFF, read in double precision and checked line by line: assimp would round the coordinates to
-   32 bits, and put another vertex for an index out of range. */
+/* OFF, read in double precision and checked line by line: assimp would round the coordinates
+   to 32 bits, and use another vertex for an index out of range. */
 #include "harness/mesh/mesh_text.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Triangles as they stand in a file, before they become a mesh. */
+/* A triangle soup: the triangles of a file, before they become a mesh. */
 #ifndef MOTE_HARNESS_MESH_SOUP_H
 #define MOTE_HARNESS_MESH_SOUP_H
 
@@ -16,7 +16,7 @@ typedef struct mote_soup {
     size_t vertex_count, triangle_count;
     size_t vertex_capacity, index_capacity, line_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */
-    size_t welded;         /* vertices that stood at the place of another one */
+    size_t welded;         /* vertices at the place of another one, welded to it */
     size_t collapsed;      /* faces that had two equal vertices after welding, left out */
     size_t unused;         /* vertices in no face, left out */
 } mote_soup;

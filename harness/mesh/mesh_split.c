@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define NONE UINT32_MAX
-/* So many times some edges are opened wholly; then all are. */
+/* This many times only the edges that need it are opened completely; then all are. */
 #define ROUNDS_MAX 8
 /* Lines that are named for an edge. */
 #define LINES_TOLD 6
@@ -293,7 +293,7 @@ static void split_all(splitter *s)
     for (size_t e = 0; e < s->edge_count; ++e) {
         for (int k = 0; k < 2; ++k) {
             const uint32_t v = s->edges[e].end[k], first = s->corner_of[s->first_corner[v]];
-            /* Once for each: its first corner has a parent then. */
+            /* Each edge once: afterwards its first corner has a parent. */
             if (s->parent[first] == NONE)
                 split_vertex(s, v);
         }
@@ -330,7 +330,7 @@ static void open_edge(splitter *s, const heavy_edge *edge)
 }
 
 /* Where the fans of two pairs run into each other at both ends of their edge, the edge stays
-   heavy. It is then opened wholly, which always helps: every fan of faces at its end has two
+   heavy. It is then opened completely, which always helps: every fan of faces at its end has two
    ends at most, so that at most two faces of the edge share a vertex. */
 static void split_until_light(splitter *s)
 {

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* Thinner than this part of its length, and a polygon lies on a line: coordinates that went
-   through 32-bit floats are off by 6e-8 of it. */
+/* A polygon thinner than this part of its length counts as lying on a line: coordinates that
+   went through 32-bit floats are off by 6e-8 of it. */
 #define THIN 1e-6
 /* A quadrilateral no thicker than this part of its length is flat. */
 #define FLAT 1e-3
@@ -24,7 +24,7 @@ typedef struct span {
     uint32_t edge;    /* the corner where it starts */
 } span;
 
-/* What is left of a polygon while corners are cut off; corners are numbers from 0. */
+/* The part of a polygon that remains while corners are cut off; corners are numbered from 0. */
 typedef struct outline {
     double (*at)[2]; /* projected; counterclockwise once orient() was called */
     uint32_t *next, *previous;
@@ -89,7 +89,8 @@ static void cut(outline *o, uint32_t i)
     --o->left;
 }
 
-/* Whether the outline goes to corner i and back the same way, or stays where it is. */
+/* Whether the outline goes to corner i and back along the same line, or corner i repeats a
+   neighbour. */
 static bool is_spike(const outline *o, uint32_t i)
 {
     if (turn_at(o, i) != 0)
@@ -139,7 +140,7 @@ static bool segments_meet(const double a[2], const double b[2], const double c[2
            (ca == 0 && is_on_segment(a, c, d)) || (cb == 0 && is_on_segment(b, c, d));
 }
 
-/* Edges that follow one another meet in their corner, and there only: spikes are gone. */
+/* Successive edges meet in their common corner only, since spikes have been removed. */
 static bool edges_clash(const outline *o, uint32_t i, uint32_t j)
 {
     if (o->next[i] == j || o->next[j] == i)

@@ -1,4 +1,4 @@
-/* Polygons into triangles. */
+/* Triangulating polygons. */
 #ifndef MOTE_HARNESS_POLYGON_H
 #define MOTE_HARNESS_POLYGON_H
 
@@ -15,7 +15,7 @@
    Works on the projection along the axis nearest to the polygon's normal (Newell's), or along
    another axis if only there the polygon is simple; all decisions are exact. Corners on a
    straight edge, corners at the place of their neighbour and edges that go back along
-   themselves are allowed; where they leave no area, the triangles have none either. A polygon
+   themselves are allowed; where these have no area, neither have the triangles. A polygon
    thinner than a millionth of its length is taken as lying on a line.
 
    MOTE_EINVAL: in every projection the polygon crosses or touches itself; the text names two

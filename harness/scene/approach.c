@@ -6,11 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SEARCH "certified" /* exact, and the fastest where only the place changes */
-#define ORACLE "fcl-aabb"  /* another one to verify with */
+#define SEARCH "certified" /* exact, and the fastest where only the position changes */
+#define ORACLE "fcl-aabb"  /* another exact method, to verify with */
 #define STEPS_MAX 2000     /* queries a frame */
 #define PRECISION 1e-4     /* of the smaller body's L */
-#define ROUNDING 1e-13     /* of L of the pair: distances are not closer to the truth */
+#define ROUNDING 1e-13     /* of L of the pair: distances are no more accurate than this */
 #define VERIFIED 1e-3      /* of L of the pair */
 
 typedef struct approach {
@@ -66,10 +66,10 @@ static double start_far(approach *a, double gap)
     return radius + mote_length(mote_sub(a->base, centres[0]));
 }
 
-/* Pushes body 1 on from first contact; by less and less, where the surfaces must cross. */
+/* Pushes body 1 on from first contact; by less and less where the surfaces have to cross. */
 static mote_status push(approach *a, double first, double depth, double *offset)
 {
-    /* A push that is hardly longer than what was left before contact may not cross. */
+    /* A push hardly longer than the gap left before contact may not cross the surfaces. */
     double pushed = a->plan->must_touch ? fmax(depth, 16 * a->precision) : depth;
     double distance = 0;
     mote_status status = MOTE_OK;
@@ -84,7 +84,7 @@ static mote_status push(approach *a, double first, double depth, double *offset)
     return status;
 }
 
-/* A body moved by x comes closer by x at most, so that each step is safe, and the steps end at
+/* A body moved by x comes closer by x at most. So no step goes too far, and the steps end at
    the first place with the wished distance. */
 static mote_status solve_frame(approach *a, double gap, double *offset)
 {
@@ -99,7 +99,7 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
             return status;
         const double left = distance - wished;
         *offset = at;
-        /* A contact is met only in the limit: stop just short of it. */
+        /* The steps reach a contact only in the limit, so stop just short of it. */
         if (left <= a->precision)
             return gap < 0 ? push(a, at, -gap * length, offset) : MOTE_OK;
         at -= left;
@@ -110,8 +110,8 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
                              gap);
     }
     return mote_fail(MOTE_EINVAL,
-                     "the bodies slide along each other at hardly more than %g L; wish another "
-                     "gap there, or aim body 1 at body 0",
+                     "the bodies slide along each other at hardly more than %g L; ask for "
+                     "another gap there, or aim body 1 at body 0",
                      gap);
 }
 
@@ -164,8 +164,8 @@ static mote_status verify_frame(const mote_scenario *scenario, mote_probe *probe
         gap > -VERIFIED ? fabs(found - fmax(gap, 0)) <= VERIFIED : answer.distance == 0;
     return met ? MOTE_OK
                : mote_fail(MOTE_ENUMERIC,
-                           "frame %u: the distance is %g L where a gap of %g was wished; wish "
-                           "another gap there, or another --direction",
+                           "frame %u: the distance is %g L where a gap of %g was asked for; "
+                           "ask for another gap there, or another --direction",
                            (unsigned)frame->number, found, gap);
 }
 

@@ -1,5 +1,5 @@
-/* Finds a motion with wished gaps: for an author of scenarios, and for pairs of meshes that come
-   without a motion. */
+/* Finds a motion with given gaps, for authors of scenarios and for pairs of meshes that have
+   no motion. */
 #ifndef MOTE_HARNESS_APPROACH_H
 #define MOTE_HARNESS_APPROACH_H
 
@@ -19,19 +19,18 @@ typedef struct mote_approach_plan {
                              other otherwise */
 } mote_approach_plan;
 
-/* For each frame of the plan, comes from far away along direction and stops at the first place
-   with the wished distance (to 1e-4 of the smaller body's L), by exact distances of certified;
-   rotations and deformations are the scenario's, as is body 0's place. Writes where body 1's
-   centre is then: positions[count], absolute. Some twenty queries a frame. MOTE_EINVAL with
-   frame and reason where the bodies pass without coming so close, slide along each other at
-   hardly more than that distance, so that the first place is not found in 2,000 queries, or do
-   not cross although they must touch. */
+/* For each frame of the plan, brings body 1 from far away along direction and stops at the
+   first place with the wished distance (to 1e-4 of the smaller body's L), measured by
+   `certified`. Rotations, deformations and the place of body 0 are the scenario's. Writes
+   where the centre of body 1 is then: positions[count], absolute. Some twenty queries a
+   frame. MOTE_EINVAL with frame and reason where the bodies pass without coming so close,
+   slide along each other at hardly more than that distance, so that the first place is not
+   found in 2,000 queries, or do not cross although they must touch. */
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions);
 
-/* Whether a scenario as it stands has the wished gaps at these frames, to 1e-3 L, by exact
-   distances of fcl-aabb; a gap of -1e-3 or less must be a contact. MOTE_ENUMERIC names the first
-   frame where it has not. */
+/* Checks with fcl-aabb that a scenario has the wished gaps at these frames, to 1e-3 L; a gap
+   of -1e-3 or less must be a contact. MOTE_ENUMERIC names the first frame where it does not. */
 mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *frames,
                                  const double *gaps, uint32_t count);
 

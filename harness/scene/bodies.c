@@ -68,7 +68,7 @@ void mote_bodies_frame_free(mote_bodies_frame *frame)
     *frame = (mote_bodies_frame){0};
 }
 
-/* A coordinate that goes on at a speed and turns back at -room and room. */
+/* A coordinate that moves at a constant speed and is reflected at -room and room. */
 static double between_walls(double start, double way, double room)
 {
     if (!(room > 0))

@@ -1,10 +1,8 @@
-/* A scenario of several bodies: many of a few shapes in a box, each on a path of its own and
-   deforming at a time of its own.
-
-   A body's middle moves straight ahead and turns back at the walls; the body turns about an
-   axis; it deforms as its shape says at a time that is the body's own, so that no two bodies
-   look alike. All of it follows from a seed. A body costs the same few hundred bytes whatever
-   its triangles. */
+/* A scenario of several bodies: many bodies of a few shapes in a box. The middle of each moves
+ * in a straight line and is reflected at the walls, the body rotates about an axis, and it
+ * deforms as its shape says, with a time offset of its own, so that no two bodies look alike.
+ * All of this follows from a seed. A body takes a few hundred bytes, however many triangles its
+ * shape has. */
 #ifndef MOTE_HARNESS_BODIES_H
 #define MOTE_HARNESS_BODIES_H
 
@@ -12,7 +10,7 @@
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario.h"
 
-/* Bodies and shapes at most. */
+/* The largest numbers of bodies and shapes. */
 #define MOTE_BODIES_MAX 1000000
 #define MOTE_BODIES_SHAPES_MAX 256
 
@@ -30,7 +28,7 @@ typedef struct mote_bodies_path {
     mote_vec3 axis;     /* of length 1 */
     double degrees;     /* about the axis at frame 1 */
     double spin;        /* degrees a frame */
-    double time;        /* the deformation that is shown at frame 1, in frames */
+    double time;        /* time offset: the frame of the deformation that is shown at frame 1 */
 } mote_bodies_path;
 
 typedef struct mote_bodies {
@@ -38,21 +36,21 @@ typedef struct mote_bodies {
     uint32_t frames;
     mote_ask ask;
     double tolerance; /* absolute */
-    double near;      /* absolute: pairs whose bounds are at most so far apart are near */
+    double near;      /* absolute; pairs whose bounds are at most this far apart are near */
     double length;    /* L: the largest of the shapes' */
     mote_bodies_shape *shapes;
     uint32_t shape_count;
     uint32_t count;
-    uint32_t *shape_of;       /* [count] */
-    mote_bodies_path *paths;  /* [count] */
-    mote_vec3 room;           /* half the edges of the box in which middles stay */
-    mote_vec3 box;            /* half the edges of the box */
-    double near_pairs;        /* found a body and frame when the box was made; 0: not asked */
+    uint32_t *shape_of;      /* [count] */
+    mote_bodies_path *paths; /* [count] */
+    mote_vec3 room;          /* half the edges of the box in which middles stay */
+    mote_vec3 box;           /* half the edges of the box */
+    double near_pairs; /* a body and frame, as found when the box was made; 0: not asked for */
     double near_pairs_wanted; /* 0: the box is given */
 } mote_bodies;
 
-/* Whether a scenario (as mote_scenario_load takes it) is one of several bodies. False also for
-   what cannot be read: loading it tells why. */
+/* Whether a scenario (a name or path as for mote_scenario_load) has several bodies. Also
+   false for a file that cannot be read: loading it says why. */
 bool mote_bodies_is(const char *name_or_path);
 
 /* Loads it: shapes, then places without any overlap at frame 1. Errors as mote_scenario_load;

@@ -11,7 +11,7 @@ static uint64_t hash_vec3(uint64_t hash, mote_vec3 v)
     return mote_hash_double(mote_hash_double(mote_hash_double(hash, v.x), v.y), v.z);
 }
 
-/* What follows of the paths of all bodies at every frame. */
+/* The poses of all bodies at every frame. */
 static uint64_t hash_paths(const mote_bodies *bodies)
 {
     uint64_t hash = mote_hash_word(MOTE_HASH_START, bodies->frames);

@@ -6,13 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Surfaces are at least so far apart at frame 1, of L. */
+/* Surfaces are at least this far apart at frame 1, in L. */
 #define CLEARANCE 0.01
 
-/* Places that are tried for a body. */
+/* Places tried for a body before the box counts as full. */
 #define TRIES 3000
 
-/* Frames that near pairs are counted in, and how far from the wish they may end up. */
+/* In how many frames near pairs are counted, and how far their number may be from the one
+   asked for. */
 #define SAMPLES 33
 #define NEAR_SHARE 0.1
 
@@ -39,7 +40,7 @@ static void draw_path(placing *p, uint32_t i)
     path->axis = mote_random_direction(&p->random);
     path->degrees = 360 * mote_random_unit(&p->random);
     path->spin = p->wish->spin;
-    /* Keyed deformations end with their last key: those all have one time. */
+    /* Deformations by keys end with the last key, so their bodies have no time offset. */
     const double time = floor(1e6 * mote_random_unit(&p->random));
     path->time = p->bodies->shapes[p->bodies->shape_of[i]].motion.keyed ? 0 : time;
 }
@@ -102,7 +103,7 @@ static mote_status not_reached(const placing *p, double found)
 {
     return mote_fail(MOTE_EINVAL,
                      "%u bodies have %.3g near pairs each in the box that comes nearest to the "
-                     "%g wished; wish for what so many can have, or give the box",
+                     "%g asked for; ask for a number that they can have, or give the box",
                      p->bodies->count, found, p->wish->near_pairs);
 }
 

@@ -4,7 +4,7 @@
 
 #include "harness/scene/bodies.h"
 
-/* What a scenario's file says of its box and its bodies. Lengths are of L. */
+/* What a scenario's file says of its box and its bodies. Lengths are in L. */
 typedef struct mote_bodies_wish {
     uint64_t seed;
     mote_vec3 box;      /* edges; 0: near_pairs decides */
@@ -13,9 +13,9 @@ typedef struct mote_bodies_wish {
     mote_vec3 *places;  /* [count] of the middles at frame 1, absolute, or NULL: drawn */
 } mote_bodies_wish;
 
-/* Sets box, room and paths of bodies, whose shapes and shape_of are known. MOTE_EINVAL: a box
-   that is too small, bodies that overlap at frame 1 (less than a 100th of L apart), places
-   outside the box, near pairs that cannot be had. */
+/* Sets box, room and paths of bodies, whose shapes and shape_of are known. MOTE_EINVAL: a
+   box that is too small, bodies that overlap at frame 1 (less than a 100th of L apart),
+   places outside the box, a number of near pairs that no box gives. */
 mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The farthest that anything may be said to be or move, of L. */
+/* The largest position or speed that a file may give, in L. */
 #define FAR 1e6
 
 static mote_status read_shape(const mote_json *node, mote_bodies_shape *shape)

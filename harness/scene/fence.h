@@ -6,14 +6,14 @@
 
 #include "core/base/status.h"
 
-/* From now on every scenario may name files in this folder and below it (mote --allow). MOTE_EIO
-   when the folder cannot be found, MOTE_EINVAL after 16 of them. Not for threads. */
+/* From now on every scenario may name files in this folder and below it (mote --allow).
+   MOTE_EIO when the folder cannot be found, MOTE_EINVAL after 16 of them. Not thread-safe. */
 mote_status mote_fence_allow(const char *folder);
 
-/* MOTE_EINVAL unless file is in the folder of the scenario file or below it, in the datasets of
-   this program, or in an allowed folder. A link inside the scenario's folder is followed, as its
-   owner put it there; a path with ".." counts by where it ends. A file that does not exist is
-   left to whoever opens it. */
+/* MOTE_EINVAL unless file is in the folder of the scenario file or below it, in the datasets
+   of this program, or in an allowed folder. A link inside the scenario's folder is followed,
+   since the folder's owner put it there; of a path with ".." the place where it leads
+   counts. A file that does not exist is no error here, but where it is opened. */
 mote_status mote_fence_check(const char *scenario, const char *file);
 
 #endif

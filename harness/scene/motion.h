@@ -46,8 +46,8 @@ typedef struct mote_motion {
 void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, double amplitude,
                      double low, double high, mote_wave *waves);
 
-/* Makes quaternions that follow each other lie on the same side, so that a curve through them
-   takes the shorter way. */
+/* Chooses the signs of successive quaternions so that a curve through them takes the shorter
+   way. */
 void mote_quaternions_align(mote_quaternion *keys, uint32_t count);
 
 /* Pose of the body's rest points at a frame (any real number). */

@@ -9,8 +9,8 @@
 
 #define FRAMES 1000
 
-/* The wished gaps: of L where the bodies are apart, of the smaller body's L where they touch,
-   which is in 15 % of frames. */
+/* The wished gaps: in L of the pair where the bodies are apart, in the smaller body's L
+   where they touch, which they do in 15 % of the frames. */
 static const struct {
     uint32_t frame;
     double gap;
@@ -24,7 +24,7 @@ static const mote_vec3 directions[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1,
                                        {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
 #define DIRECTIONS (sizeof directions / sizeof directions[0])
 
-/* A gap for each frame, of L. */
+/* A gap for each frame, in L. */
 static mote_status spread_gaps(const mote_scenario *scenario, double *gaps)
 {
     uint32_t frames[WISHED];

@@ -12,7 +12,7 @@ struct mote_probe {
     void *state;
     mote_deform *deform[2];
     mote_vec3 *world[2];
-    mote_frame frame; /* the last: particles are where it has them */
+    mote_frame frame; /* the last frame: the particles are where it has put them */
 };
 
 static mote_status build(mote_probe *probe, mote_ask ask, double tolerance, uint64_t seed)

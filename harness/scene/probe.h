@@ -1,4 +1,5 @@
-/* One method answering frames outside a measurement: for truth, exports and single queries. */
+/* Asks one method about frames outside of a measurement: for truth, exports and single
+   queries. */
 #ifndef MOTE_HARNESS_PROBE_H
 #define MOTE_HARNESS_PROBE_H
 

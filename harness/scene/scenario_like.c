@@ -1,5 +1,5 @@
-/* A scenario that is like another one: what it names replaces, key by key and body by body,
-   what the other one says; null takes a key away (as RFC 7396, but bodies are merged one by
+/* A scenario that is like another one: its keys replace those of the other, key by key and
+   body by body, and null removes a key (as in RFC 7396, except that bodies are merged one by
    one). */
 #include "harness/scene/scenario_read.h"
 

@@ -28,14 +28,14 @@ static mote_status folder_of(const char *file, char **folder)
     return status;
 }
 
-/* What path is called from folder, or NULL where it does not lie in it. */
+/* The path relative to folder, or NULL where it does not lie in it. */
 static const char *below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
     return strncmp(folder, path, length) == 0 && path[length] == '/' ? path + length + 1 : NULL;
 }
 
-/* Writes the mesh beside `to`; *name is what it is called from there. */
+/* Writes the mesh beside `to`; *name is its name from there. */
 static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body, char **name)
 {
     const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
@@ -123,7 +123,7 @@ mote_status mote_scenario_move(mote_json_file *file, const char *to)
     for (size_t i = 0; i < json_array_size(bodies) && status == MOTE_OK; ++i) {
         json_t *body = json_array_get(bodies, i);
         json_t *named = json_object_get(body, "file");
-        /* Bodies of one mesh go on sharing it. */
+        /* Bodies that share a mesh still do so afterwards. */
         if (i > 0 && named && json_equal(named, first_file))
             (void)json_object_set(body, "file", json_object_get(first, "file"));
         else if (named)

@@ -1,4 +1,4 @@
-/* A scenario file that is written again to another folder. */
+/* Writing a scenario file to another folder. */
 #ifndef MOTE_HARNESS_SCENARIO_MOVE_H
 #define MOTE_HARNESS_SCENARIO_MOVE_H
 

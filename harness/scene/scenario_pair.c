@@ -13,10 +13,10 @@
 #include <unistd.h>
 
 #define FRAMES 1000
-#define CONTROLS 12         /* of each body, where its mesh has so many places for them */
+#define CONTROLS 12         /* of each body, where its mesh has places for that many */
 #define CONTROLS_APART 0.02 /* of the mesh's diagonal: closer ones make a poor fit */
 
-/* What "pair:A:B" or "pair:A:B:X,Y,Z" names. */
+/* The two files and the direction in "pair:A:B" or "pair:A:B:X,Y,Z". */
 typedef struct pair_name {
     char *file[2];
     mote_vec3 direction; /* 0, 0, 0: none is given */
@@ -100,7 +100,7 @@ static json_t *body_json(const char *path, uint32_t controls, int seed, json_t *
                      "seed", seed, "amplitude", 0.05, "periods", 250, 600, "motion", motion);
 }
 
-/* How many controls a mesh has places for: a cube of eight vertices has eight. */
+/* How many control points a mesh has places for: a cube of eight vertices has eight. */
 static mote_status count_controls(const char *path, uint32_t *count)
 {
     mote_mesh *mesh;

@@ -161,7 +161,7 @@ static bool is_path(const char *name)
     return strchr(name, '/') || mote_name_ends(name, ".json");
 }
 
-/* A built-in scenario that does not exist: say which do. */
+/* A built-in scenario that does not exist: the error lists those that do. */
 static mote_status unknown_name(const char *name)
 {
     mote_catalog catalog;
@@ -182,7 +182,7 @@ static bool is_listed(const char *name)
 {
     mote_catalog catalog;
     if (mote_catalog_read(&catalog) != MOTE_OK)
-        return true; /* opening its file will tell */
+        return true; /* opening its file will say why */
     bool found = false;
     for (size_t i = 0; i < catalog.count; ++i)
         found = found || strcmp(catalog.entries[i].name, name) == 0;

@@ -9,13 +9,13 @@
 /* A scenario's frames at most. */
 #define MOTE_FRAMES_MAX 1000000
 
-/* Replaces the file's root by what it says over what the scenario named by its "like" says;
-   does nothing without that key. */
+/* Merges the file's root into the scenario that its "like" names; does nothing without that
+   key. */
 mote_status mote_scenario_merge_like(mote_json_file *file);
 
-/* Opens the file of a built-in scenario's name or of a path, merged with the one it is like, or
-   makes that of a pair. mote_scenario.path opens the scenario again.
-   MOTE_EIO with the names that there are for an unknown one. Close with mote_json_close. */
+/* Opens the file of a built-in scenario's name or of a path, merged with the one that it is
+   like, or makes that of a pair. mote_scenario.path opens the same scenario again. MOTE_EIO,
+   with the names that exist, for an unknown name. Close with mote_json_close. */
 mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file);
 
 /* Whether a file's root is of several bodies (harness/scene/bodies.h). */
@@ -34,9 +34,9 @@ mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scena
 /* Whether a name is "pair:FILE:FILE", a scenario that is made of two mesh files. */
 bool mote_scenario_is_pair(const char *name);
 
-/* Makes the default scenario of two mesh files: a name of MOTE_PAIR_PREFIX. *file (unless NULL)
-   is the same as a scenario file, motion and all; close it with mote_json_close. A ':' in a
-   file's name is told from the one between them by which files there are. */
+/* Makes the default scenario of two mesh files: a name of MOTE_PAIR_PREFIX. *file (unless
+   NULL) is the same as a scenario file, motion and all; close it with mote_json_close. Where
+   a file's name contains a ':', which files exist decides where the first name ends. */
 mote_status mote_scenario_make_pair(const char *name, mote_json_file *file,
                                     mote_scenario **scenario);
 
@@ -49,8 +49,8 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh);
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,
                                      mote_field **field, mote_body_motion *motion);
 
-/* Reads "motion" (absent: at rest at the origin). length: L of the pair; frames: the last place
-   of the path that is shown. */
+/* Reads "motion" (absent: at rest at the origin). length: L of the pair; frames: the last
+   point of the path that is shown. */
 mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *mesh,
                                       double length, uint32_t frames, mote_body_motion *motion);
 

@@ -9,8 +9,8 @@
    tie. MOTE_EINVAL when there are not that many different positions. O(count * vertices). */
 mote_status mote_spread(const mote_mesh *mesh, uint32_t count, mote_vec3 *points);
 
-/* The same, but it ends before the first point that is nearer than `apart` to another: *count
-   of at most `most` points are picked, at least one. */
+/* The same, but stops before the first point that would be nearer than `apart` to another:
+   picks *count points, at least one and at most `most`. */
 mote_status mote_spread_apart(const mote_mesh *mesh, uint32_t most, double apart,
                               mote_vec3 *points, uint32_t *count);
 

@@ -81,7 +81,7 @@ TEST(run_of_children_that_say_rubbish_is_an_error)
         char *text = NULL;
         assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
                          MOTE_EIO);
-        assert_non_null(strstr(mote_error_text(), "no answer"));
+        assert_non_null(strstr(mote_error_text(), "incomplete answer"));
         assert_null(text);
     }
     size_t wanted = 1 << 20, size;
