@@ -20,10 +20,10 @@
 #define POLL_MS 200
 
 /* What the child sends last, after its output. */
-typedef struct last_words {
+typedef struct final_words {
     uint32_t status;
     char text[1024];
-} last_words;
+} final_words;
 
 static volatile sig_atomic_t stop_signal; /* 0: none received */
 
@@ -85,7 +85,7 @@ static int parent_end; /* in a child: the pipe that the parent reads */
 
 static _Noreturn void say_last_words(mote_status status, const char *text)
 {
-    last_words last;
+    final_words last;
     memset(&last, 0, sizeof last);
     last.status = (uint32_t)status;
     (void)snprintf(last.text, sizeof last.text, "%s", text);
@@ -155,7 +155,7 @@ mote_status mote_child_start(mote_child_work work, void *context, mote_child_lim
     child->pid = pid;
     child->input = ends[0];
     child->deadline = limits.seconds > 0 ? seconds_now() + limits.seconds : 0;
-    child->limit = limits.output_bytes + sizeof(last_words);
+    child->limit = limits.output_bytes + sizeof(final_words);
     return MOTE_OK;
 }
 
@@ -184,7 +184,7 @@ static mote_child_end receive(mote_child *child)
 /* How a child that closed its side ended, given its wait status. */
 static void conclude(mote_child *child, int ended)
 {
-    last_words last;
+    final_words last;
     if (WIFSIGNALED(ended)) {
         child->end = MOTE_CHILD_CRASHED;
         (void)snprintf(child->text, sizeof child->text, "ended by signal %d (%s)",
@@ -200,7 +200,7 @@ static void conclude(mote_child *child, int ended)
                            memchr(last.text, '\0', sizeof last.text) && WEXITSTATUS(ended) == 0;
         child->status = sense ? (mote_status)last.status : MOTE_EIO;
         (void)snprintf(child->text, sizeof child->text, "%s",
-                       sense ? last.text : "ended with an incomplete answer");
+                       sense ? last.text : "ended with no answer that can be read");
         if (!sense)
             child->end = MOTE_CHILD_CRASHED;
     }

@@ -81,7 +81,7 @@ TEST(run_of_children_that_say_rubbish_is_an_error)
         char *text = NULL;
         assert_int_equal(mote_child_run("it", say_rubbish, &wanted, limits, &text, &size),
                          MOTE_EIO);
-        assert_non_null(strstr(mote_error_text(), "incomplete answer"));
+        assert_non_null(strstr(mote_error_text(), "no answer"));
         assert_null(text);
     }
     size_t wanted = 1 << 20, size;
@@ -131,7 +131,8 @@ TEST(run_of_children_whose_last_words_make_no_sense_is_an_error)
     static const mote_child_work works[] = {say_endless_text, say_well_and_fail};
     for (int k = 0; k < 2; ++k) {
         assert_int_equal(mote_child_run("it", works[k], NULL, limits, &text, &size), MOTE_EIO);
-        assert_string_equal(mote_error_text(), "it: crashed: ended with an incomplete answer");
+        assert_string_equal(mote_error_text(),
+                            "it: crashed: ended with no answer that can be read");
         assert_null(text);
     }
     assert_int_equal(mote_child_run("it", say_nothing, NULL, limits, NULL, NULL), MOTE_OK);
