@@ -330,8 +330,8 @@ static void open_edge(splitter *s, const heavy_edge *edge)
 }
 
 /* Where the fans of two pairs run into each other at both ends of their edge, the edge stays
-   heavy. It is then opened completely, which always helps: every fan of faces at its end has two
-   ends at most, so that at most two faces of the edge share a vertex. */
+   heavy. It is then opened completely, which always helps: every fan of faces at its end has
+   two ends at most, so that at most two faces of the edge share a vertex. */
 static void split_until_light(splitter *s)
 {
     bool heavy = true;

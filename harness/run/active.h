@@ -4,14 +4,14 @@
 
 #include "harness/run/truth.h"
 
-#define MOTE_ACTIVE_NEAR 0.1  /* of L: a frame with this distance or less is near */
+#define MOTE_ACTIVE_NEAR 0.1  /* in L: a frame with this distance or less is near */
 #define MOTE_ACTIVE_SHARE 0.9 /* of an active interval's frames are near at least */
 
 /* How many frames of the interval are near. */
 uint32_t mote_active_near(const mote_scenario *scenario, const mote_truth *truth,
                           mote_interval interval);
 
-/* Whether the interval is active; one that names no frames (0, 0) is. */
+/* Whether the interval is active; an interval without frames (0, 0) counts as active. */
 bool mote_active_holds(const mote_scenario *scenario, const mote_truth *truth,
                        mote_interval interval);
 

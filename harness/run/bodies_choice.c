@@ -11,7 +11,7 @@ static bool is_one_of(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* Whether any parameter of the method's own has another value than by default. */
+/* Whether any of the method's own parameters differs from its default. */
 static bool sets_own(const mote_method_choice *choice)
 {
     const mote_method *method = choice->method;
@@ -44,7 +44,7 @@ mote_status mote_bodies_choice_check(const mote_method_choice *choice)
                          "%s: threads= is for certified, particle and particle-paper",
                          choice->text);
     if (!particles && sets_own(choice))
-        return mote_fail(MOTE_EUNSUPPORTED, "%s: of several bodies %s takes only %s",
+        return mote_fail(MOTE_EUNSUPPORTED, "%s: with several bodies %s takes only %s",
                          choice->text, name,
                          trees ? "refit= and ahead=" : "threads= and ahead=");
     return MOTE_OK;

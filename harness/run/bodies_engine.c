@@ -14,7 +14,7 @@
 
 #define GRAIN 4
 
-/* What a pair's next query begins with, where the scene does not keep it itself. */
+/* What a pair keeps for its next query, where the certified scene does not keep it. */
 typedef struct pair_memory {
     mote_body_trees_memory trees;
     void *state; /* of a method of the contract */
@@ -72,22 +72,22 @@ static mote_status create_trees(mote_bodies_engine *e)
     return status;
 }
 
-/* Convex parts would be counted again for each pair. */
+/* Convex parts would otherwise be counted again for each pair. */
 static mote_status check_particles(const mote_method_choice *choice)
 {
     const mote_method *method = choice->method;
     const mote_traits traits = mote_method_traits(method, choice->values);
     if (traits.needs_vertices || traits.given_vertices)
         return mote_fail(MOTE_EUNSUPPORTED,
-                         "%s: of several bodies only those looked at are deformed; leave out "
-                         "positions=given",
+                         "%s: with several bodies only those in near pairs are deformed; leave "
+                         "out positions=given",
                          choice->text);
     for (size_t i = 0; i < method->parameter_count; ++i) {
         if (strcmp(method->parameters[i].key, "n") == 0 && choice->values[i] < 0)
-            return mote_fail(MOTE_EUNSUPPORTED,
-                             "%s: of several bodies the number of particles is not found by "
-                             "itself; give n=",
-                             choice->text);
+            return mote_fail(
+                MOTE_EUNSUPPORTED,
+                "%s: with several bodies the number of particles has to be given; give n=",
+                choice->text);
     }
     return MOTE_OK;
 }
@@ -191,7 +191,7 @@ static mote_status look_at(mote_bodies_engine *e, uint32_t i, mote_bodies_step *
     return status;
 }
 
-/* Brings the trees of the bodies that are looked at (NULL: of all) up to date. */
+/* Refits the trees of the bodies that are marked (NULL: of all). */
 static mote_status refit(mote_bodies_engine *e, const bool *looked_at, mote_bodies_step *step)
 {
     mote_status status = MOTE_OK;
@@ -222,7 +222,7 @@ static mote_status find_boxes(mote_bodies_engine *e, mote_bodies_step *step)
     return status;
 }
 
-/* Makes room for pairs; those in the list are gone where it grows. */
+/* Makes room for pairs; the old content of the list is lost where it grows. */
 static void make_room(pair_list *list, size_t count)
 {
     if (count <= list->room)
@@ -235,7 +235,8 @@ static void make_room(pair_list *list, size_t count)
                         .room = room};
 }
 
-/* Makes the pairs those of the step, each with its state or none; states of others go. */
+/* Makes the list of the step's pairs, each with its state if it has one; states of other
+   pairs are freed. */
 static void take_over(mote_bodies_engine *e, const uint32_t (*pairs)[2], size_t count)
 {
     const pair_list *old = &e->now;
@@ -342,7 +343,7 @@ static mote_status ask_pairs(mote_bodies_engine *e, mote_bodies_step *step)
     return status;
 }
 
-/* What the scene said, in the form of the others. */
+/* Converts the answers of the certified scene. */
 static void copy_answers(mote_bodies_engine *e)
 {
     size_t count;

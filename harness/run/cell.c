@@ -119,7 +119,7 @@ static json_t *active_json(const mote_cell *cell, const mote_subject_facts *fact
                                     : interval_json(0, 0);
 }
 
-/* What is known of a cell before it ran. */
+/* What is known of a cell before it runs. */
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
     const mote_subject_facts facts = mote_subject_facts_of(cell->subject);

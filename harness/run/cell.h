@@ -11,7 +11,7 @@
 #include <jansson.h>
 
 typedef enum mote_cache {
-    MOTE_CACHE_HOT,  /* frames follow each other at once */
+    MOTE_CACHE_HOT,  /* one frame directly after the other */
     MOTE_CACHE_EVICT /* 32 MB are walked between frames, outside the clock */
 } mote_cache;
 
@@ -34,12 +34,12 @@ extern const char *const mote_cell_status_names[]; /* "ok", "crashed", ... */
 
 #define MOTE_CELL_ID_SIZE 96
 
-/* Frames that a cell is asked for however small its budget. */
+/* The number of frames that a cell measures however small its budget. */
 #define MOTE_CELL_LEAST_FRAMES 3
 
 #define MOTE_SEED_MAX (((uint64_t)1 << 62) - 1)
 
-/* What a replicate (from 1) of a run with this seed draws from. */
+/* The seed of a replicate (from 1) of a run with this seed. */
 static inline uint64_t mote_replicate_seed(uint64_t seed, bool fixed, uint32_t replicate)
 {
     return seed + (fixed ? 0 : replicate - 1);
@@ -69,15 +69,15 @@ typedef struct mote_cell {
    (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
-/* What one frame of more than two bodies gave besides, X(name): columns of cells/ID.csv. Times
-   of motion (poses and weights) are nobody's; those of bounds and of near pairs are part of
+/* X(name): further columns of cells/ID.csv for more than two bodies. The time of motion
+   (poses and weights) is charged to no method; those of bounds and of near pairs are part of
    query_ns. */
 #define MOTE_SCENE_COLUMNS(X)                                                                  \
     X(motion_ns)                                                                               \
     X(bounds_ns)  /* boxes of all bodies */                                                    \
     X(broad_ns)   /* near pairs by the boxes */                                                \
     X(near_pairs) /* whose bounds are at most the scenario's `near` apart */                   \
-    X(new_pairs)  /* of them those that were not near in the frame before */                   \
+    X(new_pairs)  /* those of them that were not near in the frame before */                   \
     X(pair_contacts)
 
 typedef struct mote_scene_row {
@@ -86,7 +86,7 @@ typedef struct mote_scene_row {
 #undef MOTE_SCENE_FIELD
 } mote_scene_row;
 
-/* Their places: MOTE_SCENE_COLUMN_near_pairs. */
+/* Their indices: MOTE_SCENE_COLUMN_near_pairs. */
 enum {
 #define MOTE_SCENE_PLACE(name) MOTE_SCENE_COLUMN_##name,
     MOTE_SCENE_COLUMNS(MOTE_SCENE_PLACE)
@@ -96,8 +96,8 @@ enum {
 
 extern const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT];
 
-/* What one frame gave. Of more than two bodies the answer is that of the closest near pair;
-   contact is any pair's, counters are the sums. */
+/* The result of one frame. With more than two bodies the answer is that of the closest near
+   pair; contact says whether any pair is in contact, and counters are sums over the pairs. */
 typedef struct mote_cell_row {
     uint32_t frame;
     uint64_t deform_ns, update_ns, query_ns; /* 0 for what the method does not need */
@@ -106,18 +106,19 @@ typedef struct mote_cell_row {
     mote_scene_row scene;
 } mote_cell_row;
 
-/* What a whole cell gave. */
+/* The result of a whole cell. */
 typedef struct mote_cell_result {
     mote_cell_row *rows;
     size_t row_count;
     uint64_t build_ns;  /* create, and the tables of full deformation when charged */
     uint64_t clock_ns;  /* a reading of the clock, subtracted from every time */
-    double overhead_ns; /* what is then left of clock and bookkeeping in every time */
+    double overhead_ns; /* the overhead of clock and bookkeeping that remains in every time */
     bool heap_counted;
-    int64_t heap_live_bytes, heap_peak_bytes; /* the method's; shared mesh and field left out */
+    int64_t heap_live_bytes,
+        heap_peak_bytes;  /* the method's, without the shared mesh and field */
     int64_t deform_bytes; /* of these: tables and vertices of full deformation */
     int64_t rss_peak_bytes;
-    int core;            /* pinned to, or -1 */
+    int core;            /* that the process is pinned to, or -1 */
     double load[2];      /* load average before and after */
     double clock_mhz[2]; /* of the core, before and after; 0: unknown */
     double wall_seconds; /* of the process */
@@ -134,9 +135,9 @@ mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status sta
                                      const char *reason, uint64_t program,
                                      const char *directory);
 
-/* Every parameter with its value, defaults included: numbers as numbers, choices, "auto" and
-   "inf" as text; of_scene: those of mote_scene_parameters too. NULL when memory ran out; the
-   caller decrefs. */
+/* Every parameter with its value, defaults included: numbers as numbers; choices, "auto" and
+   "inf" as text. of_scene: with those of mote_scene_parameters. NULL when memory ran out;
+   the caller decrefs. */
 json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene);
 
 #endif

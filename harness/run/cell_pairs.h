@@ -1,4 +1,4 @@
-/* cells/ID.pairs.csv: a row a near pair and frame of a cell of more than two bodies. */
+/* cells/ID.pairs.csv: a row for each near pair and frame of a cell of more than two bodies. */
 #ifndef MOTE_HARNESS_CELL_PAIRS_H
 #define MOTE_HARNESS_CELL_PAIRS_H
 
@@ -7,10 +7,10 @@
 
 #include <stdio.h>
 
-/* A file that is written while its cell is measured. Zero-initialise. */
+/* The file, written while its cell is measured. Zero-initialise. */
 typedef struct mote_cell_pairs {
     FILE *file;         /* NULL: nothing is recorded */
-    char *part, *name;  /* its path until it is whole, and then */
+    char *part, *name;  /* its path while it is written, and its final path */
     bool contacts_only; /* rows of pairs in contact alone */
 } mote_cell_pairs;
 
@@ -18,11 +18,12 @@ typedef struct mote_cell_pairs {
 mote_status mote_cell_pairs_open(const mote_cell *cell, const char *directory,
                                  mote_cell_pairs *pairs);
 
-/* Adds the near pairs of a frame. Whether all could be written is told when it is closed. */
+/* Adds the near pairs of a frame. An error of writing is reported when the file is closed. */
 void mote_cell_pairs_add(const mote_cell_pairs *pairs, uint32_t frame,
                          const mote_bodies_pair *list, size_t count);
 
-/* A whole file gets its name, another is removed. MOTE_EIO when it could not be written. */
+/* Gives a whole file its final name and removes any other. MOTE_EIO when it could not be
+   written. */
 mote_status mote_cell_pairs_close(mote_cell_pairs *pairs, bool whole);
 
 #endif

@@ -11,11 +11,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Frames that a probe asks about; of more than two bodies one, which finds all pairs anew and
-   takes the longest. */
+/* Frames that a probe asks about; with more than two bodies one, which finds all pairs anew
+   and takes the longest. */
 #define PROBE_FRAMES 3
 
-/* What a child tells its parent before it ends. */
+/* What a child reports to its parent before it ends. */
 typedef struct message {
     mote_cell_status cell;
     mote_forecast forecast;
@@ -45,8 +45,8 @@ void mote_process_pin(int core)
     (void)sched_setaffinity(0, sizeof set, &set);
 }
 
-/* Three quarters of the machine among the jobs; none where a sanitizer reserves address space.
- */
+/* Three quarters of the machine's memory, divided among the jobs; no limit where a sanitizer
+   reserves address space. */
 static size_t memory_limit(uint32_t jobs)
 {
     long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
@@ -122,7 +122,7 @@ static mote_status child_measure(const mote_cell *cell, const mote_process_optio
     return status;
 }
 
-/* What a child is told, in its own copy of the parent's memory. */
+/* The child's task, in its own copy of the parent's memory. */
 typedef struct task {
     const mote_cell *cell;
     const mote_process_options *options;
@@ -159,7 +159,7 @@ static mote_status start(const mote_cell *cell, const mote_process_options *opti
     return mote_fail(status, "%s: %s", cell->id, text);
 }
 
-/* What the child told, or what its end tells. */
+/* The child's report, or what follows from how it ended. */
 static mote_status listen(const mote_process_options *options, mote_child *child, message *told)
 {
     mote_status status = MOTE_OK;

@@ -6,10 +6,10 @@
 #include "harness/run/cell.h"
 #include "harness/process/child.h"
 
-/* What a probe found: a few frames, nothing stored. */
+/* The result of a probe, which runs a few frames and stores nothing. */
 typedef struct mote_forecast {
     double build_seconds;
-    double frame_seconds; /* the median of its frames, all told */
+    double frame_seconds; /* the median over its frames of deform, update and query together */
 } mote_forecast;
 
 /* How to run cells. Zero-initialise; core -1: not pinned. */
@@ -27,13 +27,13 @@ typedef struct mote_cell_end {
     char reason[400]; /* one line; empty when ok */
 } mote_cell_end;
 
-/* Starts the process of a cell, which writes the cell's files when it runs to its end. */
+/* Starts the process of a cell, which writes the cell's files at its end. */
 mote_status mote_cell_start(const mote_cell *cell, const mote_process_options *options,
                             mote_child *child);
 
-/* Takes what a child that has ended said of its cell; the files of one that did not run to its
-   end are written here. The child is released. An error status means that nothing more can be
-   measured: a full disk. */
+/* Reads what a child that has ended reported of its cell. If it did not run to its end, the
+   cell's files are written here. The child is released. An error status means that nothing
+   more can be measured: a full disk. */
 mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *options,
                              mote_child *child, mote_cell_end *end);
 
@@ -41,16 +41,16 @@ mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *
 mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
                               mote_cell_end *end);
 
-/* Runs the first frames of a cell in a child and says what they cost; nothing is stored. All 0
-   when it does not get that far. MOTE_EINVAL with the method's text when it refuses its input
-   (n above the vertex count). */
+/* Runs the first frames of a cell in a child and measures them; nothing is stored. All 0
+   when it does not get that far. MOTE_EINVAL with the method's text when it refuses its
+   input (n above the vertex count). */
 mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *options,
                             mote_forecast *forecast);
 
 /* A core to pin to: the last of those allowed; -1 when unknown. */
 int mote_process_core(void);
 
-/* Pins this process to a core; -1: not. */
+/* Pins this process to a core; -1 does nothing. */
 void mote_process_pin(int core);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-/* Readings that the cost of one is the median of. */
+/* The cost of a reading is the median of this many. */
 #define READINGS 1001
 
 uint64_t mote_clock_ns(void)

@@ -1,4 +1,4 @@
-/* The clock that everything is timed with. */
+/* The clock for all time measurements. */
 #ifndef MOTE_HARNESS_CLOCK_H
 #define MOTE_HARNESS_CLOCK_H
 
@@ -7,7 +7,7 @@
 /* Monotonic, nanoseconds. */
 uint64_t mote_clock_ns(void);
 
-/* What a reading of the clock adds to a time that it ends: the median of many. */
+/* How much reading the clock adds to a measured time: the median of many readings. */
 uint64_t mote_clock_cost_ns(void);
 
 #endif

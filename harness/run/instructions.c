@@ -53,7 +53,8 @@ static mote_status read_totals(const char *path, json_int_t *count)
     *count = line ? strtoll(line + strlen("\ntotals:"), NULL, 10) : 0;
     free(text);
     if (status == MOTE_OK && *count <= 0)
-        status = mote_fail(MOTE_EIO, "%s: no total; is it callgrind's?", path);
+        status =
+            mote_fail(MOTE_EIO, "%s: has no line of totals; is it written by callgrind?", path);
     return status;
 }
 
@@ -65,9 +66,10 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     char *out = mote_format("%s/callgrind.%ld.out", directory, (long)getpid());
     char *option = mote_format("--callgrind-out-file=%s", out ? out : "");
-    mote_status status = length > 0 && out && option
-                             ? MOTE_OK
-                             : mote_fail(MOTE_EIO, "this program's own file cannot be named");
+    mote_status status =
+        length > 0 && out && option
+            ? MOTE_OK
+            : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
         const char *const argv[] = {"valgrind",
@@ -105,7 +107,7 @@ static bool same_row(const json_t *a, const json_t *b)
     return true;
 }
 
-/* Puts a row (taken over) in the place of its like, or at the end. */
+/* Replaces the row of the same configuration by this one, or appends it; takes ownership. */
 static mote_status put_row(json_t *rows, json_t *row)
 {
     for (size_t i = 0; row && i < json_array_size(rows); ++i) {
@@ -119,7 +121,7 @@ static mote_status put_row(json_t *rows, json_t *row)
                : mote_fail(MOTE_ENOMEM, "no memory for a row");
 }
 
-/* What is there already, or nothing. */
+/* The rows stored so far, or none. */
 static json_t *read_rows(const char *directory)
 {
     json_t *object = NULL, *rows = NULL;

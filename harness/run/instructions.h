@@ -8,8 +8,9 @@
 /* Whether valgrind can be run. */
 bool mote_instructions_possible(void);
 
-/* Builds a method and runs it over frames first .. last of a scenario in this process: what
-   callgrind watches. MOTE_EINVAL for what the scenario or the method refuses. */
+/* Builds a method and runs it over frames first .. last of a scenario in this process, under
+   callgrind. MOTE_EINVAL for frames that the scenario does not have, and where the method
+   refuses its input. */
 mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t last,
                                   const mote_method_choice *choice);
 

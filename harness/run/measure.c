@@ -10,7 +10,7 @@
 #define EVICT_BYTES ((size_t)32 << 20)
 #define CACHE_LINE 64
 
-/* Calls of nothing that the overhead is measured with: the median of batches. */
+/* How many empty calls the overhead is measured with: the median of batches. */
 #define BATCHES 21
 #define BATCH 100
 
@@ -52,7 +52,7 @@ static int64_t vertices_bytes(const session *s)
     return (int64_t)bytes;
 }
 
-/* Everything that is nobody's cost. */
+/* Everything that is charged to no method. */
 static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
 {
     const mote_cell *cell = s->cell;
@@ -76,7 +76,7 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
     return status;
 }
 
-/* Keys of scenes change nothing of two bodies: a result must not say that they did. */
+/* Keys of scenes have no effect on two bodies, so a result must not list them. */
 static mote_status check_keys(const mote_cell *cell)
 {
     if (!mote_method_choice_is_of_scenes(cell->choice))
@@ -96,7 +96,7 @@ static mote_status build_scene(session *s, mote_cell_result *result)
     return status;
 }
 
-/* Everything that the method needs built: timed, and its bytes counted. */
+/* Builds everything that the method needs, timed, with its bytes counted. */
 static mote_status build_pair(session *s, mote_cell_result *result)
 {
     const mote_cell *cell = s->cell;

@@ -6,8 +6,9 @@
 #include "harness/run/cell_pairs.h"
 #include "harness/run/clock.h"
 
-/* What is left in a timed call of clock and bookkeeping once mote_clock_cost_ns (clock_ns) has
-   been subtracted: measured with a method that does nothing. May be below 0. */
+/* The overhead of clock and bookkeeping that remains in a timed call after
+   mote_clock_cost_ns (clock_ns) is subtracted, measured with a method that does nothing. May
+   be below 0. */
 double mote_overhead_ns(uint64_t clock_ns);
 
 /* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all).
@@ -17,8 +18,8 @@ double mote_overhead_ns(uint64_t clock_ns);
 mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
                               mote_cell_result *result);
 
-/* The same; the near pairs of more than two bodies are written as they are found (NULL: not).
- */
+/* The same; pairs (unless NULL) receives the near pairs of more than two bodies as they are
+   found. */
 mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limit,
                                         const mote_cell_pairs *pairs, mote_cell_result *result);
 

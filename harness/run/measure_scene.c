@@ -9,14 +9,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Frames that one thread moves and the other asks about, at most. */
+/* How many frames one thread may move ahead of the other that queries. */
 #define AHEAD_MAX 64
 
 struct mote_scene_session {
     const mote_cell *cell;
     const mote_bodies *bodies;
     mote_bodies_engine *engine;
-    uint32_t ahead;                      /* 0: motion and questions take turns */
+    uint32_t ahead;                      /* 0: motion and queries take turns in one thread */
     mote_bodies_frame frames[AHEAD_MAX]; /* [ahead], at least 1 */
     uint64_t motion_ns[AHEAD_MAX];       /* of each frame that is in the queue */
     mote_frame_queue *queue;
@@ -57,8 +57,8 @@ void mote_scene_session_destroy(mote_scene_session *session)
     free(session);
 }
 
-/* The closest near pair's answer for all; where no pair is as near as `near`, that is a lower
-   bound, for all others are farther apart. */
+/* Gives the frame the answer of the closest near pair; where there is none, `near` is a
+   lower bound, since all pairs are farther apart. */
 static mote_answer sum_up(const mote_bodies *bodies, const mote_bodies_step *step,
                           const mote_bodies_pair *pairs, size_t count)
 {
@@ -84,8 +84,8 @@ static mote_answer sum_up(const mote_bodies *bodies, const mote_bodies_step *ste
     return all;
 }
 
-/* Asks about a frame. What is neither deformation nor refit is the query's: finding the near
-   pairs is part of the question. */
+/* Queries a frame. All time that is neither deformation nor refit counts as query, finding
+   the near pairs included. */
 static mote_status ask(mote_scene_session *s, uint32_t number, const mote_bodies_frame *frame,
                        uint64_t motion_ns)
 {

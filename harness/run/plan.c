@@ -111,7 +111,7 @@ mote_status mote_choices_add(mote_choices *choices, const char *text, const char
             return add_with_particles(choices, text, particles);
         return add_one(choices, text);
     }
-    /* The first list is expanded here, the others one level down. */
+    /* Expands the first list; the recursion expands the others. */
     const char *start = bar;
     while (start > text && start[-1] != '=' && start[-1] != ',' && start[-1] != ':')
         --start;

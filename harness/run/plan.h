@@ -28,7 +28,8 @@ typedef struct mote_plan_options {
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
     uint64_t seed;
-    bool fixed_seed; /* replicates repeat each other: they differ by the machine only */
+    bool fixed_seed; /* all replicates have the same seed, so that only the machine makes a
+                        difference */
     mote_cache cache;
     uint32_t jobs;      /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
     double budget;      /* of a cell of more than two bodies: see mote_cell */
@@ -42,10 +43,10 @@ typedef struct mote_plan {
 } mote_plan;
 
 /* Replicates outermost, then scenarios, then configurations in an order rotated by the
-   replicate, so that no method always runs first or after the same one. Scenarios of two bodies
-   are asked by choices, those of more by scene_choices. MOTE_EINVAL when the frames lie outside
-   a scenario. subjects and choices are borrowed by the cells. cell->stride is 1 until it is
-   known. The caller frees plan->cells. */
+   replicate, so that no method always runs first or after the same one. choices are for
+   scenarios of two bodies, scene_choices for those of more. MOTE_EINVAL when the frames lie
+   outside a scenario. subjects and choices are borrowed by the cells. cell->stride is 1
+   until it is known. The caller frees plan->cells. */
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
                            size_t subject_count, const mote_choices *choices,
                            const mote_choices *scene_choices, mote_plan *plan);

@@ -23,7 +23,8 @@
 /* What walking 32 MB between frames costs, roughly; only for the estimate. */
 #define EVICT_SECONDS 5e-3
 
-/* Cores that others use before anything is measured: so many are worth a warning. */
+/* A warning is given where other processes use more cores than this before anything is
+   measured. */
 #define BUSY_CORES 0.3
 
 /* How long to wait for a lock: 1 s. */
@@ -48,7 +49,8 @@ typedef struct run {
     uint32_t replicates; /* planned, and further ones that are measured */
     int lock;            /* descriptor, or -1 */
     bool locked;
-    bool output_failed; /* the directory cannot be written, whatever its name */
+    bool output_failed; /* the directory cannot be written because of the disk, not because of
+                           its name */
     mote_progress progress;
     size_t current;     /* cell of the plan that was started last */
     uint64_t began_ns;  /* when it was */
@@ -71,7 +73,7 @@ static mote_status load_subjects(run *r)
     return MOTE_OK;
 }
 
-/* Notes what an earlier run stored of this cell, if anything. */
+/* Looks up what an earlier run stored of this cell, if anything. */
 static void look_up(run *r, size_t index)
 {
     mote_cell *cell = &r->plan.cells[index];
@@ -95,8 +97,8 @@ static void look_up(run *r, size_t index)
     json_decref(object);
 }
 
-/* All cells of one configuration on one scenario run with the same stride: the one already
-   stored, or the one that the probe asks for. */
+/* All cells of one configuration on one scenario run with the same stride: the stored one,
+   or else the one that the probe suggests. */
 static bool same_configuration(const mote_cell *a, const mote_cell *b)
 {
     return a->subject == b->subject && a->choice == b->choice;
@@ -120,8 +122,8 @@ static double expected_seconds(const mote_cell *cell, const mote_forecast *forec
     return forecast->build_seconds + frames * frame;
 }
 
-/* Runs a few frames of the cell's configuration: refuses bad parameters before anything is
-   written, and sets stride and expected time for all cells of the configuration. */
+/* Runs a few frames of the cell's configuration, so that bad parameters are refused before
+   anything is written, and sets stride and expected time for all cells of the configuration. */
 static mote_status probe_configuration(run *r, size_t index)
 {
     mote_forecast forecast = {0};
@@ -230,7 +232,7 @@ static void sweep_folder(const char *directory, const char *name)
     free(path);
 }
 
-/* Takes away what an interrupted write left. */
+/* Removes what an interrupted write left behind. */
 static void sweep_parts(const char *directory)
 {
     sweep_folder(directory, ".");
@@ -269,7 +271,8 @@ static mote_status open_directory(run *r)
     char *lock = mote_format("%s/.lock", directory);
     mote_status status = cells && lock ? mote_directory_make(cells)
                                        : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    /* A disk that is full or read-only, and not a name that no directory can have. */
+    /* Whether the disk is full or read-only, rather than the name being one that no
+       directory can have. */
     r->output_failed = status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT;
     if (status == MOTE_OK)
         status = take_lock(r, lock);
@@ -536,7 +539,7 @@ mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
              .progress = mote_progress_begin(options->progress)};
     r.process.directory = options->directory;
     r.process.timeout = options->timeout;
-    /* Of several at once none has a core of its own. */
+    /* When several run at once, none has a core of its own. */
     r.process.core = options->plan.jobs > 1 ? -1 : mote_process_core();
     mote_run_outcome none = {0};
     *outcome = none;

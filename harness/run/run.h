@@ -1,14 +1,13 @@
-/* A run: a directory of cells with a manifest, measured one process at a time, going on where
-   it stopped. */
+/* A run: a directory of cells with a manifest, measured one process at a time. A run that
+   was stopped can be continued. */
 #ifndef MOTE_HARNESS_RUN_H
 #define MOTE_HARNESS_RUN_H
 
 #include "harness/run/plan.h"
 
-/* Asked when all planned replicates are measured, and again after each further one: sets wanted
-   for each of cells [count], the plan's, of which it wants one more. Nothing wanted ends the
-   run.
- */
+/* Called when all planned replicates are measured, and again after each further one: sets
+   `wanted` for each of the plan's cells [count] that needs one more replicate. The run ends
+   when none does. */
 typedef mote_status (*mote_run_further)(void *context, const mote_cell *cells, size_t count,
                                         bool *wanted);
 
@@ -23,7 +22,7 @@ typedef struct mote_run_options {
     double progress; /* where stderr is no terminal: seconds between two lines of it; 0:
                         a line a cell */
     bool dry_run;    /* print the plan, measure and write nothing */
-    bool force;      /* measure also what is there already */
+    bool force;      /* measure cells again that are stored already */
     mote_run_further further; /* or NULL: no more replicates than planned */
     void *context;            /* that it is called with */
     double budget;            /* seconds for further replicates */
@@ -35,7 +34,7 @@ typedef struct mote_run_outcome {
     size_t cells;        /* in the plan */
     size_t failed;       /* of these, crashed or out of time, now or earlier */
     uint32_t replicates; /* measured, further ones included */
-    bool started;        /* an error is one of the disk or a signal, and not of the input */
+    bool started;        /* the error is one of the disk or a signal, not of the input */
 } mote_run_outcome;
 
 /* Loads the scenarios, prints the plan to stderr and measures what is not yet there.

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The scenario that the text of file->root is. */
+/* Loads the scenario that file->root describes. */
 static mote_status read_back(const mote_json_file *file, int digits, mote_scenario **scenario)
 {
     mote_text text = {0};
@@ -28,7 +28,7 @@ static mote_status read_back(const mote_json_file *file, int digits, mote_scenar
     return status;
 }
 
-/* The "active" that was taken out of root comes back, or the longest that holds. */
+/* Puts the "active" interval back that was taken out of root, or the longest that holds. */
 static mote_status renew_active(json_t *root, const json_t *active,
                                 const mote_scenario *scenario)
 {

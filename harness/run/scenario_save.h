@@ -1,19 +1,20 @@
-/* Writing a scenario that was made of another one. */
+/* Writing a scenario that was made from another one. */
 #ifndef MOTE_HARNESS_SCENARIO_SAVE_H
 #define MOTE_HARNESS_SCENARIO_SAVE_H
 
 #include "harness/base/json_read.h"
 #include "harness/scene/scenario.h"
 
-/* Whether the scenario is what its maker wants. */
+/* Checks that the scenario is as intended. */
 typedef mote_status (*mote_scenario_verify)(void *context, const mote_scenario *scenario);
 
-/* Writes file->root, which was changed, to the path `to`, with so many significant digits; file
-   is otherwise that of the scenario it was made of. The names of meshes are rewritten for their
-   new folder (harness/scene/scenario_move.h). The text is read back before anything is written,
-   and verified where verify is not NULL. An "active" interval that no longer holds is replaced
-   by the longest that does, told on stderr; that costs the truth of every frame, and nothing
-   where no interval is named. Errors of reading and of verify; MOTE_EIO. */
+/* Writes file->root, which was changed, to the path `to`, with so many significant digits;
+   file is otherwise that of the scenario that it was made from. The names of meshes are
+   rewritten for their new folder (harness/scene/scenario_move.h). The text is read back
+   before anything is written, and verified where verify is not NULL. An "active" interval
+   that no longer holds is replaced by the longest that does, with a line on stderr. This
+   computes the truth of every frame, unless no interval is named. Errors of reading and of
+   verify; MOTE_EIO. */
 mote_status mote_scenario_save(mote_json_file *file, int digits, mote_scenario_verify verify,
                                void *context, const char *to);
 

@@ -1,5 +1,4 @@
-/* What cells are measured on: a scenario of two bodies or of more, with what is known of it
-   before anything is measured. */
+/* What is measured: a scenario of two bodies or of more, with its fingerprint and truth. */
 #ifndef MOTE_HARNESS_SUBJECT_H
 #define MOTE_HARNESS_SUBJECT_H
 

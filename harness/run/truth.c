@@ -12,7 +12,7 @@
 
 #define ORACLE "fcl-aabb"
 #define SECOND "aabb-tree"
-#define JUDGE "aabb-tree:arithmetic=wide,seed=none" /* where the two disagree */
+#define JUDGE "aabb-tree:arithmetic=wide,seed=none" /* where the two sources disagree */
 #define REFEREE "brute-force"
 #define AGREEMENT 1e-12 /* of L */
 
@@ -22,14 +22,14 @@
 #define CHECKED 24
 #define CHECKED_PAIRS 3e10
 
-/* What a child hands back for each frame. */
+/* What a child returns for each frame. */
 typedef struct truth_row {
     double distance;
     mote_vec3 a, b;
     double overruled;
 } truth_row;
 
-/* Where there is no witness. */
+/* The witness where there is none. */
 static const mote_vec3 nowhere = {(double)NAN, (double)NAN, (double)NAN};
 
 mote_status mote_truth_allocate(uint32_t frames, mote_truth **truth)
@@ -101,7 +101,7 @@ static mote_status ask(const sources *s, const char *method, mote_probe *probe,
     return status;
 }
 
-/* A frame on which the two sources disagree: the judge's answer counts. */
+/* A frame on which the two sources disagree: the answer of the tree in 113 bits counts. */
 static mote_status settle(const sources *s, const mote_frame *frame, double second,
                           mote_answer *answer)
 {
@@ -205,7 +205,7 @@ static mote_status choose_frames(const mote_scenario *scenario, const truth_row 
         wanted[k] = rows[k].distance == 0;
     mark_evenly(wanted, frames, checks / 4, marked);
     mark_nearest(rows, frames, checks / 3, marked);
-    /* Of those not chosen yet, so that the groups add up. */
+    /* Frames not chosen yet, so that the groups add up. */
     uint32_t chosen = 0;
     for (uint32_t k = 0; k < frames; ++k) {
         wanted[k] = !marked[k];
@@ -242,7 +242,8 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
     return status;
 }
 
-/* In the child: answers, checks, hands back the count checked and all rows. */
+/* In the child: computes and checks the answers, and returns the number checked and all
+   rows. */
 static mote_status work(void *context, int output)
 {
     const mote_scenario *scenario = context;

@@ -1,5 +1,5 @@
-/* The file of a truth: a line that says whose it is, a CSV, and a last line with a hash of all
-   before it, so that a file that was cut or edited is not believed. */
+/* The file of a truth: a line that names its scenario, a CSV, and a last line with a hash of
+   all before it, so that a truncated or edited file is rejected. */
 #include "harness/run/truth.h"
 
 #include "harness/base/file.h"
@@ -13,7 +13,7 @@
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
 
-/* The first line up to the number that only the file knows. A scenario may have any name. */
+/* The first line up to the number of frames checked. A scenario may have any name. */
 static char *first_part(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames)
 {
     return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, ", scenario->name,
