@@ -6,8 +6,8 @@
        }
 
    Every executable of tests/ links test_main.c, which runs its tests in the order of the
-   source. An argument runs only the tests whose names match a pattern: `test_mesh
-   'mesh_without_*'`. */
+   source, in a new folder (folder.h). An argument runs only the tests whose names match a
+   pattern: `test_mesh 'mesh_without_*'`. */
 #ifndef MOTE_TESTS_TEST_H
 #define MOTE_TESTS_TEST_H
 
@@ -32,6 +32,12 @@ typedef int (*test_fixture)(void);
 void test_register(test_case *test);
 void test_register_group(test_fixture before_all, test_fixture after_all);
 void test_register_each(test_fixture before, test_fixture after);
+
+/* Says which row of a table the checks that follow are of; told when the test fails there. */
+void test_row(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* How many elements an array has. */
+#define ROWS_OF(array) (sizeof(array) / sizeof(array)[0])
 
 #define TEST_AT_START(function)                                                                \
     __attribute__((constructor)) static void function(void);                                   \

@@ -1,6 +1,8 @@
 /* Runs the tests that registered themselves (test.h). */
 #include "tests/support/test.h"
 
+#include "tests/support/folder.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +10,7 @@
 static test_case *first;
 static size_t count;
 static test_fixture before_all, after_all, before_each, after_each;
+static char row[256]; /* of a table in the test that runs, or "" */
 
 /* Constructors run in an order that compilers choose, so tests are put in their places. */
 void test_register(test_case *test)
@@ -55,16 +58,29 @@ static int set_up(void **state)
     return run_fixture(before_each);
 }
 
+/* The row is still there when the test did not come to its end. */
 static int tear_down(void **state)
 {
     (void)state;
+    if (row[0])
+        print_error("in the row %s\n", row);
+    row[0] = '\0';
     return run_fixture(after_each);
+}
+
+void test_row(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(row, sizeof row, format, arguments);
+    va_end(arguments);
 }
 
 static void run_registered(void **state)
 {
     const test_case *test = *state;
     test->run();
+    row[0] = '\0';
 }
 
 int main(int argc, char **argv)
@@ -84,8 +100,11 @@ int main(int argc, char **argv)
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
     /* What the macro cmocka_run_group_tests calls; that takes an array of fixed size only. */
-    const int failed =
-        _cmocka_run_group_tests(program, tests, filled, set_up_group, tear_down_group);
+    int failed = EXIT_FAILURE;
+    if (folder_enter(program)) {
+        failed = _cmocka_run_group_tests(program, tests, filled, set_up_group, tear_down_group);
+        failed = folder_leave() ? failed : EXIT_FAILURE;
+    }
     free(tests);
     return failed;
 }

@@ -3,6 +3,7 @@
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 #include "harness/base/json_read.h"
+#include "tests/support/folder.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/test.h"
 
@@ -149,7 +150,7 @@ TEST(json_after_a_byte_order_mark_is_read_and_keeps_its_lines)
     assert_int_equal(mote_json_real(&two, 0, 5, &value), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), ":2: two: is not a number"));
     mote_json_close(&file);
-    assert_true(plain_file_write(marked_path, cut, strlen(cut)));
+    file_put(marked_path, cut);
     assert_int_equal(mote_json_open(marked_path, &file), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "-marked:2:1: "));
     assert_int_equal(remove(marked_path), 0);

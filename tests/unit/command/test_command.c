@@ -5,8 +5,6 @@
 
 #include <unistd.h>
 
-#define FOLDER "test_command_files"
-
 #define TEN "0123456789"
 #define SEVENTY TEN TEN TEN TEN TEN TEN TEN
 /* Two diamonds that pass each other. */
@@ -17,41 +15,24 @@
     "\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": "   \
     "[" from ", 0.1, 0]}, {\"frame\": 4, \"position\": [" until ", 0.1, 0]}]}]}\n"
 
-static int run(const char *arguments, char *output, size_t size)
-{
-    return command_run(FOLDER, arguments, "2>&1", output, size);
-}
-
 static const struct {
-    const char *path, *text;
-} files[] = {{FOLDER "/broken.json", "{\"purpose\": \"x\",\n \"frames\": }\n"},
-             {FOLDER "/unknown.json", "{\"purpose\": \"x\",\n \"speed\": 1}\n"},
-             {FOLDER "/d.obj", DIAMOND},
-             {FOLDER "/s.json", SCENARIO},
-             {FOLDER "/away.json", SCENE("", "0.9", "1.5")},
-             {FOLDER "/near.json", SCENE(", \"active\": [1, 4]", "0.58", "0.6")},
-             {FOLDER "/far.json", SCENE(", \"active\": [2, 4]", "0.6", "3")}};
-#define FILES (sizeof files / sizeof files[0])
+    const char *name, *text;
+} files[] = {{"broken.json", "{\"purpose\": \"x\",\n \"frames\": }\n"},
+             {"unknown.json", "{\"purpose\": \"x\",\n \"speed\": 1}\n"},
+             {"d.obj", DIAMOND},
+             {"s.json", SCENARIO},
+             {"away.json", SCENE("", "0.9", "1.5")},
+             {"near.json", SCENE(", \"active\": [1, 4]", "0.58", "0.6")},
+             {"far.json", SCENE(", \"active\": [2, 4]", "0.6", "3")}};
 
-static int set_up(void)
+static int put_files(void)
 {
-    if (mote_directory_make(FOLDER) != MOTE_OK)
-        return -1;
-    for (size_t i = 0; i < FILES; ++i) {
-        if (mote_file_write(files[i].path, files[i].text, strlen(files[i].text)) != MOTE_OK)
-            return -1;
-    }
+    for (size_t i = 0; i < ROWS_OF(files); ++i)
+        file_put(files[i].name, files[i].text);
     return 0;
 }
 
-static int tear_down(void)
-{
-    for (size_t i = 0; i < FILES; ++i)
-        (void)unlink(files[i].path);
-    return rmdir(FOLDER); /* fails if a command left anything behind */
-}
-
-TEST_GROUP(set_up, tear_down);
+TEST_GROUP(put_files, NULL);
 
 static const command_line bad_lines[] = {
     {"", 2, "no command"},
@@ -176,7 +157,7 @@ static const command_line bad_lines[] = {
 
 TEST(main_bad_line_one_line_and_its_exit_status)
 {
-    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
+    command_refuses(bad_lines, ROWS_OF(bad_lines));
 }
 
 /* Lines that are right, and what they must say. */
@@ -205,55 +186,46 @@ static const command_line good_lines[] = {
 
 TEST(main_good_line_says_what_it_will_do)
 {
-    for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
+    const int before = folder_count(".", "");
+    for (size_t i = 0; i < ROWS_OF(good_lines); ++i) {
         const command_line *good = &good_lines[i];
-        char output[4096];
-        const int status = run(good->arguments, output, sizeof output);
-        if (status != 0 || !strstr(output, good->says) || strstr(output, "mote: "))
-            fail_msg("mote %s: exit %d, or not \"%s\":\n%s", good->arguments, status,
-                     good->says, output);
+        mote_expect(0, good->says, "%s", good->arguments);
+        test_row("%s", good->arguments);
+        assert_null(strstr(said, "mote: "));
         if (good->says[0] == '\0')
-            assert_string_equal(output, "");
+            assert_string_equal(said, "");
+        assert_int_equal(folder_count(".", ""), before);
     }
 }
 
 TEST(command_list_names_what_there_is)
 {
-    char output[1 << 16];
-    assert_int_equal(run("list methods", output, sizeof output), 0);
-    assert_non_null(strstr(output, "fcl-aabb"));
-    assert_non_null(strstr(output, "particle-paper"));
-    assert_int_equal(run("list scenarios --json", output, sizeof output), 0);
-    assert_non_null(strstr(output, "\"ww\""));
-    assert_int_equal(run("--help", output, sizeof output), 0);
-    assert_non_null(strstr(output, "mote check SCENARIO"));
+    assert_int_equal(mote("list methods"), 0);
+    assert_non_null(strstr(said, "fcl-aabb"));
+    assert_non_null(strstr(said, "particle-paper"));
+    assert_int_equal(mote("list scenarios --json"), 0);
+    assert_non_null(strstr(said, "\"ww\""));
+    assert_int_equal(mote("--help"), 0);
+    assert_non_null(strstr(said, "mote check SCENARIO"));
 }
 
 TEST(command_letter_writes_that_many_triangles)
 {
-    char output[1024];
-    assert_int_equal(run("letter V --triangles 500 -o V.obj", output, sizeof output), 0);
-    char *text;
-    size_t size;
-    assert_int_equal(mote_file_read(FOLDER "/V.obj", 1 << 20, &text, &size), MOTE_OK);
+    assert_int_equal(mote("letter V --triangles 500 -o V.obj"), 0);
+    char *text = file_text("V.obj");
     int faces = 0;
     for (const char *at = text; (at = strstr(at, "\nf ")); ++at)
         ++faces;
     assert_int_equal(faces, 500);
     free(text);
-    assert_int_equal(unlink(FOLDER "/V.obj"), 0);
 }
 
 TEST(command_export_answers_match_between_exact_methods)
 {
-    char output[1024];
-    assert_int_equal(run("export tt --frame 120 --out e --method brute-force "
-                         "--method fcl-aabb:seed=previous,queue=64",
-                         output, sizeof output),
+    assert_int_equal(mote("export tt --frame 120 --out e --method brute-force "
+                          "--method fcl-aabb:seed=previous,queue=64"),
                      0);
-    char *text;
-    size_t size;
-    assert_int_equal(mote_file_read(FOLDER "/e/answers.json", 1 << 20, &text, &size), MOTE_OK);
+    char *text = file_text("e/answers.json");
     double distance[2] = {-1, -2};
     const char *at = text;
     for (int i = 0; i < 2; ++i) {
@@ -265,17 +237,13 @@ TEST(command_export_answers_match_between_exact_methods)
     assert_true(distance[0] > 0);
     assert_true(distance[0] - distance[1] < 1e-12 && distance[1] - distance[0] < 1e-12);
     free(text);
-    assert_int_equal(unlink(FOLDER "/e/answers.json"), 0);
-    assert_int_equal(unlink(FOLDER "/e/A.obj"), 0);
-    assert_int_equal(unlink(FOLDER "/e/B.obj"), 0);
-    assert_int_equal(rmdir(FOLDER "/e"), 0);
+    assert_int_equal(folder_count("e", ""), 3);
+    assert_true(file_exists("e/A.obj") && file_exists("e/B.obj"));
 }
 
 TEST(command_list_full_disk_is_an_error)
 {
-    char output[1024];
     if (access("/dev/full", W_OK) != 0)
         skip();
-    assert_int_equal(
-        command_run(FOLDER, "list methods", "2>&1 >/dev/full", output, sizeof output), 4);
+    assert_int_equal(mote("list methods >/dev/full"), 4);
 }

@@ -2,12 +2,9 @@
    refuses and says. The others are in test_command.c. */
 #include "tests/support/command_lines.h"
 #include "tests/support/diamond.h"
-#include "tests/support/program.h"
 #include "tests/support/test.h"
 
 #include <unistd.h>
-
-#define FOLDER "test_command_scenes_files"
 
 /* Two tetrahedra far apart, and a vertex that no face has. */
 #define TWO                                                                                    \
@@ -39,37 +36,15 @@ static const struct {
              {"like.json", "{\"purpose\": \"x\", \"like\": \"s.json\"}\n"},
              {"two.json", SCENE("", "two.obj")},
              {"b.json", SEVERAL}};
-enum { FILES = sizeof files / sizeof files[0] };
 
-static int run(const char *arguments, char *output, size_t size)
+static int put_files(void)
 {
-    return command_run(FOLDER, arguments, "2>&1", output, size);
-}
-
-static int set_up(void)
-{
-    if (mote_directory_make(FOLDER) != MOTE_OK)
-        return -1;
-    for (int i = 0; i < FILES; ++i) {
-        char path[64];
-        (void)snprintf(path, sizeof path, FOLDER "/%s", files[i].name);
-        if (mote_file_write(path, files[i].text, strlen(files[i].text)) != MOTE_OK)
-            return -1;
-    }
+    for (size_t i = 0; i < ROWS_OF(files); ++i)
+        file_put(files[i].name, files[i].text);
     return 0;
 }
 
-static int tear_down(void)
-{
-    for (int i = 0; i < FILES; ++i) {
-        char path[64];
-        (void)snprintf(path, sizeof path, FOLDER "/%s", files[i].name);
-        (void)unlink(path);
-    }
-    return rmdir(FOLDER); /* fails if a command left anything behind */
-}
-
-TEST_GROUP(set_up, tear_down);
+TEST_GROUP(put_files, NULL);
 
 static const command_line bad_lines[] = {
     {"--allow nowhere check s.json", 4, "nowhere: No such file"},
@@ -169,7 +144,7 @@ static const command_line bad_lines[] = {
 
 TEST(commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing)
 {
-    command_refuses(FOLDER, bad_lines, sizeof bad_lines / sizeof bad_lines[0]);
+    command_refuses(bad_lines, ROWS_OF(bad_lines));
 }
 
 typedef struct good_line {
@@ -214,45 +189,38 @@ static const good_line good_lines[] = {
 
 TEST(commands_with_a_good_line_say_what_was_asked)
 {
-    for (size_t i = 0; i < sizeof good_lines / sizeof good_lines[0]; ++i) {
+    const int before = folder_count(".", "");
+    for (size_t i = 0; i < ROWS_OF(good_lines); ++i) {
         const good_line *good = &good_lines[i];
-        static char output[1 << 16];
-        const int status = run(good->arguments, output, sizeof output);
+        mote_expect(0, "", "%s", good->arguments);
         for (int k = 0; k < 3; ++k) {
-            if (status != 0 || (good->says[k] && !strstr(output, good->says[k])))
-                fail_msg("mote %s: exit %d, or not \"%s\":\n%s", good->arguments, status,
-                         good->says[k], output);
+            if (good->says[k] && !strstr(said, good->says[k]))
+                fail_msg("mote %s: not \"%s\":\n%s", good->arguments, good->says[k], said);
         }
+        assert_int_equal(folder_count(".", ""), before);
     }
 }
 
 /* What cannot answer a distance answers the contact, and what cannot answer at all says why. */
 TEST(command_export_tells_what_a_method_cannot_answer)
 {
-    char output[1024], *text;
-    size_t size;
-    assert_int_equal(run("export s.json --frame 3 --out e --method fcl-kdop18 --method "
-                         "fcl-aabb:update=none",
-                         output, sizeof output),
+    assert_int_equal(mote("export s.json --frame 3 --out e --method fcl-kdop18 --method "
+                          "fcl-aabb:update=none"),
                      0);
-    assert_int_equal(mote_file_read(FOLDER "/e/answers.json", 1 << 20, &text, &size), MOTE_OK);
+    char *text = file_text("e/answers.json");
     assert_non_null(strstr(text, "\"contact\": false"));
     assert_null(strstr(text, "\"distance\""));
     assert_non_null(strstr(text, "\"unsupported\": \"update=none needs"));
     free(text);
-    assert_int_equal(program_remove(FOLDER "/e"), 0);
 }
 
 /* Rotations of the keys stay, positions are the ones found. */
 TEST(command_approach_replaces_positions_only)
 {
-    char output[1024], *text;
-    size_t size;
-    assert_int_equal(run("approach s.json --gaps 1:0.1,4:0.05 --every 2 --direction 0,1,0 -o "
-                         "found.json",
-                         output, sizeof output),
+    assert_int_equal(mote("approach s.json --gaps 1:0.1,4:0.05 --every 2 --direction 0,1,0 -o "
+                          "found.json"),
                      0);
-    assert_int_equal(mote_file_read(FOLDER "/found.json", 1 << 20, &text, &size), MOTE_OK);
+    char *text = file_text("found.json");
     assert_non_null(strstr(text, "\"degrees\": 30"));
     assert_null(strstr(text, "2.1"));
     int positions = 0;
@@ -260,5 +228,4 @@ TEST(command_approach_replaces_positions_only)
         ++positions;
     assert_int_equal(positions, 3); /* frames 1, 3, 4 */
     free(text);
-    assert_int_equal(unlink(FOLDER "/found.json"), 0);
 }

@@ -1,16 +1,17 @@
 /* A user's own files: scenarios written to other folders, pairs of meshes from anywhere, and
    output through links and into devices. */
-#define _DEFAULT_SOURCE /* realpath, symlink */
+#define _DEFAULT_SOURCE /* symlink */
 #include "harness/run/active.h"
-#include "tests/support/command_lines.h"
+#include "harness/base/file.h"
 #include "tests/support/diamond.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <math.h>
+#include <sys/stat.h>
 #include <unistd.h>
-
-#define FOLDER "test_user_files_folder"
 
 /* Twice as large as the diamond: not to be taken for it. */
 #define DECOY "v 2 0 0\nv -2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 4\nf 3 2 4\nf 1 2 3\nf 2 1 4\n"
@@ -20,48 +21,24 @@
     "{\"frame\": 1, \"position\": [0.6, 0.03, 0], \"axis\": [0, 1, 0], \"degrees\": 30}, "     \
     "{\"frame\": 9, \"position\": [0.65, 0.03, 0]}]}]}\n"
 
-static int run(const char *arguments)
+static int put_files(void)
 {
-    char output[4096];
-    const int status = command_run(FOLDER, arguments, "2>&1", output, sizeof output);
-    if (status != 0)
-        (void)fprintf(stderr, "mote %s: exit %d: %s", arguments, status, output);
-    return status;
-}
-
-static void put(const char *name, const char *text)
-{
-    char path[128];
-    (void)snprintf(path, sizeof path, FOLDER "/%s", name);
-    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
-}
-
-static int set_up(void)
-{
-    if (mote_directory_make(FOLDER "/own/below") != MOTE_OK ||
-        mote_directory_make(FOLDER "/other") != MOTE_OK)
+    if (mote_directory_make("own/below") != MOTE_OK || mote_directory_make("other") != MOTE_OK)
         return -1;
-    put("own/diamond.obj", DIAMOND);
-    put("own/s.json", SCENE);
-    put("own/flat.obj", "v 0 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 2 3\n");
-    put("own/flat.json", "{\"purpose\": \"z\", \"like\": \"s.json\", \"bodies\": ["
-                         "{\"file\": \"flat.obj\"}, {}]}\n");
-    put("own/like.json", "{\"purpose\": \"y\", \"like\": \"s.json\"}\n");
-    put("other/diamond.obj", DECOY);
+    file_put("own/diamond.obj", DIAMOND);
+    file_put("own/s.json", SCENE);
+    file_put("own/flat.obj", "v 0 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 2 3\n");
+    file_put("own/flat.json", "{\"purpose\": \"z\", \"like\": \"s.json\", \"bodies\": ["
+                              "{\"file\": \"flat.obj\"}, {}]}\n");
+    file_put("own/like.json", "{\"purpose\": \"y\", \"like\": \"s.json\"}\n");
+    file_put("other/diamond.obj", DECOY);
     return 0;
-}
-
-static int tear_down(void)
-{
-    return program_remove(FOLDER);
 }
 
 static mote_scenario *load(const char *name)
 {
-    char path[128];
     mote_scenario *scenario;
-    (void)snprintf(path, sizeof path, FOLDER "/%s", name);
-    if (mote_scenario_load(path, &scenario) != MOTE_OK)
+    if (mote_scenario_load(name, &scenario) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return scenario;
 }
@@ -95,45 +72,38 @@ TEST(approach_written_to_any_folder_can_be_read_and_has_the_wished_gaps)
 {
     static const char *const outputs[] = {"own/a.json", "own/below/b.json", "other/c.json",
                                           "d.json"};
-    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; ++i) {
-        char line[256];
-        (void)snprintf(line, sizeof line, "approach own/s.json" GAPS "%s", outputs[i]);
-        assert_int_equal(run(line), 0);
+    for (size_t i = 0; i < ROWS_OF(outputs); ++i) {
+        mote_expect(0, "", "approach own/s.json" GAPS "%s", outputs[i]);
         check_gaps(outputs[i]);
     }
     /* What may be named where it is, is not copied. */
-    assert_false(command_left(FOLDER "/own", "a-body0.obj"));
-    assert_false(command_left(FOLDER, "d-body0.obj"));
-    assert_true(command_left(FOLDER "/other", "c-body0.obj"));
-    assert_false(command_left(FOLDER "/other", "c-body1.obj")); /* both are one mesh */
-    assert_int_equal(run("approach own/like.json" GAPS "other/like.json"), 0);
+    assert_false(file_exists("own/a-body0.obj"));
+    assert_false(file_exists("d-body0.obj"));
+    assert_true(file_exists("other/c-body0.obj"));
+    assert_false(file_exists("other/c-body1.obj")); /* both are one mesh */
+    mote_expect(0, "", "approach own/like.json" GAPS "other/like.json");
     check_gaps("other/like.json");
 }
 
 /* The diamond is pushed through the flat triangle. */
 TEST(approach_whose_gap_is_not_met_fails_and_leaves_nothing)
 {
-    char output[1024];
-    assert_int_equal(command_run(FOLDER,
-                                 "approach own/flat.json --gaps 1:0.5,7:-0.99 -o other/e.json",
-                                 "2>&1", output, sizeof output),
-                     1);
-    assert_non_null(strstr(output, "frame 7: the distance is "));
-    assert_false(command_left(FOLDER "/other", "e.json"));
-    assert_false(command_left(FOLDER "/other", "e-body0.obj"));
+    mote_expect(1, "frame 7: the distance is ",
+                "approach own/flat.json --gaps 1:0.5,7:-0.99 -o other/e.json");
+    assert_false(file_exists("other/e.json"));
+    assert_false(file_exists("other/e-body0.obj"));
 }
 
 TEST(trace_written_to_another_folder_can_be_read)
 {
-    assert_int_equal(
-        run("simulate own/s.json --method certified --steps 5 --trace other/t.json"), 0);
+    mote_expect(0, "", "simulate own/s.json --method certified --steps 5 --trace other/t.json");
     mote_scenario *scenario = load("other/t.json");
     assert_int_equal(scenario->frames, 6);
     assert_int_equal(scenario->body[0].mesh->vertex_count, 6);
     mote_scenario_destroy(scenario);
-    assert_int_equal(run("simulate pair:own/diamond.obj:other/diamond.obj --method certified "
-                         "--steps 5 --trace other/p.json"),
-                     0);
+    mote_expect(0, "",
+                "simulate pair:own/diamond.obj:other/diamond.obj --method certified "
+                "--steps 5 --trace other/p.json");
     mote_scenario_destroy(load("other/p.json"));
 }
 
@@ -141,28 +111,26 @@ TEST(output_goes_through_links)
 {
     struct stat info;
     char *text;
-    size_t size;
-    put("kept.obj", "old");
-    assert_int_equal(symlink("../kept.obj", FOLDER "/own/link.obj"), 0);
-    assert_int_equal(symlink("link.obj", FOLDER "/own/second.obj"), 0);
-    assert_int_equal(symlink("../new.obj", FOLDER "/own/ahead.obj"), 0);
-    assert_int_equal(symlink("round.obj", FOLDER "/own/round.obj"), 0);
-    assert_int_equal(run("letter T --triangles 500 -o own/second.obj"), 0);
-    assert_int_equal(run("letter T --triangles 500 -o own/ahead.obj"), 0);
-    assert_int_equal(lstat(FOLDER "/own/link.obj", &info), 0);
+    file_put("kept.obj", "old");
+    assert_int_equal(symlink("../kept.obj", "own/link.obj"), 0);
+    assert_int_equal(symlink("link.obj", "own/second.obj"), 0);
+    assert_int_equal(symlink("../new.obj", "own/ahead.obj"), 0);
+    assert_int_equal(symlink("round.obj", "own/round.obj"), 0);
+    mote_expect(0, "", "letter T --triangles 500 -o own/second.obj");
+    mote_expect(0, "", "letter T --triangles 500 -o own/ahead.obj");
+    assert_int_equal(lstat("own/link.obj", &info), 0);
     assert_true(S_ISLNK(info.st_mode));
-    assert_int_equal(lstat(FOLDER "/own/ahead.obj", &info), 0);
+    assert_int_equal(lstat("own/ahead.obj", &info), 0);
     assert_true(S_ISLNK(info.st_mode));
-    assert_int_equal(mote_file_read(FOLDER "/kept.obj", 1 << 20, &text, &size), MOTE_OK);
-    assert_true(size > 10000);
+    text = file_text("kept.obj");
+    assert_true(strlen(text) > 10000);
     free(text);
-    assert_int_equal(mote_file_read(FOLDER "/new.obj", 1 << 20, &text, &size), MOTE_OK);
-    free(text);
-    assert_int_equal(mote_file_write(FOLDER "/own/link.obj", "again", 5), MOTE_OK);
-    assert_int_equal(mote_file_read(FOLDER "/kept.obj", 1 << 20, &text, &size), MOTE_OK);
+    assert_true(file_exists("new.obj"));
+    assert_int_equal(mote_file_write("own/link.obj", "again", 5), MOTE_OK);
+    text = file_text("kept.obj");
     assert_string_equal(text, "again");
     free(text);
-    assert_int_equal(mote_file_write(FOLDER "/own/round.obj", "x", 1), MOTE_EIO);
+    assert_int_equal(mote_file_write("own/round.obj", "x", 1), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "Too many levels"));
 }
 
@@ -171,25 +139,24 @@ TEST(output_into_a_stream_is_written_and_never_replaces_it)
 {
     struct stat info;
     char *text;
-    size_t size;
-    assert_int_equal(mkfifo(FOLDER "/fifo", 0600), 0);
+    assert_int_equal(mkfifo("fifo", 0600), 0);
     static const char *const lines[] = {"letter T --triangles 500 -o fifo",
                                         "approach own/s.json --gaps 1:0.1 -o fifo"};
     static const char *const begins[] = {"v ", "{"};
     for (int i = 0; i < 2; ++i) {
-        char *line = mote_format("cd %s && cat fifo > read & cd %s && " MOTE_PROGRAM
+        char *line = mote_format("cat fifo > read & " MOTE_PROGRAM
                                  " %s > said 2>&1; status=$?; wait; exit $status",
-                                 FOLDER, FOLDER, lines[i]);
+                                 lines[i]);
         assert_int_equal(system(line), 0);
         free(line);
-        assert_int_equal(lstat(FOLDER "/fifo", &info), 0);
+        assert_int_equal(lstat("fifo", &info), 0);
         assert_true(S_ISFIFO(info.st_mode));
-        assert_int_equal(mote_file_read(FOLDER "/read", 1 << 20, &text, &size), MOTE_OK);
+        text = file_text("read");
         assert_int_equal(strncmp(text, begins[i], strlen(begins[i])), 0);
         free(text);
     }
     assert_int_equal(lstat("/dev/null", &info), 0);
-    assert_int_equal(run("letter T --triangles 500 -o /dev/null"), 0);
+    mote_expect(0, "", "letter T --triangles 500 -o /dev/null");
     assert_int_equal(lstat("/dev/null", &info), 0);
     assert_true(S_ISCHR(info.st_mode));
 }
@@ -199,59 +166,51 @@ TEST(output_into_a_stream_is_written_and_never_replaces_it)
 TEST(output_to_standard_output_is_appended_to_it)
 {
     char *text;
-    size_t size;
-    assert_int_equal(system("cd " FOLDER " && echo '# mine' > mesh.obj && " MOTE_PROGRAM
+    assert_int_equal(system("echo '# mine' > mesh.obj && " MOTE_PROGRAM
                             " letter T --triangles 500 -o /dev/stdout >> mesh.obj 2> said"),
                      0);
-    assert_int_equal(mote_file_read(FOLDER "/mesh.obj", 1 << 20, &text, &size), MOTE_OK);
+    text = file_text("mesh.obj");
     assert_int_equal(strncmp(text, "# mine\nv ", 9), 0);
     free(text);
-    assert_int_equal(run("mesh mesh.obj"), 0);
+    mote_expect(0, "", "mesh mesh.obj");
 }
 
 TEST(pair_is_read_from_wherever_its_user_names_it)
 {
-    put("own/a:b.obj", DIAMOND);
-    assert_int_equal(symlink("../diamond.obj", FOLDER "/own/below/link.obj"), 0);
-    char *here = realpath(FOLDER, NULL);
-    assert_non_null(here);
-    static const char *const folders[] = {FOLDER, FOLDER "/own", FOLDER "/own/below"};
+    file_put("own/a:b.obj", DIAMOND);
+    assert_int_equal(symlink("../diamond.obj", "own/below/link.obj"), 0);
+    static const char *const folders[] = {".", "own", "own/below"};
     static const char *const first[] = {"own/diamond.obj", "./diamond.obj", "../diamond.obj"};
+    const char *here = folder_path();
     for (int i = 0; i < 3; ++i) {
-        char output[1024];
-        char *line = mote_format("run --pair %s %s/own/below/link.obj --method certified "
-                                 "--replicates 1 --frames 1-4 --out %s/run",
-                                 first[i], here, here);
-        if (command_run(folders[i], line, "2>&1", output, sizeof output) != 0)
-            fail_msg("mote %s: %s", line, output);
-        free(line);
+        assert_int_equal(chdir(folders[i]), 0);
+        mote_expect(0, "",
+                    "run --pair %s %s/own/below/link.obj --method certified --replicates 1 "
+                    "--frames 1-4 --out %s/run",
+                    first[i], here, here);
+        assert_int_equal(chdir(here), 0);
     }
-    free(here);
-    assert_int_equal(run("run --direction=0,1,0 --pair own/diamond.obj own/diamond.obj --method "
-                         "certified --replicates 1 --frames 1-4 --out run"),
-                     0);
-    assert_int_equal(run("run pair:own/a:b.obj:own/diamond.obj --method certified --frames 1-2 "
-                         "--replicates 1 --out run"),
-                     0);
+    mote_expect(0, "",
+                "run --direction=0,1,0 --pair own/diamond.obj own/diamond.obj --method "
+                "certified --replicates 1 --frames 1-4 --out run");
+    mote_expect(0, "",
+                "run pair:own/a:b.obj:own/diamond.obj --method certified --frames 1-2 "
+                "--replicates 1 --out run");
     static const char *const lines[] = {
         "export pair:own/diamond.obj:own/diamond.obj --frame 3 --out e",
         "simulate pair:own/diamond.obj:own/diamond.obj --method certified --steps 2",
         "approach pair:own/diamond.obj:own/diamond.obj --gaps 1:0.1 --every 500 -o p.json",
         "check pair:own/diamond.obj:own/diamond.obj:0,1,0", "check p.json"};
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i)
-        assert_int_equal(run(lines[i]), 0);
+        mote_expect(0, "", "%s", lines[i]);
 }
 
 /* JSON has no other names. */
 TEST(pair_with_a_name_that_is_not_utf_8_is_refused)
 {
-    char output[1024];
-    put("own/\377.obj", DIAMOND);
-    assert_int_equal(command_run(FOLDER,
-                                 "check \"$(printf 'pair:own/\\377.obj:own/diamond.obj')\"",
-                                 "2>&1", output, sizeof output),
-                     4);
-    assert_non_null(strstr(output, "names that are not UTF-8"));
+    file_put("own/\377.obj", DIAMOND);
+    mote_expect(4, "names that are not UTF-8",
+                "check \"$(printf 'pair:own/\\377.obj:own/diamond.obj')\"");
 }
 
-TEST_GROUP(set_up, tear_down);
+TEST_GROUP(put_files, NULL);

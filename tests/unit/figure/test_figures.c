@@ -4,7 +4,7 @@
 #include "harness/figure/figure_scene.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -387,10 +387,9 @@ TEST(claims_alone_are_drawn)
     path_of("claims", path);
     assert_int_equal(mkdir(path, 0777), 0);
     path_of("claims/claims.json", path);
-    assert_true(plain_file_put(
-        path, "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
-              "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
-              "\"values\": [{\"name\": \"n = 3\"}]}]"));
+    file_put(path, "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
+                   "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
+                   "\"values\": [{\"name\": \"n = 3\"}]}]");
     assert_int_equal(run("figures", "claims"), 0);
     path_of("claims/figures/claims.svg", path);
     program_read(path, text, sizeof text);

@@ -2,13 +2,13 @@
 #include "harness/loop/bodies_simulate.h"
 
 #include "harness/base/file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
-#define FOLDER "test_bodies_simulate_files"
-#define FILE_NAME FOLDER "/b.json"
-#define SAID FOLDER "/said"
+#define FILE_NAME "b.json"
+#define SAID "said"
 
 static void write_file(const char *bodies)
 {
@@ -17,7 +17,7 @@ static void write_file(const char *bodies)
                     " \"bodies\": {%s}}\n",
                     bodies);
     assert_non_null(text);
-    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    file_put(FILE_NAME, text);
     free(text);
 }
 
@@ -171,10 +171,3 @@ TEST(mote_simulate_bodies_that_start_in_contact_are_refused)
     write_file("\"count\": 40, \"near_pairs\": 5, " LETTERS);
     check("simulate " FILE_NAME " --method certified --tolerance 0.05", 4, "start in contact");
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-TEST_GROUP(make_folder, NULL);

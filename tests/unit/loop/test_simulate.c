@@ -8,16 +8,16 @@
 #include "harness/loop/penetration.h"
 #include "harness/loop/trace.h"
 #include "harness/run/truth.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
-#define FOLDER "test_simulate_files"
-#define FILE_NAME FOLDER "/s.json"
-#define ONE FOLDER "/one.json"
-#define TRACE FOLDER "/trace.json"
-#define SAID FOLDER "/said"
-#define FILM FOLDER "/film.gif"
+#define FILE_NAME "s.json"
+#define ONE "one.json"
+#define TRACE "trace.json"
+#define SAID "said"
+#define FILM "film.gif"
 
 /* A deforming V flies at a turning T; %s: what more the V has, what the scenario has. */
 static const char form[] =
@@ -35,7 +35,7 @@ static mote_scenario *load(const char *more, const char *position, const char *m
     char *text = mote_format(form, more, position, motion);
     mote_scenario *scenario = NULL;
     assert_non_null(text);
-    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    file_put(FILE_NAME, text);
     free(text);
     if (mote_scenario_load(FILE_NAME, &scenario) != MOTE_OK)
         fail_msg("%s", mote_error_text());
@@ -551,17 +551,3 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         mote_scenario_destroy(scenario);
     }
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    (void)unlink(FILE_NAME);
-    (void)unlink(SAID);
-    return rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);

@@ -1,7 +1,7 @@
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/mesh/mesh_soup.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <math.h>
@@ -14,8 +14,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-
-#define FOLDER "test_mesh_import_files"
 
 /* A tetrahedron in several formats. */
 static const char obj_text[] =
@@ -52,26 +50,9 @@ static const char gltf_text[] =
 static mote_status import_text(const char *name, const void *text, size_t size,
                                mote_mesh **mesh, mote_import *import)
 {
-    char *path = mote_format("%s/%s", FOLDER, name);
-    assert_non_null(path);
-    assert_true(plain_file_write(path, text, size));
-    mote_status status = mote_mesh_import(path, mesh, import);
-    assert_int_equal(unlink(path), 0);
-    free(path);
-    return status;
+    file_write(name, text, size);
+    return mote_mesh_import(name, mesh, import);
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    return rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);
 
 static void check_tetrahedron(const char *name, const char *text, bool single)
 {
@@ -257,11 +238,10 @@ TEST(mote_mesh_import_not_a_file_is_refused)
 {
     mote_mesh *mesh = NULL;
     assert_int_equal(mote_mesh_import("no/such.obj", &mesh, NULL), MOTE_EIO);
-    assert_int_equal(mote_mesh_import(FOLDER, &mesh, NULL), MOTE_EINVAL);
+    assert_int_equal(mote_mesh_import(".", &mesh, NULL), MOTE_EINVAL);
     assert_int_equal(mote_mesh_import("/dev/zero", &mesh, NULL), MOTE_EINVAL);
-    assert_int_equal(mkfifo(FOLDER "/p.obj", 0600), 0);
-    assert_int_equal(mote_mesh_import(FOLDER "/p.obj", &mesh, NULL), MOTE_EINVAL);
-    assert_int_equal(unlink(FOLDER "/p.obj"), 0);
+    assert_int_equal(mkfifo("p.obj", 0600), 0);
+    assert_int_equal(mote_mesh_import("p.obj", &mesh, NULL), MOTE_EINVAL);
     assert_null(mesh);
 }
 

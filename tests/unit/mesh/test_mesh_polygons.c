@@ -3,7 +3,7 @@
 #include "core/body/triangle.h"
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/polygons.h"
 #include "tests/support/test.h"
 
@@ -17,20 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define FOLDER "test_mesh_polygons_files"
 #define TEXT_MAX 8192
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    return rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);
 
 typedef struct text {
     char at[TEXT_MAX];
@@ -124,14 +111,10 @@ static void check_prism(const format *f, const polygon_shape *shape, size_t star
 {
     static text out;
     mote_mesh *mesh = NULL;
-    char *path = mote_format("%s/%s", FOLDER, f->name);
-    assert_non_null(path);
     write_prism(&out, f, shape, start);
-    assert_true(plain_file_write(path, out.at, out.length));
-    if (mote_mesh_import(path, &mesh, NULL) != MOTE_OK)
+    file_write(f->name, out.at, out.length);
+    if (mote_mesh_import(f->name, &mesh, NULL) != MOTE_OK)
         fail_msg("%s from corner %zu: %s", shape->name, start, mote_error_text());
-    assert_int_equal(unlink(path), 0);
-    free(path);
     const measures m = measure(mesh, mote_vec3_make(shape->dot[0], shape->dot[1], 1));
     if (fabs(m.area - 2 * shape->area - shape->length) > 1e-12 * m.area ||
         fabs(fabs(m.volume) - shape->area) > 1e-12 * shape->area ||
@@ -156,13 +139,8 @@ TEST(prism_has_its_area_volume_and_distance_in_every_format)
 
 static mote_status import_text(const char *name, const char *written, mote_mesh **mesh)
 {
-    char *path = mote_format("%s/%s", FOLDER, name);
-    assert_non_null(path);
-    assert_true(plain_file_write(path, written, strlen(written)));
-    const mote_status status = mote_mesh_import(path, mesh, NULL);
-    assert_int_equal(unlink(path), 0);
-    free(path);
-    return status;
+    file_put(name, written);
+    return mote_mesh_import(name, mesh, NULL);
 }
 
 #define PLY_HEAD                                                                               \

@@ -1,7 +1,7 @@
 /* Edges of more than two faces are cut apart, and nothing else changes. */
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_split.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -259,8 +259,8 @@ TEST(split_is_told_once_and_refused_by_strict)
         {"--strict check split_book.json", 4, "(non-manifold)", 0},
     };
     static char said[8192];
-    assert_true(plain_file_write("split_book.obj", book, strlen(book)));
-    assert_true(plain_file_write("split_book.json", scene, strlen(scene)));
+    file_put("split_book.obj", book);
+    file_put("split_book.json", scene);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         const int code = program_wait(program_start(cases[i].line, "split_said.txt"));
         program_read("split_said.txt", said, sizeof said);

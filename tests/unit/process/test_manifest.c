@@ -3,14 +3,14 @@
 
 #include "harness/base/file.h"
 #include "harness/base/record.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 #include <string.h>
 #include <unistd.h>
 
-#define FOLDER "test_manifest_files"
-#define FILE_NAME FOLDER "/manifest.json"
+#define FILE_NAME "manifest.json"
 
 static json_t *write_again(const char *before)
 {
@@ -19,9 +19,9 @@ static json_t *write_again(const char *before)
     json_t *object = NULL;
     (void)unlink(FILE_NAME);
     if (before)
-        assert_int_equal(mote_file_write(FILE_NAME, before, strlen(before)), MOTE_OK);
-    assert_int_equal(mote_manifest_write(FOLDER, 0x1234, 7, 2, argv), MOTE_OK);
-    assert_int_equal(mote_record_read_json(FOLDER, "manifest.json", &object), MOTE_OK);
+        file_put(FILE_NAME, before);
+    assert_int_equal(mote_manifest_write(".", 0x1234, 7, 2, argv), MOTE_OK);
+    assert_int_equal(mote_record_read_json(".", "manifest.json", &object), MOTE_OK);
     return object;
 }
 
@@ -51,15 +51,3 @@ TEST(mote_manifest_write_adds_its_session_to_those_before)
         json_decref(object);
     }
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    return unlink(FILE_NAME) || rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);

@@ -3,6 +3,7 @@
 #include "harness/report/replay.h"
 #include "harness/base/record.h"
 #include "harness/report/report_rows.h"
+#include "tests/support/folder.h"
 #include "tests/support/page_data.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
@@ -444,7 +445,7 @@ TEST(replay_load_of_a_changed_scenario_is_refused)
     static const char other[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 100,\n"
         " \"warmup\": null, \"active\": null}\n";
-    assert_int_equal(mote_file_write(scenario_path, other, strlen(other)), MOTE_OK);
+    file_put(scenario_path, other);
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene),
                      MOTE_EUNSUPPORTED);
     assert_non_null(strstr(mote_error_text(), "moved or changed"));

@@ -2,6 +2,7 @@
 #include "harness/base/escape.h"
 #include "harness/base/number_text.h"
 #include "harness/base/record.h"
+#include "tests/support/folder.h"
 #include "tests/support/page_data.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
@@ -60,7 +61,7 @@ static void write_file(const char *directory, const char *name, const char *cont
 {
     char path[512];
     (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    assert_int_equal(mote_file_write(path, content, strlen(content)), MOTE_OK);
+    file_put(path, content);
 }
 
 /* A run of five frames of a scenario with that name, a figure, claims. */

@@ -3,13 +3,13 @@
 
 #include "harness/figure/figure.h"
 #include "harness/base/file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
-#define FOLDER "test_bodies_files"
-#define FILE_NAME FOLDER "/b.json"
-#define SAID FOLDER "/said"
+#define FILE_NAME "b.json"
+#define SAID "said"
 
 #define FIELD                                                                                  \
     "\"field\": {\"count\": 6, \"support\": 0.5, \"displacement\": {\"random\": {\"seed\": "   \
@@ -30,7 +30,7 @@ static void write_file(const char *more, const char *bodies)
 {
     char *text = mote_format(form, more, bodies);
     assert_non_null(text);
-    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    file_put(FILE_NAME, text);
     free(text);
 }
 
@@ -217,7 +217,7 @@ TEST(mote_bodies_engine_step_contact_question_agrees)
     char *text = mote_format("{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"contact\", "
                              "\"tolerance\": 0.02, \"bodies\": {\"count\": 20, "
                              "\"near_pairs\": 2, \"speed\": 0.03, " SHAPES "}}");
-    assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+    file_put(FILE_NAME, text);
     free(text);
     mote_bodies *b = NULL;
     assert_int_equal(mote_bodies_load(FILE_NAME, &b), MOTE_OK);
@@ -258,12 +258,12 @@ static int run(const char *line, char said[4096])
 
 static char *whole_file(const char *pattern)
 {
-    char *command = mote_format("cat %s > %s/found 2>/dev/null", pattern, FOLDER), *text = NULL;
+    char *command = mote_format("cat %s > found 2>/dev/null", pattern), *text = NULL;
     size_t size;
     assert_non_null(command);
     assert_int_equal(system(command), 0);
     free(command);
-    assert_int_equal(mote_file_read(FOLDER "/found", 1 << 24, &text, &size), MOTE_OK);
+    assert_int_equal(mote_file_read("found", 1 << 24, &text, &size), MOTE_OK);
     assert_true(size > 200);
     return text;
 }
@@ -277,13 +277,13 @@ TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
     char *texts[6], said[4096];
     write_file("", "\"count\": 20, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     for (int k = 0; k < 6; ++k) {
-        char *line = mote_format("run " FILE_NAME " --frames 3-10 --replicates 1 --out " FOLDER
+        char *line = mote_format("run " FILE_NAME " --frames 3-10 --replicates 1 --out ."
                                  "/run%d --method %s",
                                  k, ways[k]);
         if (run(line, said) != 0)
             fail_msg("%s: %s", ways[k], said);
         free(line);
-        char *pattern = mote_format(FOLDER "/run%d/cells/*.pairs.csv", k);
+        char *pattern = mote_format("run%d/cells/*.pairs.csv", k);
         texts[k] = whole_file(pattern);
         free(pattern);
     }
@@ -302,7 +302,7 @@ static size_t count_lines(const char *text)
 }
 
 #define BOTH_METHODS                                                                           \
-    "run " FILE_NAME " --frames 1-6 --replicates 2 --out " FOLDER                              \
+    "run " FILE_NAME " --frames 1-6 --replicates 2 --out ."                                    \
     "/both --method certified --method aabb-tree"
 
 TEST(mote_run_writes_a_row_a_frame_and_a_summary)
@@ -312,7 +312,7 @@ TEST(mote_run_writes_a_row_a_frame_and_a_summary)
     assert_int_equal(run(BOTH_METHODS, said), 0);
     assert_non_null(strstr(said, "aabb-tree"));
     assert_non_null(strstr(said, "b: 12 bodies of 400 triangles, 6 frames, 2 replicates"));
-    char *text = whole_file(FOLDER "/both/cells/*-r[12]-????????????????.csv");
+    char *text = whole_file("both/cells/*-r[12]-????????????????.csv");
     static const char begins[] =
         "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error";
     assert_int_equal(strncmp(text, begins, strlen(begins)), 0);
@@ -320,7 +320,7 @@ TEST(mote_run_writes_a_row_a_frame_and_a_summary)
         strstr(text, ",motion_ns,bounds_ns,broad_ns,near_pairs,new_pairs,pair_contacts\n"));
     assert_int_equal(count_lines(text), 4 * 7);
     free(text);
-    text = whole_file(FOLDER "/both/summary.json");
+    text = whole_file("both/summary.json");
     assert_non_null(strstr(text, "\"missed\": 0"));
     assert_null(strstr(text, "\"missed\": 1"));
     assert_non_null(strstr(text, "\"contacts_of\": \"aabb-tree\""));
@@ -334,31 +334,46 @@ TEST(mote_run_of_many_bodies_goes_the_road_of_two)
 {
     char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    (void)program_remove(FOLDER "/both");
+    (void)program_remove("both");
     assert_int_equal(run(BOTH_METHODS, said), 0);
     assert_int_equal(run(BOTH_METHODS, said), 0);
     assert_non_null(strstr(said, "4 cells, 4 of them done"));
-    assert_int_equal(system("rm " FOLDER "/both/cells/*certified-r2-*.json"), 0);
+    assert_int_equal(system("rm "
+                            "both/cells/*certified-r2-*.json"),
+                     0);
     assert_int_equal(run(BOTH_METHODS, said), 0);
     assert_non_null(strstr(said, "4 cells, 3 of them done"));
-    assert_int_equal(run("compare " FOLDER "/both " FOLDER "/both", said), 0);
+    assert_int_equal(run("compare "
+                         "both "
+                         "both",
+                         said),
+                     0);
     assert_non_null(strstr(said, "b/certified/hot"));
-    assert_int_equal(run("merge " FOLDER "/merged " FOLDER "/both", said), 0);
-    assert_int_equal(run("summarize " FOLDER "/merged --format csv", said), 0);
+    assert_int_equal(run("merge "
+                         "merged "
+                         "both",
+                         said),
+                     0);
+    assert_int_equal(run("summarize "
+                         "merged --format csv",
+                         said),
+                     0);
     assert_non_null(strstr(said, "certified"));
-    assert_int_equal(run("run " FILE_NAME
-                         " --frames 1-4 --shard 2/2 --method certified --out " FOLDER "/shard",
+    assert_int_equal(run("run " FILE_NAME " --frames 1-4 --shard 2/2 --method certified --out "
+                         "shard",
                          said),
                      0);
     assert_non_null(strstr(said, "0 cells"));
     assert_int_equal(run("run " FILE_NAME " --frames 1-4 --replicates 2 --jobs 2 --cache evict "
-                         "--method certified --out " FOLDER "/jobs",
+                         "--method certified --out "
+                         "jobs",
                          said),
                      0);
     assert_non_null(strstr(said, "2 cells at once"));
     assert_int_equal(run("run " FILE_NAME
                          " --frames 1-4 --replicates 2 --until-ci 100% --budget "
-                         "0.001 --method certified --out " FOLDER "/until",
+                         "0.001 --method certified --out "
+                         "until",
                          said),
                      0);
     assert_non_null(strstr(said, "after 2 replicates the widest interval is"));
@@ -370,16 +385,19 @@ TEST(mote_run_two_bodies_beside_many)
     char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     assert_int_equal(run("run tt " FILE_NAME " --frames 1-4 --replicates 1 --method certified "
-                         "--method brute-force --out " FOLDER "/mixed",
+                         "--method brute-force --out "
+                         "mixed",
                          said),
                      0);
-    char *text = whole_file(FOLDER "/mixed/summary.json");
+    char *text = whole_file("mixed/summary.json");
     assert_non_null(strstr(text, "\"scenario\": \"tt\""));
     assert_non_null(strstr(text, "\"scenario\": \"b\""));
     assert_non_null(strstr(text, "no form for several bodies"));
     free(text);
-    assert_int_equal(
-        run("run tt --frames 1-4 --method certified:threads=2 --out " FOLDER "/keys", said), 4);
+    assert_int_equal(run("run tt --frames 1-4 --method certified:threads=2 --out "
+                         "keys",
+                         said),
+                     4);
     assert_non_null(strstr(said, "keys for more than two bodies"));
 }
 
@@ -393,9 +411,10 @@ TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
                "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     for (int k = 0; k < 2; ++k) {
         char *line = mote_format("run " FILE_NAME " --frames 1-20 --replicates 1 --pairs %s "
-                                 "--method certified --out " FOLDER "/pairs-%s",
+                                 "--method certified --out "
+                                 "pairs-%s",
                                  wishes[k], wishes[k]);
-        char *files = mote_format(FOLDER "/pairs-%s/cells/*.pairs.csv", wishes[k]);
+        char *files = mote_format("pairs-%s/cells/*.pairs.csv", wishes[k]);
         assert_int_equal(run(line, said), 0);
         char *text = whole_file(files);
         lines[k] = count_lines(text) - 1;
@@ -528,15 +547,21 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
         const char *line, *text;
         int code;
     } cases[] = {
-        {"run " FILE_NAME " --method brute-force --replicates 1 --out " FOLDER "/none",
+        {"run " FILE_NAME " --method brute-force --replicates 1 --out "
+         "none",
          "unsupported: brute-force has no form for several bodies", 0},
         {"run " FILE_NAME " --method nothing", "unknown method", 4},
         {"run " FILE_NAME " --frames 30-41 --method certified", "it has frames 1-40", 4},
         {"run " FILE_NAME " --pairs some", "expected all|contacts", 2},
         {"check " FILE_NAME, "several bodies, where two are needed", 4},
-        {"export " FILE_NAME " --frame 1 --out " FOLDER "/x", "several bodies", 4},
-        {"run " FOLDER "/none.json --method certified", "none.json", 4},
-        {"run " FILE_NAME " --method particle --replicates 1 --out " FOLDER "/auto",
+        {"export " FILE_NAME " --frame 1 --out "
+         "x",
+         "several bodies", 4},
+        {"run "
+         "none.json --method certified",
+         "none.json", 4},
+        {"run " FILE_NAME " --method particle --replicates 1 --out "
+         "auto",
          "unsupported", 0},
     };
     write_file("", "\"count\": 6, \"near_pairs\": 1, " SHAPES);
@@ -561,16 +586,16 @@ static const char stored[] =
 
 TEST(mote_figure_bodies_stored_rows_become_lines)
 {
-    const mote_figure_run run = {.directory = FOLDER "/stored"};
+    const mote_figure_run run = {.directory = "stored"};
     mote_figure figure = {0};
-    assert_int_equal(mote_directory_make(FOLDER "/stored"), MOTE_OK);
-    (void)remove(FOLDER "/stored/summary.json");
+    assert_int_equal(mote_directory_make("stored"), MOTE_OK);
+    (void)remove("stored/summary.json");
     assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
     assert_int_equal(figure.data.size, 0);
     assert_non_null(strstr(figure.missing.data, "make bodies"));
     free(figure.missing.data);
     figure = (mote_figure){0};
-    assert_int_equal(mote_file_write(FOLDER "/stored/summary.json", stored, sizeof stored - 1),
+    assert_int_equal(mote_file_write("stored/summary.json", stored, sizeof stored - 1),
                      MOTE_OK);
     assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
     assert_null(figure.missing.data);
@@ -586,11 +611,3 @@ TEST(mote_figure_bodies_stored_rows_become_lines)
     free(figure.data.data);
     free(figure.caption.data);
 }
-
-static int make_folder(void)
-{
-    (void)program_remove(FOLDER); /* cells of another program */
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-TEST_GROUP(make_folder, NULL);

@@ -4,16 +4,13 @@
 #include "harness/run/plan.h"
 
 #include "harness/base/file.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define FILE_NAME "test_scene_cells.json"
-#define FOLDER "test_scene_cells_files"
 
 static mote_subject subject;
 
@@ -43,7 +40,7 @@ static void expect_end(const char *method, double timeout, mote_cell_status stat
 {
     const mote_method_choice choice = choice_of(method);
     const mote_cell cell = cell_of(&choice);
-    const mote_process_options options = {.directory = FOLDER, .timeout = timeout, .core = -1};
+    const mote_process_options options = {.directory = ".", .timeout = timeout, .core = -1};
     mote_cell_end end = {.status = MOTE_CELL_OK};
     if (mote_cell_measure(&cell, &options, &end) != MOTE_OK)
         fail_msg("%s: %s", method, mote_error_text());
@@ -52,7 +49,7 @@ static void expect_end(const char *method, double timeout, mote_cell_status stat
         fail_msg("not \"%s\": %s", reason, end.reason);
     static const char *const kinds[] = {"json", "csv", "pairs.csv"};
     for (int k = 0; k < 3; ++k) {
-        char *path = mote_format(FOLDER "/cells/%s.%s", cell.id, kinds[k]);
+        char *path = mote_format("cells/%s.%s", cell.id, kinds[k]);
         assert_int_equal(access(path, F_OK), k == 0 || status == MOTE_CELL_OK ? 0 : -1);
         free(path);
     }
@@ -197,9 +194,9 @@ static int load_bodies(void)
     static const char text[] =
         "{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"distance\", \"bodies\": {"
         "\"count\": 60, \"box\": 8, \"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]}}\n";
-    return mote_file_write(FILE_NAME, text, strlen(text)) == MOTE_OK &&
-                   mote_directory_make(FOLDER "/cells") == MOTE_OK &&
-                   mote_subject_load(FILE_NAME, &subject) == MOTE_OK
+    file_put("b.json", text);
+    return mote_subject_load("b.json", &subject) == MOTE_OK &&
+                   mote_directory_make("cells") == MOTE_OK
                ? 0
                : -1;
 }
@@ -207,7 +204,7 @@ static int load_bodies(void)
 static int free_bodies(void)
 {
     mote_subject_free(&subject);
-    return program_remove(FOLDER) == 0 ? unlink(FILE_NAME) : -1;
+    return 0;
 }
 
 TEST_GROUP(load_bodies, free_bodies);

@@ -1,8 +1,7 @@
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
 #include "harness/run/truth.h"
-#include "tests/support/plain_file.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <inttypes.h>
@@ -13,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define FOLDER "test_truth_files"
 
 static const char small_text[] =
     "{\"purpose\": \"a small one\", \"frames\": 30, \"ask\": \"distance\", \"bodies\": [\n"
@@ -29,8 +26,7 @@ static char *truth_path(const mote_scenario *scenario)
 {
     uint64_t fingerprint;
     assert_int_equal(mote_scenario_fingerprint(scenario, &fingerprint), MOTE_OK);
-    char *path =
-        mote_format("%s/truth/%s-%016" PRIx64 ".csv", FOLDER, scenario->name, fingerprint);
+    char *path = mote_format("truth/%s-%016" PRIx64 ".csv", scenario->name, fingerprint);
     assert_non_null(path);
     return path;
 }
@@ -39,17 +35,14 @@ static mote_scenario *small;
 
 static int set_up(void)
 {
-    if (mote_directory_make(FOLDER) != MOTE_OK ||
-        mote_file_write(FOLDER "/small.json", small_text, strlen(small_text)) != MOTE_OK ||
-        mote_scenario_load(FOLDER "/small.json", &small) != MOTE_OK)
-        return -1;
-    return 0;
+    file_put("small.json", small_text);
+    return mote_scenario_load("small.json", &small) == MOTE_OK ? 0 : -1;
 }
 
 static int tear_down(void)
 {
     mote_scenario_destroy(small);
-    return program_remove(FOLDER);
+    return 0;
 }
 
 TEST_GROUP(set_up, tear_down);
@@ -73,7 +66,7 @@ TEST(mote_truth_load_or_compute_twice_gives_the_same_bits)
 {
     const mote_scenario *scenario = small;
     mote_truth *first, *second;
-    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &first), MOTE_OK);
+    assert_int_equal(mote_truth_load_or_compute(scenario, ".", &first), MOTE_OK);
     char *path = truth_path(scenario);
     assert_int_equal(access(path, R_OK), 0);
     /* It is the file that is read: without the right to write, nothing is computed anew. */
@@ -117,13 +110,13 @@ TEST(mote_truth_compute_frame_that_fcl_gets_wrong_is_settled)
     static const char scene[] =
         "{\"purpose\": \"a test\", \"frames\": 2, \"ask\": \"distance\", "
         "\"bodies\": [{\"file\": \"a.obj\"}, {\"file\": \"b.obj\"}]}\n";
-    assert_true(plain_file_put(FOLDER "/touch.json", scene));
+    file_put("touch.json", scene);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         mote_scenario *scenario;
         mote_truth *truth;
-        assert_true(plain_file_put(FOLDER "/a.obj", cases[i].a));
-        assert_true(plain_file_put(FOLDER "/b.obj", cases[i].b));
-        assert_int_equal(mote_scenario_load(FOLDER "/touch.json", &scenario), MOTE_OK);
+        file_put("a.obj", cases[i].a);
+        file_put("b.obj", cases[i].b);
+        assert_int_equal(mote_scenario_load("touch.json", &scenario), MOTE_OK);
         assert_int_equal(mote_truth_compute(scenario, &truth), MOTE_OK);
         for (int k = 0; k < 2; ++k) {
             assert_true(truth->distance[k] == 0 && truth->contact[k]);
@@ -141,7 +134,7 @@ TEST(mote_truth_read_settled_frame_keeps_what_was_overruled)
 {
     const mote_scenario *scenario = small;
     mote_truth *truth, *again;
-    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
+    assert_int_equal(mote_truth_load_or_compute(scenario, ".", &truth), MOTE_OK);
     truth->overruled[4] = 0.1; /* with and without witness points */
     truth->overruled[29] = 1.0 / 3;
     char *path = truth_path(scenario);
@@ -161,7 +154,7 @@ TEST(mote_truth_read_changed_or_cut_file_is_refused)
 {
     const mote_scenario *scenario = small;
     mote_truth *truth, *read = NULL;
-    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &truth), MOTE_OK);
+    assert_int_equal(mote_truth_load_or_compute(scenario, ".", &truth), MOTE_OK);
     char *path = truth_path(scenario);
     char *text;
     size_t size;
@@ -171,17 +164,17 @@ TEST(mote_truth_read_changed_or_cut_file_is_refused)
     for (size_t i = 0; i < size; i += 7) {
         char kept = text[i];
         text[i] = kept == '1' ? '2' : '1';
-        assert_true(plain_file_write(path, text, size));
+        file_write(path, text, size);
         text[i] = kept;
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
-        assert_true(plain_file_write(path, text, i));
+        file_write(path, text, i);
         assert_int_equal(mote_truth_read(scenario, truth->fingerprint, path, &read),
                          MOTE_EINVAL);
     }
     assert_null(read);
     /* A damaged file is replaced. */
-    assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &read), MOTE_OK);
+    assert_int_equal(mote_truth_load_or_compute(scenario, ".", &read), MOTE_OK);
     assert_true(read->distance[7] == truth->distance[7]);
     mote_truth_destroy(read);
     mote_truth_destroy(truth);
@@ -198,7 +191,7 @@ static void write_rows(const char *path, const char *first, const char *columns,
     assert_true(size > 0 && (size_t)size < sizeof text);
     const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text, (size_t)size);
     size += snprintf(text + size, sizeof text - (size_t)size, "# hash %016" PRIx64 "\n", hash);
-    assert_true(plain_file_write(path, text, (size_t)size));
+    file_write(path, text, (size_t)size);
 }
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
@@ -270,11 +263,11 @@ TEST(mote_truth_read_of_an_odd_name_reads_what_was_written)
         char path[96];
         mote_scenario *scenario;
         mote_truth *made, *read = NULL;
-        (void)snprintf(path, sizeof path, FOLDER "/%s.json", names[i]);
-        assert_true(plain_file_put(path, small_text));
+        (void)snprintf(path, sizeof path, "%s.json", names[i]);
+        file_put(path, small_text);
         assert_int_equal(mote_scenario_load(path, &scenario), MOTE_OK);
         assert_int_equal(unlink(path), 0);
-        assert_int_equal(mote_truth_load_or_compute(scenario, FOLDER, &made), MOTE_OK);
+        assert_int_equal(mote_truth_load_or_compute(scenario, ".", &made), MOTE_OK);
         char *file = truth_path(scenario);
         assert_int_equal(mote_truth_read(scenario, made->fingerprint, file, &read), MOTE_OK);
         assert_int_equal(read->checked, made->checked);

@@ -3,15 +3,12 @@
 
 #include "harness/base/file.h"
 #include "tests/support/diamond.h"
-#include "tests/support/plain_file.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 
 #include <math.h>
-
-#define FOLDER "test_approach_files"
 
 /* Two boxes, |x| <= 2, 1.1 <= |y| <= 2.1, |z| <= 1: a gate that a diamond slides through at a
    distance of 0.1. */
@@ -32,17 +29,16 @@ static mote_scenario *scenario;
 
 static int load(void)
 {
-    if (mote_directory_make(FOLDER) != MOTE_OK || !plain_file_put(FOLDER "/gate.obj", GATE) ||
-        !plain_file_put(FOLDER "/diamond.obj", DIAMOND) ||
-        !plain_file_put(FOLDER "/s.json", SCENE))
-        return -1;
-    return mote_scenario_load(FOLDER "/s.json", &scenario) == MOTE_OK ? 0 : -1;
+    file_put("gate.obj", GATE);
+    file_put("diamond.obj", DIAMOND);
+    file_put("s.json", SCENE);
+    return mote_scenario_load("s.json", &scenario) == MOTE_OK ? 0 : -1;
 }
 
 static int clean(void)
 {
     mote_scenario_destroy(scenario);
-    return program_remove(FOLDER);
+    return 0;
 }
 
 TEST_GROUP(load, clean);

@@ -2,7 +2,7 @@
    names the file; and what is only unusual is read. */
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -14,7 +14,6 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#define FOLDER "test_bad_input_files"
 #define SECONDS 5.0
 #define BYTES ((rlim_t)1 << 30)
 
@@ -139,13 +138,6 @@ static const input inputs[] = {
     {"mark.obj", "\xef\xbb\xbf" OBJ, 0, "triangles           1"},
 };
 
-static void write_plain(const char *name, const void *data, size_t size)
-{
-    char path[256];
-    (void)snprintf(path, sizeof path, FOLDER "/%s", name);
-    assert_true(plain_file_write(path, data, size));
-}
-
 static double seconds_now(void)
 {
     struct timespec now;
@@ -163,11 +155,11 @@ static void expect(const char *line, int status, const char *says)
     if (LIMITED)
         assert_int_equal(setrlimit(RLIMIT_AS, &limit), 0);
     const double start = seconds_now();
-    const pid_t pid = program_start(line, FOLDER "/said");
+    const pid_t pid = program_start(line, "said");
     assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
     const int ended = program_wait(pid);
     const double took = seconds_now() - start;
-    program_read(FOLDER "/said", said, sizeof said);
+    program_read("said", said, sizeof said);
     if (ended != status || !strstr(said, says))
         fail_msg("mote %s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says,
                  said);
@@ -182,40 +174,24 @@ static void expect_file(const char *file, int status, const char *says)
 {
     char line[256];
     const char *ending = strrchr(file, '.');
-    (void)snprintf(line, sizeof line, "%s " FOLDER "/%s",
+    (void)snprintf(line, sizeof line, "%s %s",
                    ending && strcmp(ending, ".json") == 0 ? "check" : "mesh", file);
     expect(line, status, says);
 }
 
-static void remove_file(const char *name)
+static int put_mesh(void)
 {
-    char path[256];
-    (void)snprintf(path, sizeof path, FOLDER "/%s", name);
-    assert_int_equal(unlink(path), 0);
+    file_put("a.obj", OBJ);
+    return 0;
 }
 
-static int make_folder(void)
-{
-    if (mote_directory_make(FOLDER) != MOTE_OK)
-        return -1;
-    return mote_file_write(FOLDER "/a.obj", OBJ, strlen(OBJ)) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    (void)unlink(FOLDER "/said");
-    (void)unlink(FOLDER "/a.obj");
-    return rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);
+TEST_GROUP(put_mesh, NULL);
 
 TEST(program_bad_files_exit_4_in_time_and_memory)
 {
     for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
-        write_plain(inputs[i].file, inputs[i].text, strlen(inputs[i].text));
+        file_put(inputs[i].file, inputs[i].text);
         expect_file(inputs[i].file, inputs[i].status, inputs[i].says);
-        remove_file(inputs[i].file);
     }
 }
 
@@ -225,30 +201,26 @@ TEST(program_in_a_comma_locale_reads_points)
     assert_int_equal(setenv("LC_ALL", "de_DE.UTF-8", 1), 0);
     static const char points[] = "v 0 0 0\nv 1.5 0 0\nv 0 1.5 0\nf 1 2 3\n";
     static const char scene[] = SCENE(", \"tolerance\": 0,5", "a.obj");
-    write_plain("point.obj", points, strlen(points));
+    file_put("point.obj", points);
     expect_file("point.obj", 0, "L                   2.12132034");
-    remove_file("point.obj");
-    write_plain("point.json", scene, strlen(scene));
+    file_put("point.json", scene);
     expect_file("point.json", 4, "point.json:1:");
-    remove_file("point.json");
     assert_int_equal(unsetenv("LC_ALL"), 0);
 }
 
 TEST(program_what_is_no_file_exits_4)
 {
-    expect("mesh " FOLDER, 4, "not a regular file");
+    expect("mesh .", 4, "not a regular file");
     expect("mesh /dev/zero", 4, "not a regular file");
-    expect("check " FOLDER "/", 4, "not a regular file");
+    expect("check ./", 4, "not a regular file");
     expect("check /dev/zero/", 4, "/dev/zero/");
-    expect("mesh " FOLDER "/absent.obj", 4, "absent.obj");
-    expect("check " FOLDER "/absent.json", 4, "absent.json");
-    assert_int_equal(mkfifo(FOLDER "/pipe.obj", 0600), 0);
-    assert_int_equal(mkfifo(FOLDER "/pipe.json", 0600), 0);
+    expect("mesh absent.obj", 4, "absent.obj");
+    expect("check absent.json", 4, "absent.json");
+    assert_int_equal(mkfifo("pipe.obj", 0600), 0);
+    assert_int_equal(mkfifo("pipe.json", 0600), 0);
     expect_file("pipe.obj", 4, "not a regular file");
     expect_file("pipe.json", 4, "not a regular file");
-    expect("distance " FOLDER "/pipe.obj " FOLDER "/a.obj", 4, "not a regular file");
-    remove_file("pipe.obj");
-    remove_file("pipe.json");
+    expect("distance pipe.obj a.obj", 4, "not a regular file");
 }
 
 /* 80 bytes, a count, and 50 bytes a triangle. */
@@ -258,22 +230,21 @@ TEST(program_bad_binary_stl_exits_4)
     unsigned char data[84 + 50] = "solid, but binary";
     data[80] = 1;
     memcpy(data + 96, corners, sizeof corners);
-    write_plain("b.stl", data, sizeof data);
+    file_write("b.stl", data, sizeof data);
     expect_file("b.stl", 0, "triangles           1");
-    write_plain("b.stl", data, sizeof data - 10);
+    file_write("b.stl", data, sizeof data - 10);
     expect_file("b.stl", 4, "b.stl");
     memset(data + 80, 0xff, 4);
-    write_plain("b.stl", data, sizeof data);
+    file_write("b.stl", data, sizeof data);
     expect_file("b.stl", 4, "b.stl");
     data[0] = 'x';
-    write_plain("b.stl", data, sizeof data);
+    file_write("b.stl", data, sizeof data);
     expect_file("b.stl", 4, "b.stl");
     memset(data + 80, 0, 4);
     data[80] = 1;
     memset(data + 96, 0xff, 4); /* not a number */
-    write_plain("b.stl", data, sizeof data);
+    file_write("b.stl", data, sizeof data);
     expect_file("b.stl", 4, "not finite");
-    remove_file("b.stl");
 }
 
 /* Every prefix of a good file is read or refused, soon, with its name. */
@@ -289,20 +260,17 @@ TEST(mote_mesh_import_truncated_anywhere_is_read_or_refused)
                 {"t.gltf", GLTF("", "4", "12", "72", GLTF_DATA), 0}};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; ++i) {
         const size_t whole = strlen(good[i].text);
-        char path[64];
-        (void)snprintf(path, sizeof path, FOLDER "/%s", good[i].file);
         for (size_t size = 0; size < whole; ++size) {
             mote_mesh *mesh = NULL;
-            write_plain(good[i].file, good[i].text, size);
+            file_write(good[i].file, good[i].text, size);
             const double start = seconds_now();
-            const mote_status status = mote_mesh_import(path, &mesh, NULL);
+            const mote_status status = mote_mesh_import(good[i].file, &mesh, NULL);
             assert_true(seconds_now() - start < SECONDS);
             if (status == MOTE_OK && whole - size > good[i].most)
-                fail_msg("%zu of %zu bytes of %s are read", size, whole, path);
+                fail_msg("%zu of %zu bytes of %s are read", size, whole, good[i].file);
             if (status != MOTE_OK && !strstr(mote_error_text(), good[i].file))
-                fail_msg("%zu bytes of %s: \"%s\"", size, path, mote_error_text());
+                fail_msg("%zu bytes of %s: \"%s\"", size, good[i].file, mote_error_text());
             mote_mesh_destroy(mesh);
         }
-        remove_file(good[i].file);
     }
 }

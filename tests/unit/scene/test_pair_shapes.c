@@ -1,13 +1,11 @@
 /* The default scenario of two meshes keeps its promise for the meshes that people have. */
 #include "harness/base/file.h"
 #include "harness/run/truth.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <math.h>
 #include <sys/stat.h>
-
-#define FOLDER "test_pair_shapes_files"
 
 /* The box of size x, y, z, two triangles a side. */
 static void box_text(double x, double y, double z, mote_text *text)
@@ -72,8 +70,8 @@ static void prism_text(const double (*corners)[2], int count, mote_text *text)
 static void put(const char *name, mote_text *text)
 {
     char path[128];
-    (void)snprintf(path, sizeof path, FOLDER "/%s.obj", name);
-    assert_int_equal(mote_file_write(path, text->data, text->size), MOTE_OK);
+    (void)snprintf(path, sizeof path, "%s.obj", name);
+    file_write(path, text->data, text->size);
     free(text->data);
     *text = (mote_text){0};
 }
@@ -85,8 +83,6 @@ static const double u[][2] = {{0, 0},     {3, 0},     {3, 3},   {2.8, 3},
 static int make_meshes(void)
 {
     mote_text text = {0};
-    if (mote_directory_make(FOLDER) != MOTE_OK)
-        return -1;
     box_text(1, 1, 1, &text);
     put("cube", &text);
     box_text(1e-6, 1e-6, 1e-6, &text);
@@ -109,12 +105,7 @@ static int make_meshes(void)
     return 0;
 }
 
-static int remove_meshes(void)
-{
-    return program_remove(FOLDER);
-}
-
-TEST_GROUP(make_meshes, remove_meshes);
+TEST_GROUP(make_meshes, NULL);
 
 /* Each frame of the scenario differs in the displacement of the controls from the one before.
  */
@@ -137,8 +128,11 @@ static void check_pair(const char *a, const char *b, const char *direction)
     char name[256];
     mote_scenario *scenario;
     mote_truth *truth;
-    (void)snprintf(name, sizeof name, "pair:" FOLDER "/%s.obj:" FOLDER "/%s.obj%s", a, b,
-                   direction);
+    (void)snprintf(name, sizeof name,
+                   "pair:"
+                   "%s.obj:"
+                   "%s.obj%s",
+                   a, b, direction);
     if (mote_scenario_load(name, &scenario) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     assert_int_equal(scenario->frames, 1000);
@@ -185,9 +179,7 @@ TEST(pair_comes_along_the_given_direction)
     check_pair("cube", "sphere", ":0,0,-2");
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
-    assert_int_equal(
-        mote_scenario_load("pair:" FOLDER "/cube.obj:" FOLDER "/sphere.obj:0,0,-2", &scenario),
-        MOTE_OK);
+    assert_int_equal(mote_scenario_load("pair:cube.obj:sphere.obj:0,0,-2", &scenario), MOTE_OK);
     assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
     const mote_vec3 at =
         mote_scenario_frame(scenario, buffer, 1000, 0)->body[1].pose.translation;

@@ -4,7 +4,7 @@
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario.h"
 #include "harness/scene/spread.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <math.h>
@@ -16,8 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define FOLDER "test_scenario_files"
-#define FILE_NAME FOLDER "/s.json"
+#define FILE_NAME "s.json"
 
 static const char good_text[] =
     "{\n"
@@ -40,11 +39,6 @@ static const char good_text[] =
     "  ]\n"
     "}\n";
 
-static void write_plain(const char *text, size_t size)
-{
-    assert_true(plain_file_write(FILE_NAME, text, size));
-}
-
 /* good_text with the first `from` replaced. */
 static void write_changed(const char *from, const char *to)
 {
@@ -53,27 +47,14 @@ static void write_changed(const char *from, const char *to)
     char *text =
         mote_format("%.*s%s%s", (int)(at - good_text), good_text, to, at + strlen(from));
     assert_non_null(text);
-    write_plain(text, strlen(text));
+    file_put(FILE_NAME, text);
     free(text);
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    (void)unlink(FILE_NAME);
-    return rmdir(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);
 
 static mote_scenario *load_good(void)
 {
     mote_scenario *scenario = NULL;
-    write_plain(good_text, strlen(good_text));
+    file_put(FILE_NAME, good_text);
     assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_OK);
     return scenario;
 }
@@ -343,7 +324,7 @@ TEST(mote_scenario_load_bad_file_names_line_and_path)
 TEST(mote_scenario_load_truncated_anywhere_is_refused)
 {
     for (size_t size = 0; size + 2 < sizeof good_text; ++size) {
-        write_plain(good_text, size);
+        file_write(FILE_NAME, good_text, size);
         mote_scenario *scenario = NULL;
         assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
         assert_null(scenario);
@@ -354,12 +335,10 @@ TEST(mote_scenario_load_not_a_file_is_refused)
 {
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load("no/such/file.json", &scenario), MOTE_EIO);
-    assert_int_equal(mote_scenario_load(FOLDER "/", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("./", &scenario), MOTE_EINVAL);
     assert_int_equal(mote_scenario_load("/dev/zero", &scenario), MOTE_EINVAL);
-    (void)unlink(FOLDER "/pipe.json");
-    assert_int_equal(mkfifo(FOLDER "/pipe.json", 0600), 0);
-    assert_int_equal(mote_scenario_load(FOLDER "/pipe.json", &scenario), MOTE_EINVAL);
-    assert_int_equal(unlink(FOLDER "/pipe.json"), 0);
+    assert_int_equal(mkfifo("pipe.json", 0600), 0);
+    assert_int_equal(mote_scenario_load("pipe.json", &scenario), MOTE_EINVAL);
     assert_int_equal(mote_scenario_load("ww ww", &scenario), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "known are"));
     assert_null(scenario);
@@ -400,7 +379,7 @@ TEST(mote_spread_points_are_far_apart)
 
 static void write_like(const char *text)
 {
-    assert_true(plain_file_put(FOLDER "/like.json", text));
+    file_put("like.json", text);
 }
 
 /* Frame k of the one is frame 1 + 3 (k - 1) + 4 of the other; the second body's path is its
@@ -413,7 +392,7 @@ TEST(mote_scenario_load_like_takes_what_it_does_not_name)
                " \"pace\": 3, \"warmup\": null, \"active\": [2, 3], \"bodies\": [{},"
                " {\"triangles\": 402, \"scale\": [1, 2, 0.5], \"motion\": null}]}");
     mote_scenario *like;
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_int_equal(mote_scenario_load("like.json", &like), MOTE_OK);
     assert_string_equal(like->purpose, "other");
     assert_int_equal(like->warmup.last, 0);
     assert_int_equal(like->active.last, 3);
@@ -436,20 +415,18 @@ TEST(mote_scenario_load_like_takes_what_it_does_not_name)
     mote_frame_buffer_destroy(other);
     mote_scenario_destroy(base);
     mote_scenario_destroy(like);
-    assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
 TEST(mote_scenario_load_like_in_a_circle_or_missing_is_refused)
 {
     mote_scenario *scenario = NULL;
     write_like("{\"purpose\": \"x\",\n\"like\": \"like.json\"}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "like.json:2: like: "));
     write_like("{\"purpose\": \"x\",\n\"like\": \"nothing\"}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "nothing.json"));
     assert_null(scenario);
-    assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
 /* One of ours, and one in a folder below. */
@@ -457,22 +434,20 @@ TEST(mote_scenario_load_like_one_elsewhere_finds_its_meshes)
 {
     mote_scenario *like;
     write_like("{\"like\": \"flat\", \"frames\": 2, \"purpose\": \"x\"}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_int_equal(mote_scenario_load("like.json", &like), MOTE_OK);
     assert_true(like->body[0].mesh->triangle_count > 0);
     mote_scenario_destroy(like);
     static const char mesh[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-    assert_int_equal(mote_directory_make(FOLDER "/below"), MOTE_OK);
-    assert_int_equal(mote_file_write(FOLDER "/below/a.obj", mesh, sizeof mesh - 1), MOTE_OK);
+    assert_int_equal(mote_directory_make("below"), MOTE_OK);
+    file_put("below/a.obj", mesh);
     write_like("{\"frames\": 2, \"purpose\": \"x\", \"ask\": \"distance\", \"bodies\": "
                "[{\"file\": \"a.obj\"}, {\"file\": \"a.obj\", \"motion\": [{\"frame\": 1, "
                "\"position\": [0, 0, 1]}]}]}");
-    assert_int_equal(rename(FOLDER "/like.json", FOLDER "/below/base.json"), 0);
+    assert_int_equal(rename("like.json", "below/base.json"), 0);
     write_like("{\"like\": \"below/base.json\", \"frames\": 3, \"purpose\": \"y\"}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &like), MOTE_OK);
+    assert_int_equal(mote_scenario_load("like.json", &like), MOTE_OK);
     assert_int_equal(like->body[1].mesh->triangle_count, 1);
     mote_scenario_destroy(like);
-    assert_int_equal(unlink(FOLDER "/below/a.obj") + unlink(FOLDER "/below/base.json"), 0);
-    assert_int_equal(rmdir(FOLDER "/below") + unlink(FOLDER "/like.json"), 0);
 }
 
 /* What is named replaces what the other one says, whatever that was. */
@@ -491,18 +466,17 @@ TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
         char *text = mote_format("{\"like\": \"s.json\", %s}\n", cases[k].more);
         write_like(text);
         free(text);
-        assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+        assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
         if (!strstr(mote_error_text(), cases[k].says))
             fail_msg("%s: %s", cases[k].more, mote_error_text());
     }
     write_like("{\"purpose\": \"x\",\n\"like\": \"/proc/self/x.json\"}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "like.json:2: like: /proc/self/x.json"));
     write_like("{\"purpose\": \"x\",\n\"like\": 3}");
-    assert_int_equal(mote_scenario_load(FOLDER "/like.json", &scenario), MOTE_EINVAL);
+    assert_int_equal(mote_scenario_load("like.json", &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "like.json:2: like: is not a string"));
     assert_null(scenario);
-    assert_int_equal(unlink(FOLDER "/like.json"), 0);
 }
 
 TEST(mote_scenario_load_missing_mesh_file_is_refused)
@@ -510,8 +484,8 @@ TEST(mote_scenario_load_missing_mesh_file_is_refused)
     write_changed("\"letter\": \"M\", \"triangles\": 600", "\"file\": \"none.obj\"");
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
-    assert_non_null(
-        strstr(mote_error_text(), "s.json:9: bodies[0].file: " FOLDER "/none.obj: "));
+    assert_non_null(strstr(mote_error_text(), "s.json:9: bodies[0].file: "
+                                              "none.obj: "));
     write_changed("\"letter\": \"M\",", "\"letter\": \"M\", \"scale\": 0,");
     assert_int_equal(mote_scenario_load(FILE_NAME, &scenario), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "bodies[0].scale: "));

@@ -3,6 +3,7 @@
 #include "harness/study/dynamics.h"
 
 #include "harness/base/file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -303,7 +304,7 @@ TEST(command_dynamics_goes_on_where_it_stopped)
     char *program = strstr(row, "\"program\": \"");
     assert_non_null(program);
     program[12] = program[12] == '0' ? '1' : '0';
-    assert_int_equal(mote_file_write(ROW, row, strlen(row)), MOTE_OK);
+    file_put(ROW, row);
     assert_int_equal(mote_file_write(OUT "/rows/tt-certified.json", "{", 1), MOTE_OK);
     run_study(said, sizeof said);
     const char *first = strstr(said, "dynamics: tt,");
@@ -327,7 +328,7 @@ TEST(command_dynamics_keeps_rows_of_other_builds_when_asked)
     commit += strlen("\"commit\": \""); /* nothing follows where git does not answer */
     (void)snprintf(other, sizeof other, "%.*s%s%s", (int)(commit - row), row, changed,
                    strchr(commit, '"'));
-    assert_int_equal(mote_file_write(ROW, other, strlen(other)), MOTE_OK);
+    file_put(ROW, other);
     assert_int_equal(program_wait(program_start(LINE " --keep", SAID)), 0);
     program_read(SAID, said, sizeof said);
     assert_null(strstr(said, "dynamics: tt,"));

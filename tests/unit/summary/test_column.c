@@ -4,6 +4,7 @@
 #include "harness/summary/column_docs.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -143,7 +144,7 @@ static void differs(const char *file, const char *expected)
     char path[512];
     const char *name = strrchr(file, '/') + 1;
     (void)snprintf(path, sizeof path, "%s.expected", name);
-    assert_true(plain_file_put(path, expected));
+    file_put(path, expected);
     fail_msg("%s is not what harness/summary/column.c says; what it says is in %s of the "
              "folder of this test",
              file, path);

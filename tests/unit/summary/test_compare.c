@@ -1,6 +1,6 @@
 /* Comparisons of summaries that the test writes itself; what lies beside them is in
    test_compare_beside.c. */
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 #include "tests/support/two_runs.h"
 
@@ -318,7 +318,7 @@ TEST(compare_of_what_has_no_rows_is_bad_input)
             write_run(old_run, &usual, 1);
             write_run(new_run, &usual, -1);
             (void)snprintf(path, sizeof path, "%s/summary.json", which ? new_run : old_run);
-            assert_true(plain_file_put(path, summaries[i]));
+            file_put(path, summaries[i]);
             expect("", 4, "no rows; name a run, or its summary.json");
         }
     }

@@ -1,4 +1,5 @@
 /* The history of accepted references: what is added to it, drawn of it, and refused. */
+#include "tests/support/folder.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
@@ -71,7 +72,7 @@ TEST(history_of_what_is_none_is_refused_by_line)
         {HEADER "d,c,w,r,100,2,,,,,1,\n", "h.csv:2: not a line of a history"},
         {HEADER "d,c,w,r,100,2,,,,,?\n", "h.csv:2: ?: not a number"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        assert_true(plain_file_put(file, cases[i].text));
+        file_put(file, cases[i].text);
         expect(file, 4, cases[i].says);
     }
     expect("/no/such/history.csv", 4, "/no/such/history.csv: No such file");
@@ -96,7 +97,7 @@ TEST(history_marks_what_moves_more_than_usual)
                                        "5,e,w,r,202,,,,,,"; /* a last line without its end */
     static const char data[] = "\"r\"\n1 1 0 0123456789\n2 1.01 0 -\n3 1 0 c\n4 1.01 0 d\n"
                                "5 2.02 1 e\n\n\n\"s\"\n1 1 0 0123456789\n2 2 1 -\n";
-    assert_true(plain_file_put(file, lines));
+    file_put(file, lines);
     expect(file, 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, data);
@@ -104,7 +105,7 @@ TEST(history_marks_what_moves_more_than_usual)
     static const char undated[] = HEADER ",c,w,r,100,,,,,,\n";
     char path[96];
     (void)snprintf(path, sizeof path, "%s/h", base);
-    assert_true(plain_file_put(path, undated));
+    file_put(path, undated);
     expect(path, 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, "\"r\"\n1 1 0 c\n");
@@ -122,7 +123,7 @@ TEST(history_of_a_row_with_and_without_ratios_is_two_series)
                                        "2,b,w,a \"b\",100,,,,,,\n"
                                        "3,c,w,a \"b\",101,0.25,,,,,\n"
                                        "4,d,w,a \"b\",101,,,,,,\n";
-    assert_true(plain_file_put(file, lines));
+    file_put(file, lines);
     expect(file, 0, "h.svg");
     read_data("h.dat");
     assert_string_equal(text, "\"a \u201db\u201d\"\n1 1 0 a\n3 2 1 c\n\n\n"
@@ -145,10 +146,9 @@ TEST(history_add_of_odd_names_can_be_drawn)
                    base);
     expect(arguments, 4, "run/manifest.json: No such file");
     (void)snprintf(path, sizeof path, "%s/run/manifest.json", base);
-    assert_true(plain_file_put(path, "{}\n"));
+    file_put(path, "{}\n");
     expect(arguments, 0, "");
-    assert_true(plain_file_put(
-        path, "{\"commit\": \"9,9\", \"sessions\": [{\"started\": \"today\"}]}\n"));
+    file_put(path, "{\"commit\": \"9,9\", \"sessions\": [{\"started\": \"today\"}]}\n");
     expect(arguments, 0, "");
     read_data("n.csv");
     assert_non_null(strstr(text, "\n,,a;b;c,a;b/fcl-aabb/hot,5,1,"));
@@ -157,7 +157,7 @@ TEST(history_add_of_odd_names_can_be_drawn)
     /* Added to behind a last line that was not ended. */
     (void)snprintf(path, sizeof path, "%s/n.csv", base);
     text[strlen(text) - 1] = '\0';
-    assert_true(plain_file_put(path, text));
+    file_put(path, text);
     expect(arguments, 0, "");
     expect(path, 0, "n.svg");
     read_data("n.dat");
@@ -168,7 +168,7 @@ TEST(history_add_of_odd_names_can_be_drawn)
 TEST(history_add_to_another_file_leaves_it_alone)
 {
     char arguments[256];
-    assert_true(plain_file_put(file, "my thesis\n"));
+    file_put(file, "my thesis\n");
     (void)snprintf(arguments, sizeof arguments, "%s --add %s/run --why w", file, base);
     expect(arguments, 4, "h.csv:1: not the header of a history");
     read_data("h.csv");

@@ -2,14 +2,13 @@
 #include "harness/summary/scene_contacts.h"
 
 #include "harness/base/file.h"
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define FOLDER "test_scene_contacts_files"
 
 /* Contacts (frame, a, b) that are missed or false count up to the last common frame. */
 TEST(mote_scene_contacts_lacking_counts_by_frame_and_pair)
@@ -71,9 +70,9 @@ static mote_stored_cell cell_of(const char *method, const char *refit, const cha
 
 static void write_pairs(const char *id, const char *lines)
 {
-    char *path = mote_format(FOLDER "/cells/%s.pairs.csv", id);
+    char *path = mote_format("cells/%s.pairs.csv", id);
     char *text = mote_format(HEADER "%s", lines);
-    assert_int_equal(mote_file_write(path, text, strlen(text)), MOTE_OK);
+    file_put(path, text);
     free(text);
     free(path);
 }
@@ -104,7 +103,7 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
     write_pairs("c", "1,1,2,1,0,0,1,1\n2,1,3,1,0,0,1,1\n");
     write_pairs("f", "1,1,2,1,0,0,1,1\n2,1,3,1,0,0,1,1\n");
     write_pairs("g", "1,1,2,1,0,0,1,1\n1,4,5,1,0,0,1,1\n2,1,3,2,0,0,1,1\n");
-    assert_int_equal(mote_scene_contacts_count(FOLDER, rows, 4), MOTE_OK);
+    assert_int_equal(mote_scene_contacts_count(".", rows, 4), MOTE_OK);
     static const double missed[] = {2, 1, 1, 0}, wrong[] = {1, 0, 0, 0};
     for (int k = 0; k < 4; ++k) {
         assert_int_equal(rows[k].contacts_of, 3);
@@ -116,11 +115,11 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
     cells[2].last = 3;
     for (int k = 0; k < 3; ++k)
         rows[k] = row_of(&cells[k]);
-    assert_int_equal(mote_scene_contacts_count(FOLDER, rows, 4), MOTE_OK);
+    assert_int_equal(mote_scene_contacts_count(".", rows, 4), MOTE_OK);
     assert_int_equal(rows[0].contacts_of, 1);
     assert_int_equal(rows[2].contacts_of, 2);
     rows[0] = row_of(&cells[0]);
-    assert_int_equal(mote_scene_contacts_count(FOLDER, rows, 1), MOTE_OK);
+    assert_int_equal(mote_scene_contacts_count(".", rows, 1), MOTE_OK);
     assert_int_equal(rows[0].contacts_of, SIZE_MAX);
     assert_true(isnan(rows[0].missed));
     for (int k = 0; k < 4; ++k)
@@ -134,7 +133,7 @@ TEST(mote_scene_contacts_count_of_cells_that_failed_compares_nothing)
     cell.status = MOTE_CELL_TIMEOUT;
     cell.frames = 0;
     mote_summary_row row = row_of(&cell);
-    assert_int_equal(mote_scene_contacts_count(FOLDER, &row, 1), MOTE_OK);
+    assert_int_equal(mote_scene_contacts_count(".", &row, 1), MOTE_OK);
     assert_int_equal(row.contacts_of, SIZE_MAX);
     assert_true(isnan(row.missed) && isnan(row.near_pairs));
     json_decref(cell.json);
@@ -154,21 +153,9 @@ TEST(mote_scene_contacts_count_names_the_line_that_is_no_pair)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         mote_summary_row row = row_of(&cell);
         write_pairs("c", cases[k].lines);
-        assert_int_equal(mote_scene_contacts_count(FOLDER, &row, 1), MOTE_EINVAL);
+        assert_int_equal(mote_scene_contacts_count(".", &row, 1), MOTE_EINVAL);
         if (!strstr(mote_error_text(), cases[k].where))
             fail_msg("case %zu: %s", k, mote_error_text());
     }
     json_decref(cell.json);
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(FOLDER "/cells") == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    return program_remove(FOLDER);
-}
-
-TEST_GROUP(make_folder, remove_folder);

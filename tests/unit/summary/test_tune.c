@@ -1,4 +1,5 @@
 /* mote tune, against the medians of the summary that it reads. */
+#include "tests/support/folder.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -151,7 +152,7 @@ TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
         for (const char *hole; (hole = strstr(rest, "%s,")) != NULL; rest = hole + 3)
             mote_text_add(&file, "%.*s%s", (int)(hole - rest), rest, row);
         mote_text_add(&file, "%s", rest);
-        assert_true(plain_file_put(path, file.data));
+        file_put(path, file.data);
         free(file.data);
         assert_int_equal(mote("tune --best-fcl ww ", "/edited"), cases[i].status);
         if (cases[i].status == 0)
