@@ -1,5 +1,5 @@
-/* A claim of the paper and the figures that were measured for it. The verdict follows from the
-   figures and their thresholds alone. */
+/* A claim of the paper and the values measured for it. The verdict follows from the values
+   and their thresholds alone. */
 #ifndef MOTE_HARNESS_CLAIM_H
 #define MOTE_HARNESS_CLAIM_H
 
@@ -8,16 +8,16 @@
 #include <jansson.h>
 
 typedef enum mote_bound {
-    MOTE_BOUND_NONE, /* the figure is told, and decides nothing */
+    MOTE_BOUND_NONE, /* reported, but decides nothing */
     MOTE_AT_MOST,
     MOTE_AT_LEAST
 } mote_bound;
 
-/* One figure. A threshold is met when the whole interval is on its right side; without an
-   interval, when the value is. */
+/* One measured value. A threshold is met when the whole interval is on its right side, or,
+   without an interval, when the value is. */
 typedef struct mote_claim_value {
     char name[112];           /* "n = 3, 95th percentile" */
-    double value;             /* MOTE_NONE: could not be had; meets no threshold */
+    double value;             /* MOTE_NONE: not measured; meets no threshold */
     mote_confidence interval; /* 95 %, or MOTE_NONE */
     const char *unit;         /* "L", "us", "" */
     mote_bound bound;
@@ -25,8 +25,8 @@ typedef struct mote_claim_value {
     double limits; /* threshold for "holds within limits"; MOTE_NONE: not needed for it */
 } mote_claim_value;
 
-/* What is claimed, where, and how it was measured: constant text. curve is a file in the
-   study's directory, or NULL. */
+/* The claim, where the paper makes it, and how it was measured: constant text. curve is a
+   file in the study's directory, or NULL. */
 typedef struct mote_claim {
     const char *id, *section, *claim, *measured, *curve;
     mote_claim_value *values;
@@ -34,8 +34,9 @@ typedef struct mote_claim {
 } mote_claim;
 
 typedef enum mote_claim_verdict {
-    MOTE_CLAIM_HOLDS,        /* every threshold for "holds" is met, and there is one */
-    MOTE_CLAIM_LIMITS,       /* else, every one for "holds within limits", and there is one */
+    MOTE_CLAIM_HOLDS,  /* there are thresholds for "holds", and all are met */
+    MOTE_CLAIM_LIMITS, /* else: there are thresholds for "holds within limits", and all are met
+                        */
     MOTE_CLAIM_DOES_NOT_HOLD /* anything else */
 } mote_claim_verdict;
 

@@ -22,7 +22,7 @@
     X(deformed_parts)   /* m */                                                                \
     X(closed_loop)      /* dynamics */
 
-/* What must be so on any machine, whatever the paper says. */
+/* What has to hold on any machine, whatever the paper says. */
 #define MOTE_REQUIREMENTS(X)                                                                   \
     X(exact_shares)                                                                            \
     X(no_missed_contact)                                                                       \
@@ -30,15 +30,16 @@
     X(no_allocation)                                                                           \
     X(bodies_swapped)
 
-/* mote_claim_NAME: fills claim, which is zero; the caller frees it, also after a failure. */
+/* mote_claim_NAME: fills claim, which is zero-initialised; the caller frees it, also after a
+   failure. */
 #define MOTE_CLAIM_DECLARE(name)                                                               \
     mote_status mote_claim_##name(mote_study *study, mote_claim *claim);
 MOTE_CLAIMS(MOTE_CLAIM_DECLARE)
 MOTE_REQUIREMENTS(MOTE_CLAIM_DECLARE)
 #undef MOTE_CLAIM_DECLARE
 
-/* Measures every claim into claims.json and every requirement into requirements.json, printing
-   what was found. *met: all requirements are met. */
+/* Measures every claim and requirement, prints the results, and writes claims.json and
+   requirements.json. *met: all requirements are met. */
 mote_status mote_claims_measure(mote_study *study, bool *met);
 
 #endif

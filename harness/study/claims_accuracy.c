@@ -1,4 +1,4 @@
-/* What the paper claims of accuracy: a, b, c, j. */
+/* The paper's claims about accuracy: a, b, c. */
 #include "harness/study/claims.h"
 
 #include "core/body/parts.h"
@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR_CONTACT 0.1 /* of L: where a collision point means something */
+#define NEAR_CONTACT 0.1 /* in L: up to this distance a collision point has a meaning */
 
 static mote_vec3 middle(mote_vec3 a, mote_vec3 b)
 {
@@ -88,8 +88,8 @@ mote_status mote_claim_contact_point(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* Runs of frames with contact, how many of them a method never saw, and after how many frames
-   it saw the others. */
+/* Runs of frames with contact: how many of them a method never reported, and after how many
+   frames it reported the others. */
 typedef struct episodes {
     size_t count, unseen, delays;
     double *delay; /* [delays] */
@@ -211,7 +211,7 @@ static mote_status tracked_at(const mote_study *study, const mote_subject *subje
     return MOTE_OK;
 }
 
-/* The least n of the sweep from which on the share tracked is enough; 0: none. */
+/* The smallest n of the sweep from which on the share tracked is high enough; 0: none. */
 static mote_status sweep_shape(const mote_study *study, const mote_subject *subject,
                                uint32_t parts, mote_text *curve, uint32_t *enough)
 {

@@ -1,4 +1,4 @@
-/* What the paper claims of a query's cost: g, h. */
+/* The paper's claims about the cost of a query: g, h. */
 #include "harness/study/claims.h"
 
 #include <stdlib.h>
@@ -107,22 +107,23 @@ static mote_status measure_numbers(mote_study *study, mote_claim *claim, mote_te
     for (int p = 0; p < PACES && status == MOTE_OK; ++p) {
         cost_points points = {.count = 0};
         begin_block(curve, paces[p].title);
-        /* The slower the query, the fewer: one of n = 64 takes 5 ms cold. */
+        /* The slower the query, the fewer are measured: one with n = 64 takes 5 ms cold. */
         const size_t most = p + 1 == PACES ? 6 : 7;
         const size_t count = study->quick ? 5 : most;
         for (size_t i = 0; i < count && status == MOTE_OK; ++i)
             status = add_point(subject, &paces[p], numbers[i], numbers[i], &points, curve);
         if (status == MOTE_OK)
             status = add_exponent(claim, &points, 16, "n >= 16", paces[p].title);
-        /* The paper expects slow changes of position: these alone set the limits. */
+        /* The paper assumes slow changes of position, so these alone decide the verdict. */
         if (status == MOTE_OK)
             mote_claim_require(claim, MOTE_AT_MOST, 2.1, p == 0 ? 2.1 : MOTE_NONE);
     }
     return status;
 }
 
-/* Over triangles, n = 5. "Fast even for models with a large number of polygons": a slow motion
-   must not feel the size at all, and no query may take longer than a millisecond. */
+/* Over triangles, n = 5. "Fast even for models with a large number of polygons": in slow
+   motion the time must not depend on the size, and no query may take longer than a
+   millisecond. */
 static mote_status measure_sizes(mote_study *study, mote_claim *claim, mote_text *curve)
 {
     static const size_t sizes[] = {500, 1600, 5000, 12000, 30000, 100000, 300000, 1000000};
@@ -180,7 +181,7 @@ mote_status mote_claim_complexity(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* With and without the cache, the same frames and starts, in turn. */
+/* With and without the cache in turn, with the same frames and starts. */
 typedef struct cache_case {
     const char *options;
     uint32_t n;

@@ -1,4 +1,4 @@
-/* What the paper claims of motion that depends on the answers: the closed loop. */
+/* The paper's claim about motion that depends on the answers: the closed loop. */
 #include "harness/study/claims.h"
 
 #include "harness/study/dynamics.h"
@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Approaches of 3 to 5 particles, which decide; of others, which stand beside. 0: left out. */
+/* Approaches with 3 to 5 particles, which decide the verdict, and with other numbers, which
+   are reported only. 0: left out. */
 static uint32_t approaches_of(const mote_dynamics_row *row, bool quick)
 {
     const bool decides = row->law && row->n >= 3 && row->n <= 5;

@@ -74,7 +74,8 @@ typedef struct accuracy_case {
 static mote_status add_case(mote_study *study, const accuracy_case *c, mote_claim *claim)
 {
     const mote_subject *subject;
-    /* Some starts fail for good, most do not: more of them than elsewhere. */
+    /* A few starts fail in every frame and most in none, so more starts are measured than
+       elsewhere. */
     const size_t seeds = study->quick ? study->seeds : MOTE_STUDY_SEEDS;
     mote_sample samples[MOTE_STUDY_SEEDS];
     mote_status status = mote_study_scene(study, c->scene, &subject);
@@ -102,8 +103,8 @@ mote_status mote_claim_few_particles(mote_study *study, mote_claim *claim)
     claim->section = "1";
     claim->claim = "accuracy is reasonable with only a few particles";
     claim->measured =
-        "absolute error and missed contacts, all frames; the paper's own numbers of "
-        "particles decide, other n, laws, moves and the exact check stand beside";
+        "absolute error and missed contacts, all frames; the paper's own numbers of particles "
+        "decide; other n, laws, moves and the exact check are shown for comparison";
     claim->curve = "figures/claim_j.dat";
     static const accuracy_case cases[] = {
         {"ww", "particle-paper:n=5", "W-W, n = 5", true},

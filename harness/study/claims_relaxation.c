@@ -1,4 +1,4 @@
-/* What the paper claims of relaxation: d, e, f. */
+/* The paper's claims about relaxation: d, e, f. */
 #include "harness/study/claims.h"
 
 #include "core/particle/particles.h"
@@ -151,7 +151,7 @@ static mote_status fill_route(mote_claim *claim, const route_data *d)
         mote_claim_require(claim, MOTE_AT_MOST, 1, 2);
     if (status == MOTE_OK)
         status = mote_claim_add(claim, mean.value, mean.interval, "",
-                                "the same, from below: a bound that is not needless");
+                                "the same, from below: a bound that is not needlessly large");
     if (status == MOTE_OK)
         mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
     if (status == MOTE_OK)
@@ -233,7 +233,7 @@ static void relax_query(mote_particles *particles, double length, relaxation *r)
             stop = steps + 1;
         }
     }
-    /* The last step is the one that moves nothing. */
+    /* In the last step nothing moved. */
     for (size_t i = (steps - 1) / 2; i + 1 < steps; ++i) {
         r->moving += share[i];
         r->steps_counted += 1;
@@ -270,8 +270,8 @@ static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool 
     return status;
 }
 
-/* Adds figures of one n, cold or warm. Cold ones decide: a warm query is almost at rest when it
-   begins, so that its steps move next to nothing. */
+/* Adds figures of one n, cold or warm. Cold ones decide: a warm query is almost at rest when
+   it begins, so that almost nothing moves in its steps. */
 static mote_status add_rest(const mote_study *study, const mote_subject *subject, uint32_t n,
                             bool cold, mote_claim *claim)
 {

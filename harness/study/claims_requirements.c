@@ -120,7 +120,7 @@ static void gather(const mote_sample *samples, size_t count, mote_measured which
         values[s] = samples[s].of[which];
 }
 
-/* The difference by Welch's test, which must not be told from none. */
+/* The difference and its p by Welch's test, which must not be significant. */
 static mote_status add_swap(const mote_sample *samples, const mote_sample *swapped,
                             size_t seeds, mote_measured which, const char *name,
                             mote_claim *claim)

@@ -1,5 +1,5 @@
-/* What the paper claims against hierarchies, and its own times: i, k, l, and the least ratio to
-   FCL. Measured in cells, each in a process of its own. */
+/* The paper's claims about its own times and about hierarchies, i, k and l, and the smallest
+   ratio to FCL that is required. Measured in cells, each in a process of its own. */
 #include "harness/study/claims.h"
 
 #include "harness/run/run.h"
@@ -57,7 +57,7 @@ static mote_status run_leg(const mote_study *study, const leg *l)
     return status;
 }
 
-/* Measures what is not there yet, then reads it all, once. */
+/* Measures what has not been measured yet, then reads all of it; done once. */
 static mote_status measure(mote_study *study, const mote_summary **summary)
 {
     *summary = &study->summary;
@@ -140,7 +140,7 @@ static double median_total(const mote_stored_cell *cell)
     return median;
 }
 
-/* What the method holds, without tables and vertices of full deformation. */
+/* Heap held by the method, without tables and vertices of full deformation. */
 static double own_bytes(const mote_stored_cell *cell)
 {
     return mote_stored_number(cell, "heap_live_bytes") -
@@ -176,13 +176,13 @@ static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_r
     return mote_estimate_ratio(a, count);
 }
 
-/* A machine of today runs one thread about this many times faster than the paper's Pentium 4 of
-   2.53 GHz; a ratio below it would be the machine's, not the method's. */
+/* A machine of today runs one thread about this many times faster than the paper's Pentium 4
+   of 2.53 GHz; a ratio below that would show the machine, not the method. */
 #define MACHINE 20
 
-/* The slowest frame of the active interval: the largest over frames of the median over
-   replicates, which no other program's turn on the processor enters; its replicates' interval.
-   MOTE_NONE without a frame there. */
+/* The slowest frame of the active interval: the maximum over frames of the median over
+   replicates, so that interruptions by other programs do not count, with the interval over
+   its replicates. MOTE_NONE without a frame there. */
 static mote_estimate slowest_frame(const mote_summary_row *row)
 {
     mote_estimate slowest = {MOTE_NONE, {MOTE_NONE, MOTE_NONE}};
@@ -228,8 +228,8 @@ mote_status mote_claim_times(mote_study *study, mote_claim *claim)
         "T-T, n = 3: below 1 ms on average, 11 ms at most; W-W, n = 5: 12.67 ms and 47 "
         "ms";
     claim->measured =
-        "time of a query, all deformation included, processes of their own; holds: "
-        "a twentieth of the paper's time or less, about what the machine is worth";
+        "time of a query, all deformation included, processes of their own; holds: at most a "
+        "twentieth of the paper's time, which is about how much faster the machine is";
     const mote_summary *summary;
     mote_status status = measure(study, &summary);
     if (status != MOTE_OK)
@@ -359,8 +359,8 @@ static double paired_ratio(const mote_stored_cell *theirs, const mote_stored_cel
     return median;
 }
 
-/* How many times longer a setting of FCL takes than the particles: frame by frame, and by the
-   sums over all frames. */
+/* How many times longer FCL takes than the particles in one setting: frame by frame, and by
+   the sums over all frames. */
 static mote_status add_ratio(const mote_summary *summary, mote_cache cache, const char *label,
                              double least, mote_claim *claim)
 {

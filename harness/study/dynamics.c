@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What has to be kept, relative; paths are some hundred steps. */
+/* Largest relative drift allowed; a simulation has some hundred steps. */
 #define MOST_DRIFT 1e-10
 
 /* For the claim: the upper end of the share of passes. */

@@ -1,4 +1,4 @@
-/* What the study of the closed loop measures, and how it is told. */
+/* What the study of the closed loop measures, and how it is reported. */
 #ifndef MOTE_HARNESS_DYNAMICS_H
 #define MOTE_HARNESS_DYNAMICS_H
 
@@ -11,20 +11,20 @@ typedef struct mote_dynamics_row {
     const char *law;     /* of the paper's particles; NULL for other methods */
     char method[64];     /* as on the command line */
     uint32_t n;          /* particles a body; 0 for methods without */
-    uint32_t wanted;     /* approaches that are to come to a contact */
-    bool exact;          /* may let nothing pass */
+    uint32_t wanted;     /* how many approaches should come to a contact */
+    bool exact;          /* an exact method: must let nothing pass through */
     bool paper;          /* of a scene of the paper */
     mote_approaches sum; /* what was measured */
     char measured[32];   /* when: "2026-01-31T12:00:00Z" */
-    char commit[64];     /* of what sources; "" where that is not known */
+    char commit[64];     /* commit of the sources; "" where unknown */
 } mote_dynamics_row;
 
 /* How much is measured. */
 typedef struct mote_dynamics_size {
     bool quick;          /* the scenes of the paper with 100 approaches a row (FCL: 20); else
                             1,000 there, 200 for FCL, with other laws and on other scenes */
-    uint32_t approaches; /* not 0: so many for every row */
-    const char *scene;   /* not NULL: this one only */
+    uint32_t approaches; /* unless 0: this many for every row */
+    const char *scene;   /* unless NULL: this scene only */
 } mote_dynamics_size;
 
 /* Every row of the study, scene by scene; the caller frees *rows. MOTE_EINVAL for a scene that
@@ -32,12 +32,12 @@ typedef struct mote_dynamics_size {
 mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row **rows,
                                size_t *count);
 
-/* Fills in what the paper claims, and adds a row's figure to it: those of 3 to 5 particles by
-   the law as printed on the paper's scenes decide, others are told. */
+/* Fills in what the paper claims, and adds a row's figure to it: rows with 3 to 5 particles
+   and the printed law on the paper's scenes decide, others are only reported. */
 void mote_dynamics_claim(mote_claim *claim);
 mote_status mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row);
 
-/* What a measured row must show; NULL, or what it did not. */
+/* Checks what a measured row must show: NULL, or what it does not. */
 const char *mote_dynamics_failure(const mote_dynamics_row *row);
 
 /* The table for a person. */

@@ -22,7 +22,7 @@ static mote_status refuse(mote_extreme *e)
     return MOTE_OK;
 }
 
-/* Only what is wrong with the input: a failure of the machine stays one. */
+/* Notes errors of the input only; a failure of the machine stays an error. */
 static bool is_refusal(mote_status status)
 {
     return status == MOTE_EINVAL || status == MOTE_ENUMERIC;

@@ -1,5 +1,6 @@
-/* Numerical extremes: two small bodies over a few frames, taken to where numbers become tiny,
-   huge, equal or degenerate; the distance in 113 bits; and what a method makes of them. */
+/* Numerical extremes: scenes of two small bodies over a few frames in which numbers become
+   tiny, huge, equal or degenerate, their distance in 113 bits, and the verdict on each
+   method's answers. */
 #ifndef MOTE_HARNESS_EXTREME_H
 #define MOTE_HARNESS_EXTREME_H
 
@@ -17,8 +18,9 @@ typedef struct mote_extreme_recipe {
     uint32_t vertex_count[2], triangle_count[2];
     mote_vec3 position[2][MOTE_EXTREME_VERTICES];
     uint32_t triangle[2][MOTE_EXTREME_TRIANGLES][3];
-    mote_vec3 middle[2]; /* in the rest mesh: what place puts somewhere, and turns keep */
-    uint32_t controls;   /* of each body; 0: nothing deforms */
+    mote_vec3
+        middle[2];     /* in the rest mesh: the point that place positions and rotations keep */
+    uint32_t controls; /* of each body; 0: nothing deforms */
     mote_vec3 centre[2][MOTE_EXTREME_CONTROLS];
     double support; /* absolute */
     bool direct;    /* move are weights, not displacements to be fitted */
@@ -60,8 +62,8 @@ mote_status mote_extreme_plain(mote_extreme_recipe *recipe);
    Nothing moves where bodies that should be apart intersect. */
 mote_status mote_extreme_set_gap(mote_extreme_recipe *recipe, uint32_t frame, double gap);
 
-/* Fills truth, unrounded and coordinate_max: brute force over all pairs of triangles, none of
-   which is left out but for its box. */
+/* Fills truth, unrounded and coordinate_max: brute force over all pairs of triangles, none
+   of which is skipped unless its box is too far away. */
 mote_status mote_extreme_measure(mote_extreme *e);
 
 /* Squared distance of a point from body b's surface at a frame, in 113 bits. */
@@ -84,12 +86,12 @@ extern const size_t mote_extreme_family_count;
 void mote_extreme_label(const mote_extreme_family *family, int k, char *label, size_t size);
 
 typedef enum mote_extreme_verdict {
-    MOTE_EXTREME_NONE,    /* the method has no such parameter */
+    MOTE_EXTREME_NONE,    /* the method has no such parameter: not run */
     MOTE_EXTREME_RIGHT,   /* within 1e-12 L */
     MOTE_EXTREME_INEXACT, /* as the method says that it may be */
     MOTE_EXTREME_REFUSED, /* an error with a text instead of an answer */
-    MOTE_EXTREME_WRONG,   /* against what the method promises */
-    MOTE_EXTREME_NAN,     /* an answer that is no number */
+    MOTE_EXTREME_WRONG,   /* not what the method promises */
+    MOTE_EXTREME_NAN,     /* an answer that is not finite */
     MOTE_EXTREME_HUNG,    /* no answer in time */
     MOTE_EXTREME_CRASHED,
     MOTE_EXTREME_VERDICTS
@@ -99,7 +101,7 @@ extern const char *const mote_extreme_verdicts[];
 
 /* What a method made of a scene. */
 typedef struct mote_extreme_cell {
-    mote_extreme_verdict verdict; /* the worst of all frames */
+    mote_extreme_verdict verdict; /* the worst over all frames */
     double
         error; /* (answer - truth) / L, the largest by size over the frames; 0: no distance */
     uint32_t frame;    /* where that was, from 1; 0: there is no answer */
@@ -108,9 +110,9 @@ typedef struct mote_extreme_cell {
     uint64_t query_ns; /* of a frame, deformation and refit included: the median */
 } mote_extreme_cell;
 
-/* Has a method (by name) answer all frames, in a process of its own with 10 seconds of
-   processor time and 1 GiB, and judges the answers. A method that answers contacts only is
-   asked for them. An error means that no process could be had. */
+/* Runs a method (by name) over all frames in a process of its own with 10 seconds of
+   processor time and 1 GiB, and judges its answers. A method that answers contacts only is
+   asked for these. An error means that no process could be created. */
 mote_status mote_extreme_run(const mote_extreme *e, const char *method,
                              mote_extreme_cell *cell);
 

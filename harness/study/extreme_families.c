@@ -1,4 +1,5 @@
-/* What is taken to extremes, and how. Each change starts from the plain scene, L about 1. */
+/* What is taken to extremes, and how. Each extreme changes the plain scene, whose L is about
+   1. */
 #include "harness/study/extreme.h"
 
 #include "harness/base/curve.h"
@@ -42,7 +43,7 @@ static mote_status change_scale(const mote_extreme_recipe *plain, int k,
     return MOTE_OK;
 }
 
-/* In no direction that would make it easy. */
+/* A direction along no axis or symmetry, which would make it easy. */
 static const mote_vec3 askew = {0.6123724356957945, 0.35355339059327373, -0.7071067811865476};
 
 static mote_status change_offset(const mote_extreme_recipe *plain, int k,

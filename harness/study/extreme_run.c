@@ -12,25 +12,25 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* Of processor time; more of time, since other programs may take turns. */
+/* Limits of processor time, and of real time, which is longer since other programs may run. */
 #define SECONDS 10
 #define SECONDS_WAITED 100.0
 #define MEMORY_BYTES ((size_t)1 << 30)
 
-/* What the contract calls exact, relative to L. */
+/* The largest error that counts as exact, relative to L. */
 #define EXACT 1e-12
 
-/* What a method that claims exactness may lose on coordinates so large, in units of their last
-   place: none can be better than its input. */
+/* The error allowed to a method that claims exactness, in units in the last place of the
+   largest coordinate: no answer can be better than its input. */
 #define ROUNDING 16
 
 const char *const mote_extreme_verdicts[] = {"none",  "right", "inexact", "refused",
                                              "wrong", "nan",   "hung",    "crashed"};
 
-/* What answers for hulls may be off by, relative to L: the concavity of a part. */
+/* The error allowed to answers for convex hulls, relative to L: the concavity of a part. */
 #define CONCAVITY 0.1
 
-/* What a child tells. */
+/* What a child reports. */
 typedef struct message {
     mote_status status;
     char text[200];
@@ -87,7 +87,7 @@ static bool is_finite(mote_vec3 v)
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-/* What rounding of the input excuses, relative to L. */
+/* The error that rounding of the input explains, relative to L. */
 static double excuse(const mote_extreme *e, const mote_extreme_said *said)
 {
     const double unit = said->single ? (double)FLT_EPSILON : DBL_EPSILON;
@@ -138,7 +138,8 @@ static mote_extreme_verdict judge_distance(const mote_extreme *e, uint32_t frame
     if (fabs(*error) <= EXACT)
         return MOTE_EXTREME_RIGHT;
     (void)snprintf(reason, size, "%.3g L for %.3g L", answer->distance / e->length, truth);
-    /* A method that only approximates gives points of the surfaces: never too near. */
+    /* A method that only approximates gives points on the surfaces, so its distance is never
+       too small. */
     bool allowed = *error >= -excuse(e, said) - EXACT;
     if (said->exact)
         allowed = fabs(*error) <= excuse(e, said);
@@ -159,7 +160,7 @@ static mote_extreme_verdict judge_contact(const mote_extreme *e, uint32_t frame,
                    said->answer.contact ? "a contact" : "no contact", truth);
     if (said->hulls || (truth <= EXACT + excuse(e, said) && !touches))
         return MOTE_EXTREME_INEXACT;
-    /* Where the distance is too large, no contact is what follows from it. */
+    /* A distance that is too large explains a contact that is not reported. */
     return !said->contact_only && touches && !said->exact && said->answer.distance > 0
                ? MOTE_EXTREME_INEXACT
                : MOTE_EXTREME_WRONG;

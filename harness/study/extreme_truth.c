@@ -16,7 +16,7 @@ typedef struct wide_body {
     wide_box *boxes; /* [triangle_count] */
 } wide_body;
 
-/* To the full precision: two steps of Newton's from the double's. */
+/* To full precision: two Newton steps from the square root in double precision. */
 static wide square_root(wide x)
 {
     if (!(x > 0))
@@ -135,7 +135,7 @@ static double distance(const wide_body body[2])
     return wide_sqrt(best);
 }
 
-/* Takes a frame's positions, rounded to doubles as every method gets them, or not. */
+/* Sets a frame's positions, rounded to doubles as every method gets them, or unrounded. */
 static void place(const mote_extreme *e, uint32_t frame, bool rounded, wide_body body[2],
                   double *coordinate_max)
 {

@@ -1,4 +1,4 @@
-/* What the experiments on claims share: scenes with their truth, variants of a scene, and a
+/* Shared by the experiments on claims: scenes with their truth, variants of a scene, and a
    method's answers over a scene for several seeds, measured in this process. */
 #ifndef MOTE_HARNESS_STUDY_H
 #define MOTE_HARNESS_STUDY_H
@@ -17,10 +17,11 @@ typedef struct mote_study {
     const char *directory; /* where everything is written; the run is in directory/claims-run */
     char *run;             /* directory/claims-run */
     bool quick;            /* fewer seeds, frames and sizes */
-    size_t seeds;          /* of the particles' first places, 2 .. MOTE_STUDY_SEEDS */
+    size_t seeds; /* seeds of the particles' initial positions, 2 .. MOTE_STUDY_SEEDS */
     mote_subject scenes[MOTE_STUDY_SCENES]; /* loaded so far */
     size_t scene_count;
-    mote_summary summary; /* of the run against hierarchies, once it was measured */
+    mote_summary
+        summary; /* summary of the run against hierarchies, once it has been measured */
     bool summarised;
 } mote_study;
 
@@ -55,7 +56,7 @@ typedef struct mote_tour {
 mote_status mote_study_measure(const mote_subject *subject, const char *method, mote_tour tour,
                                mote_cell_result *result);
 
-/* What one seed gave. Errors in L, rates as shares. */
+/* The results of one seed. Errors in L, rates as shares. */
 typedef enum mote_measured {
     MOTE_MEASURED_EXACT,        /* share of frames with absolute error <= MOTE_EXACT_ERROR */
     MOTE_MEASURED_TRACKED,      /* share of frames with absolute error <= MOTE_TRACKED_ERROR */
@@ -63,8 +64,8 @@ typedef enum mote_measured {
     MOTE_MEASURED_ERROR_P95,
     MOTE_MEASURED_ERROR_P99,
     MOTE_MEASURED_CONTACTS,    /* frames that are contacts */
-    MOTE_MEASURED_MISSED,      /* share of the contacts that the method did not see */
-    MOTE_MEASURED_FALSE,       /* share of the other frames that it called contacts */
+    MOTE_MEASURED_MISSED,      /* share of the contacts that the method missed */
+    MOTE_MEASURED_FALSE,       /* share of the other frames in which it reported a contact */
     MOTE_MEASURED_QUERY_US,    /* median time of a query, microseconds */
     MOTE_MEASURED_SUM_US,      /* the sum over all queries */
     MOTE_MEASURED_ALLOCATIONS, /* from frame 50 on */
@@ -97,7 +98,7 @@ mote_estimate mote_estimate_ratio(const double *values, size_t count);
 mote_estimate mote_sample_estimate(const mote_sample *samples, size_t count,
                                    mote_measured which);
 
-/* Writes DIRECTORY/figures/NAME.dat, text taken over, and draws it by plots/NAME.gp. */
+/* Writes DIRECTORY/figures/NAME.dat, frees text, and draws it by plots/NAME.gp. */
 mote_status mote_study_plot(const mote_study *study, const char *name, mote_text *text);
 
 #endif

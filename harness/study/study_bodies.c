@@ -14,7 +14,7 @@
 typedef struct scene {
     const char *density; /* near pairs a body */
     uint32_t count;
-    uint32_t frames[2]; /* asked about in every way: in full, quick */
+    uint32_t frames[2]; /* measured in every way: in the full study, in the quick one */
     bool four;
 } scene;
 
@@ -58,7 +58,7 @@ static void add_shape(mote_text *text, char letter, unsigned triangles, unsigned
         seed > 1 ? "," : "", letter, triangles, seed);
 }
 
-/* Writes a scene's scenario; *path is to be freed. */
+/* Writes the scenario of a scene; the caller frees *path. */
 static mote_status write_scene(const study *s, const scene *of, char **path)
 {
     mote_text text = {0};
@@ -148,13 +148,13 @@ static const mote_summary_row *find(const study *s, const scene *of, const char 
     return NULL;
 }
 
-/* Mean of a frame but the first, which finds all pairs anew. */
+/* Mean over all frames but the first, which finds all pairs anew. */
 static double mean_of(const mote_summary_row *row)
 {
     return row->active_total.mean;
 }
 
-/* Of a whole frame, motion included. */
+/* The time of a whole frame, motion included. */
 static double wall_of(const mote_summary_row *row)
 {
     return mote_stored_number(row->first, "frames_wall_ns") / (double)row->frames;
@@ -169,7 +169,7 @@ static bool is_exact(const mote_summary_row *row)
 static void require(json_t *list, const char *name, double measured, double wanted, bool met,
                     bool *all)
 {
-    (void)printf("%s: %.4g, wanted %.4g: %s\n", name, measured, wanted,
+    (void)printf("%s: %.4g, required %.4g: %s\n", name, measured, wanted,
                  met ? "met" : "NOT MET");
     (void)json_array_append_new(list, json_pack("{s:s, s:o, s:f, s:b}", "name", name,
                                                 "measured", mote_json_number(measured),
@@ -210,7 +210,8 @@ static json_t *requirements(const study *s, bool *met)
     return list;
 }
 
-/* What threads bring: the time of a whole frame, motion included, in one thread over theirs. */
+/* The gain by threads: the time of a whole frame, motion included, in one thread over that
+   in several. */
 static json_t *gains(const study *s)
 {
     json_t *list = json_array();
@@ -244,7 +245,7 @@ static double column_median(const mote_summary_row *row, int column, double *wor
     return mote_statistics_median(work, count);
 }
 
-/* How many times as long as a row the one takes that its contacts are compared with. */
+/* The time of the row that a row's contacts are compared with, over its own. */
 static double ratio_of(const study *s, const mote_summary_row *row)
 {
     return row->contacts_of == SIZE_MAX

@@ -21,7 +21,7 @@ typedef struct study {
     char program[20]; /* hash of the program, in hexadecimal digits */
     char commit[64];  /* of this program's sources, or "" */
     bool quick;
-    bool keep; /* rows of other programs as well */
+    bool keep; /* also keep rows measured by another build of the program */
     int lock;  /* a file; a byte that stands for a row is locked while it is measured */
     mote_dynamics_row *rows;
     size_t count;
@@ -39,7 +39,7 @@ static char *row_name(const mote_dynamics_row *row)
     return name;
 }
 
-/* True when the row is there, measured by this program or, with keep, by any. */
+/* True when the row is stored, measured by this build of the program or, with keep, by any. */
 static bool recall(const study *s, mote_dynamics_row *row)
 {
     char *name = row_name(row);
@@ -111,7 +111,7 @@ static mote_status measure(study *s, mote_dynamics_row *row)
 }
 
 /* The byte of the lock file that stands for a row, the same in every study of the directory.
-   Two rows with one byte would wait for each other, no more. */
+   Two rows with the same byte only wait for each other. */
 static off_t byte_of(const mote_dynamics_row *row)
 {
     char name[160];
@@ -119,8 +119,8 @@ static off_t byte_of(const mote_dynamics_row *row)
     return (off_t)(mote_hash_text(name) & 0x7fffffff);
 }
 
-/* Locks or unlocks a row's byte against other processes; false: somebody has it, or an error.
- */
+/* Locks or unlocks a row's byte against other processes; false: another process holds it, or
+   an error. */
 static bool lock_row(const study *s, const mote_dynamics_row *row, int command, short type)
 {
     struct flock lock = {
@@ -132,8 +132,8 @@ static bool lock_row(const study *s, const mote_dynamics_row *row, int command, 
     return status == 0;
 }
 
-/* Every row that is not there; those that another process has are left to it, or, with wait,
-   waited for. */
+/* Goes through the rows that are missing; those that another process is measuring are left
+   to it or, with wait, waited for. */
 static mote_status measure_rows(study *s, bool wait)
 {
     mote_status status = MOTE_OK;
@@ -150,13 +150,13 @@ static mote_status measure_rows(study *s, bool wait)
     return status;
 }
 
-/* What a child is told, in its own copy of the parent's memory. */
+/* The child's task, in its own copy of the parent's memory. */
 typedef struct row_task {
     study *study;
     mote_dynamics_row *row;
 } row_task;
 
-/* The row's file is all that a child leaves. */
+/* A child returns nothing but the row's file. */
 static mote_status measure_in_child(void *context, int output)
 {
     const row_task *task = context;
@@ -164,7 +164,7 @@ static mote_status measure_in_child(void *context, int output)
     return measure(task->study, task->row);
 }
 
-/* Begins a row that is neither there nor another process's. */
+/* Starts a row that is neither stored nor being measured by another process. */
 static mote_status start_row(void *context, size_t index, mote_child *child)
 {
     study *s = context;
@@ -180,7 +180,7 @@ static mote_status start_row(void *context, size_t index, mote_child *child)
     return status;
 }
 
-/* What a child failed in is found missing afterwards, and met again. */
+/* A row in which a child failed is missing afterwards, and is tried again in this process. */
 static mote_status finish_row(void *context, size_t index, mote_child *child, double seconds)
 {
     const study *s = context;
@@ -223,7 +223,7 @@ static mote_status measure_all(study *s, uint32_t jobs)
     return status;
 }
 
-/* The failures, told on stderr; the caller decrefs. */
+/* The failures, printed to stderr; the caller decrefs. */
 static json_t *failures_of(const study *s)
 {
     json_t *failures = json_array();

@@ -11,11 +11,11 @@
 
 #define METHODS_MAX 64
 
-/* None of these may be wrong: they are ours. */
+/* Our own methods: none of them may be wrong. */
 static const char *const ours[] = {"particle-paper", "particle",    "certified",
                                    "aabb-tree",      "brute-force", "hybrid-fcl"};
 
-/* As they are printed, one letter a verdict. */
+/* One letter for each verdict, as printed. */
 static const char letters[MOTE_EXTREME_VERDICTS + 1] = " .ixWNHC";
 
 /* One scene's results. */
@@ -267,8 +267,8 @@ static mote_status write_markdown(const study *s, const char *directory)
         {MOTE_EXTREME_HUNG, "Hung", "No answer within 10 seconds."},
         {MOTE_EXTREME_NAN, "No number", "An answer that is not finite."},
         {MOTE_EXTREME_WRONG, "Wrong",
-         "Against what the method promises, without a word: not the exact distance where it "
-         "claims exactness, nearer than the truth, or points that are not on the surfaces."},
+         "Not what the method promises, and not reported by it: not the exact distance where "
+         "it claims exactness, below the truth, or points that are not on the surfaces."},
         {MOTE_EXTREME_REFUSED, "Refused", "An error with a text instead of an answer."},
         {MOTE_EXTREME_INEXACT, "Inexact as allowed",
          "By methods that only approximate, or within 16 units in the last place of the "
@@ -292,7 +292,8 @@ static mote_status write_markdown(const study *s, const char *directory)
     return mote_record_text(directory, "extremes.md", &text);
 }
 
-/* Columns that a family takes in the figure, at least: or single ones could not be seen. */
+/* The least number of columns of a family in the figure, so that single extremes remain
+   visible. */
 #define FAMILY_WIDTH 6.0
 
 static size_t family_size(const study *s, size_t first)
@@ -343,7 +344,7 @@ static mote_status write_figure(const study *s, const char *directory)
     return status == MOTE_OK ? mote_figures_plot(directory, "extremes", "extremes") : status;
 }
 
-/* What was not met goes to stderr, a line each. */
+/* Prints what was not met to stderr, a line each. */
 static bool check(const study *s)
 {
     bool met = true;
