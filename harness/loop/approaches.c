@@ -4,6 +4,7 @@
 #include "harness/scene/turn.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Evenly from all rotations (Shoemake 1992). */
 static mote_quaternion random_turn(mote_random *random)
@@ -16,7 +17,7 @@ static mote_quaternion random_turn(mote_random *random)
     return (mote_quaternion){b * d, a * s, a * c, b * t};
 }
 
-static double reach_of(const mote_mesh *mesh, mote_vec3 centre)
+static double radius_of(const mote_mesh *mesh, mote_vec3 centre)
 {
     double most = 0;
     for (uint32_t v = 0; v < mesh->vertex_count; ++v)
@@ -25,7 +26,7 @@ static double reach_of(const mote_mesh *mesh, mote_vec3 centre)
 }
 
 mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mote_mass *masses,
-                                         uint32_t index)
+                                         uint32_t index, mote_rigid_state states[2])
 {
     mote_random random = {MOTE_APPROACH_SEED + index};
     const double length = scenario->length;
@@ -33,23 +34,26 @@ mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mo
     const double range = log(MOTE_APPROACH_FASTEST / MOTE_APPROACH_SLOWEST);
     const double speed =
         length * MOTE_APPROACH_SLOWEST * exp(range * mote_random_unit(&random));
-    mote_simulation_start start = {
-        .seed = index + 1, .apart = MOTE_APPROACH_APART * length, .depth_unreported = true};
+    memset(states, 0, 2 * sizeof *states);
+    mote_simulation_start start = {.states = states,
+                                   .seed = index + 1,
+                                   .apart = MOTE_APPROACH_APART * length,
+                                   .depth_unreported = true};
     start.first = 1 + (uint32_t)mote_random_below(&random, scenario->frames);
     for (int i = 0; i < 2; ++i) {
-        start.state[i].turn = random_turn(&random);
+        states[i].turn = random_turn(&random);
         const double turning = MOTE_APPROACH_DEGREES * radian * mote_random_unit(&random);
-        start.state[i].angular_momentum = mote_rigid_angular_momentum(
-            &masses[i], &start.state[i], mote_scale(mote_random_direction(&random), turning));
+        states[i].angular_momentum = mote_rigid_angular_momentum(
+            &masses[i], &states[i], mote_scale(mote_random_direction(&random), turning));
     }
     const mote_vec3 from = mote_random_direction(&random);
     mote_vec3 aside = mote_cross(from, mote_random_direction(&random));
     aside = mote_scale(aside, MOTE_APPROACH_ASIDE * length * sqrt(mote_random_unit(&random)));
-    const double far = reach_of(scenario->body[0].mesh, masses[0].centre) +
-                       reach_of(scenario->body[1].mesh, masses[1].centre) +
+    const double far = radius_of(scenario->body[0].mesh, masses[0].centre) +
+                       radius_of(scenario->body[1].mesh, masses[1].centre) +
                        MOTE_APPROACH_CLEAR * length;
-    start.state[1].centre = mote_add_scaled(aside, far, from);
-    start.state[1].velocity = mote_scale(from, -speed);
+    states[1].centre = mote_add_scaled(aside, far, from);
+    states[1].velocity = mote_scale(from, -speed);
     const double steps = ceil(2 * far / speed);
     start.steps = steps < MOTE_APPROACH_STEPS ? (uint32_t)steps : MOTE_APPROACH_STEPS;
     return start;
@@ -90,8 +94,9 @@ mote_status mote_approaches_simulate(const mote_scenario *scenario, const char *
         status = mote_simulator_create(scenario, &choice, &options, &simulator);
     mote_approaches made = {0};
     for (uint32_t i = 0; status == MOTE_OK && made.approaches < wanted && i < 4 * wanted; ++i) {
+        mote_rigid_state states[2];
         const mote_simulation_start start =
-            mote_approach_draw(scenario, mote_simulator_masses(simulator), i);
+            mote_approach_draw(scenario, mote_simulator_masses(simulator), i, states);
         mote_simulation_result result;
         status = mote_simulator_run(simulator, &start, NULL, &result);
         if (status == MOTE_OK)

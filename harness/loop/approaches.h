@@ -56,9 +56,10 @@ typedef struct mote_approaches {
 #undef MOTE_APPROACHES_COUNT
 #undef MOTE_APPROACHES_FIGURE
 
-/* Approach number index (from 0), the same for every method: masses[2] are the bodies'. */
+/* Approach number index (from 0), the same for every method: masses[2] are the bodies'. states
+   receives where it starts, and is borrowed by what is returned. */
 mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mote_mass *masses,
-                                         uint32_t index);
+                                         uint32_t index, mote_rigid_state states[2]);
 
 /* Simulates approaches 0, 1, ... until `wanted` came to a contact, or 4 * wanted were tried. */
 mote_status mote_approaches_simulate(const mote_scenario *scenario, const char *method,

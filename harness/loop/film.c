@@ -1,8 +1,9 @@
 #include "harness/loop/film.h"
 
 #include "core/body/deform.h"
-#include "harness/process/gnuplot.h"
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
+#include "harness/process/gnuplot.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,40 +16,50 @@
 static const mote_vec3 front = {0.35, 0.45, 1};
 
 struct mote_film {
-    const mote_scenario *scenario;
+    mote_simulated bodies;
     char *method, *path, *folder;
     uint32_t every; /* a picture every so many steps */
     uint32_t pictures;
-    bool contact; /* reported in the step before */
-    mote_deform *deform[2];
-    mote_vec3 *world[2];
+    bool contact;                /* reported in the step before */
+    mote_deform **deform;        /* of the shapes */
+    mote_vec3 **world;           /* vertices of the bodies */
     mote_vec3 right, up, toward; /* axes of the picture, toward who looks */
     double box[4];               /* low x, high x, low y, high y of all pictures, over L */
 };
 
-mote_status mote_film_create(const mote_scenario *scenario, const char *method, uint32_t steps,
-                             const char *path, mote_film **film)
+static const mote_body *shape_of(const mote_film *film, uint32_t i)
 {
-    mote_film *made = calloc(1, sizeof *made);
-    if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for a film");
-    made->scenario = scenario;
-    made->method = mote_format("%s", method);
-    made->path = mote_format("%s", path);
+    return film->bodies.shapes[film->bodies.shape_of[i]];
+}
+
+static mote_status make_bodies(mote_film *film)
+{
+    const mote_simulated *bodies = &film->bodies;
+    mote_status status = MOTE_OK;
+    film->deform = mote_allocate(bodies->shape_count, sizeof(mote_deform *));
+    film->world = mote_allocate(bodies->count, sizeof(mote_vec3 *));
+    for (uint32_t i = 0; i < bodies->count; ++i)
+        film->world[i] =
+            mote_allocate(shape_of(film, i)->mesh->vertex_count, sizeof(mote_vec3));
+    for (uint32_t k = 0; k < bodies->shape_count && status == MOTE_OK; ++k)
+        status = mote_deform_create(bodies->shapes[k], &film->deform[k]);
+    return status;
+}
+
+mote_status mote_film_create(const mote_simulator *simulator, const char *method,
+                             uint32_t steps, const char *path, mote_film **film)
+{
+    mote_film *made = mote_allocate(1, sizeof *made);
+    made->bodies = mote_simulator_bodies(simulator);
+    made->method = mote_duplicate(method);
+    made->path = mote_duplicate(path);
     made->folder = mote_path_is_stream(path)
                        ? mote_format("/tmp/mote.%ld.frames", (long)getpid())
                        : mote_format("%s.frames", path);
     made->every = steps / MOTE_FILM_PICTURES + 1;
     made->box[0] = made->box[2] = HUGE_VAL;
     made->box[1] = made->box[3] = -HUGE_VAL;
-    mote_status status = MOTE_OK;
-    if (!made->method || !made->path || !made->folder)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a film");
-    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
-        made->world[i] = malloc(scenario->body[i].mesh->vertex_count * sizeof(mote_vec3));
-        status = made->world[i] ? mote_deform_create(&scenario->body[i], &made->deform[i])
-                                : mote_fail(MOTE_ENOMEM, "no memory for a body's vertices");
-    }
+    mote_status status = make_bodies(made);
     if (status == MOTE_OK)
         status = mote_directory_make(made->folder);
     if (status == MOTE_OK)
@@ -72,12 +83,10 @@ static void remove_folder(const mote_film *film)
         char *file = k < film->pictures
                          ? picture_file(film, k)
                          : mote_format("%s/%s", film->folder, others[k - film->pictures]);
-        if (file)
-            (void)unlink(file);
+        (void)unlink(file);
         free(file);
     }
-    if (film->folder)
-        (void)rmdir(film->folder);
+    (void)rmdir(film->folder);
 }
 
 void mote_film_destroy(mote_film *film)
@@ -85,32 +94,35 @@ void mote_film_destroy(mote_film *film)
     if (!film)
         return;
     remove_folder(film);
-    for (int i = 0; i < 2; ++i) {
-        mote_deform_destroy(film->deform[i]);
+    for (uint32_t k = 0; k < film->bodies.shape_count; ++k)
+        mote_deform_destroy(film->deform[k]);
+    for (uint32_t i = 0; i < film->bodies.count; ++i)
         free(film->world[i]);
-    }
+    free(film->deform);
+    free(film->world);
     free(film->method);
     free(film->path);
     free(film->folder);
     free(film);
 }
 
-static mote_vec3 middle_of(const mote_film *film, int i)
+static mote_vec3 middle_of(const mote_film *film, uint32_t i)
 {
-    const uint32_t count = film->scenario->body[i].mesh->vertex_count;
+    const uint32_t count = shape_of(film, i)->mesh->vertex_count;
     mote_vec3 sum = {0, 0, 0};
     for (uint32_t v = 0; v < count; ++v)
         sum = mote_add_scaled(sum, 1.0 / count, film->world[i][v]);
     return sum;
 }
 
-/* Looks across the line between the bodies of the first picture, y upwards. */
+/* Looks from the front; of two bodies across the line between them in the first picture. y is
+   upwards. */
 static void aim(mote_film *film)
 {
     const mote_vec3 line = mote_sub(middle_of(film, 1), middle_of(film, 0));
     const double square = mote_length_squared(line);
     mote_vec3 toward = front;
-    if (square > 0)
+    if (film->bodies.count == 2 && square > 0)
         toward = mote_add_scaled(front, -mote_dot(front, line) / square, line);
     if (!(mote_length(mote_cross(mote_vec3_make(0, 1, 0), toward)) > 0.1 * mote_length(front)))
         toward = front;
@@ -125,7 +137,7 @@ static mote_vec3 see(const mote_film *film, mote_vec3 p)
 {
     return mote_scale(mote_vec3_make(mote_dot(p, film->right), mote_dot(p, film->up),
                                      mote_dot(p, film->toward)),
-                      1 / film->scenario->length);
+                      1 / film->bodies.length);
 }
 
 static void add_point(const mote_film *film, mote_vec3 p, mote_text *text)
@@ -134,10 +146,10 @@ static void add_point(const mote_film *film, mote_vec3 p, mote_text *text)
     mote_text_add(text, "%.4f %.4f %.4f\n", q.x, q.y, q.z);
 }
 
-/* A block of the triangles of body i that are seen from their outside. */
-static void add_body(mote_film *film, int i, mote_text *text)
+/* The triangles of body i that are seen from their outside. */
+static void add_body(mote_film *film, uint32_t i, mote_text *text)
 {
-    const mote_mesh *mesh = film->scenario->body[i].mesh;
+    const mote_mesh *mesh = shape_of(film, i)->mesh;
     const mote_vec3 *world = film->world[i];
     for (uint32_t f = 0; f < mesh->triangle_count; ++f) {
         const uint32_t *t = mesh->triangles[f];
@@ -149,7 +161,6 @@ static void add_body(mote_film *film, int i, mote_text *text)
             add_point(film, world[t[k]], text);
         mote_text_add(text, "\n");
     }
-    mote_text_add(text, "\n");
     for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
         const mote_vec3 p = see(film, world[v]);
         film->box[0] = fmin(film->box[0], p.x);
@@ -159,17 +170,52 @@ static void add_body(mote_film *film, int i, mote_text *text)
     }
 }
 
-/* A block of the particles of body i; one point that is not shown where there is none. */
+/* A block of every other body, from the first or the second on. */
+static void add_bodies(mote_film *film, uint32_t first, mote_text *text)
+{
+    for (uint32_t i = first; i < film->bodies.count; i += 2)
+        add_body(film, i, text);
+    mote_text_add(text, "\n");
+}
+
+/* A point that is not shown: blocks must not be empty. */
+static void add_nothing(mote_text *text)
+{
+    mote_text_add(text, "NaN NaN NaN\n");
+}
+
+/* A block of the particles of body i of two. */
 static void add_particles(const mote_film *film, const mote_simulation_view *view, int i,
                           mote_text *text)
 {
     mote_vec3 positions[PARTICLES_MAX];
-    size_t count = mote_probe_particles(view->method, i, positions, PARTICLES_MAX);
+    size_t count = 0;
+    if (view->method)
+        count = mote_probe_particles(view->method, i, positions, PARTICLES_MAX);
     count = count < PARTICLES_MAX ? count : PARTICLES_MAX;
     for (size_t k = 0; k < count; ++k)
         add_point(film, positions[k], text);
     if (count == 0)
-        mote_text_add(text, "NaN NaN NaN\n");
+        add_nothing(text);
+    mote_text_add(text, "\n\n");
+}
+
+/* A block of the closest points: of two bodies always, of many where a contact is reported. */
+static void add_closest(const mote_film *film, const mote_simulation_view *view,
+                        mote_text *text)
+{
+    size_t shown = 0;
+    for (size_t k = 0; k < view->said_count; ++k) {
+        const mote_answer *answer = &view->said[k].answer;
+        if (!answer->has_witness || (film->bodies.count > 2 && !answer->contact))
+            continue;
+        if (shown++ > 0)
+            mote_text_add(text, "\n"); /* lines of their own */
+        for (int i = 0; i < 2; ++i)
+            add_point(film, answer->witness[i], text);
+    }
+    if (shown == 0)
+        add_nothing(text);
     mote_text_add(text, "\n\n");
 }
 
@@ -181,24 +227,18 @@ mote_status mote_film_watch(void *film, const mote_simulation_view *view)
     if ((view->step % f->every != 0 && !begins) || f->pictures == 2 * MOTE_FILM_PICTURES)
         return MOTE_OK;
     mote_text text = {0};
-    for (int i = 0; i < 2; ++i)
-        mote_deform_all(f->deform[i], &view->frame->body[i], f->world[i]);
+    for (uint32_t i = 0; i < f->bodies.count; ++i)
+        mote_deform_all(f->deform[f->bodies.shape_of[i]], &view->states[i], f->world[i]);
     if (f->pictures == 0)
         aim(f);
-    for (int i = 0; i < 2; ++i)
-        add_body(f, i, &text);
+    add_bodies(f, 0, &text);
+    add_bodies(f, 1, &text);
     for (int i = 0; i < 2; ++i)
         add_particles(f, view, i, &text);
-    const mote_vec3 *pair = view->said->witness;
-    for (int i = 0; i < 2 && view->said->has_witness; ++i)
-        add_point(f, pair[i], &text);
-    if (!view->said->has_witness)
-        mote_text_add(&text, "NaN NaN NaN\n");
-    mote_text_add(&text, "\n\n%d %d %u\n", view->contact, view->truth, view->step);
+    add_closest(f, view, &text);
+    mote_text_add(&text, "%d %d %u\n", view->contact, view->truth, view->step);
     char *file = picture_file(f, f->pictures);
-    mote_status status = file && !text.failed
-                             ? mote_file_write(file, text.data, text.size)
-                             : mote_fail(MOTE_ENOMEM, "no memory for a picture");
+    const mote_status status = mote_file_write(file, text.data, text.size);
     free(file);
     free(text.data);
     f->pictures += status == MOTE_OK;
@@ -216,14 +256,13 @@ static mote_status write_index(const mote_film *film)
 
 mote_status mote_film_draw(const mote_film *film)
 {
-    char *heading = mote_format("%s, %s", film->scenario->name, film->method);
+    char *heading = mote_format("%s, %s", film->bodies.name, film->method);
     char *made = mote_format("%s/film.gif", film->folder);
-    mote_status status =
-        heading && made ? write_index(film) : mote_fail(MOTE_ENOMEM, "no memory for a film");
-    if (status == MOTE_OK)
-        status = mote_gnuplot_draw(film->folder, "simulation", "film", heading, "", "gif");
     char *picture = NULL;
     size_t size = 0;
+    mote_status status = write_index(film);
+    if (status == MOTE_OK)
+        status = mote_gnuplot_draw(film->folder, "simulation", "film", heading, "", "gif");
     if (status == MOTE_OK)
         status = mote_file_read(made, SIZE_MAX, &picture, &size);
     if (status == MOTE_OK)

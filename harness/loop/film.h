@@ -1,9 +1,10 @@
-/* An animation of a simulation: both bodies lit, the method's particles, its closest pair, and
-   where it reports a contact. A GIF, drawn by gnuplot from plots/simulation.gp. */
+/* An animation of a simulation: the bodies lit, where the method reports a contact, and of two
+   bodies its particles and the closest points. A GIF, drawn by gnuplot from
+   plots/simulation.gp. */
 #ifndef MOTE_HARNESS_FILM_H
 #define MOTE_HARNESS_FILM_H
 
-#include "harness/loop/simulate.h"
+#include "harness/loop/simulator.h"
 
 /* Pictures, about; besides, one where a contact is first reported, twice as many in all at
    most. */
@@ -11,11 +12,12 @@
 
 typedef struct mote_film mote_film;
 
-/* Of a simulation of so many steps of a scenario (borrowed) by a method (its name as shown),
-   into the GIF file path. Geometry is kept in the folder path.frames, up to some 200 bytes a
-   triangle and picture, until the film is destroyed. MOTE_EIO, MOTE_ENOMEM. */
-mote_status mote_film_create(const mote_scenario *scenario, const char *method, uint32_t steps,
-                             const char *path, mote_film **film);
+/* Of a simulation of so many steps by a method (its name as shown), into the GIF file path. The
+   simulator is borrowed until the film is destroyed. Geometry is kept in the folder
+   path.frames, up to some 200 bytes a triangle and picture, until then. MOTE_EIO; MOTE_ENOMEM
+   for what a shape's deformation needs. */
+mote_status mote_film_create(const mote_simulator *simulator, const char *method,
+                             uint32_t steps, const char *path, mote_film **film);
 void mote_film_destroy(mote_film *film); /* NULL is allowed */
 
 /* A mote_simulation_watch: the film is its context. */

@@ -9,11 +9,11 @@
 
 /* The key poses of body i. */
 static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
-                           const mote_rigid_state (*states)[2], uint32_t count, int i)
+                           const mote_rigid_state *states, uint32_t count, int i)
 {
     json_t *keys = json_array();
     for (uint32_t k = 0; k < count; ++k) {
-        const mote_rigid_state *state = &states[k][i];
+        const mote_rigid_state *state = &states[(size_t)2 * k + (size_t)i];
         const mote_pose pose = mote_rigid_pose(mass, state);
         const mote_vec3 middle = mote_pose_apply(&pose, scenario->motion->body[i].centre);
         const mote_vec3 p = mote_scale(middle, 1 / scenario->length);
@@ -26,14 +26,12 @@ static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
 }
 
 static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mote_mass mass[2],
-                           const mote_rigid_state (*states)[2], uint32_t count)
+                           const mote_rigid_state *states, uint32_t count)
 {
     (void)json_object_del(root, "warmup");
     (void)json_object_set_new(root, "frames", json_integer(count));
     (void)json_object_set_new(root, "ask", json_string("distance"));
     char *purpose = mote_format("A simulated run of %s, recorded.", scenario->name);
-    if (!purpose)
-        return mote_fail(MOTE_ENOMEM, "no memory for a trace");
     (void)json_object_set_new(root, "purpose", json_string(purpose));
     free(purpose);
     mote_status status = MOTE_OK;
@@ -67,7 +65,7 @@ static mote_status check_deformation(const mote_scenario *scenario, uint32_t cou
 }
 
 mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
-                             const mote_rigid_state (*states)[2], uint32_t count,
+                             const mote_rigid_state *states, uint32_t count,
                              const mote_simulation_options *options, const char *path)
 {
     mote_json_file file;

@@ -110,7 +110,7 @@ static mote_simulation_result run_of(const mote_scenario *scenario,
     mote_simulator *simulator = simulator_of(scenario, choice, options);
     const mote_simulation_start start = mote_simulation_start_of(simulator);
     mote_simulation_result result;
-    if (mote_simulator_run(simulator, &start, trace, &result) != MOTE_OK)
+    if (mote_simulator_run(simulator, &start, trace ? trace[0] : NULL, &result) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     mote_simulator_destroy(simulator);
     return result;
@@ -157,9 +157,8 @@ TEST(simulator_run_blind_method_passes_through)
     assert_int_equal(r.responses, 0);
     /* Replayed as a scenario, the truth of its own code finds the same contacts. */
     mote_simulator *simulator = simulator_of(scenario, &blind, &options);
-    assert_int_equal(mote_trace_write(scenario, mote_simulator_masses(simulator),
-                                      (const mote_rigid_state(*)[2])trace, scenario->frames,
-                                      &options, TRACE),
+    assert_int_equal(mote_trace_write(scenario, mote_simulator_masses(simulator), trace[0],
+                                      scenario->frames, &options, TRACE),
                      MOTE_OK);
     mote_scenario *replay = NULL;
     mote_truth *truth = NULL;
@@ -317,7 +316,7 @@ TEST(simulator_run_of_one_frame_moves_on)
     start.steps = 30;
     mote_rigid_state(*trace)[2] = calloc(31, sizeof *trace);
     mote_simulation_result r;
-    assert_int_equal(mote_simulator_run(simulator, &start, trace, &r), MOTE_OK);
+    assert_int_equal(mote_simulator_run(simulator, &start, trace[0], &r), MOTE_OK);
     assert_int_equal(r.steps, 30);
     assert_close(trace[30][1].centre.x - trace[0][1].centre.x, 30 * trace[0][1].velocity.x,
                  1e-12);
@@ -522,16 +521,18 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         mote_film *film = NULL;
         mote_probe *probe = NULL;
         mote_frame_buffer *buffer = NULL;
-        mote_answer none = {0};
+        const mote_bodies_pair none = {.body = {0, 1}};
         char name[64], *text = NULL;
         size_t size = 0;
-        assert_int_equal(mote_film_create(scenario, "certified", 1000, FILM, &film), MOTE_OK);
+        const mote_simulation_options options = mote_default_simulation_options(scenario);
+        mote_simulator *simulator = simulator_of(scenario, &choice, &options);
+        assert_int_equal(mote_film_create(simulator, "certified", 1000, FILM, &film), MOTE_OK);
         assert_int_equal(mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
                                            scenario->ask, 0, 1, &probe),
                          MOTE_OK);
         assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
-        mote_simulation_view view = {.said = &none, .method = probe};
-        view.frame = mote_scenario_frame(scenario, buffer, 1, 0);
+        mote_simulation_view view = {.said = &none, .said_count = 1, .method = probe};
+        view.states = mote_scenario_frame(scenario, buffer, 1, 0)->body;
         for (view.step = 0; view.step < (p == 0 ? 500 : 3); ++view.step) {
             view.contact = view.step % 2 == 1;
             assert_int_equal(mote_film_watch(film, &view), MOTE_OK);
@@ -548,6 +549,7 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         assert_int_not_equal(access(FILM ".frames", F_OK), 0);
         mote_frame_buffer_destroy(buffer);
         mote_probe_destroy(probe);
+        mote_simulator_destroy(simulator);
         mote_scenario_destroy(scenario);
     }
 }

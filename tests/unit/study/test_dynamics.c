@@ -72,17 +72,19 @@ TEST(approach_draw_starts_apart_and_aims_at_the_other)
     const double length = scenario->length;
     double slowest = HUGE_VAL, fastest = 0, most_aside = 0;
     for (uint32_t index = 0; index < 1000; ++index) {
-        const mote_simulation_start a = mote_approach_draw(scenario, mass, index);
-        const mote_simulation_start b = mote_approach_draw(scenario, mass, index);
-        assert_memory_equal(&a.state, &b.state, sizeof a.state);
-        const mote_vec3 away = mote_sub(a.state[1].centre, a.state[0].centre);
-        const mote_vec3 v = a.state[1].velocity;
+        mote_rigid_state state[2], again[2];
+        const mote_simulation_start a = mote_approach_draw(scenario, mass, index, state);
+        const mote_simulation_start b = mote_approach_draw(scenario, mass, index, again);
+        assert_memory_equal(state, again, sizeof state);
+        assert_true(a.states == state && b.states == again && a.steps == b.steps);
+        const mote_vec3 away = mote_sub(state[1].centre, state[0].centre);
+        const mote_vec3 v = state[1].velocity;
         const double speed = mote_length(v), along = -mote_dot(away, v) / speed;
         const double aside = sqrt(fmax(0, mote_length_squared(away) - along * along));
         assert_true(along > length && a.steps * speed > along);
         assert_true(a.first >= 1 && a.first <= scenario->frames);
         for (int i = 0; i < 2; ++i) {
-            const mote_vec3 w = mote_rigid_angular_velocity(&mass[i], &a.state[i]);
+            const mote_vec3 w = mote_rigid_angular_velocity(&mass[i], &state[i]);
             assert_true(mote_length(w) <= 0.0349066);
         }
         slowest = fmin(slowest, speed / length);

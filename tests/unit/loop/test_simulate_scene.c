@@ -1,5 +1,6 @@
 /* Several bodies in the closed loop: what is booked, what is kept, what is refused. */
-#include "harness/loop/bodies_simulate.h"
+#include "harness/loop/contact_runs.h"
+#include "harness/loop/simulate.h"
 
 #include "harness/base/file.h"
 #include "tests/support/folder.h"
@@ -9,6 +10,7 @@
 
 #define FILE_NAME "b.json"
 #define SAID "said"
+#define FILM "film.gif"
 
 static void write_file(const char *bodies)
 {
@@ -44,30 +46,30 @@ static mote_status depth_by_body(void *context, const uint32_t body[2], double a
     return MOTE_OK;
 }
 
-TEST(mote_bodies_book_step_runs_of_several_pairs_are_kept_apart)
+TEST(contact_runs_step_runs_of_several_pairs_are_kept_apart)
 {
     static const char *const truth[] = {"0-1 2-3", "0-1! 2-3!", "0-1! 1-4! 2-3!", "0-1! 1-4",
                                         "0-1 1-4!"};
     static const char *const said[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
-    mote_bodies_book book = {.count = 0};
+    mote_contact_runs runs = {.count = 0};
     for (uint32_t k = 0; k < 5; ++k) {
         mote_bodies_pair a[8], b[8];
         const size_t m = pairs_of(truth[k], a), n = pairs_of(said[k], b);
-        assert_int_equal(mote_bodies_book_step(&book, k, a, m, b, n, depth_by_body, NULL),
+        assert_int_equal(mote_contact_runs_step(&runs, k, a, m, b, n, depth_by_body, NULL),
                          MOTE_OK);
     }
-    mote_bodies_book_end(&book);
-    assert_int_equal(book.contact_steps, 7);
-    assert_int_equal(book.missed_steps, 4); /* 0-1 at 1, 1-4 and 2-3 at 2, 1-4 at 4 */
-    assert_int_equal(book.false_steps, 1);
-    assert_int_equal(book.approaches, 4);
-    assert_int_equal(book.passes, 2); /* 1-4, twice */
-    assert_int_equal(book.deep_passes, 2);
-    assert_int_equal(book.delay_sum, 1);
-    assert_int_equal(book.delay_max, 1);
-    assert_close(book.depth_max, 2, 0);
-    assert_close(book.depth_passes, 2, 0);
-    mote_bodies_book_free(&book);
+    mote_contact_runs_end(&runs);
+    assert_int_equal(runs.contact_steps, 7);
+    assert_int_equal(runs.missed_steps, 4); /* 0-1 at 1, 1-4 and 2-3 at 2, 1-4 at 4 */
+    assert_int_equal(runs.false_steps, 1);
+    assert_int_equal(runs.approaches, 4);
+    assert_int_equal(runs.passes, 2); /* 1-4, twice */
+    assert_int_equal(runs.deep_passes, 2);
+    assert_int_equal(runs.delay_sum, 1);
+    assert_int_equal(runs.delay_max, 1);
+    assert_close(runs.depth_max, 2, 0);
+    assert_close(runs.depth_passes, 2, 0);
+    mote_contact_runs_free(&runs);
 }
 
 #define LETTERS                                                                                \
@@ -75,12 +77,13 @@ TEST(mote_bodies_book_step_runs_of_several_pairs_are_kept_apart)
     "\"support\": 0.5, \"displacement\": {\"random\": {\"seed\": 5, \"amplitude\": 0.03, "     \
     "\"periods\": [40, 90]}}}}, {\"letter\": \"T\", \"triangles\": 400}]"
 
-static mote_bodies_simulation simulate(const char *method, double restitution,
+static mote_simulation_result simulate(const char *method, double restitution,
                                        mote_vec3 gravity)
 {
     mote_bodies *bodies = NULL;
     mote_method_choice choice;
-    mote_bodies_simulation result;
+    mote_simulator *simulator = NULL;
+    mote_simulation_result result;
     const mote_simulation_options options = {.density = 2,
                                              .restitution = restitution,
                                              .tolerance = 0.01,
@@ -88,46 +91,50 @@ static mote_bodies_simulation simulate(const char *method, double restitution,
                                              .time_step = 1};
     if (mote_bodies_load(FILE_NAME, &bodies) != MOTE_OK ||
         mote_scene_choice_read(method, &choice) != MOTE_OK ||
-        mote_bodies_simulate(bodies, &choice, &options, 119, 1, &result) != MOTE_OK)
+        mote_simulator_create_of_scene(bodies, &choice, &options, &simulator) != MOTE_OK)
         fail_msg("%s: %s", method, mote_error_text());
+    const mote_simulation_start start = mote_simulation_start_of(simulator);
+    if (mote_simulator_run(simulator, &start, NULL, &result) != MOTE_OK)
+        fail_msg("%s: %s", method, mote_error_text());
+    mote_simulator_destroy(simulator);
     mote_bodies_destroy(bodies);
     assert_int_equal(result.steps, 119);
-    assert_true(result.book.approaches > 0 && result.responses > 0 && result.bounces > 0);
+    assert_true(result.approaches > 0 && result.responses > 0 && result.bounces > 0);
     return result;
 }
 
-TEST(mote_bodies_simulate_exact_methods_see_all_and_keep_the_invariants)
+TEST(simulator_run_of_many_exact_methods_see_all_and_keep_the_invariants)
 {
     static const char *const methods[] = {"certified", "aabb-tree", "certified:threads=2"};
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
-    mote_bodies_simulation r[3];
+    mote_simulation_result r[3];
     for (int m = 0; m < 3; ++m) {
         r[m] = simulate(methods[m], 1, mote_vec3_make(0, 0, 0));
-        assert_int_equal(r[m].book.missed_steps, 0);
-        assert_int_equal(r[m].book.false_steps, 0);
-        assert_int_equal(r[m].book.passes, 0);
+        assert_int_equal(r[m].missed_steps, 0);
+        assert_int_equal(r[m].false_steps, 0);
+        assert_int_equal(r[m].passes, 0);
         assert_true(r[m].energy_drift < 1e-12 && r[m].momentum_drift < 1e-13);
     }
     assert_int_equal(r[0].responses, r[2].responses);
-    assert_int_equal(r[0].book.contact_steps, r[2].book.contact_steps);
+    assert_int_equal(r[0].contact_steps, r[2].contact_steps);
 }
 
 /* What impacts lose is booked, and what gravity gives. */
-TEST(mote_bodies_simulate_losses_and_gravity_are_booked)
+TEST(simulator_run_of_many_losses_and_gravity_are_booked)
 {
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
-    const mote_bodies_simulation r = simulate("certified", 0.5, mote_vec3_make(0, -1e-3, 0));
+    const mote_simulation_result r = simulate("certified", 0.5, mote_vec3_make(0, -1e-3, 0));
     assert_true(r.energy_drift < 1e-11 && r.momentum_drift < 1e-11);
 }
 
 /* Particles that see contacts late or never: what they miss is counted. */
-TEST(mote_bodies_simulate_one_particle_misses_contacts)
+TEST(simulator_run_of_many_one_particle_misses_contacts)
 {
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
-    const mote_bodies_simulation r =
+    const mote_simulation_result r =
         simulate("particle-paper:n=1,refine=no", 1, mote_vec3_make(0, 0, 0));
-    assert_true(r.book.missed_steps + r.book.false_steps > 0);
-    assert_true(r.book.missed_steps <= r.book.contact_steps);
+    assert_true(r.missed_steps + r.false_steps > 0);
+    assert_true(r.missed_steps <= r.contact_steps);
     assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-13);
 }
 
@@ -163,6 +170,20 @@ TEST(mote_simulate_several_bodies_on_the_command_line)
     write_file("\"count\": 2, \"box\": 4, \"shapes\": [{\"file\": \"" MOTE_SOURCE_DIR
                "/datasets/meshes/teapot.obj\"}]");
     check("simulate " FILE_NAME " --method certified", 4, "shape 1 cannot respond");
+}
+
+/* Pictures of eight bodies, also where a contact is reported. */
+TEST(mote_simulate_films_several_bodies)
+{
+    char *gif = NULL;
+    size_t size = 0;
+    write_file("\"count\": 8, \"box\": 3, " LETTERS);
+    check("simulate " FILE_NAME " --method certified --steps 3 --film " FILM, 0, "8 bodies");
+    assert_int_equal(mote_file_read(FILM, 1 << 24, &gif, &size), MOTE_OK);
+    assert_memory_equal(gif, "GIF89a", 6);
+    free(gif);
+    assert_int_equal(unlink(FILM), 0);
+    assert_int_not_equal(access(FILM ".frames", F_OK), 0);
 }
 
 /* Farther apart than scenarios want bodies to be, nearer than this contact. */

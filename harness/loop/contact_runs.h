@@ -1,0 +1,47 @@
+/* What a method says of contacts against the truth, run by run: a run is a maximal sequence of
+   steps at which a pair of bodies touches. */
+#ifndef MOTE_HARNESS_CONTACT_RUNS_H
+#define MOTE_HARNESS_CONTACT_RUNS_H
+
+#include "harness/run/bodies_engine.h"
+
+/* A run that has not ended. */
+typedef struct mote_contact_run {
+    uint32_t body[2];
+    uint32_t began;
+    bool reported; /* by the method */
+    double depth;  /* the deepest so far, absolute */
+} mote_contact_run;
+
+/* Zero-initialise, and set depth_unreported where it is wanted. */
+typedef struct mote_contact_runs {
+    bool depth_unreported; /* measure depth only until a run is reported: it takes longest */
+    mote_contact_run *current, *next; /* in the order of pairs */
+    size_t count, current_capacity, next_capacity;
+    uint64_t contact_steps;         /* pairs and steps at which truth is a contact */
+    uint64_t missed_steps;          /* of them the method said none */
+    uint64_t false_steps;           /* pairs and steps: the method said contact, truth none */
+    uint64_t approaches;            /* runs that ended */
+    uint64_t passes;                /* of them the method never said contact: passes through */
+    uint64_t deep_passes;           /* of them a vertex of one body was inside the other */
+    uint64_t delay_sum, delay_max;  /* steps from a run's begin to its first report */
+    double depth_max, depth_passes; /* absolute */
+} mote_contact_runs;
+
+/* Deepest vertex of a pair, or `above` where none is deeper. */
+typedef mote_status (*mote_contact_depth)(void *context, const uint32_t body[2], double above,
+                                          double *depth);
+
+/* Counts step k: near pairs with the truth's and with the method's answers, both in the order
+   of pairs. depth is asked of pairs whose surfaces meet. */
+mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
+                                   const mote_bodies_pair *truth, size_t truth_count,
+                                   const mote_bodies_pair *said, size_t said_count,
+                                   mote_contact_depth depth, void *context);
+
+/* Ends the runs that have not ended. */
+void mote_contact_runs_end(mote_contact_runs *runs);
+
+void mote_contact_runs_free(mote_contact_runs *runs);
+
+#endif

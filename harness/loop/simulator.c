@@ -1,0 +1,200 @@
+#include "harness/loop/simulator.h"
+
+#include "harness/base/memory.h"
+#include "harness/scene/motion.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A simulator of so many bodies and shapes, which are still to be filled in. */
+static mote_simulator *new_simulator(uint32_t count, uint32_t shape_count,
+                                     const mote_method_choice *choice,
+                                     const mote_simulation_options *options, double length)
+{
+    mote_simulator *made = mote_allocate(1, sizeof *made);
+    made->choice = *choice;
+    made->options = *options;
+    made->gravity = mote_scale(options->gravity, length);
+    made->shapes = mote_allocate(shape_count, sizeof *made->shapes);
+    made->shape_of = mote_allocate(count, sizeof *made->shape_of);
+    made->masses = mote_allocate(shape_count, sizeof *made->masses);
+    made->start = mote_allocate(count, sizeof *made->start);
+    made->deform = mote_allocate(shape_count, sizeof(mote_deform *));
+    made->penetrations =
+        mote_allocate((size_t)shape_count * shape_count, sizeof(mote_penetration *));
+    made->bodies = (mote_simulated){.length = length,
+                                    .count = count,
+                                    .shape_count = shape_count,
+                                    .shapes = made->shapes,
+                                    .shape_of = made->shape_of};
+    return made;
+}
+
+/* Masses of all shapes, and room for the vertices of the largest. word: what a message calls a
+   shape. */
+static mote_status weigh_shapes(mote_simulator *s, const char *word)
+{
+    uint32_t most = 0;
+    for (uint32_t k = 0; k < s->bodies.shape_count; ++k) {
+        const mote_mesh *mesh = s->shapes[k]->mesh;
+        const mote_status status = mote_mass_of_mesh(mesh, s->options.density, &s->masses[k]);
+        if (status != MOTE_OK)
+            return mote_fail(status, "%s: %s %u cannot respond to a collision: %s",
+                             s->bodies.path, word, k + 1, mote_error_text());
+        most = mesh->vertex_count > most ? mesh->vertex_count : most;
+    }
+    for (int i = 0; i < 2; ++i)
+        s->world[i] = mote_allocate(most, sizeof(mote_vec3));
+    return MOTE_OK;
+}
+
+static mote_quaternion turn_at(const mote_body_motion *motion, double place)
+{
+    double q[4] = {1, 0, 0, 0};
+    if (motion->rotation)
+        mote_curve_evaluate(motion->rotation, place, q);
+    return mote_quaternion_normalise((mote_quaternion){q[0], q[1], q[2], q[3]});
+}
+
+/* A body as it moves: velocity is that of the point `middle`, in the world. */
+static mote_rigid_state state_of(const mote_mass *mass, const mote_pose *pose,
+                                 mote_quaternion turn, mote_vec3 middle, mote_vec3 velocity,
+                                 mote_vec3 spin)
+{
+    mote_rigid_state state = {.centre = mote_pose_apply(pose, mass->centre), .turn = turn};
+    state.velocity = mote_add(velocity, mote_cross(spin, mote_sub(state.centre, middle)));
+    state.angular_momentum = mote_rigid_angular_momentum(mass, &state, spin);
+    return state;
+}
+
+static void start_pair(mote_simulator *s, const mote_scenario *scenario)
+{
+    for (int i = 0; i < 2; ++i) {
+        const mote_body_motion *motion = &scenario->motion->body[i];
+        const mote_pose pose = mote_motion_pose(motion, scenario->motion->start);
+        mote_vec3 velocity, spin;
+        mote_scenario_velocity(scenario, i, &velocity, &spin);
+        s->start[i] = state_of(&s->masses[i], &pose, turn_at(motion, scenario->motion->start),
+                               mote_pose_apply(&pose, motion->centre), velocity, spin);
+    }
+}
+
+static void start_scene(mote_simulator *s, const mote_bodies *bodies)
+{
+    for (uint32_t i = 0; i < bodies->count; ++i) {
+        const mote_bodies_path *path = &bodies->paths[i];
+        const mote_pose pose = mote_bodies_pose(bodies, i, 1);
+        const mote_vec3 spin = mote_scale(path->axis, path->spin * 0.017453292519943295);
+        const mote_quaternion turn =
+            mote_quaternion_normalise(mote_quaternion_about(path->axis, path->degrees));
+        s->start[i] = state_of(&s->masses[s->shape_of[i]], &pose, turn, path->place,
+                               path->velocity, spin);
+    }
+}
+
+/* The simulator, or what failed. */
+static mote_status finish(mote_simulator *made, mote_status status, mote_simulator **simulator)
+{
+    if (status == MOTE_OK)
+        *simulator = made;
+    else
+        mote_simulator_destroy(made);
+    return status;
+}
+
+mote_status mote_simulator_create(const mote_scenario *scenario,
+                                  const mote_method_choice *choice,
+                                  const mote_simulation_options *options,
+                                  mote_simulator **simulator)
+{
+    mote_status status = mote_simulation_options_check(options);
+    if (status != MOTE_OK)
+        return status;
+    mote_simulator *made = new_simulator(2, 2, choice, options, scenario->length);
+    made->bodies.name = scenario->name;
+    made->bodies.path = scenario->path;
+    made->frames = scenario->frames;
+    made->room = (mote_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    made->kind = &mote_stage_pair;
+    for (uint32_t i = 0; i < 2; ++i) {
+        made->shapes[i] = &scenario->body[i];
+        made->shape_of[i] = i;
+    }
+    status = weigh_shapes(made, "body");
+    if (status == MOTE_OK) {
+        start_pair(made, scenario);
+        status = mote_stage_pair_create(scenario, choice, &made->options, made->masses,
+                                        &made->stage);
+    }
+    return finish(made, status, simulator);
+}
+
+mote_status mote_simulator_create_of_scene(const mote_bodies *bodies,
+                                           const mote_method_choice *choice,
+                                           const mote_simulation_options *options,
+                                           mote_simulator **simulator)
+{
+    mote_status status = mote_simulation_options_check(options);
+    if (status == MOTE_OK)
+        status = mote_bodies_choice_check(choice);
+    if (status != MOTE_OK)
+        return status;
+    mote_simulator *made =
+        new_simulator(bodies->count, bodies->shape_count, choice, options, bodies->length);
+    made->bodies.name = bodies->name;
+    made->bodies.path = bodies->path;
+    made->frames = bodies->frames;
+    made->room = bodies->room;
+    made->kind = &mote_stage_scene;
+    for (uint32_t k = 0; k < bodies->shape_count; ++k)
+        made->shapes[k] = &bodies->shapes[k].body;
+    memcpy(made->shape_of, bodies->shape_of, bodies->count * sizeof *made->shape_of);
+    status = weigh_shapes(made, "shape");
+    if (status == MOTE_OK) {
+        start_scene(made, bodies);
+        status =
+            mote_stage_scene_create(bodies, choice, &made->options, made->masses, &made->stage);
+    }
+    return finish(made, status, simulator);
+}
+
+void mote_simulator_destroy(mote_simulator *simulator)
+{
+    if (!simulator)
+        return;
+    const size_t shapes = simulator->bodies.shape_count;
+    simulator->kind->destroy(simulator->stage);
+    for (size_t k = 0; k < shapes; ++k)
+        mote_deform_destroy(simulator->deform[k]);
+    for (size_t k = 0; k < shapes * shapes; ++k)
+        mote_penetration_destroy(simulator->penetrations[k]);
+    free(simulator->deform);
+    free(simulator->penetrations);
+    free(simulator->world[0]);
+    free(simulator->world[1]);
+    free(simulator->start);
+    free(simulator->masses);
+    free(simulator->shape_of);
+    free(simulator->shapes);
+    free(simulator);
+}
+
+mote_simulated mote_simulator_bodies(const mote_simulator *simulator)
+{
+    return simulator->bodies;
+}
+
+const mote_mass *mote_simulator_masses(const mote_simulator *simulator)
+{
+    return simulator->masses;
+}
+
+mote_simulation_start mote_simulation_start_of(const mote_simulator *simulator)
+{
+    const double steps = ceil((simulator->frames - 1.0) / simulator->options.time_step);
+    return (mote_simulation_start){
+        .states = simulator->start,
+        .first = 1,
+        .steps = (uint32_t)fmin(fmax(steps, 1), MOTE_SIMULATION_STEPS_MAX),
+        .seed = 1};
+}
