@@ -1,7 +1,7 @@
 # The front door. Each target does all of its own set-up: `make bench` or `make test` in a fresh
 # clone is enough.
 #
-#   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, print the table, draw
+#   make bench [PROFILE=quick|paper|full] [OUT=DIR]   run the experiments, draw, show the best rows
 #   make sweep [OUT=DIR]                              time and memory over triangles, 1k to 1M
 #   make test                                         release tests, then ASan and UBSan
 #   make test-page                                    the report's page, in headless Chromium
@@ -48,9 +48,8 @@ MOTE = $(BUILD)/mote
 # $(call configure,PRESET): silent, unless it fails.
 configure = mkdir -p $(BUILD) && { cmake --preset $(1) > $(BUILD)/configure.log 2>&1 || \
     { cat $(BUILD)/configure.log; exit 1; }; }
-# $(call compile,FOLDER[,TARGET...]): everything where no target is named. The jobs are ours to count,
-# and make names no folders.
-compile = MAKEFLAGS=--no-print-directory cmake --build $(1) -j $(JOBS) $(if $(2),--target $(2))
+# $(call compile,FOLDER[,TARGET...]): everything where no target is named.
+compile = cmake/compile.sh $(1) $(JOBS) $(2)
 # A word for the shell, whatever it holds.
 quoted = '$(subst ','\'',$(1))'
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # bench.sh MOTE PROFILE OUT: the experiments of one profile, into one run directory. A run that was
-# stopped goes on where it stopped. Ends with the table, the figures and the report.
+# stopped goes on where it stopped. Ends with the figures, the report and one screen a scenario.
 set -eu
 mote=$1
 profile=$2
@@ -96,10 +96,24 @@ sweep)
     ;;
 esac
 
-"$mote" summarize "$out"
 case $profile in
 paper | full) claims ;;
 esac
-"$mote" figures "$out"
-"$mote" report "$out"
+
+echo 'drawing the figures, writing the report' >&2
+status=0
+others=$("$mote" figures "$out" 2>&1 >/dev/null) || status=$?
+[ $status -eq 0 ] || {
+    printf '%s\n' "$others" >&2
+    exit $status
+}
+"$mote" report "$out" >/dev/null
+"$mote" summarize "$out" --best
+cat <<PLACES
+
+report   $out/report.html, and report.md for a terminal
+figures  $out/figures
+CSV      $out/summary.csv, a line a configuration; fronts.csv and speed.csv beside it
+PLACES
+[ -z "$others" ] || printf '%s\n' "$others" >&2
 exit $failed

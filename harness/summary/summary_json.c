@@ -3,6 +3,7 @@
 #include "harness/base/record.h"
 #include "harness/summary/column.h"
 #include "harness/summary/front.h"
+#include "harness/summary/table.h"
 
 #include <string.h>
 
@@ -92,7 +93,11 @@ json_t *mote_summary_json(const mote_summary *summary)
 mote_status mote_summary_write(const mote_summary *summary, const char *directory)
 {
     mote_fronts fronts = mote_fronts_make(summary);
-    mote_status status = mote_fronts_write(&fronts, directory);
+    mote_text csv = {0};
+    mote_table_csv(summary, &csv);
+    mote_status status = mote_record_text(directory, "summary.csv", &csv);
+    if (status == MOTE_OK)
+        status = mote_fronts_write(&fronts, directory);
     if (status == MOTE_OK)
         status = mote_record_json(directory, "summary.json", summary_json(summary, &fronts));
     mote_fronts_free(&fronts);

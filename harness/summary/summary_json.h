@@ -10,7 +10,8 @@ json_t *mote_summary_row_json(const mote_summary *summary, const mote_summary_ro
 /* The summary as the object that summary.json holds; NULL when memory ran out. */
 json_t *mote_summary_json(const mote_summary *summary);
 
-/* Writes directory/summary.json, and fronts.csv and speed.csv (harness/summary/front.h). */
+/* Writes directory/summary.json, summary.csv (mote_table_csv), and fronts.csv and speed.csv
+   (harness/summary/front.h). */
 mote_status mote_summary_write(const mote_summary *summary, const char *directory);
 
 #endif
