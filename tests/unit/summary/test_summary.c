@@ -336,7 +336,7 @@ TEST(figure_queries_tells_of_which_frames_it_is)
     mote_figure figure = {0};
     assert_int_equal(mote_figure_queries(&run, "ww", &figure), MOTE_OK);
     assert_non_null(strstr(figure.caption.data,
-                           " particles, n = 5: active interval (950-953 only) "
+                           " particle-paper:n=5: active interval (950-953 only) "
                            "2 ms on average, 2 ms at most."));
     assert_null(strstr(figure.caption.data, "nan"));
     free_figure(&figure);
