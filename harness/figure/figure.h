@@ -1,28 +1,29 @@
-/* Writers of figures' data, one a figure, and what they share; used by figures.c. */
+/* The functions that write the data of each figure, and what they share; used by figures.c. */
 #ifndef MOTE_HARNESS_FIGURE_H
 #define MOTE_HARNESS_FIGURE_H
 
 #include "harness/process/gnuplot.h"
 #include "harness/summary/summary.h"
 
-/* What figures are made from. */
+/* The run that figures are made from. */
 typedef struct mote_figure_run {
     const char *directory;
     const mote_summary *summary; /* without rows where the run has no cell */
     const json_t *claims;        /* claims.json, or NULL */
 } mote_figure_run;
 
-/* What a writer makes. data is what gnuplot reads: columns between blanks, text in quotes,
-   blocks two empty lines apart, each below its title. It stays empty where the run has not what
-   the figure needs; missing then says what that is. */
+/* The result of such a function. data is for gnuplot: columns separated by blanks, text in
+   quotes, blocks two empty lines apart, each below its title. It stays empty where the run
+   lacks what the figure needs; missing then says what that is. */
 typedef struct mote_figure {
     mote_text data;
-    mote_text caption; /* a paragraph: what is shown, how sure it is */
-    mote_text missing; /* also of a figure that is drawn in part */
+    mote_text caption; /* a paragraph: what is shown, and how certain it is */
+    mote_text missing; /* also set for a figure that is drawn in part */
 } mote_figure;
 
-/* Fills a zeroed figure; the caller frees its texts. scenario is one of the run's, or NULL for
-   a figure of the whole run. An error status is ours or the machine's, never the run's. */
+/* Fills a zeroed figure; the caller frees its texts. scenario is one of the run's, or NULL
+   for a figure of the whole run. An error status means a failure of the program or the
+   machine, not that the run lacks something. */
 typedef mote_status mote_figure_writer(const mote_figure_run *run, const char *scenario,
                                        mote_figure *figure);
 
@@ -55,23 +56,24 @@ void mote_figure_animation_clear(const char *directory);
 #define MOTE_FIGURE_NUMBER 32
 const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER]);
 
-/* Whether a row is shown in figures of its scenario: it ran alone, with hot caches, on the
-   machine, in the scene and over the frames of most of the scenario's rows (the widest frames there are). */
+/* Whether a row is shown in figures of its scenario: its cells ran alone and with hot
+   caches, on the machine, in the scene and over the frames that most of the scenario's rows
+   have (on a tie, the most frames). */
 bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
                        const char *scenario);
 
-/* The row shown that has this label; NULL when there is none. */
+/* The shown row with this label; NULL when there is none. */
 const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,
                                         const char *label);
 
 /* Room for a family: a row's label without its n (mote_front_title). */
 #define MOTE_FIGURE_FAMILY 256
 
-/* The row shown of a family whose n is nearest to n, or that has none; NULL: no such family. */
+/* The shown row of a family whose n is nearest to n, or that has no n; NULL: no such family. */
 const mote_summary_row *mote_figure_near(const mote_summary *summary, const char *scenario,
                                          const char *family, double n);
 
-/* Whether no row before this one is shown that has the same family. */
+/* Whether this is the first shown row of its family. */
 bool mote_figure_first(const mote_summary *summary, const mote_summary_row *row,
                        const char *scenario);
 
@@ -88,12 +90,12 @@ typedef enum mote_figure_part {
 mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
                                double *values);
 
-/* Whether a row tells distances, and so has an error. */
+/* Whether a row has distances, and so an error. */
 bool mote_figure_has_error(const mote_summary_row *row);
 
-/* Appends "value low high ": a quantile of the absolute error, which the row knows over all
-   replicates, and its 95 % interval over replicates, t's, widened to hold the value and cut to
-   0; the value itself where there are too few. */
+/* Appends "value low high ": a quantile of the absolute error over all replicates, and its
+   95 % t interval over replicates, widened to contain the value and cut off at 0; the value
+   itself where there are too few replicates. */
 mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
                                  mote_text *text);
 

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Panels and lines of plots/bodies.gp, which counts on their number and order. */
+/* Panels and lines of plots/bodies.gp, which relies on their number and order. */
 static const double densities[] = {0.1, 1, 4};
 static const char *const methods[] = {"certified",    "fcl-aabb:refit=every",
                                       "fcl-aabb",     "aabb-tree",
@@ -32,8 +32,8 @@ static bool has_scenes(const json_t *root)
     return false;
 }
 
-/* summary.json of the run, where it has more than two bodies, or of ../bodies; false, said in
-   missing, where there is none. */
+/* Reads summary.json of the run where it has more than two bodies, else of ../bodies; false,
+   with a text in missing, where there is none. */
 static bool read_rows(const mote_figure_run *run, mote_figure *figure, json_t **root)
 {
     static const char *const names[] = {"summary.json", "../bodies/summary.json"};
@@ -76,7 +76,7 @@ static bool is_row(const json_t *row, const char *method, double density)
            fabs(number_of(row, "near_pairs_wanted") - density) < 1e-9;
 }
 
-/* Mean of a frame but the first. */
+/* Mean over all frames but the first. */
 static double mean_of(const json_t *row)
 {
     return number_of(json_object_get(row, "active_total_ns"), "mean");
@@ -100,7 +100,7 @@ static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
         mote_text_add(text, "NaN NaN NaN\n");
 }
 
-/* How many times as long as certified the first control takes for 1,000 bodies. */
+/* The time of the first control over that of certified, for 1,000 bodies. */
 static void add_ratios(const json_t *rows, mote_text *caption)
 {
     for (size_t d = 0; d < sizeof densities / sizeof densities[0]; ++d) {
@@ -137,12 +137,11 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
         for (size_t m = 0; m < 6; ++m)
             add_line(rows, d, m, &figure->data);
     }
-    mote_text_add(
-        &figure->caption,
-        "Time of a frame over the number of bodies, all deforming, with 0.1, 1 and 4 "
-        "near pairs a body: letters W of 11,920 triangles; at 10,000, which only "
-        "certified was asked about, letters of four shapes. Points: means over the frames but "
-        "the first, which finds all pairs anew.");
+    mote_text_add(&figure->caption,
+                  "Time of a frame over the number of bodies, all deforming, with 0.1, 1 and 4 "
+                  "near pairs a body: letters W of 11,920 triangles; at 10,000, which only "
+                  "certified ran, letters of four shapes. Points: means over the frames but "
+                  "the first, which finds all pairs anew.");
     add_ratios(rows, &figure->caption);
     json_decref(root);
     return MOTE_OK;
@@ -151,7 +150,7 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
 /* --- the animation --------------------------------------------------------------------------
  */
 
-/* Frames between two pictures. */
+/* Frames from one picture to the next. */
 #define PICTURE_STEP 5
 
 /* The built-in letters with so few triangles that gnuplot draws them. */

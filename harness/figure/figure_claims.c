@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Characters in a line of a claim, beside which its verdict stands, and of what was measured.
- */
+/* Characters in a line of a claim's text, which has its verdict beside it, and in a line of
+   what was measured. */
 #define CLAIM_WIDTH 52
 #define FIGURE_WIDTH 84
 #define LINES_MAX 6
@@ -89,7 +89,7 @@ static size_t add_claim(const json_t *claim, size_t top, mote_text *data)
     return claimed + told;
 }
 
-/* As it stands in the table, where there is little room. */
+/* The short form in the table, where there is little room. */
 static const char *short_verdict(const char *verdict)
 {
     return strcmp(verdict, "holds within limits") == 0 ? "within limits" : verdict;
@@ -121,10 +121,9 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
     mote_text_add(&figure->data, "\n\n%s", verdicts.data ? verdicts.data : "");
     figure->data.failed |= verdicts.failed;
     free(verdicts.data);
-    mote_text_add(
-        &figure->caption,
-        "For each claim its first figure with its 95 %% interval, and the verdict, which "
-        "follows from all of its figures and their thresholds (claims.json).");
+    mote_text_add(&figure->caption,
+                  "For each claim its first value with its 95 %% interval, and the verdict, "
+                  "which follows from all of its values and their thresholds (claims.json).");
     return MOTE_OK;
 }
 
@@ -146,10 +145,9 @@ mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenari
         status = mote_file_read(path, (size_t)1 << 26, &text, &size);
         if (status == MOTE_OK)
             mote_text_add(&figure->data, "%s", text);
-        mote_text_add(
-            &figure->caption,
-            "Each row is a method and each column a case, coloured by the verdict. Cases of "
-            "one family stand side by side.");
+        mote_text_add(&figure->caption,
+                      "Each row is a method and each column a case, coloured by the verdict. "
+                      "Cases of one family are side by side.");
     }
     free(text);
     free(path);

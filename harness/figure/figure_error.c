@@ -37,8 +37,8 @@ static double cell_missed(const mote_stored_cell *cell)
     return contacts > 0 ? missed / contacts : MOTE_NONE;
 }
 
-/* The 95 % interval over replicates around a value: wide enough to hold it, never below 0; the
-   value itself where there are too few. */
+/* The 95 % interval over replicates around a value: wide enough to contain it, never below
+   0; the value itself where there are too few replicates. */
 static mote_confidence interval_of(const double *values, size_t count, double value)
 {
     mote_confidence found = mote_statistics_t_interval(values, count);
@@ -104,7 +104,7 @@ static mote_status add_errors(const mote_summary_row *row, mote_text *text)
     return status;
 }
 
-/* A family's block, where it has rows that tell a distance; *points counts them. */
+/* A family's block, where it has rows with distances; *points counts them. */
 static mote_status add_series(const mote_summary *summary, const char *scenario,
                               const char *family, size_t *points, mote_text *text)
 {
@@ -143,7 +143,7 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
         &figure->caption,
         "Median, 95th and 99th percentile of the absolute error over frames, in L, and the "
         "share of contacts missed, with 95 %% intervals over processes, whose particles start "
-        "at different places. Errors of at most 1e-6 L are drawn on the lowest line.");
+        "in different places. Errors of at most 1e-6 L are drawn on the lowest line.");
     return status;
 }
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As plots/front.gp has it: errors up to here are drawn on the lowest line, the axes' ends
-   beyond the first and last point, and their length in its units. */
+/* These agree with plots/front.gp: errors up to this are drawn on the lowest line; how far
+   the axes extend beyond the first and last point, and their lengths in its units. */
 #define FLOOR 1e-5
 #define BEYOND_X 3.0
 #define LOWEST_Y (FLOOR / 3)
@@ -20,7 +20,7 @@ typedef struct canvas {
     mote_room room;
 } canvas;
 
-/* The families that have names in a front; the others are points without. */
+/* The families that are named in a front; the others are points without a name. */
 static const char *const front_families[] = {"particle-paper:refine=no",
                                              "particle-paper",
                                              "particle-paper:refine=always",
@@ -57,7 +57,8 @@ static bool is_point(const mote_summary *summary, const mote_summary_row *row,
            mote_figure_shows(summary, row, scenario);
 }
 
-/* Finds the axes and takes the places of all points; the caller frees c->room.taken. */
+/* Finds the axes and marks the places of all points as taken; the caller frees
+   c->room.taken. */
 static mote_status open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
 {
     double low = HUGE_VAL, high = 0;
@@ -81,8 +82,8 @@ static mote_status open_canvas(const mote_summary *summary, const char *scenario
     return MOTE_OK;
 }
 
-/* One point: n or nothing, median total in us and its interval, 99th percentile and its, where
-   n stands. */
+/* One point: n or nothing, median total in us and its interval, 99th percentile and its
+   interval, the place of n. */
 static mote_status add_point(canvas *c, const mote_summary_row *row, bool named,
                              mote_text *text)
 {
@@ -102,7 +103,8 @@ static mote_status add_point(canvas *c, const mote_summary_row *row, bool named,
     return status;
 }
 
-/* The block of a family, or, with family NULL, of all without a name: no line joins these. */
+/* The block of a family, or, with family NULL, of all families without a name, which no line
+   joins. */
 static mote_status add_family(canvas *c, const mote_summary *summary, const char *scenario,
                               const char *family, mote_text *text)
 {

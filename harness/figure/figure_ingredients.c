@@ -1,5 +1,5 @@
-/* Figures of tracked particles: what each ingredient adds (13), the front over its parameters
-   (14). Their rows are those that harness/scripts/ingredients.sh measures. */
+/* Figures of tracked particles: what each ingredient adds (13), and the front over its
+   parameters (14). Their rows are measured by harness/scripts/ingredients.sh. */
 #include "harness/figure/figure.h"
 #include "harness/figure/figure_room.h"
 
@@ -9,11 +9,12 @@
 /* The method that everything is compared with. */
 #define WHOLE "particle:n=8"
 
-/* As plots/ingredients.gp and plots/tracked.gp have it: shares below are drawn as none. */
+/* This agrees with plots/ingredients.gp and plots/tracked.gp: smaller shares are drawn as
+   none. */
 #define LEAST_PERCENT 0.02
 
-/* An ingredient is shown with this many rows on any scenario, else the run is of something
-   else. */
+/* Ingredients are shown where some scenario has at least this many rows; else the run
+   measured something else. */
 #define ROWS_WANTED 6
 
 typedef struct variant {
@@ -113,10 +114,9 @@ static void add_failures(const mote_summary *summary, mote_text *caption)
                       row->missed, row->contacts);
     }
     if (count > 0)
-        mote_text_add(
-            caption, ": the search is local, and reports a minimum that is not the least until "
-                     "a leap or a launch finds a lower one; both start at one of at most 200 "
-                     "places of a body.");
+        mote_text_add(caption, ": the search is local, and reports a minimum that is not the "
+                               "smallest until a leap or a launch finds a lower one; both "
+                               "start from one of at most 200 places on a body.");
 }
 
 mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scenario,
@@ -148,7 +148,7 @@ mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scen
     return MOTE_OK;
 }
 
-/* Configurations that differ in one parameter, in its order; the whole is among them. */
+/* Configurations that differ in one parameter, in its order, the whole method among them. */
 static const char *const series[][7] = {
     {"n", "particle:n=2", "particle:n=4", WHOLE, "particle:n=16", "particle:n=32"},
     {"launch", WHOLE, "particle:n=8,launch=1", "particle:n=8,launch=4",
@@ -158,14 +158,14 @@ static const char *const series[][7] = {
 };
 enum { SERIES = sizeof series / sizeof series[0], LONGEST = 6 };
 
-/* As plots/tracked.gp has it: the axes' ends beyond the first and last point, and their length
-   in its units. */
+/* These agree with plots/tracked.gp: how far the axes extend beyond the first and last
+   point, and their lengths in its units. */
 #define BEYOND_X 1.5
 #define WIDTH 459.0
 #define HEIGHT 222.0
 #define HIGHEST_PERCENT 150.0
 
-/* A figure while its points are placed. */
+/* The state of a figure while its points are placed. */
 typedef struct front {
     const mote_summary_row *row[SERIES][LONGEST];
     double low_x, per_x, per_y;
@@ -214,8 +214,8 @@ static double value_of(const mote_summary_row *row, const char *key)
     return json_is_number(value) ? json_number_value(value) : 0; /* launch=auto */
 }
 
-/* Lines of a series: its value or nothing, time in us and its interval, percent wrong, where
-   the value stands. */
+/* Lines of a series: its value or nothing, time in us and its interval, percent wrong, the
+   place of the value. */
 static void add_series(front *f, int s, mote_text *data)
 {
     mote_gnuplot_block(data, series[s][0]);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Half of what a digit, a line and a point take. */
+/* Half the width of a digit, half the height of a line, and half the size of a point. */
 #define HALF_DIGIT 3.5
 #define HALF_LINE 6.0
 #define HALF_POINT 4.0

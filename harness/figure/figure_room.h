@@ -1,4 +1,4 @@
-/* Room for numbers beside the points of a figure, in the figure's units. */
+/* Finding room for numbers beside the points of a figure, in the figure's units. */
 #ifndef MOTE_HARNESS_FIGURE_ROOM_H
 #define MOTE_HARNESS_FIGURE_ROOM_H
 
@@ -10,7 +10,7 @@ typedef struct mote_place {
     double x, y, half_width, half_height;
 } mote_place;
 
-/* What is already there; the caller sees to it that taken has room for one place more. */
+/* The places already taken; the caller makes sure that `taken` has room for one more. */
 typedef struct mote_room {
     mote_place *taken;
     size_t count;

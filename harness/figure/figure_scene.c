@@ -13,7 +13,7 @@
 #define STEEP 0.7
 #define ACROSS 0.3
 
-/* How many points seen are worth as much as surfaces of L times L / 2. */
+/* This many visible points count as much as a visible surface of area L * L / 2. */
 #define AREA 4
 
 /* How far a surface must lie before a point to hide it, over L: particles lie on surfaces. */

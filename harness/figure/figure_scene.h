@@ -21,15 +21,15 @@ void mote_figure_scene_close(mote_figure_scene *scene);
 /* Deforms both bodies: frame 1 .. scenario->frames. */
 void mote_figure_scene_show(mote_figure_scene *scene, uint32_t frame);
 
-/* Axes of the picture in the world, orthonormal; toward points at who looks. The picture's
+/* Axes of the picture in the world, orthonormal; toward points at the viewer. The picture's
    coordinates are (p - centre) * scale along them. */
 typedef struct mote_figure_camera {
     mote_vec3 right, up, toward, centre;
     double scale;
 } mote_figure_camera;
 
-/* Looks across the line between the bodies' middles, from where most of the points (count may
-   be 0) and of the surfaces are seen. scale 1, centre 0. */
+/* Looks across the line between the bodies' middles, from the direction that shows most of
+   the points (count may be 0) and of the surfaces. scale 1, centre 0. */
 mote_figure_camera mote_figure_camera_aim(const mote_figure_scene *scene,
                                           const mote_vec3 *points, size_t count);
 
@@ -56,8 +56,8 @@ bool mote_figure_hidden(const mote_figure_scene *scene, const mote_figure_camera
 void mote_figure_add_body(const mote_figure_scene *scene, const mote_figure_camera *camera,
                           int i, mote_text *text);
 
-/* A block of the control vectors of body i: where each control point is at rest, x y z, and
-   what the field adds there, MOTE_FIGURE_LONGER times as long, dx dy dz. */
+/* A block of the control vectors of body i: each control point at rest, x y z, and its
+   displacement, MOTE_FIGURE_LONGER times as long, dx dy dz. */
 #define MOTE_FIGURE_LONGER 3
 void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_camera *camera,
                               int i, mote_text *text);

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Height over width of the pictures: as plots/fig1.gp and plots/fig2.gp have them. */
+/* Height over width of the pictures, which agree with plots/fig1.gp and plots/fig2.gp. */
 #define PARTICLES_ASPECT 0.62
 #define DEFORMED_ASPECT 0.72
 

@@ -8,7 +8,7 @@
 /* Mean and largest of the frames from first to last, or of those that were measured of them. */
 typedef struct span {
     double mean, max;
-    uint32_t first, last; /* measured; 0, 0: none */
+    uint32_t first, last; /* the first and last frame measured; 0, 0: none */
 } span;
 
 static span over_frames(const mote_summary_row *row, const double *values, uint32_t first,
@@ -145,7 +145,7 @@ static int by_total(const void *a, const void *b)
     return strcmp(first->label, second->label);
 }
 
-/* n that stands for a method: the paper's own for its method. */
+/* The n that represents a method: the paper's own for its method. */
 static double usual_n(const mote_summary_row *row)
 {
     return strcmp(row->first->method, "particle-paper") == 0 ? 5 : 8;
@@ -206,7 +206,7 @@ mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
     return MOTE_OK;
 }
 
-/* The frames are cut into this many parts; each has a ratio and its interval. */
+/* The frames are divided into this many parts, each with a ratio and its interval. */
 #define PARTS 48
 
 /* The median over frames first .. last of ln(other's total / ours), within one replicate;

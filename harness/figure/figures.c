@@ -11,7 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Of which scenarios a figure is. */
+/* Which scenarios a figure shows. */
 typedef enum figure_scope {
     SCOPE_ONE,  /* of the one that is named */
     SCOPE_EACH, /* of every one of the run */
@@ -27,7 +27,8 @@ typedef struct figure_kind {
     const char *scenario;
     mote_figure_writer *write;
     const char *formats;
-    const char *command; /* measures what the figure needs; OUT=DIR names the run's directory */
+    const char *command; /* the command that measures what the figure needs; OUT=DIR names the
+                            run's directory */
 } figure_kind;
 
 #define PAPER "svg png pdf"
@@ -68,10 +69,10 @@ static const figure_kind kinds[] = {
      BODIES},
 };
 
-/* What is needed while a run's figures are drawn. */
+/* The state while a run's figures are drawn. */
 typedef struct drawing {
     mote_figure_run run;
-    char identity[160]; /* of the run, as in the footer */
+    char identity[160]; /* names the run, as in the footer */
     char *folder;       /* DIRECTORY/figures */
     json_t *index;      /* figures.json's figures */
     json_t *missing;    /* what is missing, a line each */
@@ -207,7 +208,7 @@ static char *command_text(const drawing *d, const figure_kind *kind)
     return mote_format("%.*s%s", (int)(place - kind->command), kind->command, d->run.directory);
 }
 
-/* The run has not what the figure needs: its command measures that. */
+/* The run lacks what the figure needs, which its command measures. */
 static void add_not_drawn(drawing *d, const figure_kind *kind)
 {
     char *command = command_text(d, kind);
@@ -217,7 +218,7 @@ static void add_not_drawn(drawing *d, const figure_kind *kind)
     free(command);
 }
 
-/* state: "not drawn" or "not whole". Where it is told, a command prints it, too. */
+/* state: "not drawn" or "not whole". Unless quiet, a command prints it, too. */
 static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
                         const char *state, bool told)
 {
@@ -229,14 +230,14 @@ static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *
     free(text);
 }
 
-/* One figure; *done: the run has what it needs. quiet: nothing is said when it has not. */
+/* One figure; *done: the run has what it needs. quiet: nothing is reported when it has not. */
 static mote_status draw(drawing *d, const figure_kind *kind, const char *scenario, bool quiet,
                         bool *done)
 {
     mote_figure figure = {0};
     mote_status status = kind->write(&d->run, scenario, &figure);
     const bool some = status == MOTE_OK && figure.data.size > 0;
-    const bool refused = status == MOTE_EINVAL; /* the scenario is not as the run names it */
+    const bool refused = status == MOTE_EINVAL; /* the scenario has changed since the run */
     if (refused) {
         mote_text_add(&figure.missing, "%s", mote_error_text());
         status = MOTE_OK;
@@ -250,7 +251,8 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
     }
     if (status == MOTE_OK && some)
         status = draw_data(d, kind, scenario, &figure);
-    if (status == MOTE_EIO) { /* gnuplot's: the others are drawn all the same */
+    if (status ==
+        MOTE_EIO) { /* a failure of gnuplot: the other figures are drawn all the same */
         figure.missing.size = 0;
         mote_text_add(&figure.missing, "%s", mote_error_text());
         add_missing(d, kind, &figure, "not drawn", true);
@@ -273,7 +275,8 @@ static bool first_of_scenario(const mote_summary *summary, size_t index)
     return true;
 }
 
-/* A figure of every scenario whose rows allow it; what is missing is said when none does. */
+/* A figure of every scenario whose rows allow it; what is missing is reported where none
+   does. */
 static mote_status draw_each(drawing *d, const figure_kind *kind)
 {
     const mote_summary *summary = d->run.summary;
@@ -373,7 +376,7 @@ static bool is_file(const char *directory, const char *name)
     return found;
 }
 
-/* The run's rows; without cells, none, which is told. */
+/* The run's rows; without cells there are none, which is reported. */
 static mote_status read_run(const char *directory, mote_summary *summary, mote_text *notices)
 {
     mote_text damaged = {0};
@@ -389,7 +392,7 @@ static mote_status read_run(const char *directory, mote_summary *summary, mote_t
     return status;
 }
 
-/* claims.json, NULL where there is none that can be read. */
+/* claims.json, or NULL where there is none or it cannot be read. */
 static json_t *read_claims(const char *directory, mote_text *notices)
 {
     json_t *claims = NULL;
@@ -399,7 +402,7 @@ static json_t *read_claims(const char *directory, mote_text *notices)
     return claims;
 }
 
-/* Draws what is there of a directory's run. */
+/* Draws what a directory's run has data for. */
 static mote_status draw_run(drawing *d)
 {
     const char *directory = d->run.directory;

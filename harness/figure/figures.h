@@ -1,9 +1,9 @@
-/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. Nothing
-   is timed. Figures are made from what the run stored, and three also from what its scenarios
-   give again: the deformed vertices of a frame (1, 2), where particles stood, which are shown
-   only while the method answers as stored to the bit (1), and which of 100 letters touch (15,
-   of a coarse scenario made for the picture). The same cells give the same data and, but for
-   PDF's date, the same drawings. */
+/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp.
+   Nothing is timed. Figures are made from what the run stored, and three also from its
+   scenarios, computed again: the deformed vertices of a frame (1, 2); the places of
+   particles, shown only where the method answers as stored, to the bit (1); and which of 100
+   letters touch (15, of a coarse scenario made for the picture). The same cells give the
+   same data and, but for PDF's date, the same drawings. */
 #ifndef MOTE_HARNESS_FIGURES_H
 #define MOTE_HARNESS_FIGURES_H
 
@@ -11,7 +11,7 @@
 
 #include <jansson.h>
 
-/* What drawing a run's figures has given; nothing of it is printed. */
+/* The result of drawing a run's figures; nothing of it is printed. */
 typedef struct mote_figures {
     size_t drawn;        /* figures */
     mote_text files;     /* their files, a line each */

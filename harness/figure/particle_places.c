@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Both none, or the same bits. */
+/* Whether both are MOTE_NONE, or the same bits. */
 static bool same_answer(const mote_answer *answer, const mote_stored_cell *cell, size_t k)
 {
     const double length = mote_stored_number(cell, "length");
@@ -42,7 +42,7 @@ static void close_up(mote_particle_places *places)
                 places->count * sizeof *places->at);
 }
 
-/* Answers the frames again; sets why where that is no use. */
+/* Answers the frames again; sets why where the particles cannot be shown. */
 static mote_status answer_again(const mote_scenario *scenario, const mote_stored_cell *cell,
                                 mote_probe *probe, mote_particle_places *places)
 {

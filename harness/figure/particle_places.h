@@ -1,13 +1,13 @@
-/* Where a method's particles stood in the frames of a cell. Cells do not store it, so the
-   method is asked the same frames once more, untimed; that it answers as stored, to the bit, is
-   checked. */
+/* The places of a method's particles in the frames of a cell. Cells do not store them, so
+   the method answers the same frames once more, untimed, and these answers are checked to be
+   the stored ones, to the bit. */
 #ifndef MOTE_HARNESS_PARTICLE_PLACES_H
 #define MOTE_HARNESS_PARTICLE_PLACES_H
 
 #include "harness/scene/scenario.h"
 #include "harness/summary/stored.h"
 
-/* More particles than this on a body are no picture. */
+/* More particles than this on a body are not shown. */
 #define MOTE_PARTICLE_PLACES_MAX 64
 
 typedef struct mote_particle_places {

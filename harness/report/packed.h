@@ -1,4 +1,4 @@
-/* Data of the page in little room: compressed (RFC 1951, "deflate-raw" to a browser), then in
+/* Data of the page, made small: compressed (RFC 1951, "deflate-raw" to a browser), then in
    base 64. plots/page/packed.js unpacks it. */
 #ifndef MOTE_HARNESS_PACKED_H
 #define MOTE_HARNESS_PACKED_H

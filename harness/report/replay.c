@@ -97,7 +97,7 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
                      cell->scenario);
 }
 
-/* Frames are stored in files that may be damaged: none may lie outside the scenario. */
+/* Cells may be damaged files, so their frames are checked to lie within the scenario. */
 static mote_status check_frames(const mote_replay_scene *scene)
 {
     if (scene->last <= scene->scenario->frames)
@@ -106,7 +106,7 @@ static mote_status check_frames(const mote_replay_scene *scene)
                      scene->tracks[0].cell->scenario, scene->last, scene->scenario->frames);
 }
 
-/* Whether a row is replayed: answers of its own, hot caches. */
+/* Whether a row is replayed: it has answers of its own, with hot caches. */
 static bool is_shown(const mote_summary_row *row)
 {
     return row->status == MOTE_CELL_OK && row->first->frames > 0 &&
@@ -114,7 +114,8 @@ static bool is_shown(const mote_summary_row *row)
            !strstr(row->label, "positions=given");
 }
 
-/* The truth as the tracks' cells have it, with the points of its own file where it is there. */
+/* The truth from the tracks' cells, with the points from the truth's own file where that
+   exists. */
 static mote_status read_truth(const mote_report *report, mote_replay_scene *scene)
 {
     const size_t frames = scene->last - scene->first + 1;
@@ -138,9 +139,9 @@ static mote_status read_truth(const mote_report *report, mote_replay_scene *scen
                              scene->scenario->name, fingerprint);
     if (!path || mote_truth_read(scene->scenario, fingerprint, path, &truth) != MOTE_OK) {
         free(path);
-        return json_array_append_new(scene->notes,
-                                     json_string("the true closest points: the run's truth "
-                                                 "is not there")) == 0
+        return json_array_append_new(
+                   scene->notes,
+                   json_string("the true closest points: the run's truth file is missing")) == 0
                    ? MOTE_OK
                    : mote_fail(MOTE_ENOMEM, "no memory for a note");
     }
@@ -169,8 +170,8 @@ static void fill_contacts(mote_replay_scene *scene)
     }
 }
 
-/* How bad the answers of a cell are: the largest absolute error, or, where the method tells no
-   distance, the number of wrong contacts. */
+/* How bad the answers of a cell are: the largest absolute error, or, where the method gives
+   no distance, the number of wrong contacts. */
 static double badness_of(const mote_stored_cell *cell)
 {
     double error = MOTE_NONE, wrong = 0;
@@ -264,7 +265,7 @@ static bool starts_block(const mote_report *report, size_t i)
            (i == 0 || !mote_report_same_block(row, mote_report_row(report, i - 1)));
 }
 
-/* What is left of the page's bytes, and for how many scenes. */
+/* How many of the page's bytes are left, and for how many scenes. */
 typedef struct share {
     size_t bytes, scenes;
 } share;

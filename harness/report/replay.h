@@ -1,14 +1,14 @@
-/* What the page's replay shows of a run: its scenarios with meshes, poses and weights, from
-   which the page computes the deformed surfaces itself, and the stored answers of each method.
- */
+/* The data of the page's replay of a run: its scenarios with meshes, poses and weights, from
+   which the page computes the deformed surfaces itself, and the stored answers of each
+   method. */
 #ifndef MOTE_HARNESS_REPLAY_H
 #define MOTE_HARNESS_REPLAY_H
 
 #include "harness/base/file.h"
 #include "harness/report/report.h"
 
-/* Packed bytes that all scenarios of a page may take, and one. Each gets an equal share of what
-   those before it have left; what does not fit is left out and named. */
+/* Packed bytes that all scenarios of a page may take, and that one may take. Each gets an
+   equal share of what those before it have left; what does not fit is left out and named. */
 #define MOTE_REPLAY_PAGE_BYTES 3100000u
 #define MOTE_REPLAY_SCENARIO_BYTES 1500000u
 
@@ -39,11 +39,10 @@ typedef struct mote_replay_scene {
     json_t *notes; /* texts: what is not shown, and why */
 } mote_replay_scene;
 
-/* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot caches,
-   and reads the answers of each. MOTE_EUNSUPPORTED, the text saying why, where it cannot be
-   shown: the scenario's file is not to be found or is another one now, a mesh is too large, or
-   a cell has a frame that the scenario has not.
-   The caller frees *scene. */
+/* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot
+   caches, and reads the answers of each. MOTE_EUNSUPPORTED, the text saying why, where it
+   cannot be shown: the scenario's file is missing or has changed, a mesh is too large, or a
+   cell has a frame that the scenario does not have. The caller frees *scene. */
 mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
                              mote_replay_scene *scene);
 void mote_replay_free(mote_replay_scene *scene);
@@ -51,14 +50,14 @@ void mote_replay_free(mote_replay_scene *scene);
 /* Reads the answers of a track from its CSV file: distance and pair. */
 mote_status mote_replay_read_cell(const char *directory, mote_replay_track *track);
 
-/* Asks the method of a track once more, untimed, for where its particles are; keeps them when
-   its distances are the stored ones to the bit, notes it in scene->notes when not. Nothing for
-   a method that has none to show. */
+/* Runs the method of a track once more, untimed, to find where its particles are. Keeps them
+   when its distances are the stored ones to the bit; else adds a note to scene->notes.
+   Nothing for a method that has none to show. */
 mote_status mote_replay_particles(mote_replay_scene *scene, mote_replay_track *track);
 
-/* The scene as JSON: see plots/page/data.js, which reads it. Left out, and noted, is what would
-   exceed `budget` packed bytes; *used are those that it takes. MOTE_EUNSUPPORTED where not even
-   the bodies fit. The caller decrefs *data. */
+/* The scene as JSON: see plots/page/data.js, which reads it. What would exceed `budget`
+   packed bytes is left out with a note; *used is how many it takes. MOTE_EUNSUPPORTED where
+   not even the bodies fit. The caller decrefs *data. */
 mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
                               size_t *used);
 

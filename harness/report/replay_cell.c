@@ -11,7 +11,8 @@ static const char *const names[FIELD_COUNT] = {"distance", "ax", "ay", "az", "bx
 
 #define COLUMNS_MAX 64
 
-/* What each column of the file is: an index into names, or -1. Returns how many there are. */
+/* Identifies each column of the file: an index into names, or -1. Returns how many there
+   are. */
 static size_t read_header(const char *line, int columns[COLUMNS_MAX])
 {
     size_t count = 0;
@@ -47,7 +48,7 @@ static void read_rows(const char *text, mote_replay_track *track)
     size_t count = read_header(text, columns);
     const char *line = text + strcspn(text, "\n");
     line += *line ? 1 : 0;
-    for (size_t k = 0; k < track->rows; ++k) { /* none where the text has ended */
+    for (size_t k = 0; k < track->rows; ++k) { /* MOTE_NONE where the text has ended */
         double f[FIELD_COUNT];
         for (int i = 0; i < FIELD_COUNT; ++i)
             f[i] = MOTE_NONE;

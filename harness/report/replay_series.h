@@ -34,9 +34,9 @@ void mote_replay_add_series(mote_text *text, const char *key, const int32_t *val
                             size_t count);
 
 /* Appends `"KEY": [...]` of points on a grid: three numbers a point, or one null where it is
-   not finite. The numbers are places less those of the reference's same point where it has one,
-   else of the last finite point in its column, a multiple of `columns` before it, else of 0.
-   reference may be NULL; columns is 1 .. MOTE_REPLAY_COLUMNS. */
+   not finite. From each place another is subtracted: that of the same point of the reference
+   where it has one, else that of the last finite point in its column, a multiple of
+   `columns` before it, else 0. reference may be NULL; columns is 1 .. MOTE_REPLAY_COLUMNS. */
 #define MOTE_REPLAY_COLUMNS 128
 void mote_replay_add_points(mote_text *text, const char *key, const mote_replay_grid *grid,
                             const mote_vec3 *points, size_t count, size_t columns,

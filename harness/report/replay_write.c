@@ -1,4 +1,5 @@
-/* A scene as JSON: small numbers as they are; arrays, packed, in texts that are JSON again. */
+/* A scene as JSON: single numbers as they are; arrays as packed texts that contain JSON
+   again. */
 
 #include "harness/report/packed.h"
 #include "harness/report/replay.h"
@@ -14,7 +15,7 @@
 /* Steps of a rotation's entries, and of translations over L. */
 #define POSE_STEP 1e-6
 
-/* Errors over L below this are written as 0: rounding, of no use in a picture. */
+/* Errors over L below this are rounding and written as 0: they cannot be seen in a picture. */
 #define ERROR_LEAST 1e-12
 
 static mote_status no_memory(void)
@@ -192,7 +193,7 @@ static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
     return status;
 }
 
-/* Errors over L with six digits: what the page computes distances from. */
+/* Errors over L with six digits, from which the page computes distances. */
 static void add_errors(mote_text *text, const mote_replay_track *track)
 {
     mote_text_add(text, "\"error\": [");
@@ -210,7 +211,8 @@ static void add_errors(mote_text *text, const mote_replay_track *track)
     mote_text_add(text, "], ");
 }
 
-/* The truth's points at the frames that a track answers: what its own are told relative to. */
+/* The truth's points at the frames that a track answers; the track's own points are stored
+   relative to these. */
 static mote_vec3 *reference_of(const mote_replay_scene *scene, const mote_replay_track *track)
 {
     mote_vec3 *reference = malloc((2 * track->rows + 1) * sizeof *reference);
