@@ -218,7 +218,7 @@ static void add_not_drawn(drawing *d, const figure_kind *kind)
     free(command);
 }
 
-/* state: "not drawn" or "not whole". Unless quiet, a command prints it, too. */
+/* state: "not drawn" or "not whole". With `told`, a command prints it, too. */
 static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
                         const char *state, bool told)
 {

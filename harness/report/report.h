@@ -13,11 +13,12 @@
 typedef struct mote_report_figure {
     char *file;     /* "figures/front-ww.svg", relative to the run */
     char *title;    /* what it shows: a few words */
-    char *caption;  /* what can be read from it; "" where nothing is known of it */
+    char *caption;  /* its caption; "" where there is none */
     bool animation; /* an animated GIF: linked, not shown */
 } mote_report_figure;
 
-/* What a report is made from. Everything is owned; NULL is what the run does not have. */
+/* What a report is made from. It owns everything; NULL stands for what the run does not
+   have. */
 typedef struct mote_report {
     const char *directory; /* borrowed */
     char *name;            /* the last part of the directory's path */
@@ -31,11 +32,11 @@ typedef struct mote_report {
     mote_report_figure *figures;
     size_t figure_count;
     char *defects;   /* Markdown: the known defects of the baselines */
-    json_t *damaged; /* texts: what is there and cannot be read */
-    json_t *missing; /* texts: what is not there, and which command adds it */
+    json_t *damaged; /* texts: the files that exist but cannot be read */
+    json_t *missing; /* texts: what is missing, and which command adds it */
 } mote_report;
 
-/* Gathers what there is in a run's directory. MOTE_EIO when there is nothing to report: no such
+/* Gathers what a run's directory has. MOTE_EIO when there is nothing to report: no such
    directory, or nothing of a run in it. The caller frees *report. */
 mote_status mote_report_gather(const char *directory, mote_report *report);
 void mote_report_free(mote_report *report);

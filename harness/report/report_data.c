@@ -11,7 +11,7 @@
 
 #define FIGURE_LIMIT ((size_t)64 << 20)
 
-/* Text that is not UTF-8 is NULL, and left out. */
+/* Text that is not UTF-8 becomes NULL, and is left out. */
 static void set(json_t *object, const char *key, json_t *value)
 {
     (void)json_object_set_new(object, key, value);
@@ -71,7 +71,7 @@ static json_t *cells_data(const mote_summary_row *row)
     return cells;
 }
 
-/* A row of the summary without what no table of the page shows. */
+/* A row of the summary, without what no table of the page shows. */
 static json_t *row_data(const mote_report *report, size_t i)
 {
     static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint"};

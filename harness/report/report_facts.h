@@ -1,4 +1,4 @@
-/* Plain facts of a report that both of its forms list: the machine and what was asked. */
+/* Facts that both forms of a report list: the machine and what was asked. */
 #ifndef MOTE_HARNESS_REPORT_FACTS_H
 #define MOTE_HARNESS_REPORT_FACTS_H
 

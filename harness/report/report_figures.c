@@ -23,7 +23,7 @@ static bool exists(const mote_report *report, const char *file)
     return found;
 }
 
-/* Adds a figure; title is taken over. */
+/* Adds a figure; takes ownership of title. */
 static mote_status add_figure(mote_report *report, const char *file, char *title,
                               const char *caption)
 {
@@ -66,7 +66,7 @@ static mote_status add_entry(mote_report *report, const json_t *entry)
     return status;
 }
 
-/* One line for all that other commands measure. */
+/* One line for all figures that other commands measure. */
 static mote_status add_elsewhere(mote_report *report, const json_t *not_drawn)
 {
     mote_text text = {0};

@@ -17,7 +17,7 @@ static mote_status no_memory(void)
     return mote_fail(MOTE_ENOMEM, "no memory for a report");
 }
 
-/* Adds a text to a list; takes it over. */
+/* Adds a text to a list; takes ownership of it. */
 static mote_status add_text(json_t *list, char *what)
 {
     int added = what ? json_array_append_new(list, json_string(what)) : -1;
@@ -34,7 +34,8 @@ static bool exists(const char *directory, const char *name)
     return found;
 }
 
-/* Reads directory/name. That it is not there, or cannot be read, is noted, and no failure. */
+/* Reads directory/name. A file that is missing or cannot be read is noted, and is no
+   failure. */
 static mote_status read_json(mote_report *report, const char *name, const char *remedy,
                              json_t **object)
 {
@@ -77,9 +78,10 @@ static mote_status read_rows(mote_report *report)
     if (made)
         mote_summary_free(&report->cells);
     if (made && status == MOTE_OK)
-        status = add_text(report->missing, mote_format("cells: none that can be read; `mote "
-                                                       "run --out %s` measures some",
-                                                       report->directory));
+        status = add_text(
+            report->missing,
+            mote_format("cells: none that can be read; `mote run --out %s` measures them",
+                        report->directory));
     else if (status != MOTE_ENOMEM)
         status = add_text(report->missing, mote_format("cells: %s", mote_error_text()));
     if (status != MOTE_OK)
@@ -88,8 +90,8 @@ static mote_status read_rows(mote_report *report)
                      &report->summary);
 }
 
-/* The claims are measured by a run of their own, which `make claims` leaves beside the others.
- */
+/* The claims are measured by a run of their own, which `make claims` writes beside the
+   others. */
 static mote_status read_claims(mote_report *report)
 {
     static const char *const folders[] = {"", "../claims/"};

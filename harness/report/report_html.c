@@ -1,5 +1,5 @@
 /* The page: a frame, the report's data, and the scripts that make its tables and draw its
-   replay. It may load nothing: what it needs is in it. */
+   replay. It loads nothing: all that it needs is in it. */
 #include "harness/base/data.h"
 #include "harness/base/escape.h"
 
@@ -15,7 +15,7 @@
 #define SOURCE_LIMIT ((size_t)1 << 20)
 #define PROGRAM_LIMIT ((size_t)8 << 20)
 
-/* Digits of the numbers in the page; tables show three, and sort by what is here. */
+/* Digits of the numbers in the page; tables show three and sort by all of them. */
 #define DIGITS 10
 
 /* The page's own program, in this order; plain scripts, which need no bundling. */
@@ -97,7 +97,7 @@ static mote_status add_scripts(mote_text *text)
     return status;
 }
 
-/* An element of data, which no text within it can end; data is taken over. */
+/* An element of data, which no text within it can end; takes ownership of data. */
 static mote_status add_data(const char *id, json_t *data, mote_text *text)
 {
     char *json = json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));

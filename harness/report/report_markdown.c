@@ -56,7 +56,7 @@ static mote_status add_commands(const mote_report *report, mote_text *text)
     return MOTE_OK;
 }
 
-/* What cannot be read comes first: the tables lack it. */
+/* Files that cannot be read come first, since the tables lack them. */
 static void add_damaged(const mote_report *report, mote_text *text)
 {
     size_t i;
@@ -184,7 +184,7 @@ static void add_notes(const json_t *row, mote_text *text)
     mote_text_add(text, " |");
 }
 
-/* Why a row has no figures, in the place of the first. */
+/* Why a row has no values, in the place of the first of them. */
 static void add_ending(const json_t *row, size_t columns, mote_text *text)
 {
     mote_text_add(text, " ");
@@ -216,7 +216,7 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
     mote_text_add(text, "\n");
 }
 
-/* A table of the block's rows: of those that stand for their method, or of all. */
+/* A table of the block's rows: those that represent their method, or all. */
 static void add_table(const mote_report *report, size_t first, size_t end, bool all,
                       mote_text *text)
 {

@@ -82,7 +82,8 @@ size_t mote_report_block_end(const mote_report *report, size_t first)
     return end;
 }
 
-/* No missed contact, no false one, and no distance, if it gives any, that is not exact. */
+/* Whether a row has no missed contact, no false one, and, if it gives distances, only exact
+   ones. */
 static bool is_right(const json_t *row)
 {
     const double max = mote_report_number(row, "error", "max");
@@ -100,7 +101,8 @@ static double time_of(const json_t *row)
     return usable ? time : HUGE_VAL;
 }
 
-/* Whether a row was given all vertices at no charge: it is not compared with those that pay. */
+/* Whether a row was given all vertices at no charge; it is not compared with rows that are
+   charged. */
 static bool is_given(const json_t *row)
 {
     return strcmp(mote_report_text(row, "accounting"), "given") == 0;

@@ -20,15 +20,14 @@ const mote_summary_row *mote_report_cells(const mote_report *report, size_t i);
 /* row[object][key], or row[key] with object NULL; MOTE_NONE where it is no number. */
 double mote_report_number(const json_t *row, const char *object, const char *key);
 
-/* Takes the two ends of value[interval]; false where they are no two numbers: an end that is
-   not finite is stored as null. */
+/* Reads the two ends of value[interval]; false where they are not two numbers: an end that
+   is not finite is stored as null. */
 bool mote_report_interval(const json_t *value, double interval[2]);
 
 /* row[key] as text, "" where it is none. */
 const char *mote_report_text(const json_t *row, const char *key);
 
-/* The scene that a row is of, as its heading says it; older summaries know its scenario only.
- */
+/* The name of a row's scene, as in its heading; older summaries have only its scenario. */
 const char *mote_report_scene(const json_t *row);
 
 /* What a reader of a row's figures must know: the stride, that others ran beside it, replicates
@@ -37,15 +36,15 @@ const char *mote_report_scene(const json_t *row);
 #define MOTE_REPORT_NOTE MOTE_ROW_NOTE
 bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE]);
 
-/* Whether two rows stand in one table: one scenario, state of caches, machine,
-   question and range of frames. */
+/* Whether two rows are in one table: same scenario, state of caches, machine, question and
+   range of frames. */
 bool mote_report_same_block(const json_t *a, const json_t *b);
 
 /* One after the last row of the block that starts at row first. */
 size_t mote_report_block_end(const mote_report *report, size_t first);
 
-/* What a block says first; SIZE_MAX where there is no such row. Rows with given positions
-   (nobody is charged for deformation) are not compared with the others. */
+/* The rows that a block mentions first; SIZE_MAX where there is no such row. Rows with given
+   positions (no method is charged for deformation) are not compared with the others. */
 typedef struct mote_report_glance {
     size_t right;   /* the fastest row without a wrong answer in any frame */
     size_t fastest; /* the fastest row; SIZE_MAX where it is `right` */
@@ -54,8 +53,8 @@ typedef struct mote_report_glance {
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first,
                                             size_t end);
 
-/* Whether a row stands for its method where one row a method is shown (mote_find_method_rows);
-   all rows of an older summary, which does not say, do. */
+/* Whether a row represents its method where one row a method is shown
+   (mote_find_method_rows); true of all rows of an older summary, which does not say. */
 bool mote_report_stands_for_method(const json_t *row);
 
 #endif

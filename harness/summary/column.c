@@ -16,7 +16,7 @@
     {                                                                                          \
         return (double)(expression);                                                           \
     }
-/* A value that stands in the row's cells as it is. */
+/* A value stored in the row's cells as it is. */
 #define DEFINE_STORED(name, key)                                                               \
     static json_t *name(const mote_summary_row *row)                                           \
     {                                                                                          \
@@ -165,7 +165,7 @@ static const char quiet_schema[] =
         table, report, brief                                                                   \
     }
 
-/* A member of a time without a place in a table. */
+/* A member of a time that no table shows. */
 #define TIME_MEMBER(time, name, member, kept)                                                  \
     {                                                                                          \
         .object = name, .key = kept, .csv = name "_" kept, .type = MOTE_COLUMN_REAL,           \
@@ -239,7 +239,7 @@ static const char quiet_schema[] =
 
 /* Errors below this are rounding. */
 #define ROUNDING 1e-12
-/* Figures that are the same in every run of one program differ by at most this share. */
+/* Values that are the same in every run of one program differ by at most this share. */
 #define SAME 1e-9
 /* Heap may grow by this share: the allocator rounds. */
 #define HEAP_SHARE 0.01

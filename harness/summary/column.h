@@ -1,5 +1,5 @@
-/* The columns of a summary's rows, each declared once: its name, its unit, what it says, where
-   its value comes from, how it is shown and how two runs are compared by it. summary.json, its
+/* The columns of a summary's rows, each declared once: its name, unit and meaning, where its
+   value comes from, how it is shown and how two runs are compared by it. summary.json, its
    schema, the CSV, the tables of the terminal, the report and the documents follow from this
    list, in its order. A new column is one entry in column.c. */
 #ifndef MOTE_HARNESS_COLUMN_H
@@ -31,8 +31,8 @@ typedef enum mote_view {
 typedef struct mote_column_rule {
     const char *name; /* what a comparison calls it; NULL: it is not compared in this way */
     double share, negligible;
-    bool complement; /* more is better: what is missing to 1 is compared */
-    bool assumed;    /* 0 where a run of an older build does not say */
+    bool complement; /* more is better: 1 less the value is compared */
+    bool assumed;    /* 0 where a run of an older build lacks the column */
 } mote_column_rule;
 
 typedef struct mote_column {
@@ -58,7 +58,7 @@ typedef struct mote_column {
     const char *brief;        /* one line instead; NULL: not in report.md */
     mote_number_show show;
     bool interval;         /* ci_low and ci_high of the same object are its interval */
-    int place[MOTE_VIEWS]; /* rising from left to right; 0: not there */
+    int place[MOTE_VIEWS]; /* position, rising from left to right; 0: not shown */
 
     mote_column_rule rule;
 } mote_column;

@@ -5,7 +5,7 @@
 
 static const char *const type_names[] = {"text", "whole", "real", "flag", "object"};
 
-/* The schema of a column's value by its type; null stands for a number that there is not. */
+/* The schema of a column's value by its type; null stands for a missing number. */
 static json_t *type_schema(const mote_column *column)
 {
     if (column->schema)
@@ -44,7 +44,7 @@ static void add_member(json_t *schema, const char *key, json_t *member, bool req
         (void)json_array_append_new(json_object_get(schema, "required"), json_string(key));
 }
 
-/* The schema of the object that a column stands in, made if it is the first. An object that
+/* The schema of the object that contains a column, made if it is the first. An object that
    begins with an optional member is null without it. */
 static json_t *object_schema(json_t *row, const mote_column *column)
 {

@@ -1,5 +1,4 @@
-/* What the list of columns says of itself: for other programs, for the page, for the documents.
- */
+/* The list of columns as data: for other programs, for the page, for the documents. */
 #ifndef MOTE_HARNESS_COLUMN_DOCS_H
 #define MOTE_HARNESS_COLUMN_DOCS_H
 

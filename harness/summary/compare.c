@@ -9,7 +9,7 @@
 
 /* Counts are equal when they differ by less than this share. */
 #define EXACT_SHARE 1e-9
-/* Instructions may grow by this share: where memory lies decides a few branches. */
+/* Instructions may grow by this share: a few branches depend on memory addresses. */
 #define INSTRUCTIONS_SHARE 0.01
 /* At most this many replicates are paired. */
 #define PAIRS_MAX 1000
@@ -138,7 +138,7 @@ static size_t process_changes(const json_t *base, const json_t *fresh, bool othe
     return count;
 }
 
-/* Says that something the base knows cannot be compared: nothing follows from what is left. */
+/* Notes that something the base has cannot be compared, so that the row is undecided. */
 static void say_unknown(mote_change *change, const char *what)
 {
     change->unknown = true;
@@ -185,7 +185,7 @@ static void say(mote_change *change, const char *name, double base, double fresh
         mote_text_add(&change->what, "%s%s %.6g to %.6g", separator, name, base, fresh);
 }
 
-/* A figure of which more is worse, equal within a share; says so when it is not. */
+/* Compares a value of which more is worse, equal within a share, and notes a difference. */
 static void compare_figure(mote_change *change, const char *name, double base, double fresh,
                            double share)
 {
@@ -242,7 +242,7 @@ static void compare_counts(const json_t *base, const json_t *fresh, mote_change 
     }
 }
 
-/* Compares what the columns say of themselves (mote_column_rule). */
+/* Compares the columns by their own rules (mote_column_rule). */
 static void compare_columns(const json_t *base, const json_t *fresh, mote_change *change)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {
@@ -298,7 +298,7 @@ static void compare_row(const json_t *base, const json_t *fresh, bool other_mach
     compare_counts(base, fresh, change);
 }
 
-/* Why a time changed, as far as counts and instructions tell. */
+/* Why a time changed, as far as counts and instructions explain it. */
 static void explain(mote_change *change, bool instructions)
 {
     if (change->counted)
@@ -369,7 +369,7 @@ static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
     /* Several rows of the base, of different machines, may have one partner. */
     for (size_t i = 0; i < json_array_size(new_rows); ++i)
         c->only_new += find_partner(base_rows, json_array_get(new_rows, i)) ? 0 : 1;
-    c->undecided = c->only_base > 0; /* nothing says how they fare now */
+    c->undecided = c->only_base > 0; /* nothing is known of them now */
     if (c->count == 0)
         return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
                                       "runs of the same scenarios, methods, frames and seed");
@@ -407,7 +407,7 @@ static const json_t *find_counted(const json_t *counted, const json_t *row, cons
     return NULL;
 }
 
-/* Adds what instructions say to the rows of both runs. judged: more of them are worse. */
+/* Compares the instructions of the rows of both runs. judged: more of them are worse. */
 static void compare_instructions(const mote_compared_run runs[2], bool judged,
                                  mote_comparison *c)
 {

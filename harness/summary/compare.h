@@ -20,12 +20,12 @@ typedef struct mote_change {
     double p;               /* of no change, corrected by Holm over all rows */
     mote_verdict verdict;   /* of the time */
     double smallest_change; /* that could be detected, a share; MOTE_NONE: unknown */
-    bool is_reference;      /* fcl-aabb itself: its time says nothing about us */
+    bool is_reference;      /* fcl-aabb itself: its time says nothing about our methods */
     bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
     bool counted;   /* a count changed */
     bool executed;  /* instructions changed */
-    bool unknown;   /* the base knows something that the new run does not: undecided */
+    bool unknown;   /* the base has something that the new run lacks: undecided */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
 } mote_change;
 
@@ -39,15 +39,15 @@ typedef struct mote_comparison {
     bool worse, undecided;      /* any row; undecided also when the base has more rows */
 } mote_comparison;
 
-/* Compares directories (or summary.json files). floor: a share, at least; the noise floors of
-   both runs raise it. A time is slower only when its ratio is beyond the floor and beyond the
-   smallest change that the rows can detect. Where manifest.json names another processor, times
-   are compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes and
-   accuracy are compared as they are, and so is how many replicates failed. Instructions
-   (instructions.json of both) may grow by 1 %; with another processor or compiler they are told
-   and not judged. MOTE_EIO or MOTE_EINVAL when a summary cannot be read, or a manifest.json or
-   instructions.json that is there; MOTE_EINVAL when they have no row in common. The caller
-   frees *comparison. */
+/* Compares directories (or summary.json files). floor: a share, at least; the noise floors
+   of both runs raise it. A time is slower only when its ratio is beyond the floor and beyond
+   the smallest change that the rows can detect. Where manifest.json names another processor,
+   times are compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts,
+   bytes and accuracy are compared as they are, and so is how many replicates failed.
+   Instructions (instructions.json of both) may grow by 1 %; with another processor or
+   compiler they are reported and not judged. MOTE_EIO or MOTE_EINVAL when a summary cannot
+   be read, or a manifest.json or instructions.json that is there; MOTE_EINVAL when they have
+   no row in common. The caller frees *comparison. */
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison);
 void mote_comparison_free(mote_comparison *comparison);

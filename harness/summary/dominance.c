@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Whether a figure of which less is better is no worse; not known on both sides is equal. */
+/* Whether a value of which less is better is no worse; two unknown values are equal. */
 static bool no_worse(double a, double b)
 {
     return a <= b || (a != a && b != b);
@@ -14,8 +14,8 @@ static bool error_no_worse(double a, double b)
     return no_worse(a <= MOTE_EXACT_ERROR ? 0 : a, b <= MOTE_EXACT_ERROR ? 0 : b);
 }
 
-/* A scene that asks for contacts only gives distances to some methods and to others not: they
-   do not count there. */
+/* In a scene that asks for contacts only, some methods give distances and others do not, so
+   errors do not count there. */
 static bool distances_no_worse(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->first->ask, "contact") == 0 ||

@@ -1,5 +1,5 @@
-/* Which rows of a summary are read first: those that no other row beats in everything, and one
-   a method. */
+/* Which rows of a summary to show first: those that no other row beats in everything, and
+   one for each method. */
 #ifndef MOTE_HARNESS_DOMINANCE_H
 #define MOTE_HARNESS_DOMINANCE_H
 
@@ -23,7 +23,7 @@ void mote_find_dominated(mote_summary_row *rows, size_t count);
 #define MOTE_CLOSE_ERROR 0.01
 void mote_find_method_rows(mote_summary_row *rows, size_t count);
 
-/* Whether a row stands on the front of its block: measured, and no other row dominates it. */
+/* Whether a row is on the front of its block: measured, and no other row dominates it. */
 bool mote_on_front(const mote_summary_row *row);
 
 #endif

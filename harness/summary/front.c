@@ -32,8 +32,8 @@ static bool has_point(const mote_summary_row *row)
     return mote_summary_row_measured(row) && row->error.p99 == row->error.p99;
 }
 
-/* How points reach an error: at `at`, or a share of the way from there to the faster `towards`,
-   on logarithmic scales. */
+/* Where the front reaches an error: at the point `at`, or a share of the way from there to
+   the faster `towards`, on logarithmic scales. */
 typedef struct route {
     size_t at, towards;
     double share;
@@ -88,7 +88,7 @@ typedef struct workshop {
     double *drawn;          /* [processes] */
 } workshop;
 
-/* The rows of one side at one level: how they reach its error. */
+/* The rows of one side at one level of error, and where they reach it. */
 typedef struct side {
     const size_t *rows;
     size_t count;
@@ -108,7 +108,7 @@ static void find_side(const workshop *w, bool given, double level, side *s)
     for (size_t i = 0; i < s->count; ++i) {
         const mote_summary_row *row = &w->summary->rows[s->rows[i]];
         w->times[i] = given ? row->given_total.median : row->total.median;
-        /* Exact is what is exact in every frame. */
+        /* A row counts as exact where it is exact in every frame. */
         w->errors[i] = level <= MOTE_EXACT_ERROR ? row->error.max : row->error.p99;
     }
     s->time = MOTE_NONE;
@@ -116,7 +116,7 @@ static void find_side(const workshop *w, bool given, double level, side *s)
         s->time = time_between(w->times[s->way.at], w->times[s->way.towards], s->way.share);
 }
 
-/* Median of a row's times in the drawn processes that there are. */
+/* Median of a row's times in those of the drawn processes that it has. */
 static double drawn_median(const comparison *c, size_t row, const size_t *drawn, size_t count)
 {
     const workshop *w = c->shop;
@@ -136,9 +136,9 @@ static double drawn_time(const comparison *c, const side *s, const size_t *drawn
     return time_between(at, towards, s->way.share);
 }
 
-/* How many times faster than FCL in the drawn processes. Which configurations reach the error
-   is decided by all processes together and not drawn again: a process in which fewer particles
-   happen to suffice would otherwise answer another question than the estimate does. */
+/* How many times faster than FCL in the drawn processes. Which configurations reach the
+   error is decided by all processes together and not drawn again: otherwise a process in
+   which fewer particles happen to suffice would estimate something else. */
 static double drawn_speed(void *context, const size_t *drawn, size_t count)
 {
     const comparison *c = context;
@@ -200,8 +200,8 @@ static void make_workshop(const mote_summary *summary, workshop *w)
     fill_rows(w);
 }
 
-/* The interval of the speed: how far processes spread around their own centre, laid around the
-   estimate, which is of the frames of all of them. */
+/* The interval of the speed: the spread of the processes around their own centre, placed
+   around the estimate, which uses the frames of all of them. */
 static void find_interval(const comparison *c, mote_front_speed *speed)
 {
     const size_t processes = c->shop->processes;

@@ -23,7 +23,7 @@ static void print_speed(const mote_front_speed *speed, FILE *out)
     (void)fprintf(out, " %22s", text);
 }
 
-/* What tells this place from another one of its scenario and caches. */
+/* What distinguishes this block from others of the same scenario and caches. */
 static void print_apart(const mote_summary *summary, const mote_stored_cell *cell, FILE *out)
 {
     bool frames = false;

@@ -20,11 +20,11 @@
 #define FIELDS 11
 enum { FIELD_DATE, FIELD_COMMIT, FIELD_WHY, FIELD_ROW, FIELD_TOTAL, FIELD_RATIO };
 
-/* A change of less than this share is none. */
+/* A smaller change than this share counts as none. */
 #define CHANGE_SHARE 0.05
 #define CHANGE_TIMES_USUAL 3
 
-/* A field without what would end it. */
+/* A field, without characters that would end it. */
 static void add_plain(mote_text *text, const char *value)
 {
     for (; *value; ++value)
@@ -82,7 +82,7 @@ static mote_status check_header(const char *file, const char *text)
     return mote_fail(MOTE_EINVAL, "%s:1: not the header of a history", file);
 }
 
-/* What there is so far, its last line ended, or the header. */
+/* The history so far, with its last line ended, or the header. */
 static mote_status begin_text(const char *file, mote_text *text)
 {
     if (access(file, F_OK) != 0) {

@@ -218,8 +218,8 @@ static mote_status read_frames(const char *path, const char *text, mote_stored_c
     return MOTE_OK;
 }
 
-/* What the replicates of one configuration have in common, as text that sorts by scenario,
-   caches and method. */
+/* A key that is equal for the replicates of one configuration, and sorts by scenario, caches
+   and method. */
 static char *group_name(const mote_stored_cell *cell)
 {
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
@@ -306,7 +306,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     return MOTE_OK;
 }
 
-/* A file that was cut at the end of a line looks whole; cells of older builds do not tell. */
+/* A file that was cut at the end of a line looks whole; cells of older builds do not store
+   the number of rows. */
 static mote_status check_rows(const char *path, const mote_stored_cell *cell)
 {
     const json_t *rows = json_object_get(cell->json, "rows");

@@ -32,9 +32,9 @@ typedef struct mote_stored_cell {
     mote_cell_status status;
     uint32_t replicate, stride;
     uint64_t seed;           /* the run's */
-    uint64_t replicate_seed; /* mote_replicate_seed: what this process drew from */
+    uint64_t replicate_seed; /* the seed of this process: mote_replicate_seed */
     uint32_t jobs;           /* cells that ran at the same time; 1: times are comparable */
-    uint32_t first, last;    /* of the frames asked for; 0 for what is no frame's number */
+    uint32_t first, last;    /* of the frames asked for; 0 where the cell has no such number */
     uint32_t active_first, active_last; /* 0, 0 when the scenario names none */
     size_t frames;
     uint32_t *frame; /* numbers, rising */

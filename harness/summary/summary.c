@@ -152,8 +152,9 @@ static void make_rows(mote_summary *summary)
 /* The digits of a fingerprint that are shown. */
 #define SHOWN_DIGITS 8
 
-/* Names the scene of a row by its scenario, and by what tells it from others of that name: a
-   file may have changed between two runs, or lie in two folders. */
+/* Names the scene of a row by its scenario and, where several scenes have that name, by its
+   fingerprint: a file may have changed between two runs, or there are two in different
+   folders. */
 static char *name_scene(const mote_summary *summary, const mote_stored_cell *cell)
 {
     bool scenes = false, questions = false, tolerances = false;

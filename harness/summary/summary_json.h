@@ -1,4 +1,4 @@
-/* A summary as the files that a run's directory holds of it. */
+/* Writes a summary into the files of a run's directory. */
 #ifndef MOTE_HARNESS_SUMMARY_JSON_H
 #define MOTE_HARNESS_SUMMARY_JSON_H
 

@@ -17,8 +17,8 @@ static uint32_t last_replicate(const mote_summary_row *row)
     return last;
 }
 
-/* Which of the groups of replicates 1 .. last one belongs to: blocks of consecutive numbers, so
-   that groups differ as much as the machine does from one minute to the next. */
+/* The group to which one of the replicates 1 .. last belongs: blocks of consecutive numbers,
+   so that groups differ as much as the machine does from one minute to the next. */
 static uint32_t group_of(uint32_t replicate, uint32_t last, uint32_t groups)
 {
     return (uint32_t)((uint64_t)(replicate - 1) * groups / last);
@@ -126,7 +126,7 @@ static double halves_differ(const mote_summary_row *row, const mote_summary_row 
     return exp(fabs(log(halves[0] / halves[1]))) - 1;
 }
 
-/* Whether anything can be said of a row's times; the reference is always 1 to itself. */
+/* Whether a row's times can be compared; the reference's ratio to itself is always 1. */
 static bool is_compared(const mote_summary_row *rows, size_t index)
 {
     return rows[index].ratio.to != index && rows[index].finished > 0 && rows[index].jobs <= 1;

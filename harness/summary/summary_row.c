@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Any fixed number: intervals of the same data are the same. */
+/* Any fixed seed, so that the same data give the same intervals. */
 #define BOOTSTRAP_SEED 20030901u
 
 /* The frames of a time that count: from first to last, 0, 0 for all. */
@@ -102,7 +102,7 @@ static void make_times(mote_summary_row *row)
     row->update = make_time(row, update_of, 0, UINT32_MAX);
     row->query = make_time(row, query_of, 0, UINT32_MAX);
     row->given_total = make_time(row, given_of, 0, UINT32_MAX);
-    /* active_last is 0 without an active interval: no frame, no figure */
+    /* active_last is 0 without an active interval: then there is no value */
     row->active_total =
         make_time(row, total_of, row->first->active_first, row->first->active_last);
 }
@@ -215,7 +215,7 @@ static const mote_parameter *find_parameter(const mote_method *method, const cha
 }
 
 /* A parameter's value as it would be written on the command line, and whether it is the
-   default. The method may be gone from this build: then nothing is a default. */
+   default. The method may not be in this build: then nothing counts as a default. */
 static char *value_text(const mote_method *method, const char *key, const json_t *value,
                         bool *usual)
 {

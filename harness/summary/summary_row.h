@@ -1,4 +1,4 @@
-/* One row of a summary: the figures of the replicates of one configuration. */
+/* One row of a summary: statistics over the replicates of one configuration. */
 #ifndef MOTE_HARNESS_SUMMARY_ROW_H
 #define MOTE_HARNESS_SUMMARY_ROW_H
 
@@ -26,9 +26,9 @@ typedef struct mote_process {
     double ratio;  /* paired median of (reference's total / this total), as in row.ratio */
 } mote_process;
 
-/* Times with the disturbances of a shared machine taken out as far as replicates allow: of each
-   frame the fastest of a group of replicates, then the median over frames. Groups are
-   blocks of consecutive replicates; with fewer than MOTE_QUIET_REPLICATES all is MOTE_NONE. */
+/* Times without the disturbances of a shared machine, as far as replicates allow: of each
+   frame the fastest of a group of replicates, then the median over frames. Groups are blocks
+   of consecutive replicates; with fewer than MOTE_QUIET_REPLICATES all is MOTE_NONE. */
 #define MOTE_QUIET_GROUPS 5
 #define MOTE_QUIET_REPLICATES 10
 typedef struct mote_quiet {

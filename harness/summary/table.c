@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A change that is larger than this says nothing. */
+/* A smallest change above this is not worth printing. */
 #define CHANGE_MAX 10.0
 
 static size_t label_width(const mote_summary *summary)

@@ -47,7 +47,7 @@ static void set_known(json_t *object, const char *key, json_t *value)
         (void)json_object_set(object, key, value);
 }
 
-/* Of when, where and by what the run was measured, which its manifest says. */
+/* When, where and by which build the run was measured, from its manifest. */
 static json_t *gbench_context(const json_t *manifest, const mote_summary *summary)
 {
     json_t *context = json_pack("{s:s, s:[], s:[], s:i}", "executable", "mote", "caches",

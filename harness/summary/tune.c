@@ -20,14 +20,14 @@ static bool is_right(const mote_summary_row *row)
 /* Lets a row compete in its group. */
 static void compete(const mote_summary_row *row, mote_tuned *group)
 {
-    /* A time that is not known is the least and the most of nothing. */
+    /* A time that is not known is neither the smallest nor the largest. */
     if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->total.median != row->total.median)
         return;
     group->configurations++;
     bool right = is_right(row);
     if (group->right && !right)
         return;
-    /* The first right one starts anew. */
+    /* The first configuration that is right replaces those that are not. */
     bool first = !group->best || (right && !group->right);
     if (first || row->total.median < group->best->total.median)
         group->best = row;

@@ -1,4 +1,4 @@
-/* A run that goes on until its figures are as certain as asked for. */
+/* A run that adds replicates until its times are as certain as asked for. */
 #ifndef MOTE_HARNESS_UNTIL_H
 #define MOTE_HARNESS_UNTIL_H
 
