@@ -3,7 +3,7 @@
 #define MOTE_TESTS_STORED_CELLS_H
 
 #include "harness/base/file.h"
-#include "tests/support/plain_file.h"
+#include "tests/support/folder.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
@@ -28,11 +28,11 @@ typedef struct stored_cell {
     const char *rows;              /* below STORED_COLUMNS; "": none; NULL: no CSV */
 } stored_cell;
 
-static inline bool stored_cell_write(const char *directory, const stored_cell *cell)
+/* Writes it into a run's directory, which is made. */
+static inline void stored_cell_put(const char *directory, stored_cell of)
 {
+    const stored_cell *cell = &of;
     char path[512], id[64];
-    (void)snprintf(path, sizeof path, "%s/cells", directory);
-    bool done = mote_directory_make(path) == MOTE_OK;
     const char *method = cell->method ? cell->method : "fcl-aabb";
     const int replicate = cell->replicate ? cell->replicate : 1;
     if (cell->id)
@@ -49,15 +49,14 @@ static inline bool stored_cell_write(const char *directory, const stored_cell *c
         cell->parameters ? cell->parameters : "{}", replicate, cell->seed,
         cell->frames ? cell->frames : "[1, 4]", cell->more ? cell->more : "");
     (void)snprintf(path, sizeof path, "%s/cells/%s.json", directory, id);
-    done = done && json && plain_file_put(path, json);
+    file_put(path, json);
     free(json);
     if (!cell->rows)
-        return done;
+        return;
     char *csv = mote_format("%s%s", STORED_COLUMNS, cell->rows);
     (void)snprintf(path, sizeof path, "%s/cells/%s.csv", directory, id);
-    done = done && csv && plain_file_put(path, csv);
+    file_put(path, csv);
     free(csv);
-    return done;
 }
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "harness/summary/compare.h"
 #include "harness/base/record.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -12,25 +12,12 @@
 
 #include <sys/stat.h>
 
-static char base[] = "/tmp/mote-test-compare-XXXXXX";
-static char old_run[64], new_run[64], said[64];
-
-static inline int make_base(void)
+static inline int make_runs(void)
 {
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(old_run, sizeof old_run, "%s/old", base);
-    (void)snprintf(new_run, sizeof new_run, "%s/new", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    return mkdir(old_run, 0777) || mkdir(new_run, 0777);
+    return mkdir("old", 0777) || mkdir("new", 0777);
 }
 
-static inline int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
+TEST_GROUP(make_runs, NULL);
 
 /* Without the sync of mote_record_json; object is taken over. */
 static inline void put(const char *directory, const char *name, json_t *object)
@@ -85,9 +72,9 @@ static inline void write_run(const char *directory, const figures *f, double sig
 static inline mote_comparison compare_with(const figures *fresh)
 {
     mote_comparison c;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, fresh, -1);
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    write_run("old", &usual, 1);
+    write_run("new", fresh, -1);
+    assert_int_equal(mote_compare("old", "new", 0.02, &c), MOTE_OK);
     assert_int_equal(c.count, 1);
     return c;
 }
@@ -105,9 +92,7 @@ static inline void write_beside(const char *directory, const char *processor,
 
 static inline void remove_beside(void)
 {
-    char command[256];
-    (void)snprintf(command, sizeof command, "rm %s/[im]*.json %s/[im]*.json", old_run, new_run);
-    assert_int_equal(system(command), 0);
+    assert_int_equal(system("rm old/[im]*.json new/[im]*.json"), 0);
 }
 
 /* Puts the members of an object, written with ', into the first row of a run's file. */
@@ -130,12 +115,7 @@ static inline void change_row(const char *directory, const char *name, const cha
 /* mote compare OLD NEW OPTIONS: its exit status, and what it must say. */
 static inline void expect(const char *options, int status, const char *says)
 {
-    char line[256], text[8192];
-    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
-    const int ended = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    if (ended != status || !strstr(text, says))
-        fail_msg("exit %d, not %d, or not \"%s\":\n%s", ended, status, says, text);
+    mote_expect(status, says, "compare old new %s", options);
 }
 
 #endif

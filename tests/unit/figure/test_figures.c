@@ -287,7 +287,7 @@ static void write_replicate(const char *name, const char *method, int r, int ste
     for (int k = 1; k <= FRAMES; k += step)
         mote_text_add(&rows, "%d,0,0,%d,0.5,0,0,0,7\n", k, ns);
     const stored_cell cell = {.method = method, .replicate = r, .rows = rows.data};
-    assert_true(stored_cell_write(folder, &cell));
+    stored_cell_put(folder, cell);
     free(rows.data);
 }
 

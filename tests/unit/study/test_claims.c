@@ -242,7 +242,7 @@ TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
         stored_cell cell = cells[i];
         cell.method = "particle-paper";
         cell.parameters = i < 2 ? "{\"n\": 5}" : "{\"n\": 3}";
-        assert_true(stored_cell_write(folder, &cell));
+        stored_cell_put(folder, cell);
     }
     assert_int_equal(mote_summary_make(folder, &study.summary), MOTE_OK);
     assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);

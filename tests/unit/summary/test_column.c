@@ -5,20 +5,16 @@
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
 
 #define SCHEMA MOTE_SOURCE_DIR "/results/schema/summary.json"
 #define DOCUMENT MOTE_SOURCE_DIR "/results/README.md"
 
-static char base[] = "/tmp/mote-test-column-XXXXXX";
 static mote_summary summary;
 
 static int make_run(void)
 {
-    if (!mkdtemp(base))
-        return -1;
     for (int r = 1; r <= 2; ++r) {
         const stored_cell cells[] = {
             {.replicate = r, .rows = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0.1,0,1,7\n"},
@@ -27,18 +23,16 @@ static int make_run(void)
              .replicate = r,
              .status = "crashed",
              .more = ", \"reason\": \"a signal\""}};
-        for (size_t i = 0; i < 2; ++i) {
-            if (!stored_cell_write(base, &cells[i]))
-                return -1;
-        }
+        for (size_t i = 0; i < 2; ++i)
+            stored_cell_put(".", cells[i]);
     }
-    return mote_summary_make(base, &summary) == MOTE_OK ? 0 : -1;
+    return mote_summary_make(".", &summary) == MOTE_OK ? 0 : -1;
 }
 
 static int remove_run(void)
 {
     mote_summary_free(&summary);
-    return program_remove(base);
+    return 0;
 }
 
 TEST_GROUP(make_run, remove_run);
@@ -138,16 +132,13 @@ TEST(csv_has_a_field_a_column_whatever_names_hold)
     free(text.data);
 }
 
-/* Leaves what should be there beside the tests, and says so. */
+/* Leaves what should be there in /tmp, and says so. */
 static void differs(const char *file, const char *expected)
 {
     char path[512];
-    const char *name = strrchr(file, '/') + 1;
-    (void)snprintf(path, sizeof path, "%s.expected", name);
+    (void)snprintf(path, sizeof path, "/tmp/mote-expected-%s", strrchr(file, '/') + 1);
     file_put(path, expected);
-    fail_msg("%s is not what harness/summary/column.c says; what it says is in %s of the "
-             "folder of this test",
-             file, path);
+    fail_msg("%s is not what harness/summary/column.c says; what it says is in %s", file, path);
 }
 
 TEST(schema_of_a_row_is_that_of_the_columns)
@@ -167,10 +158,8 @@ TEST(schema_of_a_row_is_that_of_the_columns)
 TEST(document_holds_the_table_of_the_columns)
 {
     mote_text expected = {0};
-    char *document = NULL;
-    size_t size = 0;
     mote_columns_markdown(&expected);
-    assert_int_equal(mote_file_read(DOCUMENT, 1 << 20, &document, &size), MOTE_OK);
+    char *document = file_text(DOCUMENT);
     if (!strstr(document, expected.data))
         differs(DOCUMENT, expected.data);
     free(document);

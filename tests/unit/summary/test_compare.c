@@ -81,15 +81,15 @@ TEST(compare_below_the_smallest_change_is_undecided)
 {
     figures slow = usual;
     slow.ratio /= 1.1;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &slow, -1);
+    write_run("old", &usual, 1);
+    write_run("new", &slow, -1);
     json_t *summary = NULL;
-    assert_int_equal(mote_record_read_json(old_run, "summary.json", &summary), MOTE_OK);
+    assert_int_equal(mote_record_read_json("old", "summary.json", &summary), MOTE_OK);
     json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
     assert_int_equal(json_object_set_new(row, "smallest_change", json_real(0.15)), 0);
-    put(old_run, "summary.json", summary);
+    put("old", "summary.json", summary);
     mote_comparison c;
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_int_equal(mote_compare("old", "new", 0.02, &c), MOTE_OK);
     assert_int_equal(c.changes[0].verdict, MOTE_VERDICT_UNDECIDED);
     assert_true(c.undecided && !c.worse);
     mote_comparison_free(&c);
@@ -100,15 +100,15 @@ TEST(compare_of_times_measured_with_jobs_is_refused)
 {
     figures slow = usual;
     slow.ratio /= 2;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &slow, -1);
+    write_run("old", &usual, 1);
+    write_run("new", &slow, -1);
     json_t *summary = NULL;
-    assert_int_equal(mote_record_read_json(new_run, "summary.json", &summary), MOTE_OK);
+    assert_int_equal(mote_record_read_json("new", "summary.json", &summary), MOTE_OK);
     json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
     assert_int_equal(json_object_set_new(row, "times_comparable", json_false()), 0);
-    put(new_run, "summary.json", summary);
+    put("new", "summary.json", summary);
     mote_comparison c;
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    assert_int_equal(mote_compare("old", "new", 0.02, &c), MOTE_OK);
     assert_false(c.worse);
     assert_true(isnan(c.changes[0].ratio));
     assert_non_null(strstr(c.changes[0].what.data, "not comparable"));
@@ -117,11 +117,9 @@ TEST(compare_of_times_measured_with_jobs_is_refused)
 
 static int exit_status(const figures *fresh, const char *options)
 {
-    char line[256];
-    write_run(old_run, &usual, 1);
-    write_run(new_run, fresh, -1);
-    (void)snprintf(line, sizeof line, "compare %s %s %s", old_run, new_run, options);
-    return program_wait(program_start(line, said));
+    write_run("old", &usual, 1);
+    write_run("new", fresh, -1);
+    return mote("compare old new %s", options);
 }
 
 TEST(compare_command_tells_by_its_exit_status)
@@ -133,9 +131,7 @@ TEST(compare_command_tells_by_its_exit_status)
     assert_int_equal(exit_status(&slow, ""), 1);
     assert_int_equal(exit_status(&slow, "--floor 0.2"), 0);
     assert_int_equal(exit_status(&noisy, "--format json"), 3);
-    char text[4096];
-    program_read(said, text, sizeof text);
-    json_t *object = json_loads(text, 0, NULL);
+    json_t *object = json_loads(said, 0, NULL);
     assert_non_null(object);
     assert_string_equal(json_string_value(json_object_get(object, "verdict")), "undecided");
     json_decref(object);
@@ -143,8 +139,8 @@ TEST(compare_command_tells_by_its_exit_status)
 
 TEST(compare_of_what_is_no_run_is_bad_input)
 {
-    assert_int_equal(program_wait(program_start("compare /no/such/run /no/such/run", said)), 4);
-    assert_int_equal(program_wait(program_start("compare one", said)), 2);
+    mote_expect(4, "", "compare /no/such/run /no/such/run");
+    mote_expect(2, "", "compare one");
 }
 
 #define PROCESS(replicate, ratio, ns)                                                          \
@@ -210,10 +206,10 @@ TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
          "{'heap_live_bytes': 2e6, 'quiet': {'ratio': [5, 5.05, 5, 5.05, 5]}}", 1,
          "heap 1e+06 to 2e+06 (+1e+02 %); cost per count changed"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        write_run(old_run, &usual, 1);
-        write_run(new_run, &usual, -1);
-        change_row(old_run, "summary.json", cases[i].old_members);
-        change_row(new_run, "summary.json", cases[i].new_members);
+        write_run("old", &usual, 1);
+        write_run("new", &usual, -1);
+        change_row("old", "summary.json", cases[i].old_members);
+        change_row("new", "summary.json", cases[i].new_members);
         expect("", cases[i].status, cases[i].says);
     }
 }
@@ -232,23 +228,23 @@ static void add_row(const char *directory, const char *members)
 
 TEST(compare_of_rows_without_a_partner_is_undecided)
 {
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    add_row(new_run, "{'frames': 50}");
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    add_row("new", "{'frames': 50}");
     expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\nsame or better");
-    add_row(old_run, "{'seed': 7}");
+    add_row("old", "{'seed': 7}");
     expect("", 3, "without a partner: 1 rows of BASE, 1 of NEW\nundecided");
     expect("--format json", 3, "\"only_base\": 1");
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "one", 1100);
+    write_beside("old", "one", 1000);
+    write_beside("new", "one", 1100);
     expect("", 1, "WORSE : instructions 1000 to 1100 (+10 %)");
     /* Rows of instructions that are of nothing that is compared, or know nothing. */
     static const char *const members[] = {"{'scenario': 'tt'}", "{'method': 'certified'}",
                                           "{'parameters': {'n': 6}}", "{'per_frame': null}"};
     for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
-        write_beside(old_run, "one", 1000);
-        write_beside(new_run, "one", 1100);
-        change_row(i % 2 ? old_run : new_run, "instructions.json", members[i]);
+        write_beside("old", "one", 1000);
+        write_beside("new", "one", 1100);
+        change_row(i % 2 ? "old" : "new", "instructions.json", members[i]);
         expect("", 3, "undecided");
     }
     remove_beside();
@@ -258,38 +254,38 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
    first. */
 TEST(compare_prefers_the_row_of_the_same_machine)
 {
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    change_row(new_run, "summary.json", "{'machine': 'third', 'missed': 4}");
-    add_row(new_run, "{'machine': 'second', 'missed': 5}");
-    add_row(new_run, "{'machine': 'first', 'missed': 6}");
-    change_row(old_run, "summary.json", "{'machine': 'second'}");
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    change_row("new", "summary.json", "{'machine': 'third', 'missed': 4}");
+    add_row("new", "{'machine': 'second', 'missed': 5}");
+    add_row("new", "{'machine': 'first', 'missed': 6}");
+    change_row("old", "summary.json", "{'machine': 'second'}");
     expect("", 1, "missed 2 to 5");
-    change_row(old_run, "summary.json", "{'machine': 'none of them'}");
+    change_row("old", "summary.json", "{'machine': 'none of them'}");
     expect("", 1, "missed 2 to 6");
 }
 
 /* Two rows of the base with one partner: no row of the new run is without one. */
 TEST(compare_of_several_machines_with_one_counts_rows_without_a_partner)
 {
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    add_row(old_run, "{'machine': 'second'}");
-    add_row(old_run, "{'machine': 'third'}");
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    add_row("old", "{'machine': 'second'}");
+    add_row("old", "{'machine': 'third'}");
     expect("--format json", 0, "\"only_new\": 0");
-    add_row(new_run, "{'frames': 50}");
+    add_row("new", "{'frames': 50}");
     expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\n");
 }
 
 /* On another machine only ratios are compared; a floor that is wider still stays. */
 TEST(compare_on_another_machine_without_ratios_knows_no_time)
 {
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    change_row(old_run, "summary.json", NO_RATIO);
-    change_row(new_run, "summary.json", NO_RATIO_SLOWER);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "two", 1000);
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    change_row("old", "summary.json", NO_RATIO);
+    change_row("new", "summary.json", NO_RATIO_SLOWER);
+    write_beside("old", "one", 1000);
+    write_beside("new", "two", 1000);
     expect("", 0, "the processors differ: times only as ratios to fcl-aabb");
     expect("", 0, "an effect counts from 50.0 % on");
     expect("--floor 0.75", 0, "an effect counts from 75.0 % on");
@@ -301,10 +297,10 @@ TEST(compare_on_another_machine_without_ratios_knows_no_time)
 /* One row that is worse is enough. */
 TEST(compare_of_two_rows_is_worse_when_the_first_is)
 {
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    add_row(old_run, "{'frames': 50}");
-    add_row(new_run, "{'frames': 50, 'missed': 3}");
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    add_row("old", "{'frames': 50}");
+    add_row("new", "{'frames': 50, 'missed': 3}");
     expect("", 1, "p corrected over 2 rows");
     expect("--format json", 1, "\"verdict\": \"worse\"");
 }
@@ -314,16 +310,14 @@ TEST(compare_of_what_has_no_rows_is_bad_input)
     static const char *const summaries[] = {"{\"schema\": 1}\n", "{\"rows\": 5}\n", "[]\n"};
     for (size_t i = 0; i < sizeof summaries / sizeof summaries[0]; ++i) {
         for (int which = 0; which < 2; ++which) {
-            char path[96];
-            write_run(old_run, &usual, 1);
-            write_run(new_run, &usual, -1);
-            (void)snprintf(path, sizeof path, "%s/summary.json", which ? new_run : old_run);
-            file_put(path, summaries[i]);
+            write_run("old", &usual, 1);
+            write_run("new", &usual, -1);
+            file_put(which ? "new/summary.json" : "old/summary.json", summaries[i]);
             expect("", 4, "no rows; name a run, or its summary.json");
         }
     }
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    change_row(new_run, "summary.json", "{'seed': 9}");
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    change_row("new", "summary.json", "{'seed': 9}");
     expect("", 4, "the two runs have no configuration in common");
 }

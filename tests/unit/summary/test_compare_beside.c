@@ -1,19 +1,20 @@
 /* Comparisons with what lies beside a summary: instructions, and a manifest that tells the
    processor and the compiler. */
-#include "tests/support/test.h"
 #include "harness/summary/summary_json.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/two_runs.h"
+
+#include <unistd.h>
 
 static mote_comparison compare_beside(const figures *fresh, const char *processor,
                                       double instructions)
 {
     mote_comparison c;
-    write_run(old_run, &usual, 1);
-    write_run(new_run, fresh, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, processor, instructions);
-    assert_int_equal(mote_compare(old_run, new_run, 0.02, &c), MOTE_OK);
+    write_run("old", &usual, 1);
+    write_run("new", fresh, -1);
+    write_beside("old", "one", 1000);
+    write_beside("new", processor, instructions);
+    assert_int_equal(mote_compare("old", "new", 0.02, &c), MOTE_OK);
     remove_beside();
     return c;
 }
@@ -70,22 +71,19 @@ TEST(compare_on_another_processor_is_wide_for_times_and_exact_for_counts)
 
 TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
 {
-    char path[96];
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "one", 1100);
-    put(new_run, "manifest.json",
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    write_beside("old", "one", 1000);
+    write_beside("new", "one", 1100);
+    put("new", "manifest.json",
         json_pack("{s:s, s:s}", "processor", "one", "compiler", "Clang 14"));
     expect("", 0, "instructions (another processor or compiler) 1000 to 1100");
     /* What is not known does not differ. */
-    (void)snprintf(path, sizeof path, "%s/manifest.json", new_run);
-    assert_int_equal(unlink(path), 0);
+    assert_int_equal(unlink("new/manifest.json"), 0);
     expect("", 1, "WORSE : instructions 1000 to 1100");
-    (void)snprintf(path, sizeof path, "%s/instructions.json", new_run);
-    assert_int_equal(unlink(path), 0);
+    assert_int_equal(unlink("new/instructions.json"), 0);
     expect("--format json", 0, "\"instructions_compared\": false");
-    write_beside(new_run, "one", 1100);
+    write_beside("new", "one", 1100);
     remove_beside();
 }
 
@@ -103,12 +101,12 @@ TEST(compare_of_instructions_of_other_frames_is_undecided)
                  {"{}", "{'per_frame': null}", 3, "not counted over the same"},
                  {"{'per_frame': null}", "{}", 0, "same or better"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        write_run(old_run, &usual, 1);
-        write_run(new_run, &usual, -1);
-        write_beside(old_run, "one", 1000);
-        write_beside(new_run, "one", 1100);
-        change_row(old_run, "instructions.json", cases[i].old_members);
-        change_row(new_run, "instructions.json", cases[i].new_members);
+        write_run("old", &usual, 1);
+        write_run("new", &usual, -1);
+        write_beside("old", "one", 1000);
+        write_beside("new", "one", 1100);
+        change_row("old", "instructions.json", cases[i].old_members);
+        change_row("new", "instructions.json", cases[i].new_members);
         expect("", cases[i].status, cases[i].says);
     }
     remove_beside();
@@ -120,11 +118,11 @@ TEST(compare_of_damaged_files_beside_the_summary_is_bad_input)
     static const char *const names[] = {"instructions.json", "manifest.json"};
     for (size_t i = 0; i < 4; ++i) {
         char path[96];
-        write_run(old_run, &usual, 1);
-        write_run(new_run, &usual, -1);
-        write_beside(old_run, "one", 1000);
-        write_beside(new_run, "one", 1100);
-        (void)snprintf(path, sizeof path, "%s/%s", i % 2 ? new_run : old_run, names[i / 2]);
+        write_run("old", &usual, 1);
+        write_run("new", &usual, -1);
+        write_beside("old", "one", 1000);
+        write_beside("new", "one", 1100);
+        (void)snprintf(path, sizeof path, "%s/%s", i % 2 ? "new" : "old", names[i / 2]);
         assert_int_equal(truncate(path, 20), 0);
         expect("", 4, names[i / 2]);
     }
@@ -134,23 +132,15 @@ TEST(compare_of_damaged_files_beside_the_summary_is_bad_input)
 /* A run may be named by its summary. */
 TEST(compare_of_summaries_by_name_is_that_of_their_runs)
 {
-    char line[256], text[4096], here[64];
-    write_run(old_run, &usual, 1);
-    write_run(new_run, &usual, -1);
-    write_beside(old_run, "one", 1000);
-    write_beside(new_run, "one", 1100);
-    (void)snprintf(line, sizeof line, "compare %s/summary.json %s/summary.json", old_run,
-                   new_run);
-    assert_int_equal(program_wait(program_start(line, said)), 1);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "instructions 1000 to 1100"));
-    assert_non_null(getcwd(here, sizeof here));
-    assert_int_equal(chdir(old_run), 0);
-    (void)snprintf(line, sizeof line, "compare summary.json %s", new_run);
-    assert_int_equal(program_wait(program_start(line, said)), 1);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "instructions 1000 to 1100"));
-    assert_int_equal(chdir(here), 0);
+    write_run("old", &usual, 1);
+    write_run("new", &usual, -1);
+    write_beside("old", "one", 1000);
+    write_beside("new", "one", 1100);
+    static const char says[] = "instructions 1000 to 1100";
+    mote_expect(1, says, "compare old/summary.json new/summary.json");
+    assert_int_equal(chdir("old"), 0);
+    mote_expect(1, says, "compare summary.json ../new");
+    assert_int_equal(chdir(".."), 0);
     remove_beside();
 }
 
@@ -159,32 +149,27 @@ TEST(compare_reads_the_cells_and_not_a_stale_summary)
 {
     static const char rows[] = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0,0,0,7\n";
     static const char more[] = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0.25,0,0,9\n";
-    char path[96];
+    static const char *const runs[] = {"stale", "stale/summary.json"};
+    static const char *const both[] = {"fresh", "stale"};
     for (int k = 0; k < 2; ++k) {
-        (void)snprintf(path, sizeof path, "%s/stale%d", base, k);
-        assert_true(stored_cell_write(path, &(stored_cell){.rows = rows}));
+        stored_cell_put(both[k], (stored_cell){.rows = rows});
         mote_summary summary;
-        assert_int_equal(mote_summary_make(path, &summary), MOTE_OK);
-        assert_int_equal(mote_summary_write(&summary, path), MOTE_OK);
+        assert_int_equal(mote_summary_make(both[k], &summary), MOTE_OK);
+        assert_int_equal(mote_summary_write(&summary, both[k]), MOTE_OK);
         mote_summary_free(&summary);
     }
-    assert_true(stored_cell_write(path, &(stored_cell){.rows = more}));
-    char stale[128], old[128];
-    (void)snprintf(old, sizeof old, "%s/stale0", base);
-    (void)snprintf(stale, sizeof stale, "%s/summary.json", path);
-    const char *const runs[] = {path, stale};
+    stored_cell_put("stale", (stored_cell){.rows = more});
     for (size_t k = 0; k < 2; ++k) {
         mote_comparison c;
-        assert_int_equal(mote_compare(old, runs[k], 0.02, &c), MOTE_OK);
+        assert_int_equal(mote_compare("fresh", runs[k], 0.02, &c), MOTE_OK);
         assert_true(c.worse && c.changes[0].counted);
         assert_non_null(strstr(c.changes[0].what.data, "max 0 to 0.25"));
         mote_comparison_free(&c);
     }
     /* A file by another name is a summary of its own. */
-    (void)snprintf(old, sizeof old, "%s/kept.json", path);
-    assert_int_equal(rename(stale, old), 0);
+    assert_int_equal(rename("stale/summary.json", "stale/kept.json"), 0);
     mote_comparison c;
-    assert_int_equal(mote_compare(old, path, 0.02, &c), MOTE_OK);
+    assert_int_equal(mote_compare("stale/kept.json", "stale", 0.02, &c), MOTE_OK);
     assert_true(c.worse);
     mote_comparison_free(&c);
 }

@@ -2,32 +2,13 @@
    the test writes itself. */
 #include "harness/summary/dominance.h"
 #include "harness/summary/front.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
 
 #include <math.h>
 
-static char base[] = "/tmp/mote-test-dominance-XXXXXX";
-static char directory[64];
-static int directories;
 static mote_summary summary;
-
-static int make_base(void)
-{
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-static int next_directory(void)
-{
-    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories++);
-    return 0;
-}
 
 static int free_summary(void)
 {
@@ -35,8 +16,7 @@ static int free_summary(void)
     return 0;
 }
 
-TEST_GROUP(make_base, remove_base);
-TEST_EACH(next_directory, free_summary);
+TEST_EACH(folder_next, free_summary);
 
 #define FRAMES 200
 
@@ -61,7 +41,7 @@ static void write_answers(stored_cell cell, answers a)
     }
     cell.rows = rows;
     cell.frames = "[1, 200]";
-    assert_true(stored_cell_write(directory, &cell));
+    stored_cell_put(".", cell);
 }
 
 /* Three replicates that differ by 1 % in time. */
@@ -81,7 +61,7 @@ static void write_row(stored_cell cell, answers a)
 
 static void make_summary(void)
 {
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
 }
 
 static const mote_summary_row *row_of(const char *method, bool given)
@@ -117,7 +97,7 @@ TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
         {"false contacts", {0, 1000, 0, 0, 3, 3}, {0, 10, 0, 0, 3, 4}, false},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        (void)next_directory();
+        assert_int_equal(folder_next(), 0);
         write_row((stored_cell){.method = "slow"}, cases[i].slow);
         write_row((stored_cell){.method = "fast"}, cases[i].fast);
         make_summary();
@@ -209,7 +189,7 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
     static const double noise[] = {1, 1.03, 0.98, 1.01, 0.99, 1.02, 1.005, 0.97, 1.015, 0.995};
     static const int processes[] = {5, 10}; /* Student's t, and resampling */
     for (size_t i = 0; i < 2; ++i) {
-        (void)next_directory();
+        assert_int_equal(folder_next(), 0);
         for (int r = 0; r < processes[i]; ++r) {
             char id[3][16];
             for (int k = 0; k < 3; ++k)

@@ -1,6 +1,6 @@
 /* What mote summarize writes for other tools; more of it in tests/scripts/exports.py. */
-#include "tests/support/plain_file.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -9,49 +9,23 @@
 #include <math.h>
 #include <stdbool.h>
 
-static char base[] = "/tmp/mote-test-exports-XXXXXX";
-static char said[64], text[1 << 16];
-
-static int summarize(const char *format)
-{
-    char line[160];
-    (void)snprintf(line, sizeof line, "summarize %s/run --format %s", base, format);
-    int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
-}
-
 /* Two rows of three replicates, and one of a method that knows no distance. */
-static int make_base(void)
+static int make_run(void)
 {
-    char line[512], name[64];
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    (void)snprintf(name, sizeof name, "%s/few.json", base);
-    if (!plain_file_put(name, "{\"purpose\": \"a test\", \"like\": \"mv\", \"frames\": 5,"
-                              " \"warmup\": null, \"active\": null}\n"))
-        return -1;
-    (void)snprintf(line, sizeof line,
-                   "run %s --replicates 3 --stride 1 --method fcl-aabb --method certified"
-                   " --method fcl-kdop18 --out %s/run",
-                   name, base);
-    return program_wait(program_start(line, said));
+    file_put("few.json", "{\"purpose\": \"a test\", \"like\": \"mv\", \"frames\": 5,"
+                         " \"warmup\": null, \"active\": null}\n");
+    return mote("run few.json --replicates 3 --stride 1 --method fcl-aabb --method certified"
+                " --method fcl-kdop18 --out run");
 }
 
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
+TEST_GROUP(make_run, NULL);
 
 static json_t *export(const char *format)
 {
-    assert_int_equal(summarize(format), 0);
-    json_t *value = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    mote_expect(0, "", "summarize run --format %s", format);
+    json_t *value = json_loads(said, JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(value);
-    assert_null(strstr(text, "null"));
+    assert_null(strstr(said, "null"));
     return value;
 }
 
@@ -119,11 +93,11 @@ static int count_fields(const char *line, size_t length)
 
 TEST(csv_leaves_empty_what_there_is_not)
 {
-    assert_int_equal(summarize("csv"), 0);
-    assert_null(strstr(text, "nan"));
-    assert_null(strstr(text, "inf"));
+    mote_expect(0, "", "summarize run --format csv");
+    assert_null(strstr(said, "nan"));
+    assert_null(strstr(said, "inf"));
     int lines = 0, fields = 0;
-    for (const char *line = text; *line; ++lines) {
+    for (const char *line = said; *line; ++lines) {
         size_t length = strcspn(line, "\n");
         int here = count_fields(line, length);
         fields = lines == 0 ? here : fields;
@@ -138,12 +112,7 @@ TEST(csv_leaves_empty_what_there_is_not)
 /* The last of the tests: it adds a run of fewer frames. */
 TEST(names_tell_rows_of_other_frames_apart)
 {
-    char line[512];
-    (void)snprintf(line, sizeof line,
-                   "run %s/few.json --replicates 3 --frames 1-3 --method certified"
-                   " --out %s/run",
-                   base, base);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
+    mote_expect(0, "", "run few.json --replicates 3 --frames 1-3 --method certified --out run");
     json_t *bencher = export("bencher");
     assert_int_equal(json_object_size(bencher), 3);
     assert_non_null(json_object_get(bencher, "few/certified/hot/frames:1-3/stride:1/seed:0"));
@@ -154,6 +123,5 @@ TEST(names_tell_rows_of_other_frames_apart)
 
 TEST(summarize_with_an_unknown_format_lists_those_that_there_are)
 {
-    assert_int_equal(summarize("xml"), 2);
-    assert_non_null(strstr(text, "gbench"));
+    mote_expect(2, "gbench", "summarize run --format xml");
 }

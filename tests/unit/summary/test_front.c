@@ -2,7 +2,7 @@
 #include "harness/summary/front.h"
 #include "harness/summary/summary_json.h"
 #include "harness/base/record.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -99,7 +99,6 @@ TEST(process_interval_of_many_processes_is_near_the_normal_one)
     assert_true(fabs(log(interval.high) - (0.495 + 1.96 * 0.02887)) < 0.01);
 }
 
-static char base[] = "/tmp/mote-test-front-XXXXXX";
 static const char *scenario = "s";
 
 /* A cell of 20 frames that all take `ns` and are wrong by `error`. */
@@ -125,18 +124,14 @@ static void write_cell(const char *method, const char *label, double n, int repl
         mote_text_add(&text, "%d,0,0,%.0f,1,%.17g,0,0\n", k, ns * (1 + 0.01 * replicate),
                       error);
     (void)snprintf(name, sizeof name, "cells/%s.csv", id);
-    assert_int_equal(mote_record_text(base, name, &text), MOTE_OK);
+    assert_int_equal(mote_record_text(".", name, &text), MOTE_OK);
     (void)snprintf(name, sizeof name, "cells/%s.json", id);
-    assert_int_equal(mote_record_json(base, name, cell), MOTE_OK);
+    assert_int_equal(mote_record_json(".", name, cell), MOTE_OK);
 }
 
 static int write_run(void)
 {
-    char path[96];
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(path, sizeof path, "%s/cells", base);
-    if (mote_directory_make(path) != MOTE_OK)
+    if (mote_directory_make("cells") != MOTE_OK)
         return -1;
     for (int r = 1; r <= 5; ++r) {
         write_cell("fcl-aabb", "a", 0, r, 1e6, 0);
@@ -148,12 +143,7 @@ static int write_run(void)
     return 0;
 }
 
-static int remove_run(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(write_run, remove_run);
+TEST_GROUP(write_run, NULL);
 
 static const mote_front *find_front(const mote_fronts *fronts, const char *title)
 {
@@ -169,7 +159,7 @@ TEST(fronts_of_a_run_say_how_much_faster_at_each_error)
 {
     mote_summary summary;
     mote_fronts fronts;
-    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 4);
     const mote_front *ours = find_front(&fronts, "ours");
@@ -192,7 +182,7 @@ TEST(fronts_of_a_run_say_who_dominates_whom)
 {
     mote_summary summary;
     mote_fronts fronts;
-    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < summary.count; ++i) {
         const char *method = summary.rows[i].first->method;
@@ -204,13 +194,11 @@ TEST(fronts_of_a_run_say_who_dominates_whom)
         else
             assert_true(by == SIZE_MAX);
     }
-    assert_int_equal(mote_fronts_write(&fronts, base), MOTE_OK);
+    assert_int_equal(mote_fronts_write(&fronts, "."), MOTE_OK);
     mote_fronts_free(&fronts);
     mote_summary_free(&summary);
-    char path[96], *text = NULL;
-    size_t size = 0, lines = 0;
-    (void)snprintf(path, sizeof path, "%s/speed.csv", base);
-    assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+    char *text = file_text("speed.csv");
+    size_t lines = 0;
     for (const char *c = text; *c; ++c)
         lines += *c == '\n' ? 1 : 0;
     free(text);
@@ -228,14 +216,11 @@ TEST(fronts_of_odd_names_are_fields_of_their_csv)
     write_cell("gone:law=\"log\"", "f", 0, 1, 1e3, 0.125);
     scenario = "s";
     mote_summary summary;
-    assert_int_equal(mote_summary_make(base, &summary), MOTE_OK);
-    assert_int_equal(mote_summary_write(&summary, base), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
+    assert_int_equal(mote_summary_write(&summary, "."), MOTE_OK);
     mote_summary_free(&summary);
     for (size_t i = 0; i < 2; ++i) {
-        char path[96], *text = NULL;
-        size_t size = 0;
-        (void)snprintf(path, sizeof path, "%s/%s", base, names[i]);
-        assert_int_equal(mote_file_read(path, 1 << 20, &text, &size), MOTE_OK);
+        char *text = file_text(names[i]);
         if (!strstr(text, lines[i]))
             fail_msg("no line %s in\n%s", lines[i], text);
         free(text);

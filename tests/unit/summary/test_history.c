@@ -1,7 +1,7 @@
 /* The history of accepted references: what is added to it, drawn of it, and refused. */
 #include "tests/support/folder.h"
 #include "tests/support/plain_file.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
 
@@ -9,44 +9,18 @@
 
 #include <sys/stat.h>
 
-static char base[] = "/tmp/mote-test-history-XXXXXX";
-static char file[64], said[64], text[1 << 14];
-
 /* A gnuplot that draws nothing: what is drawn from is looked at. */
 #define GNUPLOT "#!/bin/sh\nfor f in $8; do echo drawn > \"$5.$f\"; done\n"
 
-static int make_base(void)
+static int make_gnuplot(void)
 {
-    char path[512];
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(file, sizeof file, "%s/h.csv", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    (void)snprintf(path, sizeof path, "%s/gnuplot", base);
-    if (!plain_file_put(path, GNUPLOT) || chmod(path, 0755) != 0)
-        return -1;
-    (void)snprintf(path, sizeof path, "%s:/usr/bin:/bin", base);
-    return setenv("PATH", path, 1);
+    char path[256];
+    file_put("gnuplot", GNUPLOT);
+    (void)snprintf(path, sizeof path, "%s:/usr/bin:/bin", folder_path());
+    return chmod("gnuplot", 0755) || setenv("PATH", path, 1);
 }
 
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
-
-/* mote history ARGUMENTS: its exit status, and what it must say. */
-static void expect(const char *arguments, int status, const char *says)
-{
-    char line[512];
-    (void)snprintf(line, sizeof line, "history %s", arguments);
-    const int ended = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    if (ended != status || !strstr(text, says))
-        fail_msg("mote %s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says,
-                 text);
-}
+TEST_GROUP(make_gnuplot, NULL);
 
 #define HEADER                                                                                 \
     "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
@@ -72,17 +46,18 @@ TEST(history_of_what_is_none_is_refused_by_line)
         {HEADER "d,c,w,r,100,2,,,,,1,\n", "h.csv:2: not a line of a history"},
         {HEADER "d,c,w,r,100,2,,,,,?\n", "h.csv:2: ?: not a number"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        file_put(file, cases[i].text);
-        expect(file, 4, cases[i].says);
+        file_put("h.csv", cases[i].text);
+        mote_expect(4, cases[i].says, "history h.csv");
     }
-    expect("/no/such/history.csv", 4, "/no/such/history.csv: No such file");
+    mote_expect(4, "/no/such/history.csv: No such file", "history /no/such/history.csv");
 }
 
-static void read_data(const char *name)
+/* What a file holds, until the next one is read. */
+static const char *read_data(const char *name)
 {
-    char path[96];
-    (void)snprintf(path, sizeof path, "%s/%s", base, name);
-    program_read(path, text, sizeof text);
+    static char *text;
+    free(text);
+    return text = file_text(name);
 }
 
 /* A block a row: reference, time over the first one's, whether it changed, commit. */
@@ -97,22 +72,16 @@ TEST(history_marks_what_moves_more_than_usual)
                                        "5,e,w,r,202,,,,,,"; /* a last line without its end */
     static const char data[] = "\"r\"\n1 1 0 0123456789\n2 1.01 0 -\n3 1 0 c\n4 1.01 0 d\n"
                                "5 2.02 1 e\n\n\n\"s\"\n1 1 0 0123456789\n2 2 1 -\n";
-    file_put(file, lines);
-    expect(file, 0, "h.svg");
-    read_data("h.dat");
-    assert_string_equal(text, data);
+    file_put("h.csv", lines);
+    mote_expect(0, "h.svg", "history h.csv");
+    assert_string_equal(read_data("h.dat"), data);
     /* A name without .csv, shorter than it, and no date. */
     static const char undated[] = HEADER ",c,w,r,100,,,,,,\n";
-    char path[96];
-    (void)snprintf(path, sizeof path, "%s/h", base);
-    file_put(path, undated);
-    expect(path, 0, "h.svg");
-    read_data("h.dat");
-    assert_string_equal(text, "\"r\"\n1 1 0 c\n");
-    assert_int_equal(chdir(base), 0);
-    expect("h", 0, "h.svg");
-    read_data("h.dat");
-    assert_string_equal(text, "\"r\"\n1 1 0 c\n");
+    file_put("h", undated);
+    mote_expect(0, "h.svg", "history %s/h", folder_path());
+    assert_string_equal(read_data("h.dat"), "\"r\"\n1 1 0 c\n");
+    mote_expect(0, "h.svg", "history h");
+    assert_string_equal(read_data("h.dat"), "\"r\"\n1 1 0 c\n");
 }
 
 /* Times against fcl-aabb and times in ns have no scale in common: neither is a change of the
@@ -123,54 +92,47 @@ TEST(history_of_a_row_with_and_without_ratios_is_two_series)
                                        "2,b,w,a \"b\",100,,,,,,\n"
                                        "3,c,w,a \"b\",101,0.25,,,,,\n"
                                        "4,d,w,a \"b\",101,,,,,,\n";
-    file_put(file, lines);
-    expect(file, 0, "h.svg");
-    read_data("h.dat");
-    assert_string_equal(text, "\"a \u201db\u201d\"\n1 1 0 a\n3 2 1 c\n\n\n"
-                              "\"a \u201db\u201d\"\n2 1 0 b\n4 1.01 0 d\n");
+    file_put("h.csv", lines);
+    mote_expect(0, "h.svg", "history h.csv");
+    assert_string_equal(read_data("h.dat"), "\"a \u201db\u201d\"\n1 1 0 a\n3 2 1 c\n\n\n"
+                                            "\"a \u201db\u201d\"\n2 1 0 b\n4 1.01 0 d\n");
 }
 
 /* What would end a field is none, whatever was accepted; a row that did not end well is left
    out. */
 TEST(history_add_of_odd_names_can_be_drawn)
 {
-    char arguments[256], path[96];
     const stored_cell cells[] = {
         {.rows = "1,0,0,5,0.5,0,0,0,7\n", .scenario = "a,b", .more = ", \"x\": 1"},
         {.method = "certified", .rows = "1,,,,,,,,\n", .parameters = "{\"slack\": \"1,2\"}"},
         {.method = "aabb-tree", .status = "crashed"}};
-    (void)snprintf(path, sizeof path, "%s/run", base);
     for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i)
-        assert_true(stored_cell_write(path, &cells[i]));
-    (void)snprintf(arguments, sizeof arguments, "%s/n.csv --add %s/run --why a\"b,c", base,
-                   base);
-    expect(arguments, 4, "run/manifest.json: No such file");
-    (void)snprintf(path, sizeof path, "%s/run/manifest.json", base);
-    file_put(path, "{}\n");
-    expect(arguments, 0, "");
-    file_put(path, "{\"commit\": \"9,9\", \"sessions\": [{\"started\": \"today\"}]}\n");
-    expect(arguments, 0, "");
-    read_data("n.csv");
+        stored_cell_put("run", cells[i]);
+    static const char add[] = "history n.csv --add run --why 'a\"b,c'";
+    mote_expect(4, "run/manifest.json: No such file", "%s", add);
+    file_put("run/manifest.json", "{}\n");
+    mote_expect(0, "", "%s", add);
+    file_put("run/manifest.json",
+             "{\"commit\": \"9,9\", \"sessions\": [{\"started\": \"today\"}]}\n");
+    mote_expect(0, "", "%s", add);
+    char *text = file_text("n.csv");
     assert_non_null(strstr(text, "\n,,a;b;c,a;b/fcl-aabb/hot,5,1,"));
     assert_non_null(strstr(text, "\ntoday,9;9,a;b;c,s/certified:slack=1;2/hot,0,,"));
     assert_null(strstr(text, "aabb-tree"));
     /* Added to behind a last line that was not ended. */
-    (void)snprintf(path, sizeof path, "%s/n.csv", base);
     text[strlen(text) - 1] = '\0';
-    file_put(path, text);
-    expect(arguments, 0, "");
-    expect(path, 0, "n.svg");
-    read_data("n.dat");
-    assert_non_null(strstr(text, "\"a;b/fcl-aabb/hot\"\n1 1 0 -\n2 1 0 9;9\n2 1 0 9;9\n"));
+    file_put("n.csv", text);
+    free(text);
+    mote_expect(0, "", "%s", add);
+    mote_expect(0, "n.svg", "history n.csv");
+    assert_non_null(
+        strstr(read_data("n.dat"), "\"a;b/fcl-aabb/hot\"\n1 1 0 -\n2 1 0 9;9\n2 1 0 9;9\n"));
 }
 
 /* Only to a history is added. */
 TEST(history_add_to_another_file_leaves_it_alone)
 {
-    char arguments[256];
-    file_put(file, "my thesis\n");
-    (void)snprintf(arguments, sizeof arguments, "%s --add %s/run --why w", file, base);
-    expect(arguments, 4, "h.csv:1: not the header of a history");
-    read_data("h.csv");
-    assert_string_equal(text, "my thesis\n");
+    file_put("h.csv", "my thesis\n");
+    mote_expect(4, "h.csv:1: not the header of a history", "history h.csv --add run --why w");
+    assert_string_equal(read_data("h.csv"), "my thesis\n");
 }

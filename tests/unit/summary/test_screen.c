@@ -20,7 +20,7 @@ static void write_method(stored_cell cell, double ns, double error, int missed)
 
 static int summarize_best(void)
 {
-    return mote("summarize --best");
+    return mote("summarize --best .");
 }
 
 static size_t longest_line(const char *of)
@@ -36,11 +36,11 @@ static size_t longest_line(const char *of)
 /* The texts stand in this order. */
 static void in_order(const char *const *parts, size_t count)
 {
-    const char *at = text;
+    const char *at = said;
     for (size_t i = 0; i < count; ++i) {
         const char *found = strstr(at, parts[i]);
         if (!found)
-            fail_msg("no \"%s\" in its place in\n%s", parts[i], text);
+            fail_msg("no \"%s\" in its place in\n%s", parts[i], said);
         at = found + strlen(parts[i]);
     }
 }
@@ -61,7 +61,7 @@ TEST(best_rows_are_sorted_by_time_and_the_front_is_marked)
              "\n* rough ", "5.00 ns", "200", "3.0e-01", "50.0 %", " 1 ", "\n* exact ",
              "50.0 ns", "20.0", "100.0 %", "\n  fcl-aabb ", "1.00", "\n  fcl-obb ", "0.25",
              "\n* on the front", "best FCL: fcl-aabb\n");
-    assert_true(longest_line(text) <= MOTE_SCREEN_WIDTH);
+    assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
 }
 
 /* Of the configurations of one method those that are on no front and do not stand for it are
@@ -74,7 +74,7 @@ TEST(rows_that_are_not_among_the_best_are_counted)
                      0);
     assert_int_equal(summarize_best(), 0);
     IN_ORDER("\n* ours:n=1 ", "2 more in the report\n");
-    assert_null(strstr(text, "ours:n=2"));
+    assert_null(strstr(said, "ours:n=2"));
 }
 
 /* The front has more rows than a screen: the least accurate go, and those that stand for a
@@ -90,11 +90,11 @@ TEST(a_long_front_is_cut_where_it_is_least_accurate)
     write_method((stored_cell){.method = "poor"}, 5, 0.9, 1);
     assert_int_equal(summarize_best(), 0);
     size_t rows = 0;
-    for (const char *at = text; (at = strstr(at, "\n* ")) != NULL; ++at)
+    for (const char *at = said; (at = strstr(at, "\n* ")) != NULL; ++at)
         ++rows;
     assert_int_equal(rows, MOTE_SCREEN_ROWS + 1); /* and the line that explains them */
     IN_ORDER("\n* poor ", "\n* ours:n=12 ", "\n* ours:n=30 ", "11 more in the report");
-    assert_null(strstr(text, "n=11 "));
+    assert_null(strstr(said, "n=11 "));
 }
 
 /* Rows with positions given are never among those that pay for deformation. */
@@ -123,15 +123,11 @@ TEST(long_names_and_failures_keep_lines_short)
     assert_int_equal(summarize_best(), 0);
     IN_ORDER("\n* a-method-with", "\n    ", "50.0 ns", "\n    1 of 3 replicates ended badly\n",
              "\nbroken crashed: a reason", "\n  ");
-    assert_true(longest_line(text) <= MOTE_SCREEN_WIDTH);
+    assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
 }
 
 TEST(best_is_for_the_table_alone)
 {
     write_method((stored_cell){.method = "ours"}, 50, 0, 0);
-    char line[256];
-    (void)snprintf(line, sizeof line, "summarize --best --format csv %s", directory);
-    assert_int_equal(program_wait(program_start(line, said)), 2);
-    program_read(said, text, sizeof text);
-    assert_non_null(strstr(text, "--best is for --format table"));
+    mote_expect(2, "--best is for --format table", "summarize --best --format csv .");
 }

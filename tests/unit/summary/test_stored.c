@@ -48,8 +48,7 @@ TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
         json_t *cell = NULL;
         write_cell((stored_cell){.rows = ROWS});
-        assert_int_equal(mote_record_read_json(directory, "cells/fcl-aabb-1.json", &cell),
-                         MOTE_OK);
+        assert_int_equal(mote_record_read_json(".", "cells/fcl-aabb-1.json", &cell), MOTE_OK);
         if (changes[i].value)
             (void)json_object_set_new(cell, changes[i].key,
                                       json_loads(changes[i].value, JSON_DECODE_ANY, NULL));
@@ -57,23 +56,19 @@ TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
             (void)json_object_del(cell, changes[i].key);
         char *dump = json_dumps(cell, 0);
         assert_non_null(dump);
-        write_plain("cells/fcl-aabb-1.json", dump);
+        file_put("cells/fcl-aabb-1.json", dump);
         free(dump);
         json_decref(cell);
         refused(changes[i].key, json);
     }
     write_cell((stored_cell){.rows = ROWS});
-    write_plain("cells/.hidden.json", "no cell");
-    write_plain("cells/.json", "no cell");
-    write_plain("cells/notes.txt", "no cell");
-    assert_int_equal(mote("summarize"), 0);
-    (void)snprintf(text, sizeof text, "cp %s/cells/fcl-aabb-1.json %s/cells/fcl.json",
-                   directory, directory);
-    assert_int_equal(system(text), 0);
+    file_put("cells/.hidden.json", "no cell");
+    file_put("cells/.json", "no cell");
+    file_put("cells/notes.txt", "no cell");
+    mote_expect(0, "", "summarize .");
+    assert_int_equal(system("cp cells/fcl-aabb-1.json cells/fcl.json"), 0);
     refused("name", "cells/fcl.json: its id is fcl-aabb-1; a cell is named by its id");
-    (void)snprintf(text, sizeof text, "mv %s/cells/fcl.json %s/cells/fcl-aabb-12.json",
-                   directory, directory);
-    assert_int_equal(system(text), 0);
+    assert_int_equal(rename("cells/fcl.json", "cells/fcl-aabb-12.json"), 0);
     refused("name", "cells/fcl-aabb-12.json: its id is fcl-aabb-1; a cell is named by its id");
 }
 
@@ -97,7 +92,7 @@ TEST(stored_read_keeps_every_bit_of_a_seed)
                                  .more = cells[i].more,
                                  .rows = ROWS});
     mote_stored stored;
-    assert_int_equal(mote_stored_read(directory, NULL, &stored), MOTE_OK);
+    assert_int_equal(mote_stored_read(".", NULL, &stored), MOTE_OK);
     assert_int_equal(stored.count, CELLS);
     for (int i = 0; i < CELLS; ++i) {
         const mote_stored_cell *cell = &stored.cells[i];
@@ -140,7 +135,7 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
          "fcl-aabb-1.csv:3: not a frame's row"}};
     write_cell((stored_cell){.rows = ROWS});
     for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
-        write_plain("cells/fcl-aabb-1.csv", changes[i].csv);
+        file_put("cells/fcl-aabb-1.csv", changes[i].csv);
         refused(changes[i].csv, changes[i].says);
     }
     static const char rows[] = ROWS;
@@ -159,12 +154,12 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
         assert_non_null(strstr(mote_error_text(), " whole rows, not the "));
     }
     write_cell((stored_cell){.rows = rows, .more = ", \"rows\": 4"});
-    assert_int_equal(mote("summarize"), 0);
+    mote_expect(0, "", "summarize .");
     write_cell((stored_cell){.rows = ROWS});
-    write_plain("cells/fcl-aabb-1.csv", changes[sizeof changes / sizeof changes[0] - 1].csv);
-    assert_int_equal(mote("summarize"), 4);
-    assert_memory_equal(text, "mote: ", 6);
-    assert_non_null(strstr(text, "fcl-aabb-1.csv:3: not a frame's row"));
+    file_put("cells/fcl-aabb-1.csv", changes[sizeof changes / sizeof changes[0] - 1].csv);
+    assert_int_equal(mote("summarize ."), 4);
+    assert_memory_equal(said, "mote: ", 6);
+    assert_non_null(strstr(said, "fcl-aabb-1.csv:3: not a frame's row"));
 }
 
 /* What a method cannot answer is empty, and is no answer in the summary. */
@@ -174,8 +169,8 @@ TEST(summary_of_empty_fields_has_no_figures_of_them)
                                      "4,,,9,0.5,,,,2\n",
                              .more = ", \"heap_live_bytes\": null, \"rss_peak_bytes\": 96, "
                                      "\"fixed_seed\": true, \"reason\": \"none\""});
-    assert_int_equal(mote("summarize --format json"), 0);
-    json_t *summary = json_loads(text, 0, NULL);
+    assert_int_equal(mote("summarize --format json ."), 0);
+    json_t *summary = json_loads(said, 0, NULL);
     const json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
     assert_true(json_is_null(json_object_get(json_object_get(row, "error"), "median")));
     assert_true(json_is_null(json_object_get(row, "heap_live_bytes")));
@@ -201,9 +196,9 @@ TEST(summary_clock_of_a_core_is_told_where_it_can_be_one)
                  {", \"clock_mhz\": \"fast\"", NULL}};
     for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
         write_cell((stored_cell){.rows = ROWS, .more = cells[i].more});
-        assert_int_equal(mote("summarize --format gbench"), 0);
-        assert_non_null(strstr(text, cells[i].says ? cells[i].says : "\"context\""));
-        assert_true(cells[i].says || !strstr(text, "mhz_per_cpu"));
+        assert_int_equal(mote("summarize --format gbench ."), 0);
+        assert_non_null(strstr(said, cells[i].says ? cells[i].says : "\"context\""));
+        assert_true(cells[i].says || !strstr(said, "mhz_per_cpu"));
     }
 }
 
@@ -223,8 +218,8 @@ TEST(stored_read_keeps_the_cells_of_the_manifests_program)
     write_cell((stored_cell){.rows = ROWS, .replicate = 3});
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         mote_stored stored;
-        write_plain("manifest.json", cases[i].manifest);
-        assert_int_equal(mote_stored_read(directory, NULL, &stored), MOTE_OK);
+        file_put("manifest.json", cases[i].manifest);
+        assert_int_equal(mote_stored_read(".", NULL, &stored), MOTE_OK);
         assert_int_equal(stored.count, cases[i].count);
         assert_int_equal(stored.left_out, cases[i].left_out);
         mote_stored_free(&stored);
@@ -276,7 +271,7 @@ TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group)
             write_times("fcl-aabb", r, "134", 1000);
     }
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     const mote_summary_row *row = find_row(&summary, "certified");
     assert_int_equal(row->replicates, 12);
     assert_int_equal(row->finished, 10);
@@ -306,7 +301,7 @@ TEST(summary_ratio_is_of_common_frames_with_a_time)
     write_crash("fcl-aabb", 2);
     write_times("fcl-aabb", 3, "345", 100);
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     about(find_row(&summary, "certified")->ratio.value, 401.0 / 41);
     assert_true(isnan(find_row(&summary, "certified")->processes[1].ratio));
     assert_true(isnan(find_row(&summary, "aabb-tree")->ratio.value));
@@ -324,7 +319,7 @@ TEST(summary_label_names_what_is_not_default)
     write_cell((stored_cell){
         .rows = ROWS, .method = "bygone", .parameters = "{\"n\": \"few\", \"speed\": [1]}"});
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     about(find_row(&summary, "particle-paper:n=5,new=true")->n, 5);
     assert_true(isnan(find_row(&summary, "bygone:n=\"few\",speed=[1]")->n));
     mote_summary_free(&summary);
@@ -336,7 +331,7 @@ TEST(summary_label_of_a_parameter_of_another_kind_is_its_json)
     write_cell((stored_cell){.rows = ROWS, .parameters = "{\"queue\": true, \"seed\": null}"});
     write_cell((stored_cell){.rows = ROWS, .id = "two", .parameters = "{\"queue\": 64.5}"});
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     (void)find_row(&summary, "fcl-aabb:queue=true,seed=null");
     (void)find_row(&summary, "fcl-aabb:queue=64.5"); /* a choice is stored by its name */
     assert_int_equal(summary.count, 2);
@@ -371,7 +366,7 @@ TEST(summary_reference_is_of_the_same_frames_and_caches)
         write_cell(cell);
     }
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     assert_int_equal(summary.count, 11);
     for (size_t i = 0; i < summary.count; ++i) {
         const mote_summary_row *row = &summary.rows[i];
@@ -390,7 +385,7 @@ TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures)
     write_cell((stored_cell){.rows = "", .method = "certified"});
     write_cell((stored_cell){.rows = "1,0,0,5,0,0,1,,7\n2,0,0,5,0,0,,1,7\n"});
     mote_summary summary;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     const mote_summary_row *none = find_row(&summary, "certified");
     assert_int_equal(none->finished, 0);
     assert_true(isnan(none->total.median) && isnan(none->contacts) && isnan(none->missed));
@@ -398,7 +393,7 @@ TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures)
     about(row->contacts, 1);
     assert_true(isnan(row->missed) && isnan(row->false_contacts));
     mote_summary_free(&summary);
-    assert_int_equal(mote("summarize"), 0);
+    mote_expect(0, "", "summarize .");
 }
 
 /* 69 that agree and a last one that does not: its error widens the interval. */
@@ -411,7 +406,7 @@ TEST(figure_quantile_of_many_replicates_takes_them_all)
     mote_summary summary;
     mote_text figure = {0};
     double value, low, high;
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     assert_int_equal(summary.rows[0].replicates, 70);
     assert_int_equal(mote_figure_quantile(&summary.rows[0], 0.5, 0.001, &figure), MOTE_OK);
     assert_int_equal(sscanf(figure.data, "%lf %lf %lf", &value, &low, &high), 3);
@@ -421,28 +416,15 @@ TEST(figure_quantile_of_many_replicates_takes_them_all)
     mote_summary_free(&summary);
 }
 
-/* mote merge DIRECTORY/out DIRECTORY/in: its exit status, and what it must say. */
 static void merge(int status, const char *says)
 {
-    char line[256];
-    (void)snprintf(line, sizeof line, "merge %s/out %s/in", directory, directory);
-    const int ended = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    if (ended != status || !strstr(text, says))
-        fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", line, ended, status, says, text);
-}
-
-static void write_in(stored_cell cell)
-{
-    char in[96];
-    (void)snprintf(in, sizeof in, "%s/in", directory);
-    assert_true(stored_cell_write(in, &cell));
+    mote_expect(status, says, "merge out in");
 }
 
 static size_t sessions_of(const char *name)
 {
     json_t *manifest = NULL;
-    assert_int_equal(mote_record_read_json(directory, name, &manifest), MOTE_OK);
+    assert_int_equal(mote_record_read_json(".", name, &manifest), MOTE_OK);
     const size_t count = json_array_size(json_object_get(manifest, "sessions"));
     json_decref(manifest);
     return count;
@@ -452,24 +434,24 @@ static size_t sessions_of(const char *name)
 
 TEST(merge_copies_what_is_not_there_and_adds_sessions)
 {
-    assert_int_equal(mote_directory_make(directory), MOTE_OK);
     merge(4, "in/cells: No such file");
-    write_in((stored_cell){.rows = ROWS, .more = ", " BY_ONE});
+    stored_cell_put("in", (stored_cell){.rows = ROWS, .more = ", " BY_ONE});
     merge(4, "in/manifest.json: No such file");
-    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [1, 2]}\n");
+    file_put("in/manifest.json", "{" BY_ONE ", \"sessions\": [1, 2]}\n");
     merge(0, "out: 1 cells copied, 0 were there");
     /* One that crashed has no frames to copy, and a session is added once. */
-    write_in((stored_cell){.replicate = 2, .status = "crashed", .more = ", " BY_ONE});
-    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [2, 3]}\n");
+    stored_cell_put("in",
+                    (stored_cell){.replicate = 2, .status = "crashed", .more = ", " BY_ONE});
+    file_put("in/manifest.json", "{" BY_ONE ", \"sessions\": [2, 3]}\n");
     for (int again = 0; again < 2; ++again) {
         merge(0, again ? "0 cells copied, 2 were" : "1 cells copied, 1 w");
         assert_int_equal(sessions_of("out/manifest.json"), 3);
     }
-    write_plain("in/manifest.json", "{\"program\": \"two\", \"sessions\": [4]}\n");
+    file_put("in/manifest.json", "{\"program\": \"two\", \"sessions\": [4]}\n");
     merge(4, "in: measured by another build than ");
-    write_plain("in/manifest.json", "{" BY_ONE ", \"sessions\": [4]}\n");
-    write_plain("out/manifest.json", "{" BY_ONE "}\n");
+    file_put("in/manifest.json", "{" BY_ONE ", \"sessions\": [4]}\n");
+    file_put("out/manifest.json", "{" BY_ONE "}\n");
     merge(4, "out/manifest.json: no list of sessions");
-    write_plain("out/manifest.json", "no JSON\n");
+    file_put("out/manifest.json", "no JSON\n");
     merge(4, "out/manifest.json:1:");
 }

@@ -26,14 +26,13 @@ TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
         {.method = "fcl-rss", .id = "i", .rows = RIGHT(8), .cache = "evict"},
         {.method = "fcl-rss", .id = "j", .rows = RIGHT(9), .scenario = "t"},
         {.method = "fcl-rss", .id = "k", .status = "timeout", .scenario = "u"}};
-    assert_int_equal(mote("tune"), 4);
-    assert_non_null(strstr(text, "/cells: No such file or directory; name the directory"));
+    mote_expect(4, "/cells: No such file or directory; name the directory", "tune .");
     write_cell(cells[0]);
-    assert_int_equal(mote("tune"), 0); /* nothing ended well: no row */
-    assert_string_equal(text, "");
+    mote_expect(0, "", "tune ."); /* nothing ended well: no row */
+    assert_string_equal(said, "");
     for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i)
         write_cell(cells[i]);
-    assert_int_equal(mote("tune"), 0);
+    mote_expect(0, "", "tune .");
     static const struct {
         const char *scenario, *cache, *method;
         double best, worst;
@@ -44,7 +43,7 @@ TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
                     {"s", "evict", "fcl-rss", 8, 8, 1, true},
                     {"t", "hot", "fcl-rss", 9, 9, 1, true}};
     json_t *object = NULL;
-    assert_int_equal(mote_record_read_json(directory, "tune.json", &object), MOTE_OK);
+    assert_int_equal(mote_record_read_json(".", "tune.json", &object), MOTE_OK);
     const json_t *rows = json_object_get(object, "rows");
     assert_int_equal(json_array_size(rows), 4);
     for (size_t i = 0; i < 4; ++i) {
@@ -67,7 +66,7 @@ TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
         assert_true((right != 0) == expected[i].right);
     }
     json_decref(object);
-    assert_non_null(strstr(text, "none of them right"));
+    assert_non_null(strstr(said, "none of them right"));
 }
 
 TEST(tune_best_fcl_reads_only_rows_that_mote_wrote)
@@ -89,13 +88,11 @@ TEST(tune_best_fcl_reads_only_rows_that_mote_wrote)
                                                                                        "g",
                                                                                        "true",
                                                                                        "8.5") "]}";
-    assert_int_equal(mote_directory_make(directory), MOTE_OK);
-    write_plain("tune.json", rows);
-    assert_int_equal(mote("tune --best-fcl s"), 0);
-    assert_string_equal(text, "f\n");
-    assert_int_equal(mote("tune --best-fcl u"), 0);
-    assert_string_equal(text, "");
-    write_plain("tune.json", "{\"rows\": [");
-    assert_int_equal(mote("tune --best-fcl s"), 4);
-    assert_non_null(strstr(text, "tune.json:1:"));
+    file_put("tune.json", rows);
+    mote_expect(0, "", "tune --best-fcl s .");
+    assert_string_equal(said, "f\n");
+    mote_expect(0, "", "tune --best-fcl u .");
+    assert_string_equal(said, "");
+    file_put("tune.json", "{\"rows\": [");
+    mote_expect(4, "tune.json:1:", "tune --best-fcl s .");
 }

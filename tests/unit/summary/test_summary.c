@@ -3,7 +3,8 @@
 #include "harness/summary/front.h"
 #include "harness/summary/summary.h"
 #include "harness/summary/table.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
 
@@ -12,26 +13,7 @@
 
 #include <math.h>
 
-static char base[] = "/tmp/mote-test-summary-XXXXXX";
-static char directory[64];
-static int directories;
 static mote_summary summary;
-
-static int make_base(void)
-{
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-static int next_directory(void)
-{
-    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories++);
-    return 0;
-}
 
 static int free_summary(void)
 {
@@ -39,8 +21,7 @@ static int free_summary(void)
     return 0;
 }
 
-TEST_GROUP(make_base, remove_base);
-TEST_EACH(next_directory, free_summary);
+TEST_EACH(folder_next, free_summary);
 
 /* Of some frames that all take `ns`, and are wrong by `error` L. */
 static void write_frames(stored_cell cell, int first, int last, double ns, double error)
@@ -51,7 +32,7 @@ static void write_frames(stored_cell cell, int first, int last, double ns, doubl
         used += (size_t)snprintf(rows + used, sizeof rows - used, "%d,0,0,%g,0.5,%g,0,0,7\n", k,
                                  ns, error);
     cell.rows = rows;
-    assert_true(stored_cell_write(directory, &cell));
+    stored_cell_put(".", cell);
 }
 
 static void write_cell(stored_cell cell, double ns, double error)
@@ -61,7 +42,7 @@ static void write_cell(stored_cell cell, double ns, double error)
 
 static void make_summary(void)
 {
-    assert_int_equal(mote_summary_make(directory, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
 }
 
 static void free_figure(mote_figure *figure)
@@ -235,7 +216,7 @@ TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others)
             write_cell((stored_cell){.replicate = r}, 10000, 0);
     }
     const stored_cell crash = {.replicate = 2, .status = "crashed"};
-    assert_true(stored_cell_write(directory, &crash));
+    stored_cell_put(".", crash);
     make_summary();
     assert_int_equal(summary.count, 2);
     assert_true(summary.rows[0].smallest_change < 0.01);
@@ -260,7 +241,7 @@ TEST(summary_status_is_the_worst_where_no_replicate_ended_well)
     static const char *const ends[] = {"unsupported", "crashed", "timeout"};
     for (int r = 1; r <= 3; ++r) {
         const stored_cell cell = {.replicate = r, .status = ends[r - 1]};
-        assert_true(stored_cell_write(directory, &cell));
+        stored_cell_put(".", cell);
     }
     make_summary();
     assert_int_equal(summary.rows[0].status, MOTE_CELL_CRASHED);
@@ -299,7 +280,6 @@ TEST(figure_bodies_caption_is_of_what_is_drawn)
               {"certified", 4, 5000},
               {"aabb-tree", 4, 150000}};
     mote_text text = {0};
-    char path[96];
     mote_text_add(&text, "{\"rows\": [");
     for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k)
         mote_text_add(&text,
@@ -308,14 +288,11 @@ TEST(figure_bodies_caption_is_of_what_is_drawn)
                       "\"median\": 4000}, \"rss_peak_bytes\": 1}",
                       k ? ", " : "", of[k].label, of[k].density, of[k].mean);
     mote_text_add(&text, "]}\n");
-    assert_int_equal(mote_directory_make(directory), MOTE_OK);
-    (void)snprintf(path, sizeof path, "%s/summary.json", directory);
-    assert_int_equal(mote_file_write(path, text.data, text.size), MOTE_OK);
+    file_put("summary.json", text.data);
     free(text.data);
-    const mote_figure_run run = {.directory = directory, .summary = &summary};
+    const mote_figure_run run = {.directory = ".", .summary = &summary};
     mote_figure figure = {0};
     assert_int_equal(mote_figure_bodies(&run, "", &figure), MOTE_OK);
-    assert_int_equal(unlink(path), 0);
     assert_non_null(strstr(figure.data.data, "1000 5 "));
     assert_non_null(strstr(figure.caption.data, "Points: means"));
     assert_non_null(strstr(figure.caption.data, "one 40th"));
@@ -345,34 +322,30 @@ TEST(figure_queries_tells_of_which_frames_it_is)
 /* The interval of two processes is wider above than below. */
 TEST(run_until_ci_tells_the_wider_side_of_the_interval)
 {
-    char line[256], said[96], text[4096], expected[64];
-    (void)snprintf(said, sizeof said, "%s-said", directory);
-    (void)snprintf(line, sizeof line,
-                   "run tt --frames 200-205 --replicates 2 --method certified "
-                   "--until-ci 0.001%% --budget 0 --out %s",
-                   directory);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
-    program_read(said, text, sizeof text);
+    char expected[64];
+    mote_expect(0, "",
+                "run tt --frames 200-205 --replicates 2 --method certified "
+                "--until-ci 0.001%% --budget 0 --out .");
     make_summary();
     const mote_time *time = &summary.rows[0].total;
     const double width = fmax(time->high - time->median, time->median - time->low);
     (void)snprintf(expected, sizeof expected,
                    "after 2 replicates the widest interval is +-%.2g %%",
                    100 * width / time->median);
-    if (!strstr(text, expected))
-        fail_msg("no \"%s\" in\n%s", expected, text);
+    if (!strstr(said, expected))
+        fail_msg("no \"%s\" in\n%s", expected, said);
 }
 
-/* mote COMMAND DIRECTORY MORE, and what is then in a file of the directory, or what it said. */
-static const char *after(const char *command, const char *more, const char *file)
+/* mote COMMAND, and what is then in a file, or what it said where that is NULL. */
+static const char *after(const char *command, const char *file)
 {
+    mote_expect(0, "", "%s", command);
+    if (!file)
+        return said;
     static char text[1 << 20];
-    char line[160], said[96];
-    (void)snprintf(line, sizeof line, "%s %s %s", command, directory, more);
-    (void)snprintf(said, sizeof said, "%s/said", directory);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
-    (void)snprintf(line, sizeof line, "%s/%s", directory, file);
-    program_read(line, text, sizeof text);
+    char *read = file_text(file);
+    (void)snprintf(text, sizeof text, "%s", read);
+    free(read);
     return text;
 }
 
@@ -398,25 +371,24 @@ TEST(scenes_of_one_name_are_told_apart_wherever_rows_are_shown)
     make_summary();
     assert_string_equal(summary.rows[0].scene, names[0]);
     static const struct {
-        const char *command, *more, *file;
-    } outputs[] = {{"summarize", "", "said"},
-                   {"summarize", "--format csv", "said"},
-                   {"summarize", "--format json", "said"},
-                   {"summarize", "--format gbench", "said"},
-                   {"tune", "", "said"},
-                   {"report", "", "report.html"},
-                   {"report", "", "report.md"}};
+        const char *command, *file;
+    } outputs[] = {{"summarize .", NULL},
+                   {"summarize . --format csv", NULL},
+                   {"summarize . --format json", NULL},
+                   {"summarize . --format gbench", NULL},
+                   {"tune .", NULL},
+                   {"report .", "report.html"},
+                   {"report .", "report.md"}};
     for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; ++i) {
-        const char *text = after(outputs[i].command, outputs[i].more, outputs[i].file);
+        const char *text = after(outputs[i].command, outputs[i].file);
         for (int k = 0; k < 2; ++k) {
             if (!strstr(text, names[k]) &&
                 !strstr(text, k ? "\\(scene fedcba98" : "\\(scene 01"))
-                fail_msg("%s %s does not tell %s", outputs[i].command, outputs[i].more,
-                         names[k]);
+                fail_msg("%s does not tell %s", outputs[i].command, names[k]);
         }
     }
     /* The table of speed at equal error has the name above it, too. */
-    const char *front = strstr(after("summarize", "", "said"), "how many times faster");
+    const char *front = strstr(after("summarize .", NULL), "how many times faster");
     assert_non_null(front);
     const mote_figure_run run = {.summary = &summary};
     mote_figure figure = {0};
@@ -438,7 +410,7 @@ TEST(report_begins_with_rows_that_pay_for_deformation)
     make_summary();
     /* Row 0 is the one whose positions are given, row 1 certified. */
     assert_non_null(
-        strstr(after("report", "", "report.html"),
+        strstr(after("report .", "report.html"),
                "\"blocks\":[{\"first\":0,\"end\":3,\"right\":1,\"fastest\":null}]"));
 }
 
@@ -451,22 +423,22 @@ TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
     write_cell((stored_cell){.replicate = 1}, 100, 0);
     write_cell((stored_cell){.replicate = 3}, 100, 0);
     const stored_cell crash = {.replicate = 2, .status = "crashed"};
-    assert_true(stored_cell_write(directory, &crash));
+    stored_cell_put(".", crash);
     make_summary();
     static const struct {
-        const char *command, *more, *file;
+        const char *command, *file;
     } outputs[] = {
-        {"summarize", "", "said"}, {"report", "", "report.html"}, {"report", "", "report.md"}};
+        {"summarize .", NULL}, {"report .", "report.html"}, {"report .", "report.md"}};
     for (size_t i = 0; i < 3; ++i) {
-        const char *text = after(outputs[i].command, outputs[i].more, outputs[i].file);
+        const char *text = after(outputs[i].command, outputs[i].file);
         if (!strstr(text, beside) || !strstr(text, badly))
-            fail_msg("%s does not say both", outputs[i].file);
+            fail_msg("%s: %s does not say both", outputs[i].command, outputs[i].file);
     }
     /* Row 0 has no time that can be compared: it comes last, and is not the fastest. */
     assert_non_null(
-        strstr(after("report", "", "report.html"),
+        strstr(after("report .", "report.html"),
                "\"blocks\":[{\"first\":0,\"end\":2,\"right\":0,\"fastest\":null}]"));
-    const char *csv = after("summarize", "--format csv", "said");
+    const char *csv = after("summarize . --format csv", NULL);
     assert_non_null(strstr(csv, ",replicates_failed,jobs,"));
     assert_non_null(strstr(csv, ",0,2,"));
     assert_non_null(strstr(csv, ",1,1,"));

@@ -1,6 +1,6 @@
 /* mote tune, against the medians of the summary that it reads. */
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
 
@@ -10,38 +10,9 @@
 #include <stdint.h>
 #include <stddef.h>
 
-static char base[] = "/tmp/mote-test-tune-XXXXXX";
-static char said[64], text[1 << 16];
-
-static int make_base(void)
-{
-    (void)snprintf(said, sizeof said, "%s.said", base);
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void)
-{
-    (void)remove(said);
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
-
-/* mote ARGUMENTS DIRECTORY MORE, in the test's directory. */
-static int mote(const char *arguments, const char *more)
-{
-    char line[512];
-    (void)snprintf(line, sizeof line, "%s%s%s", arguments, *more ? base : "", more);
-    int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
-}
-
 static json_t *load_rows(const char *file)
 {
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", base, file);
-    json_t *object = json_load_file(path, 0, NULL);
+    json_t *object = json_load_file(file, 0, NULL);
     assert_non_null(object);
     json_t *rows = json_incref(json_object_get(object, "rows"));
     json_decref(object);
@@ -78,14 +49,12 @@ static size_t extremes(const json_t *rows, const char *method, bool right, doubl
 
 TEST(tune_names_the_fastest_right_configuration)
 {
-    int status =
-        mote("run tt --frames 201-220 --replicates 1"
-             " --method fcl-aabb:queue=2|64,seed=none|previous"
-             " --method fcl-obb:update=refit-top-down|none|rebuild"
-             " --method fcl-rss --method fcl-kdop18:call=api --method ccd-convex --out ",
-             "/");
-    assert_int_equal(status, 0);
-    assert_int_equal(mote("tune ", "/"), 0);
+    mote_expect(0, "",
+                "run tt --frames 201-220 --replicates 1"
+                " --method 'fcl-aabb:queue=2|64,seed=none|previous'"
+                " --method 'fcl-obb:update=refit-top-down|none|rebuild'"
+                " --method fcl-rss --method fcl-kdop18:call=api --method ccd-convex --out .");
+    mote_expect(0, "", "tune .");
     json_t *tuned = load_rows("tune.json"), *summary = load_rows("summary.json"), *row;
     assert_int_equal(json_array_size(tuned), 5);
     size_t k;
@@ -102,7 +71,7 @@ TEST(tune_names_the_fastest_right_configuration)
         assert_true(right || others == 0);
         assert_int_equal(json_integer_value(json_object_get(row, "configurations")),
                          compared + others);
-        assert_non_null(strstr(text, string_of(row, "configuration")));
+        assert_non_null(strstr(said, string_of(row, "configuration")));
     }
     /* The fastest right row of FCL, whichever method. */
     const char *best = "";
@@ -116,11 +85,11 @@ TEST(tune_names_the_fastest_right_configuration)
             best = string_of(row, "configuration");
         }
     }
-    assert_int_equal(mote("tune --best-fcl tt ", "/"), 0);
-    assert_int_equal(strcspn(text, "\n"), strlen(best));
-    assert_memory_equal(text, best, strlen(best));
-    assert_int_equal(mote("tune --best-fcl ww ", "/"), 0);
-    assert_string_equal(text, "");
+    mote_expect(0, best, "tune --best-fcl tt .");
+    assert_int_equal(strcspn(said, "\n"), strlen(best));
+    assert_memory_equal(said, best, strlen(best));
+    mote_expect(0, "", "tune --best-fcl ww .");
+    assert_string_equal(said, "");
     json_decref(tuned);
     json_decref(summary);
 }
@@ -142,37 +111,29 @@ TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
     static const char row[] =
         "{\"scenario\": \"ww\", \"cache\": \"hot\", \"method\": \"fcl-aabb\","
         " \"right\": true, \"configuration\":";
-    char path[128], folder[96];
-    (void)snprintf(folder, sizeof folder, "%s/edited", base);
-    assert_int_equal(mote_directory_make(folder), MOTE_OK);
-    (void)snprintf(path, sizeof path, "%s/tune.json", folder);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         mote_text file = {0};
         const char *rest = cases[i].text;
         for (const char *hole; (hole = strstr(rest, "%s,")) != NULL; rest = hole + 3)
             mote_text_add(&file, "%.*s%s", (int)(hole - rest), rest, row);
         mote_text_add(&file, "%s", rest);
-        file_put(path, file.data);
+        file_put("edited/tune.json", file.data);
         free(file.data);
-        assert_int_equal(mote("tune --best-fcl ww ", "/edited"), cases[i].status);
+        mote_expect(cases[i].status, cases[i].says, "tune --best-fcl ww edited");
         if (cases[i].status == 0)
-            assert_string_equal(text, cases[i].says);
-        else
-            assert_non_null(strstr(text, cases[i].says));
+            assert_string_equal(said, cases[i].says);
     }
 }
 
 /* A cell without frames has no time: it is neither the best nor the worst. */
 TEST(tune_of_a_cell_without_frames_leaves_it_out)
 {
-    char folder[96];
     const stored_cell cells[] = {
         {.rows = "", .parameters = "{\"queue\": 2}"},
         {.id = "b", .rows = "1,0,0,5,1,0,0,0,7\n", .parameters = "{\"queue\": 64}"}};
-    (void)snprintf(folder, sizeof folder, "%s/bare", base);
     for (size_t i = 0; i < 2; ++i)
-        assert_true(stored_cell_write(folder, &cells[i]));
-    assert_int_equal(mote("tune ", "/bare"), 0);
+        stored_cell_put("bare", cells[i]);
+    mote_expect(0, "", "tune bare");
     json_t *rows = load_rows("bare/tune.json");
     assert_int_equal(json_array_size(rows), 1);
     const json_t *row = json_array_get(rows, 0);
@@ -183,8 +144,8 @@ TEST(tune_of_a_cell_without_frames_leaves_it_out)
 
 TEST(tune_without_a_run_is_bad_input)
 {
-    assert_int_equal(mote("tune ", "/nothing"), 4);
-    assert_int_equal(mote("tune --best-fcl tt ", "/nothing"), 4);
-    assert_int_equal(mote("tune", ""), 2);
-    assert_int_equal(mote("tune ", "/ two"), 2);
+    mote_expect(4, "", "tune nothing");
+    mote_expect(4, "", "tune --best-fcl tt nothing");
+    mote_expect(2, "", "tune");
+    mote_expect(2, "", "tune . two");
 }
