@@ -182,8 +182,8 @@ MOTE_INLINE float relative_positions(const mote_field *field, const mote_mesh *m
    whose slope is at most 2.11, by u (8 E + 24), evaluation included; the sum adds u a term. */
 MOTE_CLONES
 static float csrbf_estimate(const mote_field *field, const mote_mesh *mesh,
-                            const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
-                            size_t count, float (*weights)[MOTE_FIELD_MAX],
+                            const uint32_t vertices[MOTE_LANES], const uint16_t *functions,
+                            size_t count, const float *const weights[3],
                             float displacement[3][MOTE_LANES])
 {
     const double inverse = 1 / field->support;

@@ -4,13 +4,14 @@
 #include <string.h>
 
 /* Vertices are kept in blocks of MOTE_LANES, padded with copies of the last one. A block is
-   x[LANES], y[LANES], z[LANES] at rest, then phi_j[LANES] for each of the padded basis
-   functions. */
+   x[LANES], y[LANES], z[LANES] at rest, then phi_j[LANES] for each of the tabulated basis
+   functions. Those of a sparse field are not tabulated: almost all would be 0. */
 struct mote_deform {
     const mote_body *body;
     uint32_t blocks;
-    size_t stride; /* doubles in a block */
-    double *table; /* [blocks][stride] */
+    uint32_t tabulated; /* basis functions in the table: padded, or 0 */
+    size_t stride;      /* doubles in a block */
+    double *table;      /* [blocks][stride] */
 };
 
 static void fill_block(mote_deform *deform, uint32_t block, double *phi)
@@ -26,8 +27,10 @@ static void fill_block(mote_deform *deform, uint32_t block, double *phi)
         out[lane] = p.x;
         out[MOTE_LANES + lane] = p.y;
         out[2 * MOTE_LANES + lane] = p.z;
+        if (deform->tabulated == 0)
+            continue;
         field->kind->basis(field, mesh, vertex, phi);
-        for (uint32_t j = 0; j < field->padded; ++j)
+        for (uint32_t j = 0; j < deform->tabulated; ++j)
             out[(3 + j) * MOTE_LANES + lane] = phi[j];
     }
 }
@@ -39,17 +42,20 @@ mote_status mote_deform_create(const mote_body *body, mote_deform **deform)
         return mote_fail(MOTE_ENOMEM, "no memory to deform a body");
     made->body = body;
     made->blocks = (body->mesh->vertex_count + MOTE_LANES - 1) / MOTE_LANES;
-    made->stride = (size_t)MOTE_LANES * (3 + body->field->padded);
+    made->tabulated = body->field->kind->sparse ? 0 : body->field->padded;
+    made->stride = (size_t)MOTE_LANES * (3 + made->tabulated);
     /* The stride is a multiple of 64 bytes, so that every row is aligned. */
     made->table = aligned_alloc(64, made->blocks * made->stride * sizeof(double));
-    if (!made->table) {
-        free(made);
+    double *phi = malloc(((size_t)made->tabulated + 1) * sizeof *phi);
+    if (!made->table || !phi) {
+        free(phi);
+        mote_deform_destroy(made);
         return mote_fail(MOTE_ENOMEM, "no memory for the basis values of %u vertices",
                          body->mesh->vertex_count);
     }
-    double phi[MOTE_FIELD_MAX];
     for (uint32_t block = 0; block < made->blocks; ++block)
         fill_block(made, block, phi);
+    free(phi);
     *deform = made;
     return MOTE_OK;
 }
@@ -96,6 +102,29 @@ MOTE_INLINE void sum_block(const double *phi, const mote_weights *weights, uint3
     }
 }
 
+/* The same of a sparse field, without a table. */
+static void sum_sparse(const mote_deform *deform, uint32_t block, const mote_weights *weights,
+                       double sum[3][MOTE_LANES])
+{
+    const mote_mesh *mesh = deform->body->mesh;
+    const mote_field *field = deform->body->field;
+    uint32_t vertices[MOTE_LANES];
+    for (uint32_t l = 0; l < MOTE_LANES; ++l) {
+        const uint32_t v = block * MOTE_LANES + l;
+        vertices[l] = v < mesh->vertex_count ? v : mesh->vertex_count - 1;
+    }
+    if (field->kind->group) {
+        field->kind->group(field, mesh, vertices, weights, sum);
+        return;
+    }
+    for (size_t l = 0; l < MOTE_LANES; ++l) {
+        const mote_vec3 d = mote_field_displacement(field, mesh, vertices[l], weights);
+        sum[0][l] = d.x;
+        sum[1][l] = d.y;
+        sum[2][l] = d.z;
+    }
+}
+
 /* The rotation and translation of a block's vertices, as mote_pose_apply does it. */
 MOTE_INLINE void move_block(const double *rest, const mote_pose *pose,
                             double world[3][MOTE_LANES])
@@ -115,14 +144,18 @@ MOTE_CLONES
 void mote_deform_all(const mote_deform *deform, const mote_body_state *state, mote_vec3 *world)
 {
     const uint32_t count = deform->body->mesh->vertex_count;
-    const uint32_t padded = deform->body->field->padded;
+    const uint32_t padded = deform->tabulated;
+    const bool sparse = deform->body->field->kind->sparse;
     for (uint32_t b = 0; b < deform->blocks; ++b) {
         const double *block = deform->table + b * deform->stride;
         double p[3][MOTE_LANES];
         move_block(block, &state->pose, p);
-        if (padded > 0) {
+        if (padded > 0 || sparse) {
             double sum[3][MOTE_LANES];
-            sum_block(block + 3 * MOTE_LANES, &state->weights, padded, sum);
+            if (sparse)
+                sum_sparse(deform, b, &state->weights, sum);
+            else
+                sum_block(block + 3 * MOTE_LANES, &state->weights, padded, sum);
             for (int c = 0; c < 3; ++c) {
                 MOTE_LANE_LOOP
                 for (size_t v = 0; v < MOTE_LANES; ++v)

@@ -1,5 +1,6 @@
 /* Deforming all vertices of a body, in the fastest form that we have: basis values tabulated
-   per vertex, eight vertices at a time. Used only by methods that need every vertex. */
+   per vertex (of a sparse field: computed, since almost all are 0), eight vertices at a time.
+   Used only by methods that need every vertex. */
 #ifndef MOTE_CORE_DEFORM_H
 #define MOTE_CORE_DEFORM_H
 
@@ -11,8 +12,8 @@ extern "C" {
 
 typedef struct mote_deform mote_deform;
 
-/* Tabulates the basis of a body's field: vertex_count * field->padded doubles. The body is
-   borrowed. Cost O(vertex_count * padded). */
+/* Tabulates the basis of a body's field: vertex_count * field->padded doubles, none of a sparse
+   field. The body is borrowed. Cost O(vertex_count * padded). */
 mote_status mote_deform_create(const mote_body *body, mote_deform **deform);
 
 /* NULL is allowed. */

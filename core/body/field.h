@@ -37,10 +37,16 @@ typedef struct mote_weights_single {
     uint32_t padded;
 } mote_weights_single;
 
-/* At most this many basis functions (after padding). */
-#define MOTE_FIELD_MAX 256
+/* At most this many basis functions: with the padding, their numbers fit in 16 bits. A sparse
+   kind that brings bounds of its own may have more. */
+#define MOTE_FIELD_MAX 65528
+
+/* What is summed over basis() or sparse() for a kind that does not sum by itself has at most
+   this many functions at a vertex, since the values are kept on the stack. */
+#define MOTE_FIELD_SUMMED 256
 
 typedef struct mote_field mote_field;
+struct mote_cert_bounds;
 
 typedef struct mote_field_kind {
     const char *name; /* "static", "csrbf", "modes" */
@@ -49,14 +55,21 @@ typedef struct mote_field_kind {
        on every instruction set. */
     void (*basis)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex, double *phi);
 
-    /* sum_j phi_j w_j at a rest vertex, added up in MOTE_LANES lanes in the fixed order of
-       mote_lane_sum; equals the same sum over basis() bit for bit. NULL: the sum over basis().
-     */
+    /* Of a kind whose functions are 0 at most vertices: the functions that may not be 0 at a
+       vertex. Writes their numbers, ascending, and their values, both as long as field->most;
+       returns how many there are. The values equal those of basis() bit for bit. NULL: any
+       function may be anything but 0 everywhere. */
+    uint32_t (*sparse)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                       uint32_t *functions, double *phi);
+
+    /* sum_j phi_j w_j at a rest vertex. Function j is added to lane j % MOTE_LANES, in
+       ascending order; the lanes are added up in the fixed order of mote_lane_sum. Equals the
+       same sum over basis() bit for bit. NULL: the sum over sparse() or basis(). */
     mote_vec3 (*displacement)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                               const mote_weights *weights);
 
     /* The same in single precision throughout, for the weights rounded to it. NULL: the sum
-       over basis() rounded to it. */
+       over sparse() or basis(), rounded to it. */
     void (*displacement_single)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                                 const mote_weights_single *weights, float displacement[3]);
 
@@ -71,8 +84,8 @@ typedef struct mote_field_kind {
        is coordinate c of weight j, in any unit. Returns a factor: coordinate c is wrong by at
        most this factor times sum_j |weights[c][j]|. NULL: not offered. */
     float (*estimate)(const mote_field *field, const mote_mesh *mesh,
-                      const uint32_t vertices[MOTE_LANES], const uint8_t *functions,
-                      size_t count, float (*weights)[MOTE_FIELD_MAX],
+                      const uint32_t vertices[MOTE_LANES], const uint16_t *functions,
+                      size_t count, const float *const weights[3],
                       float displacement[3][MOTE_LANES]);
 
     /* Gradient of phi_j with respect to the rest position, at a rest vertex: gradient[j], 0 in
@@ -81,6 +94,10 @@ typedef struct mote_field_kind {
     void (*gradient)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                      mote_vec3 *gradient);
 
+    /* How the certified query bounds the field (core/certificate/certificate_bounds.h). NULL:
+       by linear fits of the basis functions, which serve any field. */
+    const struct mote_cert_bounds *bounds;
+
     void (*destroy)(mote_field *field);
 } mote_field_kind;
 
@@ -88,6 +105,7 @@ struct mote_field {
     const mote_field_kind *kind;
     uint32_t count;  /* J; 0 when nothing deforms */
     uint32_t padded; /* J rounded up to a multiple of MOTE_LANES */
+    uint32_t most;   /* functions that may not be 0 at a vertex, at most; J unless sparse */
     double support;  /* CSRBF: support radius, > 0 */
     /* CSRBF: centres by coordinate [padded]; the padding repeats the first, with weight 0 */
     double *centre_x, *centre_y, *centre_z;

@@ -3,14 +3,28 @@
 
 #include <stdlib.h>
 
+static mote_status check_count(const mote_field_kind *kind, uint32_t count)
+{
+    const bool sums = kind->sparse || (kind->displacement && kind->displacement_single);
+    const uint32_t most = sums ? MOTE_FIELD_MAX : MOTE_FIELD_SUMMED;
+    if (count <= most)
+        return MOTE_OK;
+    return mote_fail(MOTE_EINVAL, "a field of kind %s has at most %u basis functions, not %u",
+                     kind->name, most, count);
+}
+
 mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count, mote_field **field)
 {
+    mote_status status = check_count(kind, count);
+    if (status != MOTE_OK)
+        return status;
     mote_field *made = calloc(1, sizeof *made);
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for a field");
     made->kind = kind;
     made->count = count;
     made->padded = (count + MOTE_LANES - 1) / MOTE_LANES * MOTE_LANES;
+    made->most = count;
     made->bytes = sizeof *made;
     *field = made;
     return MOTE_OK;

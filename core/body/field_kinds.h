@@ -4,9 +4,20 @@
 
 #include "core/body/field.h"
 
-/* A zeroed field with kind, count, padded and bytes set. */
+/* A zeroed field with kind, count, padded, most (= count) and bytes set. A sparse kind lowers
+   most. MOTE_EINVAL: count is above MOTE_FIELD_MAX, or above MOTE_FIELD_SUMMED for a kind that
+   is not sparse and leaves displacement or displacement_single to the sum over basis().
+   MOTE_ENOMEM.
+ */
 mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
                                 mote_field **field);
+
+/* The displacement of a kind that has no displacement of its own, and the same in single
+   precision: sums over sparse() or basis(). */
+mote_vec3 mote_field_sum(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                         const mote_weights *weights);
+void mote_field_sum_single(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
+                           const mote_weights_single *weights, float sum[3]);
 
 /* Wendland's C2 function (1-r)^4 (4r+1) for 0 <= r < 1, else 0, an infinite r included. */
 static inline double mote_wendland_c2(double r)
@@ -45,6 +56,27 @@ MOTE_INLINE mote_vec3 mote_weighted_sum(const double *phi, const mote_weights *w
         }
     }
     return mote_vec3_make(mote_lane_sum(x), mote_lane_sum(y), mote_lane_sum(z));
+}
+
+/* The same in single precision. */
+MOTE_INLINE void mote_weighted_sum_single(const double *phi, const mote_weights_single *weights,
+                                          size_t padded, float sum[3])
+{
+    float x[MOTE_LANES] = {0};
+    float y[MOTE_LANES] = {0};
+    float z[MOTE_LANES] = {0};
+    for (size_t j = 0; j < padded; j += MOTE_LANES) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const float value = (float)phi[j + l];
+            x[l] += value * weights->x[j + l];
+            y[l] += value * weights->y[j + l];
+            z[l] += value * weights->z[j + l];
+        }
+    }
+    sum[0] = mote_lane_sum_single(x);
+    sum[1] = mote_lane_sum_single(y);
+    sum[2] = mote_lane_sum_single(z);
 }
 
 #endif

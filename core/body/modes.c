@@ -31,6 +31,15 @@ static mote_vec3 modes_displacement(const mote_field *field, const mote_mesh *me
     return mote_weighted_sum(row_of(field, vertex), weights, field->padded);
 }
 
+MOTE_CLONES
+static void modes_displacement_single(const mote_field *field, const mote_mesh *mesh,
+                                      uint32_t vertex, const mote_weights_single *weights,
+                                      float displacement[3])
+{
+    (void)mesh;
+    mote_weighted_sum_single(row_of(field, vertex), weights, field->padded, displacement);
+}
+
 /* Solves the symmetric system m g = b by Cramer's rule; false when it is singular. */
 static bool solve3(double m[3][3], mote_vec3 b, mote_vec3 *g)
 {
@@ -98,6 +107,7 @@ static void modes_destroy(mote_field *field)
 static const mote_field_kind modes_kind = {.name = "modes",
                                            .basis = modes_basis,
                                            .displacement = modes_displacement,
+                                           .displacement_single = modes_displacement_single,
                                            .gradient = modes_gradient,
                                            .destroy = modes_destroy};
 

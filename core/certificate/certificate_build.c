@@ -1,6 +1,6 @@
 /* Building the tree: balanced binary splits at the median along the main axis, collapsed from
    the leaves up to blocks of eight, so that only the root may have fewer children. */
-#include "core/certificate/certificate_fit.h"
+#include "core/certificate/certificate_bounds.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -11,8 +11,6 @@ typedef struct item {
     uint32_t triangle;
 } item;
 
-typedef struct draft draft;
-
 typedef struct builder {
     mote_cert_tree *tree;
     mote_cert_tree_options options;
@@ -22,10 +20,8 @@ typedef struct builder {
     uint32_t *place;     /* [vertex_count] its index in that list */
     uint32_t *list;      /* [vertex_count] the vertices of one range */
     uint32_t stamp;
-    double *phi;
-    mote_cert_fit fit;
-    draft *draft;
-    size_t block_room, leaf_room, row_room, vertex_room, group_room;
+    void *fitter; /* of the tree's bounds */
+    size_t block_room, leaf_room, vertex_room, group_room;
     uint32_t corner_count;
     uint32_t bits; /* binary levels in a block */
     mote_status status;
@@ -257,110 +253,79 @@ static void store_box(mote_cert_block *block, uint32_t lane, const mote_cert_box
     }
 }
 
-/* A block's children before the block is written. */
-struct draft {
-    mote_cert_box box[MOTE_CERT_WIDTH];
-    mote_cert_row row[MOTE_FIELD_MAX];
-    bool active[MOTE_FIELD_MAX];
-};
-
-/* Appends the rows of the active functions. */
-static void append_rows(builder *b, const draft *d, mote_cert_block *block)
+mote_status mote_cert_tree_keep(mote_cert_tree *tree, mote_cert_block *block, size_t strips,
+                                size_t active)
 {
-    mote_cert_tree *tree = b->tree;
-    const uint32_t functions = tree->body->field->count;
-    uint32_t count = 0;
-    for (uint32_t j = 0; j < functions; ++j)
-        count += d->active[j];
-    block->first_row = block->first_active = tree->row_count;
-    block->active_count = count;
-    size_t room = b->row_room;
-    void *moved = make_room(b, tree->rows, &room, tree->row_count, count, sizeof *tree->rows);
-    if (!moved)
-        return; /* no rows are needed, or memory ran out */
-    tree->rows = moved;
-    if (room != b->row_room) {
-        void *active = realloc(tree->active, room);
-        if (!active) {
-            b->status = mote_fail(MOTE_ENOMEM, "no memory for %zu rows of a tree", room);
-            return;
-        }
-        tree->active = active;
-        b->row_room = room;
+    if (tree->strip_count + strips > tree->strip_room) {
+        const size_t room = 2 * (tree->strip_count + strips);
+        void *moved = realloc(tree->strips, room * sizeof *tree->strips);
+        if (!moved)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu bounds of boxes", room);
+        tree->strips = moved;
+        tree->strip_room = room;
     }
-    for (uint32_t j = 0; j < functions; ++j) {
-        if (!d->active[j])
-            continue;
-        tree->rows[tree->row_count] = d->row[j];
-        tree->active[tree->row_count] = (uint8_t)j;
-        ++tree->row_count;
+    if (tree->active_count + active > tree->active_room) {
+        const size_t room = 2 * (tree->active_count + active);
+        void *moved = realloc(tree->active, room * sizeof *tree->active);
+        if (!moved)
+            return mote_fail(MOTE_ENOMEM, "no memory for %zu bounds of boxes", room);
+        tree->active = moved;
+        tree->active_room = room;
     }
+    block->first_strip = (uint32_t)tree->strip_count;
+    block->first_active = (uint32_t)tree->active_count;
+    block->active_count = (uint32_t)active;
+    if (strips > 0)
+        memset(tree->strips + tree->strip_count, 0, strips * sizeof *tree->strips);
+    if (active > 0)
+        memset(tree->active + tree->active_count, 0, active * sizeof *tree->active);
+    tree->strip_count += strips;
+    tree->active_count += active;
+    return MOTE_OK;
 }
 
-/* Boxes of all parts, and the slopes of the functions over them. */
-static void draft_boxes(builder *b, const range *parts, uint32_t count, draft *d,
-                        mote_cert_block *block)
+/* Which of the parts become leaves. */
+static uint32_t leaves_of(builder *b, const range *parts, uint32_t count)
+{
+    uint32_t leaves = 0;
+    for (uint32_t lane = 0; lane < count; ++lane) {
+        if (parts[lane].levels == 0 && list_vertices(b, parts[lane]) <= MOTE_CERT_LEAF_VERTICES)
+            leaves |= 1u << lane;
+    }
+    return leaves;
+}
+
+/* Box, bounds and leaf of one part. */
+static void fill_lane(builder *b, range part, uint32_t lane, uint32_t leaves,
+                      mote_cert_block *block)
 {
     mote_cert_tree *tree = b->tree;
-    const uint32_t functions = tree->body->field->count;
-    for (uint32_t lane = 0; lane < count; ++lane) {
-        const uint32_t vertices = list_vertices(b, parts[lane]);
-        d->box[lane] = mote_cert_box_of(tree, b->list, vertices);
-        int32_t cut[3];
-        mote_cert_cut_corners(tree, b->list, vertices, &d->box[lane], cut);
-        store_box(block, lane, &d->box[lane], cut);
-        if (functions == 0 || !b->options.linear_fits)
-            continue;
-        mote_cert_fit_slopes(tree, b->list, vertices, &d->box[lane], b->phi, &b->fit);
-        for (uint32_t j = 0; j < functions; ++j) {
-            for (int k = 0; k < 3; ++k)
-                d->row[j].slope[k][lane] = (float)b->fit.slope[k][j];
-        }
-    }
+    const uint32_t vertices = list_vertices(b, part);
+    const mote_cert_box box = mote_cert_box_of(tree, b->list, vertices);
+    int32_t cut[3];
+    mote_cert_cut_corners(tree, b->list, vertices, &box, cut);
+    store_box(block, lane, &box, cut);
+    const mote_cert_part own = {
+        .lane = lane, .vertices = b->list, .count = vertices, .box = &box, .leaves = leaves};
+    tree->bounds->fit(b->fitter, tree, &own);
+    if (leaves >> lane & 1)
+        block->child[lane] = add_leaf(b, part, vertices, &box);
+}
+
+/* Fills boxes, bounds and leaves of a block. Parts that need a block of their own are left to
+   the caller. */
+static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count)
+{
+    mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
+    const uint32_t leaves = leaves_of(b, parts, count);
+    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane)
+        fill_lane(b, parts[lane], lane, leaves, &block);
     for (uint32_t lane = count; lane < MOTE_CERT_WIDTH; ++lane) {
         for (int k = 0; k < 3; ++k) /* axes are never 0, not even in an empty lane */
-            block->half[k][k][lane] = 0x1p-23F;
-    }
-}
-
-/* Offsets and residuals of the functions over one part, whose vertices are in b->list. */
-static void draft_residuals(builder *b, uint32_t lane, uint32_t vertices, draft *d)
-{
-    const uint32_t functions = b->tree->body->field->count;
-    mote_cert_fit *fit = &b->fit;
-    for (uint32_t j = 0; j < functions; ++j) {
-        const mote_cert_row *row = &d->row[j];
-        for (int k = 0; k < 3; ++k)
-            fit->slope[k][j] = (double)row->slope[k][lane];
-    }
-    mote_cert_fit_residuals(b->tree, b->list, vertices, &d->box[lane], b->phi, fit);
-    for (uint32_t j = 0; j < functions; ++j) {
-        if (!fit->active[j])
-            continue;
-        d->active[j] = true;
-        d->row[j].offset[lane] = fit->offset[j];
-        d->row[j].residual[lane] = fit->residual[j];
-    }
-}
-
-/* Fills boxes, rows and leaves of a block. Parts that need a block of their own are left to the
-   caller. */
-static void fill_block(builder *b, uint32_t id, const range *parts, uint32_t count, draft *d)
-{
-    const uint32_t functions = b->tree->body->field->count;
-    mote_cert_block block = {.children = count, .mask = (1u << count) - 1};
-    memset(d->row, 0, functions * sizeof *d->row);
-    memset(d->active, 0, functions);
-    draft_boxes(b, parts, count, d, &block);
-    for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
-        const uint32_t vertices = list_vertices(b, parts[lane]);
-        if (functions > 0)
-            draft_residuals(b, lane, vertices, d);
-        if (parts[lane].levels == 0 && vertices <= MOTE_CERT_LEAF_VERTICES)
-            block.child[lane] = add_leaf(b, parts[lane], vertices, &d->box[lane]);
+            block.half[k][k][lane] = 0x1p-23F;
     }
     if (b->status == MOTE_OK)
-        append_rows(b, d, &block);
+        b->status = b->tree->bounds->store(b->fitter, b->tree, &block);
     b->tree->blocks[id] = block;
 }
 
@@ -381,7 +346,7 @@ static int32_t build_block(builder *b, range whole, uint32_t depth)
         levels = 1; /* it has a leaf's triangles, but too many vertices for one */
     range parts[MOTE_CERT_WIDTH];
     const uint32_t count = split_levels(b, whole, levels, parts);
-    fill_block(b, id, parts, count, b->draft);
+    fill_block(b, id, parts, count);
     for (uint32_t lane = 0; lane < count && b->status == MOTE_OK; ++lane) {
         if (tree->blocks[id].child[lane] < 0)
             continue;
@@ -397,20 +362,6 @@ static double inverse_power(double x)
     return ldexp(1, -ilogb(x));
 }
 
-/* Powers of two that bring the largest value of every basis function near 1. */
-static void scale_basis(builder *b)
-{
-    const mote_body *body = b->tree->body;
-    double most[MOTE_FIELD_MAX] = {0};
-    for (uint32_t v = 0; v < body->mesh->vertex_count; ++v) {
-        body->field->kind->basis(body->field, body->mesh, v, b->phi);
-        for (uint32_t j = 0; j < body->field->count; ++j)
-            most[j] = fabs(b->phi[j]) > most[j] ? fabs(b->phi[j]) : most[j];
-    }
-    for (uint32_t j = 0; j < body->field->count; ++j)
-        b->tree->basis_scale[j] = most[j] > 0 ? inverse_power(most[j]) : 1;
-}
-
 static mote_status allocate(builder *b)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
@@ -419,11 +370,8 @@ static mote_status allocate(builder *b)
     b->seen = calloc(mesh->vertex_count, sizeof *b->seen);
     b->place = malloc(mesh->vertex_count * sizeof *b->place);
     b->list = malloc(mesh->vertex_count * sizeof *b->list);
-    b->phi = malloc(MOTE_FIELD_MAX * sizeof *b->phi);
-    b->draft = malloc(sizeof *b->draft);
     b->tree->corners = malloc(mesh->triangle_count * sizeof *b->tree->corners);
-    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->phi || !b->draft ||
-        !b->tree->corners)
+    if (!b->items || !b->centres || !b->seen || !b->place || !b->list || !b->tree->corners)
         return mote_fail(MOTE_ENOMEM, "no memory to build a tree of %u triangles",
                          mesh->triangle_count);
     return MOTE_OK;
@@ -466,8 +414,8 @@ static void shrink(mote_cert_tree *tree)
     tree->leaf_vertices =
         shrunk(tree->leaf_vertices, tree->leaf_vertex_count, sizeof(uint32_t));
     tree->groups = shrunk(tree->groups, tree->group_count, sizeof *tree->groups);
-    tree->rows = shrunk(tree->rows, tree->row_count, sizeof *tree->rows);
-    tree->active = shrunk(tree->active, tree->row_count, 1);
+    tree->strips = shrunk(tree->strips, tree->strip_count, sizeof *tree->strips);
+    tree->active = shrunk(tree->active, tree->active_count, sizeof *tree->active);
 }
 
 static mote_status build(builder *b)
@@ -476,9 +424,12 @@ static mote_status build(builder *b)
     b->status = allocate(b);
     if (b->status != MOTE_OK)
         return b->status;
-    scale_basis(b);
+    b->status = b->tree->bounds->start(b->tree, b->options.linear_fits, &b->fitter);
+    if (b->status != MOTE_OK)
+        return b->status;
     place_triangles(b);
     build_block(b, (range){0, mesh->triangle_count, levels_of(mesh->triangle_count)}, 1);
+    b->tree->bounds->stop(b->fitter);
     if (b->status == MOTE_OK)
         shrink(b->tree);
     return b->status;
@@ -495,6 +446,8 @@ mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_op
         status = mote_fail(MOTE_ENOMEM, "no memory for a tree");
     } else {
         made->body = body;
+        made->bounds =
+            body->field->kind->bounds ? body->field->kind->bounds : &mote_cert_fitted;
         made->scale = inverse_power(options->length);
         made->origin = mote_scale(mote_add(mesh->low, mesh->high), 0.5);
         b->tree = made;
@@ -506,8 +459,6 @@ mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_op
         free(b->seen);
         free(b->place);
         free(b->list);
-        free(b->phi);
-        free(b->draft);
     }
     free(b);
     if (status != MOTE_OK) {
@@ -523,7 +474,8 @@ void mote_cert_tree_destroy(mote_cert_tree *tree)
     if (!tree)
         return;
     free(tree->blocks);
-    free(tree->rows);
+    free(tree->fixed);
+    free(tree->strips);
     free(tree->active);
     free(tree->leaves);
     free(tree->leaf_vertices);
@@ -535,7 +487,8 @@ void mote_cert_tree_destroy(mote_cert_tree *tree)
 size_t mote_cert_tree_bytes(const mote_cert_tree *tree)
 {
     return sizeof *tree + tree->block_count * sizeof *tree->blocks +
-           tree->row_count * (sizeof *tree->rows + 1) +
+           tree->strip_count * sizeof *tree->strips +
+           tree->active_count * sizeof *tree->active + tree->fixed_bytes +
            tree->leaf_count * sizeof *tree->leaves +
            tree->leaf_vertex_count * sizeof(uint32_t) +
            tree->group_count * sizeof *tree->groups +

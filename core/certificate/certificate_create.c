@@ -1,7 +1,7 @@
 /* Allocating what one query needs: for a certificate with trees of its own, or for a workspace
    that works on the trees of others. */
 #include "core/certificate/certificate_shared.h"
-#include "core/certificate/certificate_state.h"
+#include "core/certificate/certificate_bounds.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +26,7 @@ static void *allocate_aligned(size_t count, size_t size)
 typedef struct capacity {
     const mote_body *largest; /* the body with the most vertices */
     uint32_t blocks, depth;   /* the most blocks, and the greatest depth, of any tree */
+    size_t frame;             /* the most bytes that bounds keep of a frame */
 } capacity;
 
 static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
@@ -37,6 +38,8 @@ static capacity capacity_for(mote_cert_tree *const *trees, uint32_t count)
             most.largest = body;
         most.blocks = larger(most.blocks, trees[i]->block_count);
         most.depth = larger(most.depth, trees[i]->depth);
+        const size_t frame = trees[i]->bounds->frame_bytes(trees[i]);
+        most.frame = frame > most.frame ? frame : most.frame;
     }
     return most;
 }
@@ -53,7 +56,12 @@ static mote_status side_create(mote_cert_side *side, const capacity *most)
     side->lazy.fixed = true;
     side->node_room = at_most(most->blocks, at_most(24 + vertices / 64, 4096));
     side->nodes = allocate_aligned(side->node_room, sizeof *side->nodes);
-    return side->nodes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+    side->frame_bytes = most->frame;
+    side->frame = allocate_aligned(most->frame, 1);
+    if (!side->nodes || !side->frame)
+        return mote_fail(MOTE_ENOMEM, "no memory for a query's boxes");
+    memset(side->frame, 0, most->frame); /* find_anew projects before there is a plane */
+    return MOTE_OK;
 }
 
 /* A workspace for trees of one scale. */
@@ -121,6 +129,7 @@ void mote_cert_workspace_destroy(mote_certificate *workspace)
     for (int s = 0; s < 2; ++s) {
         mote_lazy_free(&workspace->side[s].lazy);
         free(workspace->side[s].nodes);
+        free(workspace->side[s].frame);
     }
     free(workspace->spare);
     free(workspace);
@@ -141,7 +150,7 @@ size_t mote_cert_workspace_bytes(const mote_certificate *workspace)
     for (int s = 0; s < 2; ++s) {
         const mote_cert_side *side = &workspace->side[s];
         bytes += (side->lazy.mask + (size_t)1) * sizeof(mote_lazy_slot) +
-                 side->node_room * sizeof *side->nodes;
+                 side->node_room * sizeof *side->nodes + side->frame_bytes;
     }
     return bytes;
 }

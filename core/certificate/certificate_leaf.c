@@ -1,4 +1,4 @@
-/* Positions of a leaf's vertices: by the linear fit of the field in its box, which costs a few
+/* Positions of a leaf's vertices: by their coordinates in its deformed box, which costs a few
    operations a vertex; by the field in single precision; exactly.
 
    Margins. A vertex's coordinate z in its box is rounded to a float, so that a sum over k of
@@ -9,7 +9,7 @@
    + 6 u, of such sums or of what is added up, a difference of two of them, and the rounding of
    the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
    is 32 u B. */
-#include "core/certificate/certificate_state.h"
+#include "core/certificate/certificate_bounds.h"
 #include "core/base/clones.h"
 
 #include <string.h>
@@ -94,7 +94,7 @@ void mote_cert_leaf_hull(const mote_cert_side *restrict side,
                             node->axis[2][r][lane]};
         for (size_t g = 0; g < hull->groups; ++g)
             add_up(&groups[g], node->centre[r][lane], a, hull->x[r] + g * WIDTH);
-        hull->width[r] = node->width[r][lane] + side->leaf_margin;
+        hull->width[r] = node->width[r][lane] + node->leaf_margin;
     }
 }
 
@@ -117,40 +117,6 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
     return side->reached_at;
 }
 
-/* Rest positions of MOTE_LANES vertices of a leaf from place `first` on, filled up with copies
-   of the last, in the tree's units. */
-static void load_group(const mote_cert_tree *tree, const mote_cert_leaf *leaf, uint32_t first,
-                       uint32_t v[MOTE_LANES], float p[3][MOTE_LANES])
-{
-    const uint32_t *vertices = tree->leaf_vertices + leaf->first_vertex;
-    for (uint32_t i = 0; i < MOTE_LANES; ++i) {
-        const uint32_t k = first + i;
-        v[i] = vertices[k < leaf->vertex_count ? k : leaf->vertex_count - 1u];
-        const mote_vec3 x = mote_cert_tree_position(tree, v[i]);
-        p[0][i] = (float)x.x;
-        p[1][i] = (float)x.y;
-        p[2][i] = (float)x.z;
-    }
-}
-
-/* Moves a group rigidly and adds its displacements. */
-MOTE_CLONES
-static void move_group(const mote_cert_side *restrict side, float p[3][MOTE_LANES],
-                       float moved[3][MOTE_LANES], uint32_t first,
-                       mote_cert_hull *restrict hull)
-{
-    for (size_t r = 0; r < 3; ++r) {
-        const float a = side->rotation[r][0];
-        const float b = side->rotation[r][1];
-        const float c = side->rotation[r][2];
-        const float t = side->translation[r];
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < MOTE_LANES; ++l)
-            hull->x[r][first + l] =
-                (t + (a * p[0][l] + b * p[1][l] + c * p[2][l])) + moved[r][l];
-    }
-}
-
 /* The slot for the near hull of a leaf. */
 static mote_cert_hull *hull_place(mote_cert_side *side, const mote_cert_node *node, size_t lane)
 {
@@ -167,33 +133,16 @@ const mote_cert_hull *mote_cert_leaf_known_hull(mote_cert_side *side,
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,
                                                size_t lane)
 {
-    const mote_cert_tree *tree = side->tree;
-    const mote_body *body = tree->body;
-    const mote_cert_block *block = node->block;
-    const mote_cert_leaf *leaf = leaf_of(tree, node, lane);
+    const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
     mote_cert_hull *hull = hull_place(side, node, lane);
-    if (body->field->count > 0 && !body->field->kind->estimate)
-        return NULL;
     if (hull->leaf == leaf)
         return hull;
-    float factor = 0;
     hull->leaf = leaf;
     hull->groups = mote_cert_group_count(leaf);
-    for (uint32_t first = 0; first < leaf->vertex_count; first += MOTE_LANES) {
-        uint32_t v[MOTE_LANES];
-        float p[3][MOTE_LANES], moved[3][MOTE_LANES] = {{0}};
-        load_group(tree, leaf, first, v, p);
-        if (block->active_count > 0) {
-            const float f = body->field->kind->estimate(
-                body->field, body->mesh, v, tree->active + block->first_active,
-                block->active_count, side->single, moved);
-            factor = f > factor ? f : factor;
-        }
-        move_group(side, p, moved, first, hull);
-    }
-    for (size_t r = 0; r < 3; ++r)
-        hull->width[r] = side->leaf_margin + (factor + 0x1p-22F) * side->single_sum[r];
-    return hull;
+    if (side->tree->bounds->hull(side, node, lane, hull))
+        return hull;
+    hull->leaf = NULL;
+    return NULL;
 }
 
 /* The exact coordinate of a vertex towards the other body. */
@@ -217,13 +166,13 @@ bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node
     const double most =
         (double)place_along(side->tree->groups + leaf->first_group, mote_cert_group_count(leaf),
                             node->middle[lane], slant, at);
-    const double loose = (double)(node->loose[lane] + side->leaf_margin);
+    const double loose = (double)(node->loose[lane] + node->leaf_margin);
     *reach = most + loose;
     if (*reach <= side->threshold)
         return true;
     if (most - loose > side->threshold)
         return false;
-    const float doubtful = (float)(side->threshold - loose) - side->leaf_margin;
+    const float doubtful = (float)(side->threshold - loose) - node->leaf_margin;
     const uint32_t *vertices = side->tree->leaf_vertices + leaf->first_vertex;
     double farthest = side->threshold;
     for (uint32_t i = 0; i < leaf->vertex_count; ++i) {

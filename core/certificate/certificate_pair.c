@@ -155,7 +155,7 @@ static bool latest_separates(mote_certificate *c, const mote_cert_node *const no
     const float reach =
         mote_cert_leaf_reach(&c->side[0], nodes[0], lanes[0], d, c->direction_stamp) +
         mote_cert_leaf_reach(&c->side[1], nodes[1], lanes[1], back, c->direction_stamp);
-    const float margin = c->side[0].leaf_margin + c->side[1].leaf_margin;
+    const float margin = nodes[0]->leaf_margin + nodes[1]->leaf_margin;
     float loose = 0;
     float squared = 0;
     for (size_t r = 0; r < 3; ++r) {

@@ -225,7 +225,7 @@ void mote_certificate_query(mote_certificate *c, const mote_frame *frame,
     c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
     for (int s = 0; s < 2; ++s)
         mote_cert_side_begin(&c->side[s], &frame->body[s], c->origin);
-    c->noise = 0x1p-48 * (c->side[0].bound + c->side[1].bound);
+    c->noise = c->side[0].noise + c->side[1].noise;
     mote_cert_set_best(c, c->best.squared);
     prove(c);
     write_answer(c, evaluated, answer);

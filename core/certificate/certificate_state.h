@@ -22,7 +22,8 @@ typedef struct mote_cert_node {
     float middle[MOTE_CERT_WIDTH];
     float slant[3][MOTE_CERT_WIDTH]; /* of the half axes */
     float loose[MOTE_CERT_WIDTH];    /* half width of the box to be added */
-    int32_t child[MOTE_CERT_WIDTH];  /* index of the deformed child; -1: not deformed yet */
+    float leaf_margin;              /* for sums over a vertex's coordinates in its leaf's box */
+    int32_t child[MOTE_CERT_WIDTH]; /* index of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
     bool boxes;          /* centre .. size have been computed */
     uint32_t clear;      /* bit l: child l is wholly on its own side of the plane */
@@ -53,23 +54,23 @@ typedef struct mote_cert_side {
     const mote_body_state *state;
     float rotation[3][3];
     float translation[3];
-    float weight[3][MOTE_FIELD_MAX];
+    void *frame; /* what the tree's bounds keep of the frame [frame_bytes], aligned to 64 */
+    size_t frame_bytes;
     mote_vec3 exact_translation; /* relative to the origin, in the trees' units */
     double exact;                /* rounding error of positions in double precision */
     double bound;                /* bound on every coordinate that occurs */
-    float margin_unit; /* a box's margin: margin_base + margin_unit * its active functions */
+    double noise;                /* rounding error of exact coordinates along a direction */
+    double world;                /* size of the coordinates that pose and origin add up to */
+    float margin_unit;           /* of a box's margin, as the tree's bounds make it up */
     float margin_base;
-    float leaf_margin;  /* for sums over a vertex's coordinates in its leaf's box */
+    float leaf_margin;  /* the same of mote_cert_node.leaf_margin */
     float reach_margin; /* for a reach that was computed in double precision */
     mote_vec3 facing;   /* u or -u */
     float facing_f[3];  /* the same in the rest mesh's axes */
     float facing_world[3];
-    float shift;                 /* translation along facing */
-    float along[MOTE_FIELD_MAX]; /* weight along facing, in the trees' units */
-    double threshold;            /* the plane, as a coordinate towards the other body */
+    float shift;      /* translation along facing */
+    double threshold; /* the plane, as a coordinate towards the other body */
     float threshold_f;
-    float single[3][MOTE_FIELD_MAX];       /* weights in the trees' units */
-    float single_sum[3];                   /* of their absolute values */
     mote_cert_hull hulls[MOTE_CERT_HULLS]; /* with the field evaluated */
     mote_cert_node *nodes;                 /* [node_room]; the root is the first */
     uint32_t node_room, node_count;

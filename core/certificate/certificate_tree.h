@@ -3,16 +3,11 @@
    Pai's BD-tree with boxes for spheres).
 
    For a child box with centre c and half axes h_k let z_k = h_k.(x - c) / |h_k|^2, so that
-   every rest vertex of the box is x = c + sum_k z_k h_k with |z_k| <= 1. Each basis function is
-   fitted by phi_j(x) = f_j + sum_k g_jk z_k + r over the box's vertices, with residuals
-   |r| <= m_j. With weights w_j the deformed vertices then lie in the sum of
-       the centre R c + t + sum_j f_j w_j,
-       three half axes R h_k + sum_j g_jk w_j, and
-       an axis-aligned half width sum_j m_j |w_j|,
-   whatever the field is. A triangle is convex, so a box of its vertices encloses it.
+   every rest vertex of the box is x = c + sum_k z_k h_k with |z_k| <= 1. A triangle is convex,
+   so a box of its vertices encloses it. How a box at rest becomes one that encloses the
+   deformed vertices is up to the bounds of the field's kind (certificate_bounds.h).
 
-   Lengths are relative to origin and multiplied by scale, a power of two near 1 / L; basis
-   functions are multiplied by a power of two that brings the largest value near 1. */
+   Lengths are relative to origin and multiplied by scale, a power of two near 1 / L. */
 #ifndef MOTE_CORE_CERTIFICATE_TREE_H
 #define MOTE_CORE_CERTIFICATE_TREE_H
 
@@ -25,22 +20,18 @@
 #define MOTE_CERT_LEAF_TRIANGLES 32
 #define MOTE_CERT_LEAF_VERTICES 40
 
-/* What one basis function does to the children of a block: offset f, slopes g by axis, and the
-   largest residual m >= 0. Residuals are measured with the slopes as they are stored, so that
-   rounding the slopes loses nothing. */
-typedef struct mote_cert_row {
-    float offset[MOTE_CERT_WIDTH];
-    float slope[3][MOTE_CERT_WIDTH];
-    float residual[MOTE_CERT_WIDTH];
-} mote_cert_row;
+/* One number for each child of a block. What is kept of a block's children beyond their boxes
+   at rest is a run of these; what they mean is up to the tree's bounds (certificate_bounds.h).
+ */
+typedef float mote_cert_strip[MOTE_CERT_WIDTH];
 
 typedef struct mote_cert_block {
     float centre[3][MOTE_CERT_WIDTH];
     float half[3][3][MOTE_CERT_WIDTH]; /* [axis, longest first][coordinate][child] */
     int32_t cut[3][MOTE_CERT_WIDTH];   /* [pair of axes: 01, 02, 12]: see mote_cert_cut_of */
     int32_t child[MOTE_CERT_WIDTH];    /* >= 0: a block; < 0: the leaf ~child */
-    uint32_t first_row;                /* its rows, one for each active basis function */
-    uint32_t first_active;             /* numbers of these functions, ascending */
+    uint32_t first_strip;              /* of its bounds, in strips */
+    uint32_t first_active;             /* what of the field moves it, ascending, in active */
     uint32_t active_count;
     uint32_t children;
     uint32_t mask; /* bit l: lane l has a child; the first `children` bits */
@@ -65,19 +56,21 @@ typedef struct mote_cert_tree {
     double scale;
     mote_vec3 origin;
     mote_cert_block *blocks; /* [block_count]; the root is the first */
-    mote_cert_row *rows;     /* [row_count] */
-    uint8_t *active;         /* [row_count] basis functions */
+    const struct mote_cert_bounds *bounds;
+    void *fixed;             /* what the bounds keep of the whole tree, or NULL */
+    mote_cert_strip *strips; /* [strip_count] */
+    uint16_t *active;        /* [active_count] numbers of basis functions, or of a kind's own */
     mote_cert_leaf *leaves;  /* [leaf_count] */
     uint32_t *leaf_vertices; /* [leaf_vertex_count] */
     mote_cert_group *groups; /* [group_count] */
     uint8_t (*corners)[3];   /* [triangle_count], indices into the leaf's vertices */
     uint32_t block_count, leaf_count, leaf_vertex_count, group_count;
-    uint32_t row_count;
-    uint32_t depth;                     /* blocks on the longest path from the root */
-    double basis_scale[MOTE_FIELD_MAX]; /* powers of two */
-    double row_bound[MOTE_FIELD_MAX]; /* bound of |f| + |g_1| + |g_2| + |g_3| + m in any row */
-    double radius;                    /* bound of |c| + |h_1| + |h_2| + |h_3| of any box */
-    double leak; /* how far a vertex sticks out of its box by the rounding of boxes */
+    size_t strip_count, active_count;
+    size_t strip_room, active_room; /* while it is built */
+    size_t fixed_bytes;
+    uint32_t depth; /* blocks on the longest path from the root */
+    double radius;  /* bound of |c| + |h_1| + |h_2| + |h_3| of any box */
+    double leak;    /* how far a vertex sticks out of its box by the rounding of boxes */
 } mote_cert_tree;
 
 typedef struct mote_cert_tree_options {
@@ -89,6 +82,11 @@ typedef struct mote_cert_tree_options {
 /* Builds the tree of a body, which is borrowed. MOTE_ENOMEM. Cost O(t log t + v J log t). */
 mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_options *options,
                                   mote_cert_tree **tree);
+
+/* Gives a block its strips and active numbers, zeroed, at the end of the tree's. Only while the
+   tree is built. MOTE_ENOMEM. */
+mote_status mote_cert_tree_keep(mote_cert_tree *tree, mote_cert_block *block, size_t strips,
+                                size_t active);
 
 /* NULL is allowed. */
 void mote_cert_tree_destroy(mote_cert_tree *tree);

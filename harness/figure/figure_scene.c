@@ -1,6 +1,7 @@
 #include "harness/figure/figure_scene.h"
 
 #include "core/body/deform.h"
+#include "harness/base/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -231,7 +232,7 @@ void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_
 {
     const mote_field *field = scene->scenario->body[i].field;
     const mote_body_state *state = &scene->frame->body[i];
-    mote_vec3 centre[MOTE_FIELD_MAX];
+    mote_vec3 *centre = mote_allocate((size_t)field->count + 1, sizeof *centre);
     /* The centres as a mesh of points: all that a CSRBF's displacement looks at. */
     const mote_mesh points = {.vertex_count = field->count, .positions = centre};
     mote_figure_camera direction = *camera;
@@ -248,4 +249,5 @@ void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_
         mote_text_add(text, "%.4f %.4f %.4f %.4f %.4f %.4f\n", rest.x, rest.y, rest.z, moved.x,
                       moved.y, moved.z);
     }
+    free(centre);
 }

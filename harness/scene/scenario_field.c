@@ -20,14 +20,14 @@ static mote_status read_centres(const mote_json *node, const mote_mesh *mesh,
                               given.value ? "both" : "neither");
     if (number.value) {
         int64_t wanted;
-        mote_status status = mote_json_integer(&number, 1, MOTE_FIELD_MAX, &wanted);
+        mote_status status = mote_json_integer(&number, 1, MOTE_CONTROLS_MAX, &wanted);
         if (status == MOTE_OK)
             status = mote_json_blame(&number, mote_spread(mesh, (uint32_t)wanted, centres));
         *count = (uint32_t)wanted;
         return status;
     }
     size_t size;
-    mote_status status = mote_json_array(&given, 1, MOTE_FIELD_MAX, &size);
+    mote_status status = mote_json_array(&given, 1, MOTE_CONTROLS_MAX, &size);
     const mote_vec3 centre = mote_mesh_centre(mesh);
     for (size_t i = 0; i < size && status == MOTE_OK; ++i) {
         mote_json element = mote_json_element(&given, i);
@@ -66,7 +66,7 @@ static mote_status read_sine(const mote_json *node, double length, uint32_t cont
 static mote_status read_sines(const mote_json *node, double length, mote_body_motion *motion)
 {
     size_t count;
-    mote_status status = mote_json_array(node, 1, 64 * (size_t)MOTE_FIELD_MAX, &count);
+    mote_status status = mote_json_array(node, 1, 64 * (size_t)MOTE_CONTROLS_MAX, &count);
     if (status != MOTE_OK)
         return status;
     motion->waves = calloc(count, sizeof *motion->waves);
@@ -233,7 +233,7 @@ static mote_status read_made(const mote_json *node, const mote_json *kind,
 static mote_status read_csrbf(const mote_json *node, const mote_mesh *mesh, mote_field **field,
                               mote_csrbf_fit **fit)
 {
-    mote_vec3 centres[MOTE_FIELD_MAX];
+    mote_vec3 centres[MOTE_CONTROLS_MAX];
     uint32_t count = 0;
     double support = 0;
     mote_status status = mote_json_object(node, "kind|centres|count|support|displacement");

@@ -9,6 +9,9 @@
 /* A scenario's frames at most. */
 #define MOTE_FRAMES_MAX 1000000
 
+/* A body's controls at most. */
+#define MOTE_CONTROLS_MAX 256
+
 /* Merges the file's root into the scenario that its "like" names; does nothing without that
    key. */
 mote_status mote_scenario_merge_like(mote_json_file *file);

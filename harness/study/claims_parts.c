@@ -13,6 +13,7 @@
 #include <string.h>
 
 #define CONTROLS 14
+#define CONTROLS_PADDED 16
 #define SUPPORT 0.5 /* of L, as in the scenarios */
 #define TRIANGLES 1380
 
@@ -68,7 +69,7 @@ static mote_vec3 random_push(mote_random *random, double length)
 static mote_status deformed_parts(clay *c, double amplitude, uint64_t seed, double *count)
 {
     mote_vec3 push[CONTROLS];
-    double weights[3][MOTE_FIELD_MAX] = {{0}};
+    double weights[3][CONTROLS_PADDED] = {{0}};
     mote_random random = {seed};
     for (int j = 0; j < CONTROLS; ++j)
         push[j] = random_push(&random, amplitude * c->mesh->diagonal);

@@ -9,10 +9,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I."
 sources="tests/unit/core/test_portability.c tests/support/test_main.c"
-for name in status mesh_create mesh_ring field_kinds field_evaluate csrbf modes body deform lazy \
+for name in status mesh_create mesh_ring field_kinds field_evaluate field_sum csrbf modes body deform lazy \
     potential site start far_cache particles triangle refine \
-    certificate_query certificate_create certificate_build certificate_fit \
-    certificate_deform certificate_leaf certificate_row certificate_pair \
+    certificate_query certificate_create certificate_build certificate_box certificate_fitted \
+    certificate_fitted_build certificate_deform certificate_leaf certificate_row certificate_pair \
     certificate_triangles certificate_search levels descent coherence pairs \
     tracker_create tracker_query tracker_search; do
     sources="$sources $(ls core/*/$name.c)"

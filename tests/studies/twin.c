@@ -124,7 +124,7 @@ static mote_field *changed_field(const mote_field *field, double scale)
         need(mote_field_create_static(&made) == MOTE_OK);
         return made;
     }
-    mote_vec3 centre[MOTE_FIELD_MAX];
+    mote_vec3 centre[MOTE_FIELD_SUMMED];
     for (uint32_t j = 0; j < field->count; ++j)
         centre[j] = mote_scale(
             mote_vec3_make(field->centre_x[j], field->centre_y[j], field->centre_z[j]), scale);

@@ -10,7 +10,7 @@ typedef struct test_body {
     mote_mesh *mesh;
     mote_field *field;
     mote_body body;
-    double weights[3][MOTE_FIELD_MAX];
+    double weights[3][MOTE_FIELD_SUMMED];
 } test_body;
 
 /* Takes the mesh. count: CSRBF centres near the mesh (support: half of L), or, when negative,
@@ -21,7 +21,7 @@ static inline void test_body_init(test_body *b, mote_mesh *mesh, int count, uint
     mote_status status = MOTE_OK;
     const double half = 0.5 * mesh->diagonal;
     if (count > 0) {
-        mote_vec3 centres[MOTE_FIELD_MAX];
+        mote_vec3 centres[MOTE_FIELD_SUMMED];
         for (int j = 0; j < count; ++j) {
             const uint32_t v = (uint32_t)(random_bits(seed) % mesh->vertex_count);
             centres[j] = mote_add(mesh->positions[v], random_vec3(seed, 0.2 * half));

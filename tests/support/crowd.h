@@ -15,7 +15,7 @@ typedef struct crowd {
     test_body shapes[CROWD_SHAPES]; /* a W with CSRBF, a T with modes, a rigid V */
     const mote_body *shape[CROWD_SHAPES];
     uint32_t shape_of[CROWD_MAX], count;
-    double weights[CROWD_MAX][3][MOTE_FIELD_MAX];
+    double weights[CROWD_MAX][3][MOTE_FIELD_SUMMED];
     mote_body_state states[CROWD_MAX];
     uint64_t random;
 } crowd;

@@ -14,7 +14,7 @@ typedef struct scene {
     mote_field *field[2];
     mote_deform *deform[2];
     mote_body body[2];
-    double weights[2][3][MOTE_FIELD_MAX];
+    double weights[2][3][MOTE_FIELD_SUMMED];
     mote_vec3 *world[2];
     mote_frame frame;
     double length;

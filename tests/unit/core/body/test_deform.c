@@ -65,7 +65,7 @@ TEST(all_matches_the_definition)
         mote_deform *deform = deform_of(&b.body);
         mote_deform_all(deform, &state, world);
         for (uint32_t v = 0; v < b.mesh->vertex_count; ++v) {
-            double phi[MOTE_FIELD_MAX] = {0};
+            double phi[MOTE_FIELD_SUMMED] = {0};
             b.field->kind->basis(b.field, b.mesh, v, phi);
             const mote_vec3 rest = b.mesh->positions[v];
             const double got[3] = {world[v].x, world[v].y, world[v].z};

@@ -6,7 +6,7 @@
 
 /* Weights in the three padded arrays. */
 typedef struct weight_set {
-    double x[MOTE_FIELD_MAX], y[MOTE_FIELD_MAX], z[MOTE_FIELD_MAX];
+    double x[MOTE_FIELD_SUMMED], y[MOTE_FIELD_SUMMED], z[MOTE_FIELD_SUMMED];
     mote_weights weights;
 } weight_set;
 
@@ -33,7 +33,7 @@ static mote_field *csrbf_field(const mote_vec3 *centres, uint32_t count, double 
 /* count random centres in a cube of half side 1.2 around the unit sphere. */
 static mote_field *random_csrbf(uint32_t count, double support, uint64_t *seed)
 {
-    mote_vec3 centres[MOTE_FIELD_MAX];
+    mote_vec3 centres[MOTE_FIELD_SUMMED];
     for (uint32_t j = 0; j < count; ++j)
         centres[j] = random_vec3(seed, 1.2);
     return csrbf_field(centres, count, support);
@@ -73,7 +73,7 @@ TEST(csrbf_basis_matches_wendlands_closed_form)
         assert_int_equal(field->padded, (counts[c] + 7) / 8 * 8);
         int inside = 0;
         for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
-            double phi[MOTE_FIELD_MAX];
+            double phi[MOTE_FIELD_SUMMED];
             field->kind->basis(field, mesh, v, phi);
             for (uint32_t j = 0; j < field->padded; ++j) {
                 const long double expected =
@@ -248,7 +248,7 @@ TEST(csrbf_scaled_by_powers_of_two_keeps_its_bits)
 static mote_vec3 sum_by_lanes(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                               const weight_set *set)
 {
-    double phi[MOTE_FIELD_MAX];
+    double phi[MOTE_FIELD_SUMMED];
     double sum[3][8] = {{0}};
     const double *weight[3] = {set->x, set->y, set->z};
     double total[3];
@@ -295,8 +295,8 @@ TEST(displacement_single_stays_near_double)
     for (int c = 0; c < 3; ++c) {
         weight_set set;
         draw_weights(&set, fields[c], &seed);
-        float single[3][MOTE_FIELD_MAX];
-        for (int j = 0; j < MOTE_FIELD_MAX; ++j) {
+        float single[3][MOTE_FIELD_SUMMED];
+        for (int j = 0; j < MOTE_FIELD_SUMMED; ++j) {
             single[0][j] = (float)set.x[j];
             single[1][j] = (float)set.y[j];
             single[2][j] = (float)set.z[j];
@@ -329,25 +329,26 @@ TEST(estimate_is_as_near_as_it_says)
         mote_field *field = random_csrbf(counts[c], c == 2 ? 0.5 : 1.3, &seed);
         weight_set set;
         draw_weights(&set, field, &seed);
-        float single[3][MOTE_FIELD_MAX];
-        uint8_t functions[MOTE_FIELD_MAX];
+        float single[3][MOTE_FIELD_SUMMED];
+        uint16_t functions[MOTE_FIELD_SUMMED];
         double sum[3] = {0, 0, 0};
         for (uint32_t j = 0; j < field->count; ++j) {
-            functions[j] = (uint8_t)j;
+            functions[j] = (uint16_t)j;
             single[0][j] = (float)set.x[j];
             single[1][j] = (float)set.y[j];
             single[2][j] = (float)set.z[j];
             for (int r = 0; r < 3; ++r)
                 sum[r] += fabs((double)single[r][j]);
         }
+        const float *const by[3] = {single[0], single[1], single[2]};
         double most = 0;
         for (uint32_t first = 0; first + MOTE_LANES <= mesh->vertex_count; ++first) {
             uint32_t v[MOTE_LANES];
             for (uint32_t l = 0; l < MOTE_LANES; ++l)
                 v[l] = first + l;
             float got[3][MOTE_LANES];
-            const double factor = (double)field->kind->estimate(field, mesh, v, functions,
-                                                                field->count, single, got);
+            const double factor =
+                (double)field->kind->estimate(field, mesh, v, functions, field->count, by, got);
             assert_true(factor < 1e-4);
             for (uint32_t l = 0; l < MOTE_LANES; ++l) {
                 const mote_vec3 d = mote_field_displacement(field, mesh, v[l], &set.weights);
@@ -433,8 +434,8 @@ static void expect_csrbf_error(const mote_vec3 *centres, uint32_t count, double 
 TEST(create_csrbf_with_bad_input_says_what)
 {
     mote_vec3 centre[2] = {{0, 0, 0}, {1, 0, 0}};
-    expect_csrbf_error(centre, 0, 1, "a CSRBF field has 1 to 256 centres, not 0");
-    expect_csrbf_error(centre, 257, 1, "a CSRBF field has 1 to 256 centres, not 257");
+    expect_csrbf_error(centre, 0, 1, "a CSRBF field has 1 to 65528 centres, not 0");
+    expect_csrbf_error(centre, 65529, 1, "a CSRBF field has 1 to 65528 centres, not 65529");
     expect_csrbf_error(centre, 2, 0, "the support radius is 0; it must be positive and finite");
     expect_csrbf_error(centre, 2, -1,
                        "the support radius is -1; it must be positive and finite");

@@ -116,7 +116,7 @@ static void move_frame(particle_scene *s, const mote_mat3 *turn, mote_vec3 shift
         }
         state->pose.rotation = product;
         state->pose.translation = mote_pose_apply(&whole, state->pose.translation);
-        double(*w)[MOTE_FIELD_MAX] = s->b[b].weights;
+        double(*w)[MOTE_FIELD_SUMMED] = s->b[b].weights;
         for (uint32_t j = 0; j < s->b[b].field->count; ++j) {
             const mote_vec3 turned =
                 mote_rotate(turn, mote_vec3_make(w[0][j], w[1][j], w[2][j]));

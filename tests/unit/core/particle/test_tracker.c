@@ -225,7 +225,7 @@ TEST(query_warm_no_allocation)
 
 /* Multiplies a frame by a factor; weights and vertices are the caller's. */
 static mote_frame scaled_frame(const mote_frame *frame, double factor,
-                               double weights[2][3][MOTE_FIELD_MAX])
+                               double weights[2][3][MOTE_FIELD_SUMMED])
 {
     mote_frame made = *frame;
     for (int b = 0; b < 2; ++b) {
@@ -255,7 +255,7 @@ TEST(query_scaled_by_powers_of_two_same_bits)
         subject_init(&u, &s, MOTE_ASK_DISTANCE, 0, "n=8");
         subject_init(&v, &t, MOTE_ASK_DISTANCE, 0, "n=8");
         for (int i = 0; i < 40; ++i) {
-            double weights[2][3][MOTE_FIELD_MAX];
+            double weights[2][3][MOTE_FIELD_SUMMED];
             const mote_frame *frame = i % 9 ? smooth_frame(&s, 0.5) : scene_next(&s, 1, false);
             const mote_frame scaled = scaled_frame(frame, factor, weights);
             const mote_answer a = ask(&u, frame);

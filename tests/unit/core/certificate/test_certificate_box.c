@@ -1,5 +1,5 @@
 /* Boxes of the certificate's tree: their axes and their coordinates. */
-#include "core/certificate/certificate_fit.h"
+#include "core/certificate/certificate_box.h"
 
 #include "tests/support/solids.h"
 #include "tests/support/test.h"

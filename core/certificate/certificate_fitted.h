@@ -1,0 +1,37 @@
+/* Bounds of any field: each basis function is fitted by
+       phi_j(x) = f_j + sum_k g_jk z_k + r,   |r| <= m_j,
+   over the vertices of a box, z_k being their coordinates in it (certificate_tree.h). With
+   weights w_j the deformed vertices then lie in the sum of the centre R c + t + sum_j f_j w_j,
+       three half axes R h_k + sum_j g_jk w_j, and
+       an axis-aligned half width sum_j m_j |w_j|,
+   whatever the field is. Basis functions are multiplied by a power of two that brings the
+   largest value near 1. */
+#ifndef MOTE_CORE_CERTIFICATE_FITTED_H
+#define MOTE_CORE_CERTIFICATE_FITTED_H
+
+#include "core/certificate/certificate_bounds.h"
+
+/* What one basis function does to the children of a block: offset f, slopes g by axis, and the
+   largest residual m >= 0. Residuals are measured with the slopes as they are stored, so that
+   rounding the slopes loses nothing. A block has one for each function that is not 0 at all of
+   its vertices. */
+typedef struct mote_cert_row {
+    mote_cert_strip offset;
+    mote_cert_strip slope[3];
+    mote_cert_strip residual;
+} mote_cert_row;
+
+/* Of each basis function, kept in tree->fixed. */
+typedef struct mote_cert_scales {
+    double scale; /* a power of two */
+    double unit;  /* of weights: the tree's scale divided by that, a power of two too */
+    double bound; /* of |f| + |g_1| + |g_2| + |g_3| + m in any row */
+} mote_cert_scales;
+
+/* mote_cert_bounds.start, fit, store and stop of mote_cert_fitted. */
+mote_status mote_cert_fitted_start(mote_cert_tree *tree, bool linear_fits, void **fitter);
+void mote_cert_fitted_fit(void *fitter, mote_cert_tree *tree, const mote_cert_part *part);
+mote_status mote_cert_fitted_store(void *fitter, mote_cert_tree *tree, mote_cert_block *block);
+void mote_cert_fitted_stop(void *fitter);
+
+#endif

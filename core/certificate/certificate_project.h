@@ -1,0 +1,75 @@
+/* The last steps of projecting a block on the plane's normal and of placing its boxes, which
+   are the same for all kinds of bounds. Inline, so that they are vectorised together with what
+   is before them. */
+#ifndef MOTE_CORE_CERTIFICATE_PROJECT_H
+#define MOTE_CORE_CERTIFICATE_PROJECT_H
+
+#include "core/certificate/certificate_state.h"
+#include "core/base/clones.h"
+
+/* A box that crosses the plane by more than this part of its extent is not worth opening, since
+   most of what is inside crosses the plane too. Leaves are cheaper to open. */
+#define MOTE_CERT_CROSSING 0.4F
+#define MOTE_CERT_CROSSING_LEAF 0.5F
+
+MOTE_INLINE uint32_t mote_cert_bits_at_most(const float x[MOTE_CERT_WIDTH], float limit)
+{
+    uint32_t bits = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l)
+        bits |= x[l] <= limit ? 1u << l : 0;
+    return bits;
+}
+
+/* From middle, slant and loose of a node: reach, extent, clear and crossing. */
+MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side,
+                                             const mote_cert_block *restrict block,
+                                             mote_cert_node *restrict node)
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+        const float axis0 = node->slant[0][l];
+        const float axis1 = node->slant[1][l];
+        const float axis2 = node->slant[2][l];
+        const float size0 = fabsf(axis0);
+        const float size1 = fabsf(axis1);
+        const float size2 = fabsf(axis2);
+        const float empty01 = (float)mote_cert_cut_of(block->cut[0][l], axis0, axis1) *
+                              (size0 < size1 ? size0 : size1);
+        const float empty02 = (float)mote_cert_cut_of(block->cut[1][l], axis0, axis2) *
+                              (size0 < size2 ? size0 : size2);
+        const float empty12 = (float)mote_cert_cut_of(block->cut[2][l], axis1, axis2) *
+                              (size1 < size2 ? size1 : size2);
+        const float empty0 = empty01 > empty02 ? empty01 : empty02;
+        const float empty = (empty0 > empty12 ? empty0 : empty12) * (1.0F / 255);
+        const float half = ((size0 + size1 + size2) - empty) + node->loose[l];
+        node->reach[l] = node->middle[l] + half;
+        node->extent[l] = 2 * half;
+    }
+    const float threshold = side->threshold_f;
+    float excess[MOTE_CERT_WIDTH];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l)
+        excess[l] = node->reach[l] -
+                    (block->child[l] < 0 ? MOTE_CERT_CROSSING_LEAF : MOTE_CERT_CROSSING) *
+                        node->extent[l];
+    node->clear = mote_cert_bits_at_most(node->reach, threshold) & block->mask;
+    node->crossing = mote_cert_bits_at_most(excess, threshold) & block->mask & ~node->clear;
+}
+
+/* From the axes of a node: size. */
+MOTE_INLINE void mote_cert_finish_boxes(mote_cert_node *restrict node)
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+        const float ax = node->axis[0][0][l];
+        const float ay = node->axis[0][1][l];
+        const float az = node->axis[0][2][l];
+        const float bx = node->axis[1][0][l];
+        const float by = node->axis[1][1][l];
+        const float bz = node->axis[1][2][l];
+        node->size[l] = (ax * ax + ay * ay + az * az) + (bx * bx + by * by + bz * bz);
+    }
+}
+
+#endif
