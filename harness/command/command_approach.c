@@ -57,7 +57,7 @@ static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **cur
     return mote_curve_create(at, gap, count, 1, curve);
 }
 
-/* Frames 1, 1 + every, ..., the last, and each that a gap is wished for, in order. */
+/* Frames 1, 1 + every, ..., the last, and each with a wished gap, in order. */
 static uint32_t list_frames(uint32_t frames, uint32_t every, const mote_curve *wished,
                             uint32_t *list)
 {
@@ -161,7 +161,8 @@ const mote_option mote_options_approach[] = {
     {"gaps", "FRAME:GAP,...",
      "the distance wished at each frame, in L; below 0: how far body 1 is pushed on from "
      "contact; no default"},
-    {"every", "FRAMES", "a key pose each so many frames between the wished ones (default: 16)"},
+    {"every", "FRAMES",
+     "a key pose each this many frames between the wished ones (default: 16)"},
     {"direction", "X,Y,Z", "where body 1 lies as seen from body 0 (default: 1,0,0)"},
     {"-o", "FILE",
      "the scenario file to write; meshes outside of its folder are copied beside it; no "
@@ -201,6 +202,6 @@ int mote_command_approach(int argc, char **argv)
     if (status == MOTE_OK)
         return mote_command_finish(MOTE_EXIT_DONE);
     const int code = mote_command_fail();
-    /* The bodies were placed; that a gap is not as wished is a failed check. */
+    /* The bodies were placed, so a gap that is not as wished is a failed check. */
     return status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
 }

@@ -1,4 +1,5 @@
-/* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether it is what it says. */
+/* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether its active interval
+   is right. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
@@ -18,7 +19,7 @@ typedef struct findings {
     bool active_holds;
     uint32_t checked;
     double smallest, largest; /* distance, of L */
-    mote_interval longest;    /* the longest run of frames that could be called active */
+    mote_interval longest;    /* the longest run of frames that may be called active */
 } findings;
 
 static void look(const mote_scenario *scenario, const mote_truth *truth, findings *found)
@@ -79,7 +80,7 @@ static void print_lines(const mote_scenario *scenario, const findings *found)
                      found->longest.last);
 }
 
-/* With a directory, the truth is kept there, or taken from there. */
+/* With a directory, the truth is read from there, or written there. */
 static mote_status find_truth(const mote_scenario *scenario, const char *directory,
                               uint64_t *fingerprint, mote_truth **truth)
 {
@@ -120,7 +121,7 @@ static int check(const char *name, bool json, const char *directory)
         }
     } else {
         code = mote_command_fail();
-        /* The bodies were read; that two exact methods disagree is a failed check. */
+        /* The bodies were read, so a disagreement of two exact methods is a failed check. */
         code = status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
     }
     mote_truth_destroy(truth);

@@ -1,4 +1,4 @@
-/* mote claims: every claim of the paper with a figure, an interval and a verdict. */
+/* mote claims: every claim of the paper with a measured value, an interval and a verdict. */
 #include "harness/study/claims.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"

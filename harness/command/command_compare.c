@@ -78,7 +78,7 @@ static int print_json(const mote_comparison *c)
 const mote_option mote_options_compare[] = {
     {"format", "table|json", "how (default: table)"},
     {"floor", "SHARE",
-     "smaller differences of time count as none (default: 0.02, or the runs' own noise where "
+     "smaller differences of time do not count (default: 0.02, or the runs' own noise where "
      "that is larger)"},
     {NULL, NULL, NULL}};
 

@@ -22,7 +22,7 @@ const mote_option mote_options_dynamics[] = {
      "keep rows that another build of the program measured (default: measure them again)"},
     {NULL, NULL, NULL}};
 
-/* False, told on stderr, when the value is not right for the option. */
+/* False, after a line on stderr, when the value is wrong for the option. */
 static bool read_option(request *wish, int option, const char *value)
 {
     uint64_t number = 0;

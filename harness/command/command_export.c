@@ -1,4 +1,4 @@
-/* mote export SCENARIO --frame K --out DIR [--method ...]: a frame for others to look at. */
+/* mote export SCENARIO --frame K --out DIR [--method ...]: a frame for other programs. */
 #include "core/body/deform.h"
 #include "datasets/obj_write.h"
 #include "harness/command/answer_json.h"
@@ -24,7 +24,8 @@ typedef struct request {
     size_t count;
 } request;
 
-/* A method that keeps state sees the frames before, as in a run; the others only this one. */
+/* A method that keeps state is given the frames before, as in a run; the others only this
+   one. */
 static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe,
                                 const mote_method_choice *choice, uint32_t last,
                                 mote_answer *answer)
@@ -56,8 +57,8 @@ static mote_status ask_method(const mote_scenario *scenario, const mote_method_c
     return status;
 }
 
-/* One method's row: its distance, or its contact where it knows no distance, or why it cannot
-   answer. */
+/* One method's row: its distance, or its contact where it gives no distance, or why it
+   cannot answer. */
 static mote_status add_answer(const mote_scenario *scenario, const mote_method_choice *choice,
                               uint32_t frame, json_t *answers)
 {
@@ -118,7 +119,7 @@ static mote_status export_frame(const mote_scenario *scenario, const request *wi
     mote_frame_buffer *buffer = NULL;
     mote_text text = {0};
     char *path = mote_format("%s/answers.json", wish->directory);
-    /* Everything is known before the first file is written. */
+    /* All answers are computed before the first file is written. */
     mote_status status = find_answers(scenario, wish, &text);
     if (status == MOTE_OK && !path)
         status = mote_fail(MOTE_ENOMEM, "no memory for a path");

@@ -5,8 +5,8 @@
 
 #include <stdio.h>
 
-/* The files to stdout; what is not as it might be to stderr, figures that need another command
-   in one line. */
+/* Prints the files to stdout, and what could not be drawn to stderr, figures that need
+   another command in one line. */
 static void print(const char *directory, const mote_figures *figures)
 {
     if (figures->files.data)

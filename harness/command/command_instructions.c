@@ -16,7 +16,7 @@ enum {
     OPTION_METHOD,
     OPTION_PARTICLES,
     OPTION_OUT,
-    OPTION_INSIDE, /* this process is the one that callgrind watches */
+    OPTION_INSIDE, /* this process is the one that runs under callgrind */
     OPTION_COUNT
 };
 
@@ -26,8 +26,8 @@ typedef struct request {
     mote_choices choices;
 } request;
 
-/* MOTE_EXIT_DONE, or what is wrong, told on stderr. Methods are read in a second pass, when
-   particles are known. */
+/* MOTE_EXIT_DONE, or an exit status after a line on stderr. Methods are read in a second
+   pass, when particles are known. */
 static int read_arguments(int argc, char **argv, request *q)
 {
     mote_option_reader reader = {mote_options_instructions, OPTION_COUNT, argc, argv, 0};
@@ -50,7 +50,8 @@ static int read_arguments(int argc, char **argv, request *q)
         else
             q->has_method = true;
     }
-    /* Not every method there is: some have no distance, and one that fails ends the count. */
+    /* The default is not every method: some have no distance, and one that fails ends the
+       count. */
     if (!q->scenario || !q->frames || !q->has_method || (!q->out && !q->inside))
         return mote_command_usage(argv[0],
                                   "a scenario, --frames, --method and --out are needed");

@@ -65,7 +65,7 @@ int mote_command_letter(int argc, char **argv)
     mote_mesh *mesh;
     if (mote_letter_create(letter[0], triangles, &mesh) != MOTE_OK)
         return mote_command_fail();
-    /* What is said of the mesh must not stand in it. */
+    /* What is printed about the mesh must not go into its file. */
     const bool is_stream = mote_path_is_stream(path);
     mote_status status = is_stream ? print_mesh(path, mesh) : write_mesh(path, mesh);
     if (status == MOTE_OK)

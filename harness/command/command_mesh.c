@@ -106,7 +106,7 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
         "unused", (json_int_t)import->unused, "split_vertices",
         (json_int_t)import->split.vertices);
     if (!root) {
-        (void)mote_fail(MOTE_EINVAL, "%s: cannot be told in JSON; rename it in UTF-8", path);
+        (void)mote_fail(MOTE_EINVAL, "%s: not UTF-8, which JSON needs; rename it", path);
         return mote_command_fail();
     }
     /* The part of each vertex, in the vertices' order. */

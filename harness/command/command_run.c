@@ -157,7 +157,7 @@ static bool read_direction(const char *text, const char **direction)
     return mote_read_triple(text, xyz) && (xyz[0] != 0 || xyz[1] != 0 || xyz[2] != 0);
 }
 
-/* False: the value is wrong; expected says what would be right. */
+/* False where the value is wrong; expected then says what would be right. */
 static bool take_option(request *q, int option, const char *value, const char **expected)
 {
     mote_plan_options *plan = &q->run.plan;
@@ -244,7 +244,8 @@ static bool read_pair(request *q, mote_option_reader *reader, const char *first)
     return true;
 }
 
-/* The scenario that --pair and --direction make. MOTE_EXIT_DONE, or an error told on stderr. */
+/* The scenario that --pair and --direction make. MOTE_EXIT_DONE, or an exit status after a
+   line on stderr. */
 static int add_pair(request *q, const char *command)
 {
     if (!q->pair_files[0])
@@ -260,7 +261,7 @@ static int add_pair(request *q, const char *command)
     return MOTE_EXIT_DONE;
 }
 
-/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
+/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
     mote_option_reader reader = {mote_options_run, OPTION_COUNT, argc, argv, 0};
@@ -293,8 +294,8 @@ static int read_arguments(int argc, char **argv, request *q)
     return MOTE_EXIT_DONE;
 }
 
-/* Without --shard, a task of a Slurm job array is a shard. False, told on stderr, when what
-   Slurm says cannot be one. */
+/* Without --shard, a task of a Slurm job array is a shard. False, after a line on stderr,
+   when Slurm's variables are not those of a task. */
 static bool read_array_task(const char *command, request *q)
 {
     const char *task = getenv("SLURM_ARRAY_TASK_ID");
@@ -316,8 +317,8 @@ static bool read_array_task(const char *command, request *q)
     return read;
 }
 
-/* Leaves the scenarios of the shard: every shards-th. Whole scenarios, so that methods that
-   are compared are measured by one process on one machine. */
+/* Keeps the scenarios of the shard: every shards-th. Shards are whole scenarios, so that
+   methods that are compared are measured on one machine. */
 static void take_shard(request *q)
 {
     size_t kept = 0;
@@ -329,8 +330,8 @@ static void take_shard(request *q)
         q->run.scenario_count = kept;
 }
 
-/* The configurations asked for, the same for all scenarios; or every method there is, and
-   for more than two bodies every way to ask about them. */
+/* The configurations asked for, the same for all scenarios; by default every method, and for
+   more than two bodies every method in each of its forms. */
 static mote_status expand_methods(request *q)
 {
     static const char *const scene_ways[] = {"certified",    "fcl-aabb:refit=every",
@@ -348,7 +349,7 @@ static mote_status expand_methods(request *q)
     return status;
 }
 
-/* Frames beyond a scenario's end are found when it is loaded. */
+/* Whether frames are beyond a scenario's end is checked when it is loaded. */
 static mote_status read_frames(request *q)
 {
     uint64_t first = 0, last = 0;

@@ -19,7 +19,7 @@ typedef struct request {
     uint64_t steps, seed; /* steps 0: all frames */
 } request;
 
-/* What the command line says over the defaults. */
+/* Options of the command line that replace the defaults. */
 static void take_wishes(const request *wish, mote_simulation_options *options)
 {
     if (!isnan(wish->density))
@@ -33,7 +33,7 @@ static void take_wishes(const request *wish, mote_simulation_options *options)
     options->gravity = wish->gravity;
 }
 
-/* What is simulated: two bodies or many, the other is NULL. */
+/* What is simulated: two bodies or many; the other pointer is NULL. */
 typedef struct subject {
     mote_scenario *pair;
     mote_bodies *scene;
@@ -61,7 +61,7 @@ static mote_status create(const request *wish, const subject *s,
                : mote_simulator_create(s->pair, &wish->choice, options, simulator);
 }
 
-/* Simulates, and draws the film that is wished for. */
+/* Simulates, and draws the film if one is asked for. */
 static mote_status run(const request *wish, mote_simulator *simulator, mote_rigid_state *trace,
                        mote_simulation_start *start, mote_simulation_result *result)
 {
@@ -136,7 +136,7 @@ const mote_option mote_options_simulate[] = {
     {"film", "FILE.gif", "draw the motion (default: not drawn)"},
     {NULL, NULL, NULL}};
 
-/* False, told on stderr, when the value is not right for the option. */
+/* False, after a line on stderr, when the value is wrong for the option. */
 static bool read_option(request *wish, int option, const char *value)
 {
     static const char *const wanted[] = {"",

@@ -90,7 +90,7 @@ typedef struct request {
     bool best;
 } request;
 
-/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE told on stderr. */
+/* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
     mote_option_reader reader = {mote_options_summarize, OPTION_COUNT, argc, argv, 0};

@@ -125,7 +125,8 @@ static int unknown_command(const char *name)
     return MOTE_EXIT_USAGE;
 }
 
-/* A command that a signal stopped ends as a shell tells it: 130 for Ctrl-C, 143 for SIGTERM. */
+/* The exit status of a command that a signal stopped, by the shell's convention: 130 for
+   Ctrl-C, 143 for SIGTERM. */
 static int stopped_code(int code)
 {
     const int signal_number = mote_child_stop_signal();
@@ -134,7 +135,7 @@ static int stopped_code(int code)
 
 int main(int argc, char **argv)
 {
-    /* When whoever reads our output goes away, writing fails; the program is not ended. */
+    /* When the reader of our output closes it, writing fails instead of ending the program. */
     (void)signal(SIGPIPE, SIG_IGN);
     mote_json_use_memory();
     while (argc > 1) {
