@@ -220,6 +220,13 @@ static void find_interval(const comparison *c, mote_front_speed *speed)
     speed->interval.high = speed->faster * (spread.high / centre);
 }
 
+/* Whether both sides are the same figures: the ratio is 1 whatever was measured. */
+static bool same_side(const side *a, const side *b)
+{
+    return a->rows[a->way.at] == b->rows[b->way.at] &&
+           a->rows[a->way.towards] == b->rows[b->way.towards];
+}
+
 /* Fills one family; its rows are w->rows, those of FCL w->others. */
 static void make_front(const workshop *w, size_t row_count, size_t other_count,
                        mote_front *front)
@@ -237,7 +244,7 @@ static void make_front(const workshop *w, size_t row_count, size_t other_count,
         speed->time_ns = c.mine.time;
         speed->faster = c.theirs.time / c.mine.time;
         speed->interval = none;
-        if (speed->faster == speed->faster)
+        if (speed->faster == speed->faster && !same_side(&c.mine, &c.theirs))
             find_interval(&c, speed);
     }
 }

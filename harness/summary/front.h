@@ -26,7 +26,8 @@ typedef struct mote_front_speed {
     double faster;            /* FCL's time / this; MOTE_NONE without FCL in the run */
     mote_confidence interval; /* of faster: how far processes spread (resampled from ten on,
                                  else Student's t), around it, given the configurations that
-                                 all processes together say reach the error */
+                                 all processes together say reach the error; MOTE_NONE for the
+                                 best FCL itself */
 } mote_front_speed;
 
 typedef struct mote_front {

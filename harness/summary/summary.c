@@ -121,6 +121,8 @@ static void make_ratio(const mote_summary *summary, const mote_summary_row *row,
     ratio->to = to;
     if (to != SIZE_MAX)
         mote_summary_ratio(row, &summary->rows[to], part, ratio);
+    if (to != SIZE_MAX && &summary->rows[to] == row)
+        ratio->low = ratio->high = MOTE_NONE; /* 1 whatever was measured */
 }
 
 static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)

@@ -14,7 +14,8 @@ typedef struct mote_time {
 
 /* How many times slower another row is: median over common frames and replicates of (the
    other's time / this time). Time is the total, or, for a row with positions given, what is
-   left without deformation: nobody is charged for it on either side. */
+   left without deformation: nobody is charged for it on either side. A row's ratio to itself is
+   1 and has no interval. */
 typedef struct mote_ratio {
     size_t to; /* index of the other row; SIZE_MAX: there is none */
     double value, low, high;

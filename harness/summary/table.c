@@ -134,15 +134,26 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
     (void)fprintf(out, "\n");
 }
 
-/* What the two columns of ratios are taken to, below a block. */
-static void print_foot(const mote_summary *summary, const mote_summary_row *row, FILE *out)
+/* What the columns of ratios are taken to, below a block: those of rows that pay for
+   deformation, and those of rows with positions given. */
+static void print_foot(const mote_summary *summary, size_t start, size_t end, FILE *out)
 {
-    if (row->ratio.to != SIZE_MAX && row->ratio_best.to != SIZE_MAX)
-        (void)fprintf(
-            out,
-            "fcl-aabb: %s; given: the same where nobody pays for deforming all vertices; "
-            "best FCL: %s\n",
-            summary->rows[row->ratio.to].label, summary->rows[row->ratio_best.to].label);
+    for (int given = 0; given < 2; ++given) {
+        const mote_summary_row *row = NULL;
+        for (size_t i = start; i < end; ++i) {
+            const mote_summary_row *other = &summary->rows[i];
+            if (other->given == (given != 0) && other->ratio.to != SIZE_MAX &&
+                other->ratio_best.to != SIZE_MAX)
+                row = other;
+        }
+        if (row)
+            (void)fprintf(
+                out, "%sfcl-aabb: %s; %sbest FCL: %s\n",
+                given ? "of positions=given, deformation charged to nobody: " : "",
+                summary->rows[row->ratio.to].label,
+                given ? "" : "given: the same where nobody pays for deforming all vertices; ",
+                summary->rows[row->ratio_best.to].label);
+    }
 }
 
 /* How far the times can be trusted. */
@@ -171,17 +182,13 @@ void mote_table_print(const mote_summary *summary, FILE *out)
     const int width = (int)label_width(summary);
     for (size_t start = 0; start < summary->count;) {
         const size_t end = mote_table_block_end(summary, start);
-        const mote_summary_row *measured = &summary->rows[start];
         char *heading = mote_table_heading(summary, start);
         (void)fprintf(out, "%s%s\n", start ? "\n" : "", heading);
         free(heading);
         mote_table_heads(MOTE_VIEW_TABLE, width, out);
-        for (size_t i = start; i < end; ++i) {
+        for (size_t i = start; i < end; ++i)
             print_row(&summary->rows[i], width, out);
-            if (summary->rows[i].status == MOTE_CELL_OK)
-                measured = &summary->rows[i];
-        }
-        print_foot(summary, measured, out);
+        print_foot(summary, start, end, out);
         start = end;
     }
     print_quality(summary, out);

@@ -2,6 +2,7 @@
    the test writes itself. */
 #include "harness/summary/dominance.h"
 #include "harness/summary/front.h"
+#include "harness/summary/table.h"
 #include "tests/support/folder.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -176,6 +177,17 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
               (answers){.query_ns = 250});
     make_summary();
     ours = row_of("ours", true);
+    /* Below the table stands what the ratios of either accounting are taken to. */
+    char *table = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&table, &size);
+    assert_non_null(out);
+    mote_table_print(&summary, out);
+    (void)fclose(out);
+    assert_non_null(strstr(table, "\nfcl-aabb: fcl-aabb; given"));
+    assert_non_null(strstr(table, "\nof positions=given, deformation charged to nobody: "
+                                  "fcl-aabb: fcl-aabb:positions"));
+    free(table);
     assert_true(&summary.rows[ours->ratio.to] == row_of("fcl-aabb", true));
     assert_true(fabs(ours->ratio.value - 12.5) < 1e-9);
     assert_true(&summary.rows[ours->ratio_best.to] == row_of("fcl-aabb", false));
@@ -218,6 +230,34 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
         mote_fronts_free(&fronts);
         mote_summary_free(&summary);
     }
+}
+
+/* What is 1 whatever was measured has no interval; every other figure lies inside its own. */
+TEST(intervals_lie_around_their_figures_and_a_ratio_to_itself_has_none)
+{
+    write_row((stored_cell){.method = "fcl-aabb"}, (answers){.query_ns = 1000});
+    static const char *const ids[] = {"o-1", "o-2", "o-3"};
+    for (int r = 0; r < 3; ++r)
+        write_answers((stored_cell){.id = ids[r], .method = "fcl-obb", .replicate = r + 1},
+                      (answers){.query_ns = 3000 + 100 * (r == 1)});
+    make_summary();
+    const mote_summary_row *best = row_of("fcl-aabb", false), *other = row_of("fcl-obb", false);
+    const mote_ratio *own[] = {&best->ratio, &best->ratio_best};
+    for (size_t i = 0; i < 2; ++i)
+        assert_true(own[i]->value == 1 && isnan(own[i]->low) && isnan(own[i]->high));
+    assert_true(other->ratio.low < other->ratio.value &&
+                other->ratio.value < other->ratio.high);
+    assert_true(best->total.low < best->total.median && best->total.median < best->total.high);
+    mote_fronts fronts = mote_fronts_make(&summary);
+    for (size_t i = 0; i < fronts.count; ++i) {
+        const mote_front_speed *speed = &fronts.items[i].speed[0];
+        if (&summary.rows[fronts.items[i].first] == best)
+            assert_true(speed->faster == 1 && isnan(speed->interval.low));
+        else
+            assert_true(speed->interval.low < speed->faster &&
+                        speed->faster < speed->interval.high);
+    }
+    mote_fronts_free(&fronts);
 }
 
 /* One row a method and accounting: the fastest that is good enough, or else the one with the
