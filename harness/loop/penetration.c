@@ -1,5 +1,7 @@
 #include "harness/loop/penetration.h"
 
+#include "harness/base/memory.h"
+
 #include "core/body/triangle.h"
 
 #include <stdlib.h>
@@ -44,24 +46,16 @@ mote_status mote_penetration_create(const mote_mesh *a, const mote_mesh *b,
                                     mote_penetration **penetration)
 {
     const mote_mesh *const mesh[2] = {a, b};
-    mote_penetration *made = calloc(1, sizeof *made);
-    mote_status status = made ? MOTE_OK : MOTE_ENOMEM;
-    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+    if (a->open_edge_count > 0 || b->open_edge_count > 0)
+        return mote_fail(MOTE_EINVAL, "an open mesh has no inside; close it");
+    mote_penetration *made = mote_allocate(1, sizeof *made);
+    for (int i = 0; i < 2; ++i) {
         shadow *s = &made->of[i];
-        if (mesh[i]->open_edge_count > 0) {
-            mote_penetration_destroy(made);
-            return mote_fail(MOTE_EINVAL, "an open mesh has no inside; close it");
-        }
         s->mesh = mesh[i];
         const size_t side = side_for(mesh[i]->triangle_count);
-        s->first = malloc((side * side + 1) * sizeof *s->first);
-        s->met = malloc(mesh[i]->triangle_count * sizeof *s->met);
-        s->blocks = malloc((mesh[i]->triangle_count / BLOCK + 1) * sizeof *s->blocks);
-        status = s->first && s->met && s->blocks ? MOTE_OK : MOTE_ENOMEM;
-    }
-    if (status != MOTE_OK) {
-        mote_penetration_destroy(made);
-        return mote_fail(status, "no memory for a depth of penetration");
+        s->first = mote_allocate(side * side + 1, sizeof *s->first);
+        s->met = mote_allocate(mesh[i]->triangle_count, sizeof *s->met);
+        s->blocks = mote_allocate(mesh[i]->triangle_count / BLOCK + 1, sizeof *s->blocks);
     }
     *penetration = made;
     return MOTE_OK;
@@ -173,7 +167,7 @@ static cell_range cells_of(const shadow *s, uint32_t triangle)
 }
 
 /* Counting sort of what may be met into the cells that it may cover. */
-static mote_status fill(shadow *s)
+static void fill(shadow *s)
 {
     const size_t cells = (size_t)s->side * s->side;
     memset(s->first, 0, (cells + 1) * sizeof *s->first);
@@ -190,10 +184,7 @@ static mote_status fill(shadow *s)
         s->first[c] = sum; /* the end of the cell: entries are filled in from behind */
     }
     if (sum > s->capacity) {
-        uint32_t *grown = realloc(s->entry, sum * sizeof *grown);
-        if (!grown)
-            return mote_fail(MOTE_ENOMEM, "no memory for %u triangles in cells", sum);
-        s->entry = grown;
+        s->entry = mote_resize(s->entry, sum, sizeof *s->entry);
         s->capacity = sum;
     }
     for (uint32_t i = 0; i < s->met_count; ++i) {
@@ -203,7 +194,6 @@ static mote_status fill(shadow *s)
                 s->entry[--s->first[(size_t)y * s->side + z]] = s->met[i];
         }
     }
-    return MOTE_OK;
 }
 
 /* Whether the edge from a to b crosses the half line from p in +z, seen along x: 1 towards +y,
@@ -317,37 +307,31 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
 }
 
 /* The deepest vertex of `other` inside s, as a squared depth; deeper than *squared only. */
-static mote_status deepen(shadow *s, const shadow *other, double *squared)
+static void deepen(shadow *s, const shadow *other, double *squared)
 {
     uint32_t v = 0;
     while (v < other->mesh->vertex_count && !in_box(&s->bounds, other->world[v]))
         ++v;
     if (v == other->mesh->vertex_count)
-        return MOTE_OK;
+        return;
     find_met(s);
-    const mote_status status = fill(s);
-    if (status != MOTE_OK)
-        return status;
+    fill(s);
     set_blocks(s);
     uint32_t nearest = s->deepest[1];
     deepen_by(s, other, s->deepest[0], &nearest, squared);
     for (; v < other->mesh->vertex_count; ++v)
         deepen_by(s, other, v, &nearest, squared);
-    return MOTE_OK;
 }
 
-mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
-                                   const mote_vec3 *world_b, double above, double *depth)
+double mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
+                              const mote_vec3 *world_b, double above)
 {
     shadow *a = &penetration->of[0], *b = &penetration->of[1];
     set_bounds(a, world_a);
     set_bounds(b, world_b);
     a->bounds = b->bounds = overlap_of(&a->bounds, &b->bounds);
     double squared = above * above;
-    mote_status status = deepen(a, b, &squared);
-    if (status == MOTE_OK)
-        status = deepen(b, a, &squared);
-    if (status == MOTE_OK)
-        *depth = squared > above * above ? sqrt(squared) : above;
-    return status;
+    deepen(a, b, &squared);
+    deepen(b, a, &squared);
+    return squared > above * above ? sqrt(squared) : above;
 }

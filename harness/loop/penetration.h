@@ -13,12 +13,12 @@ void mote_penetration_destroy(mote_penetration *penetration); /* NULL is allowed
 
 /* Depth of the deepest vertex of either body inside the other one: its distance from that one's
    surface; `above` (>= 0) where none is deeper than that: what is known to be no deeper costs
-   less. world[i][vertex of body i]. A vertex is inside where the
-   surface winds around it: signed crossings of a ray, each edge's side decided once for both of
+   less. world_a, world_b: the vertices of either. A vertex is inside where the surface winds
+   around it: signed crossings of a ray, each edge's side decided once for both of
    its faces, so that no ray slips between them; what lies within rounding of the surface may be
    taken for either. Cost O(vertices + triangles) plus a pass over the triangles for each vertex
    that is deeper than all before. */
-mote_status mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
-                                   const mote_vec3 *world_b, double above, double *depth);
+double mote_penetration_depth(mote_penetration *penetration, const mote_vec3 *world_a,
+                              const mote_vec3 *world_b, double above);
 
 #endif

@@ -111,9 +111,9 @@ static mote_status depth_of(void *context, const uint32_t body[2], double above,
     if (!*made)
         status = mote_penetration_create(simulator->shapes[shape[0]]->mesh,
                                          simulator->shapes[shape[1]]->mesh, made);
-    return status == MOTE_OK ? mote_penetration_depth(*made, simulator->world[0],
-                                                      simulator->world[1], above, depth)
-                             : status;
+    if (status == MOTE_OK)
+        *depth = mote_penetration_depth(*made, simulator->world[0], simulator->world[1], above);
+    return status;
 }
 
 /* Turns a coordinate of the velocity back at a wall. */

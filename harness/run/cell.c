@@ -79,28 +79,21 @@ static json_t *parameter_json(const mote_parameter *parameter, double value)
     return json_real(number);
 }
 
-/* Adds a table of parameters to an object; false without memory. */
-static bool add_parameters(const mote_parameter *table, size_t count, const double *values,
+/* Adds a table of parameters to an object. */
+static void add_parameters(const mote_parameter *table, size_t count, const double *values,
                            json_t *object)
 {
-    for (size_t i = 0; i < count; ++i) {
-        if (json_object_set_new(object, table[i].key, parameter_json(&table[i], values[i])) !=
-            0)
-            return false;
-    }
-    return true;
+    for (size_t i = 0; i < count; ++i)
+        (void)json_object_set_new(object, table[i].key, parameter_json(&table[i], values[i]));
 }
 
 json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene)
 {
     json_t *object = json_object();
-    if (!add_parameters(choice->method->parameters, choice->method->parameter_count,
-                        choice->values, object) ||
-        (of_scene &&
-         !add_parameters(mote_scene_parameters, MOTE_SCENE_KEYS, choice->scene, object))) {
-        json_decref(object);
-        return NULL;
-    }
+    add_parameters(choice->method->parameters, choice->method->parameter_count, choice->values,
+                   object);
+    if (of_scene)
+        add_parameters(mote_scene_parameters, MOTE_SCENE_KEYS, choice->scene, object);
     return object;
 }
 
@@ -252,13 +245,10 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
         (json_int_t)result->rss_peak_bytes, "core", result->core, "load", result->load[0],
         result->load[1], "clock_mhz", result->clock_mhz[0], result->clock_mhz[1],
         "wall_seconds", result->wall_seconds);
-    if (more && cell->subject->bodies)
+    if (cell->subject->bodies)
         (void)json_object_set_new(more, "frames_wall_ns",
                                   json_integer((json_int_t)result->frames_wall_ns));
-    if (!object || !more || json_object_update(object, more) != 0) {
-        json_decref(object);
-        object = NULL;
-    }
+    (void)json_object_update(object, more);
     json_decref(more);
     return record_json(cell, object, directory);
 }

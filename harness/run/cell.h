@@ -136,8 +136,7 @@ mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status sta
                                      const char *directory);
 
 /* Every parameter with its value, defaults included: numbers as numbers; choices, "auto" and
-   "inf" as text. of_scene: with those of mote_scene_parameters. NULL when memory ran out;
-   the caller decrefs. */
+   "inf" as text. of_scene: with those of mote_scene_parameters. The caller decrefs. */
 json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene);
 
 #endif

@@ -65,11 +65,10 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
     char program[512];
     ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
     char *out = mote_format("%s/callgrind.%ld.out", directory, (long)getpid());
-    char *option = mote_format("--callgrind-out-file=%s", out ? out : "");
+    char *option = mote_format("--callgrind-out-file=%s", out);
     mote_status status =
-        length > 0 && out && option
-            ? MOTE_OK
-            : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
+        length > 0 ? MOTE_OK
+                   : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
         const char *const argv[] = {"valgrind",
@@ -90,8 +89,7 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
     }
     if (status == MOTE_OK)
         status = read_totals(out, count);
-    if (out)
-        (void)unlink(out);
+    (void)unlink(out);
     free(option);
     free(out);
     return status;
@@ -108,17 +106,15 @@ static bool same_row(const json_t *a, const json_t *b)
 }
 
 /* Replaces the row of the same configuration by this one, or appends it; takes ownership. */
-static mote_status put_row(json_t *rows, json_t *row)
+static void put_row(json_t *rows, json_t *row)
 {
-    for (size_t i = 0; row && i < json_array_size(rows); ++i) {
-        if (same_row(json_array_get(rows, i), row))
-            return json_array_set_new(rows, i, row) == 0
-                       ? MOTE_OK
-                       : mote_fail(MOTE_ENOMEM, "no memory for a row");
+    for (size_t i = 0; i < json_array_size(rows); ++i) {
+        if (same_row(json_array_get(rows, i), row)) {
+            (void)json_array_set_new(rows, i, row);
+            return;
+        }
     }
-    return json_array_append_new(rows, row) == 0
-               ? MOTE_OK
-               : mote_fail(MOTE_ENOMEM, "no memory for a row");
+    (void)json_array_append_new(rows, row);
 }
 
 /* The rows stored so far, or none. */
@@ -150,11 +146,11 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
         double per_frame = (double)count / (double)(last - first + 1);
         (void)printf("%-40s %14.0f instructions a frame\n", choice->text, per_frame);
         (void)fflush(stdout);
-        status = put_row(
-            rows, json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario", scenario,
-                            "method", choice->method->name, "label", choice->text, "parameters",
-                            mote_choice_json(choice, false), "frames", (int)first, (int)last,
-                            "instructions", count, "per_frame", per_frame));
+        put_row(rows,
+                json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario", scenario,
+                          "method", choice->method->name, "label", choice->text, "parameters",
+                          mote_choice_json(choice, false), "frames", (int)first, (int)last,
+                          "instructions", count, "per_frame", per_frame));
     }
     if (status == MOTE_OK)
         return mote_record_json(directory, "instructions.json",

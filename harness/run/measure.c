@@ -1,6 +1,7 @@
 #include "harness/run/measure.h"
 
 #include "core/body/deform.h"
+#include "harness/base/memory.h"
 #include "harness/base/statistics.h"
 #include "harness/run/measure_scene.h"
 
@@ -32,10 +33,7 @@ static mote_status make_vertices(session *s)
 {
     for (int side = 0; side < 2; ++side) {
         const mote_body *body = &s->cell->subject->scenario->body[side];
-        s->vertices[side] = malloc(body->mesh->vertex_count * sizeof(mote_vec3));
-        if (!s->vertices[side])
-            return mote_fail(MOTE_ENOMEM, "no memory for %u vertices",
-                             body->mesh->vertex_count);
+        s->vertices[side] = mote_allocate(body->mesh->vertex_count, sizeof(mote_vec3));
         mote_status status = mote_deform_create(body, &s->deform[side]);
         if (status != MOTE_OK)
             return status;
@@ -57,14 +55,9 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
 {
     const mote_cell *cell = s->cell;
     s->traits = mote_method_traits(cell->choice->method, cell->choice->values);
-    result->rows = calloc(rows, sizeof *result->rows);
-    if (!result->rows)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu rows", rows);
-    if (cell->cache == MOTE_CACHE_EVICT) {
-        s->evict = malloc(EVICT_BYTES);
-        if (!s->evict)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu bytes to walk", EVICT_BYTES);
-    }
+    result->rows = mote_allocate(rows, sizeof *result->rows);
+    if (cell->cache == MOTE_CACHE_EVICT)
+        s->evict = mote_allocate(EVICT_BYTES, 1);
     mote_status status = MOTE_OK;
     if (!cell->subject->bodies)
         status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);

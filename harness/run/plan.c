@@ -1,6 +1,7 @@
 #include "harness/run/plan.h"
 
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/base/options.h"
 
 #include <inttypes.h>
@@ -42,14 +43,8 @@ static mote_status add_one(mote_choices *choices, const char *text)
     if (choices->count == MOTE_CHOICES_MAX)
         return mote_fail(MOTE_EINVAL, "more than %d configurations; split the run",
                          MOTE_CHOICES_MAX);
-    if (choices->count == choices->capacity) {
-        size_t capacity = choices->capacity ? 2 * choices->capacity : 16;
-        mote_method_choice *items = realloc(choices->items, capacity * sizeof *items);
-        if (!items)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu configurations", capacity);
-        choices->items = items;
-        choices->capacity = capacity;
-    }
+    choices->items = mote_reserve(choices->items, choices->count + 1, &choices->capacity,
+                                  sizeof *choices->items);
     choices->items[choices->count++] = choice;
     return MOTE_OK;
 }
@@ -83,15 +78,13 @@ static mote_status add_with_particles(mote_choices *choices, const char *text,
         size_t length = strcspn(part, ",");
         char *range = mote_format("%.*s", (int)length, part);
         uint64_t first = 0, last = 0;
-        mote_status status = range ? mote_read_range(range, UINT32_MAX, &first, &last)
-                                   : mote_fail(MOTE_ENOMEM, "no memory for a range");
+        mote_status status = mote_read_range(range, UINT32_MAX, &first, &last);
         free(range);
         if (status == MOTE_OK && last - first >= MOTE_CHOICES_MAX)
             status = mote_fail(MOTE_EINVAL, "more than %d particle counts", MOTE_CHOICES_MAX);
         for (uint64_t n = first; status == MOTE_OK && n <= last; ++n) {
             char *full = mote_format("%s%cn=%" PRIu64, text, strchr(text, ':') ? ',' : ':', n);
-            status = full ? add_one(choices, full)
-                          : mote_fail(MOTE_ENOMEM, "no memory for a configuration");
+            status = add_one(choices, full);
             free(full);
         }
         if (status != MOTE_OK)
@@ -120,8 +113,7 @@ mote_status mote_choices_add(mote_choices *choices, const char *text, const char
         size_t length = strcspn(item, "|,");
         char *one =
             mote_format("%.*s%.*s%s", (int)(start - text), text, (int)length, item, end);
-        mote_status status = one ? mote_choices_add(choices, one, particles)
-                                 : mote_fail(MOTE_ENOMEM, "no memory for a configuration");
+        mote_status status = mote_choices_add(choices, one, particles);
         free(one);
         if (status != MOTE_OK)
             return status;
@@ -181,9 +173,7 @@ mote_status mote_plan_make(const mote_plan_options *options, const mote_subject 
         return mote_fail(MOTE_EINVAL,
                          "%zu cells; at most %d in one run, use --shard or split it", count,
                          MOTE_CHOICES_MAX);
-    mote_plan made = {.cells = calloc(count + 1, sizeof *made.cells)};
-    if (!made.cells)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
+    mote_plan made = {.cells = mote_allocate(count, sizeof *made.cells)};
     for (uint32_t replicate = 1; replicate <= options->replicates; ++replicate) {
         for (size_t s = 0; s < subject_count; ++s)
             add_group(options, &subjects[s], replicate,

@@ -7,6 +7,7 @@
 #include "harness/process/manifest.h"
 #include "harness/run/measure.h"
 #include "harness/run/progress.h"
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 
 #include <dirent.h>
@@ -60,9 +61,7 @@ typedef struct run {
 static mote_status load_subjects(run *r)
 {
     size_t count = r->options->scenario_count;
-    r->subjects = calloc(count + 1, sizeof *r->subjects);
-    if (!r->subjects)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu scenarios", count);
+    r->subjects = mote_allocate(count, sizeof *r->subjects);
     for (size_t i = 0; i < count; ++i) {
         if (mote_child_stop_asked())
             return mote_fail(MOTE_EIO, "stopped by a signal");
@@ -154,9 +153,7 @@ static void tell_preparing(run *r, const char *what, const mote_subject *subject
 
 static mote_status look_ahead(run *r)
 {
-    r->prospects = calloc(r->plan.count + 1, sizeof *r->prospects);
-    if (!r->prospects)
-        return mote_fail(MOTE_ENOMEM, "no memory for a plan of %zu cells", r->plan.count);
+    r->prospects = mote_allocate(r->plan.count, sizeof *r->prospects);
     for (size_t i = 0; i < r->plan.count && !r->options->force; ++i)
         look_up(r, i);
     for (size_t i = 0; i < r->plan.count; ++i) {
@@ -220,7 +217,7 @@ static void print_plan(const run *r)
 static void sweep_folder(const char *directory, const char *name)
 {
     char *path = mote_format("%s/%s", directory, name);
-    DIR *folder = path ? opendir(path) : NULL;
+    DIR *folder = opendir(path);
     for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
          entry = readdir(folder)) {
         size_t length = strlen(entry->d_name);
@@ -269,8 +266,7 @@ static mote_status open_directory(run *r)
     const char *directory = r->options->directory;
     char *cells = mote_format("%s/cells", directory);
     char *lock = mote_format("%s/.lock", directory);
-    mote_status status = cells && lock ? mote_directory_make(cells)
-                                       : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_directory_make(cells);
     /* Whether the disk is full or read-only, rather than the name being one that no
        directory can have. */
     r->output_failed = status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT;
@@ -414,29 +410,21 @@ static void add_replicate(run *r, size_t of, uint32_t replicate)
         look_up(r, index);
 }
 
-static mote_status make_room(run *r, size_t more)
+static void make_room(run *r, size_t more)
 {
-    size_t count = r->plan.count + more + 1;
-    mote_cell *cells = realloc(r->plan.cells, count * sizeof *cells);
-    if (!cells)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
-    r->plan.cells = cells;
-    prospect *prospects = realloc(r->prospects, count * sizeof *prospects);
-    if (!prospects)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu cells", count);
-    r->prospects = prospects;
-    return MOTE_OK;
+    const size_t count = r->plan.count + more;
+    r->plan.cells = mote_resize(r->plan.cells, count, sizeof *r->plan.cells);
+    r->prospects = mote_resize(r->prospects, count, sizeof *r->prospects);
 }
 
 /* Plans a further replicate of each wanted configuration of the first `base` cells; *planned is
    how many. */
 static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, size_t *planned)
 {
-    bool *wanted = calloc(base + 1, sizeof *wanted);
-    mote_status status =
-        wanted ? make_room(r, base) : mote_fail(MOTE_ENOMEM, "no memory for %zu cells", base);
-    if (status == MOTE_OK)
-        status = r->options->further(r->options->context, r->plan.cells, base, wanted);
+    bool *wanted = mote_allocate(base, sizeof *wanted);
+    make_room(r, base);
+    const mote_status status =
+        r->options->further(r->options->context, r->plan.cells, base, wanted);
     *planned = 0;
     for (size_t k = 0; k < base && status == MOTE_OK; ++k) {
         const size_t i = (k + replicate - 1) % base; /* in rotated order, as everywhere */

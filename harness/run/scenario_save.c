@@ -17,9 +17,7 @@ static mote_status read_back(const mote_json_file *file, int digits, mote_scenar
     mote_json_file again = {.path = file->path, .own = file->own};
     mote_json_print(file->root, digits, &text);
     mote_status status =
-        text.failed ? mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario's text", file->path)
-                    : mote_json_parse(file->path, text.data, text.size, "tell the authors",
-                                      &again.root);
+        mote_json_parse(file->path, text.data, text.size, "tell the authors", &again.root);
     again.text = text.data;
     if (status == MOTE_OK)
         status = mote_scenario_read(&again, scenario);
@@ -55,9 +53,7 @@ static mote_status write_text(const json_t *root, int digits, const char *to)
 {
     mote_text text = {0};
     mote_json_print(root, digits, &text);
-    mote_status status = text.failed
-                             ? mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario's text", to)
-                             : mote_file_write(to, text.data, text.size);
+    const mote_status status = mote_file_write(to, text.data, text.size);
     free(text.data);
     return status;
 }

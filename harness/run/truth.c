@@ -2,6 +2,7 @@
 
 #include "harness/process/child.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/scene/probe.h"
 
 #include <inttypes.h>
@@ -32,28 +33,20 @@ typedef struct truth_row {
 /* The witness where there is none. */
 static const mote_vec3 nowhere = {(double)NAN, (double)NAN, (double)NAN};
 
-mote_status mote_truth_allocate(uint32_t frames, mote_truth **truth)
+mote_truth *mote_truth_allocate(uint32_t frames)
 {
-    mote_truth *made = calloc(1, sizeof *made);
-    if (made) {
-        made->frames = frames;
-        made->distance = malloc(frames * sizeof *made->distance);
-        made->contact = calloc(frames, sizeof *made->contact);
-        made->witness_a = malloc(frames * sizeof *made->witness_a);
-        made->witness_b = malloc(frames * sizeof *made->witness_b);
-        made->overruled = malloc(frames * sizeof *made->overruled);
-    }
-    if (!made || !made->distance || !made->contact || !made->witness_a || !made->witness_b ||
-        !made->overruled) {
-        mote_truth_destroy(made);
-        return mote_fail(MOTE_ENOMEM, "no memory for the truth of %u frames", frames);
-    }
+    mote_truth *made = mote_allocate(1, sizeof *made);
+    made->frames = frames;
+    made->distance = mote_allocate(frames, sizeof *made->distance);
+    made->contact = mote_allocate(frames, sizeof *made->contact);
+    made->witness_a = mote_allocate(frames, sizeof *made->witness_a);
+    made->witness_b = mote_allocate(frames, sizeof *made->witness_b);
+    made->overruled = mote_allocate(frames, sizeof *made->overruled);
     for (uint32_t i = 0; i < frames; ++i) {
         made->distance[i] = made->overruled[i] = nowhere.x;
         made->witness_a[i] = made->witness_b[i] = nowhere;
     }
-    *truth = made;
-    return MOTE_OK;
+    return made;
 }
 
 void mote_truth_destroy(mote_truth *truth)
@@ -193,14 +186,11 @@ static uint32_t affordable_checks(const mote_scenario *scenario)
     return pairs * CHECKED <= CHECKED_PAIRS ? CHECKED : (uint32_t)(CHECKED_PAIRS / pairs);
 }
 
-static mote_status choose_frames(const mote_scenario *scenario, const truth_row *rows,
-                                 bool *marked)
+static void choose_frames(const mote_scenario *scenario, const truth_row *rows, bool *marked)
 {
     const uint32_t frames = scenario->frames;
     const uint32_t checks = affordable_checks(scenario);
-    bool *wanted = calloc(frames, sizeof *wanted);
-    if (!wanted)
-        return mote_fail(MOTE_ENOMEM, "no memory to check %u frames", frames);
+    bool *wanted = mote_allocate(frames, sizeof *wanted);
     for (uint32_t k = 0; k < frames; ++k)
         wanted[k] = rows[k].distance == 0;
     mark_evenly(wanted, frames, checks / 4, marked);
@@ -213,7 +203,6 @@ static mote_status choose_frames(const mote_scenario *scenario, const truth_row 
     }
     mark_evenly(wanted, frames, checks - chosen, marked);
     free(wanted);
-    return MOTE_OK;
 }
 
 static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
@@ -249,16 +238,15 @@ static mote_status work(void *context, int output)
     const mote_scenario *scenario = context;
     mote_frame_buffer *buffer = NULL;
     uint32_t checked = 0;
-    truth_row *rows = calloc(scenario->frames, sizeof *rows);
-    bool *marked = calloc(scenario->frames, sizeof *marked);
-    mote_status status = rows && marked ? mote_frame_buffer_create(scenario, &buffer)
-                                        : mote_fail(MOTE_ENOMEM, "no memory for the truth");
+    truth_row *rows = mote_allocate(scenario->frames, sizeof *rows);
+    bool *marked = mote_allocate(scenario->frames, sizeof *marked);
+    mote_status status = mote_frame_buffer_create(scenario, &buffer);
     if (status == MOTE_OK)
         status = answer_all(scenario, buffer, rows);
-    if (status == MOTE_OK)
-        status = choose_frames(scenario, rows, marked);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        choose_frames(scenario, rows, marked);
         status = check_frames(scenario, buffer, rows, marked, &checked);
+    }
     if (status == MOTE_OK)
         status = mote_child_put(output, &checked, sizeof checked);
     if (status == MOTE_OK)
@@ -275,15 +263,13 @@ mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth
     const mote_child_limits limits = {.output_bytes = size};
     char *output = NULL;
     size_t got = 0;
-    mote_truth *made = NULL;
     /* The context is not written to; the child has a copy anyway. */
     mote_status status =
         mote_child_run("truth", work, (void *)(uintptr_t)scenario, limits, &output, &got);
     if (status == MOTE_OK && got != size)
         status = mote_fail(MOTE_EIO, "%s: the truth's process ended early", scenario->name);
-    if (status == MOTE_OK)
-        status = mote_truth_allocate(scenario->frames, &made);
     if (status == MOTE_OK) {
+        mote_truth *made = mote_truth_allocate(scenario->frames);
         memcpy(&made->checked, output, sizeof made->checked);
         for (uint32_t k = 0; k < scenario->frames; ++k) {
             truth_row row;
@@ -304,14 +290,10 @@ mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
                                              uint64_t fingerprint, const char *directory,
                                              mote_truth **truth)
 {
-    mote_status status = MOTE_OK;
     char *folder = mote_format("%s/truth", directory);
     char *path =
         mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scenario->name, fingerprint);
-    if (!folder || !path)
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a path", directory);
-    else
-        status = mote_directory_make(folder);
+    mote_status status = mote_directory_make(folder);
     /* A file that is missing or damaged is computed again. */
     if (status == MOTE_OK && mote_truth_read(scenario, fingerprint, path, truth) != MOTE_OK) {
         mote_truth *made = NULL;

@@ -39,7 +39,7 @@ mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
 void mote_truth_destroy(mote_truth *truth); /* NULL is allowed */
 
 /* For truth_file.c: an empty truth of that many frames, all distances and witnesses NaN. */
-mote_status mote_truth_allocate(uint32_t frames, mote_truth **truth);
+mote_truth *mote_truth_allocate(uint32_t frames);
 /* Sets contact from distance. */
 void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth);
 

@@ -43,19 +43,12 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
 {
     mote_text text = {0};
     char *first = first_part(scenario, truth->fingerprint, truth->frames);
-    if (first)
-        mote_text_add(&text, "%s%u" FIRST_END COLUMNS, first, truth->checked);
-    for (uint32_t k = 0; first && k < truth->frames; ++k)
+    mote_text_add(&text, "%s%u" FIRST_END COLUMNS, first, truth->checked);
+    for (uint32_t k = 0; k < truth->frames; ++k)
         add_row(&text, truth, k);
-    mote_status status = first && !text.failed
-                             ? MOTE_OK
-                             : mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path);
-    if (status == MOTE_OK) {
-        const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
-        mote_text_add(&text, "# hash %016" PRIx64 "\n", hash);
-        status = text.failed ? mote_fail(MOTE_ENOMEM, "%s: no memory for its text", path)
-                             : mote_file_write(path, text.data, text.size);
-    }
+    const uint64_t hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
+    mote_text_add(&text, "# hash %016" PRIx64 "\n", hash);
+    const mote_status status = mote_file_write(path, text.data, text.size);
     free(first);
     free(text.data);
     return status;
@@ -117,8 +110,8 @@ static const char *read_head(const mote_scenario *scenario, uint64_t fingerprint
 {
     static const char rest[] = FIRST_END COLUMNS;
     char *first = first_part(scenario, fingerprint, scenario->frames), *end = NULL;
-    const size_t length = first ? strlen(first) : 0;
-    const bool good = first && strncmp(text, first, length) == 0;
+    const size_t length = strlen(first);
+    const bool good = strncmp(text, first, length) == 0;
     free(first);
     const unsigned long checked = good ? strtoul(text + length, &end, 10) : 0;
     if (!good || checked > UINT32_MAX || strncmp(end, rest, strlen(rest)) != 0)
@@ -147,12 +140,11 @@ mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
     mote_status status = mote_file_read(path, (size_t)1 << 30, &text, &size);
     if (status != MOTE_OK)
         return status;
-    mote_truth *made;
-    status = mote_truth_allocate(scenario->frames, &made);
-    if (status == MOTE_OK && read_text(scenario, fingerprint, text, size, made)) {
+    mote_truth *made = mote_truth_allocate(scenario->frames);
+    if (read_text(scenario, fingerprint, text, size, made)) {
         mote_truth_set_contacts(scenario, made);
         *truth = made;
-    } else if (status == MOTE_OK) {
+    } else {
         mote_truth_destroy(made);
         status = mote_fail(MOTE_EINVAL, "%s: not the whole truth of %s; remove it", path,
                            scenario->name);

@@ -1,5 +1,6 @@
 #include "harness/study/claim.h"
 
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 
 #include <stdarg.h>
@@ -14,14 +15,8 @@ static const char *const bound_names[] = {NULL, "at most", "at least"};
 mote_status mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
                            const char *unit, const char *format, ...)
 {
-    if (claim->count == claim->capacity) {
-        const size_t capacity = claim->capacity ? 2 * claim->capacity : 8;
-        mote_claim_value *values = realloc(claim->values, capacity * sizeof *values);
-        if (!values)
-            return mote_fail(MOTE_ENOMEM, "no memory for the figures of claim %s", claim->id);
-        claim->values = values;
-        claim->capacity = capacity;
-    }
+    claim->values =
+        mote_reserve(claim->values, claim->count + 1, &claim->capacity, sizeof *claim->values);
     mote_claim_value *made = &claim->values[claim->count++];
     *made = (mote_claim_value){.value = value,
                                .interval = interval,

@@ -1,6 +1,7 @@
 /* The paper's claims about accuracy: a, b, c. */
 #include "harness/study/claims.h"
 
+#include "harness/base/memory.h"
 #include "core/body/parts.h"
 
 #include <math.h>
@@ -25,9 +26,9 @@ static mote_status contact_points(const mote_subject *subject, const char *metho
         return status;
     const mote_truth *truth = subject->truth;
     const double length = subject->scenario->length;
-    double *distances = malloc((result.row_count + 1) * sizeof *distances);
+    double *distances = mote_allocate(result.row_count, sizeof *distances);
     size_t count = 0;
-    for (size_t i = 0; distances && i < result.row_count; ++i) {
+    for (size_t i = 0; i < result.row_count; ++i) {
         const mote_cell_row *row = &result.rows[i];
         const uint32_t k = row->frame - 1;
         if (!(truth->distance[k] > 0 && truth->distance[k] <= NEAR_CONTACT * length))
@@ -36,13 +37,13 @@ static mote_status contact_points(const mote_subject *subject, const char *metho
         const mote_vec3 right = middle(truth->witness_a[k], truth->witness_b[k]);
         distances[count++] = sqrt(mote_distance_squared(found, right)) / length;
     }
-    if (distances && count > 0) {
+    if (count > 0) {
         mote_statistics_sort(distances, count);
         quantile[0] = mote_statistics_quantile(distances, count, 0.5);
         quantile[1] = mote_statistics_quantile(distances, count, 0.95);
     } else {
-        status = mote_fail(MOTE_ENUMERIC, "%s: no frame near a contact, or no memory",
-                           subject->scenario->name);
+        status =
+            mote_fail(MOTE_ENUMERIC, "%s: no frame near a contact", subject->scenario->name);
     }
     free(distances);
     mote_cell_result_free(&result);
@@ -95,13 +96,10 @@ typedef struct episodes {
     double *delay; /* [delays] */
 } episodes;
 
-static mote_status watch_episodes(const mote_subject *subject, const mote_cell_result *result,
-                                  episodes *e)
+static void watch_episodes(const mote_subject *subject, const mote_cell_result *result,
+                           episodes *e)
 {
-    double *delay = realloc(e->delay, (e->delays + result->row_count + 1) * sizeof *delay);
-    if (!delay)
-        return mote_fail(MOTE_ENOMEM, "no memory for contacts");
-    e->delay = delay;
+    e->delay = mote_resize(e->delay, e->delays + result->row_count, sizeof *e->delay);
     size_t start = 0;
     bool inside = false, seen = false;
     for (size_t i = 0; i <= result->row_count; ++i) {
@@ -120,7 +118,6 @@ static mote_status watch_episodes(const mote_subject *subject, const mote_cell_r
         }
         inside = contact;
     }
-    return MOTE_OK;
 }
 
 static mote_status add_episodes(mote_claim *claim, const char *name, bool decides, episodes *e)
@@ -166,7 +163,7 @@ mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
             const mote_tour tour = {.seed = s + 1};
             status = mote_study_measure(subject, cases[c].method, tour, &result);
             if (status == MOTE_OK) {
-                status = watch_episodes(subject, &result, &e);
+                watch_episodes(subject, &result, &e);
                 mote_cell_result_free(&result);
             }
         }

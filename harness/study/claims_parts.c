@@ -1,6 +1,7 @@
 /* Claim m: the number of convex parts while a body deforms. */
 #include "harness/study/claims.h"
 
+#include "harness/base/memory.h"
 #include "core/body/csrbf_fit.h"
 #include "core/body/deform.h"
 #include "core/body/parts.h"
@@ -51,8 +52,8 @@ static mote_status clay_make(char letter, clay *c)
     c->body = (mote_body){c->mesh, c->field};
     if (status == MOTE_OK)
         status = mote_deform_create(&c->body, &c->deform);
-    if (status == MOTE_OK && !(c->world = malloc(c->mesh->vertex_count * sizeof *c->world)))
-        status = mote_fail(MOTE_ENOMEM, "no memory for a deformed letter");
+    if (status == MOTE_OK)
+        c->world = mote_allocate(c->mesh->vertex_count, sizeof *c->world);
     return status;
 }
 

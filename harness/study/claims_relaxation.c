@@ -1,6 +1,7 @@
 /* The paper's claims about relaxation: d, e, f. */
 #include "harness/study/claims.h"
 
+#include "harness/base/memory.h"
 #include "core/particle/particles.h"
 
 #include <math.h>
@@ -44,9 +45,7 @@ static mote_status longest_route(const mote_scenario *scenario, uint64_t seed, d
             mote_start_vertices(mesh, PARTICLES, MOTE_START_RANDOM, seed + (uint64_t)b, starts);
         if (status != MOTE_OK)
             return status;
-        uint32_t *work = malloc(2 * (size_t)mesh->vertex_count * sizeof *work);
-        if (!work)
-            return mote_fail(MOTE_ENOMEM, "no memory for routes");
+        uint32_t *work = mote_allocate(2 * (size_t)mesh->vertex_count, sizeof *work);
         for (int i = 0; i < PARTICLES; ++i)
             most = fmax(
                 most, farthest_hops(mesh, starts[i], starts, work, work + mesh->vertex_count));
@@ -70,22 +69,18 @@ static mote_status steps_to_rest(const mote_subject *subject, bool cold, uint64_
                            tours[cold ? 1 : 0], &result);
     if (status != MOTE_OK)
         return status;
-    double *all = malloc((result.row_count + 1) * sizeof *all);
+    double *all = mote_allocate(result.row_count, sizeof *all);
     /* The first warm query is a cold one. */
     const size_t from = cold ? 0 : 1;
-    for (size_t i = from; all && i < result.row_count; ++i)
+    const size_t count = result.row_count - from;
+    for (size_t i = from; i < result.row_count; ++i)
         all[i - from] = (double)result.rows[i].answer.counters.steps;
-    if (all) {
-        const size_t count = result.row_count - from;
-        mote_statistics_sort(all, count);
-        steps[0] = mote_statistics_quantile(all, count, 0.95);
-        steps[1] = all[count - 1];
-    } else {
-        status = mote_fail(MOTE_ENOMEM, "no memory for steps");
-    }
+    mote_statistics_sort(all, count);
+    steps[0] = mote_statistics_quantile(all, count, 0.95);
+    steps[1] = all[count - 1];
     free(all);
     mote_cell_result_free(&result);
-    return status;
+    return MOTE_OK;
 }
 
 #define SIZES 8
@@ -277,8 +272,8 @@ static mote_status add_rest(const mote_study *study, const mote_subject *subject
 {
     double moving[MOTE_STUDY_SEEDS], change[MOTE_STUDY_SEEDS], saved[MOTE_STUDY_SEEDS];
     double off[MOTE_STUDY_SEEDS];
-    double *changes = malloc(512 * sizeof *changes);
-    mote_status status = changes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a query");
+    double *changes = mote_allocate(512, sizeof *changes);
+    mote_status status = MOTE_OK;
     for (size_t s = 0; s < study->seeds && status == MOTE_OK; ++s) {
         relaxation r = {.change = changes};
         status = relax_frames(subject->scenario, n, cold, s + 1, &r);

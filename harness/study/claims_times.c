@@ -2,6 +2,7 @@
    ratio to FCL that is required. Measured in cells, each in a process of its own. */
 #include "harness/study/claims.h"
 
+#include "harness/base/memory.h"
 #include "harness/run/run.h"
 #include "harness/summary/summary.h"
 
@@ -131,10 +132,7 @@ static double mean_total(const mote_stored_cell *cell)
 
 static double median_total(const mote_stored_cell *cell)
 {
-    double *work = malloc((cell->frames + 1) * sizeof *work);
-    if (!work)
-        return MOTE_NONE;
-    memcpy(work, cell->total_ns, cell->frames * sizeof *work);
+    double *work = mote_copy(cell->total_ns, cell->frames * sizeof *work);
     const double median = mote_statistics_median(work, cell->frames);
     free(work);
     return median;
@@ -346,9 +344,9 @@ mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
 /* The paired median over common frames of theirs / ours; MOTE_NONE without any. */
 static double paired_ratio(const mote_stored_cell *theirs, const mote_stored_cell *ours)
 {
-    double *ratios = malloc((theirs->frames + 1) * sizeof *ratios);
+    double *ratios = mote_allocate(theirs->frames, sizeof *ratios);
     size_t count = 0;
-    for (size_t i = 0, k = 0; ratios && i < theirs->frames; ++i) {
+    for (size_t i = 0, k = 0; i < theirs->frames; ++i) {
         while (k < ours->frames && ours->frame[k] < theirs->frame[i])
             ++k;
         if (k < ours->frames && ours->frame[k] == theirs->frame[i])

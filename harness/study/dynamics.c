@@ -1,5 +1,6 @@
 #include "harness/study/dynamics.h"
 
+#include "harness/base/memory.h"
 #include "harness/figure/figures.h"
 #include "harness/base/record.h"
 
@@ -75,9 +76,7 @@ static void add_scene(plan *p, const char *scene, bool paper)
 mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row **rows,
                                size_t *count)
 {
-    plan p = {size, calloc(ROWS_MAX, sizeof *p.rows), 0};
-    if (!p.rows)
-        return mote_fail(MOTE_ENOMEM, "no memory for a study");
+    plan p = {size, mote_allocate(ROWS_MAX, sizeof *p.rows), 0};
     for (size_t i = 0; i < PAPER_SCENES; ++i)
         add_scene(&p, paper_scenes[i], true);
     for (size_t i = 0; i < OTHER_SCENES && !size->quick; ++i)
@@ -229,8 +228,7 @@ mote_status mote_dynamics_figure(const mote_dynamics_row *rows, size_t count,
                       (unsigned long long)row->sum.approaches);
     }
     char *figures = mote_format("%s/figures", directory);
-    mote_status status = figures ? mote_directory_make(figures)
-                                 : mote_fail(MOTE_ENOMEM, "no memory for a figure's path");
+    mote_status status = mote_directory_make(figures);
     free(figures);
     if (status != MOTE_OK) {
         free(text.data);

@@ -1,5 +1,6 @@
 #include "harness/study/extreme.h"
 
+#include "harness/base/memory.h"
 #include "core/body/csrbf_fit.h"
 #include "datasets/letter.h"
 #include "harness/scene/motion.h"
@@ -45,9 +46,7 @@ static mote_status set_weights(const mote_extreme_recipe *r, mote_extreme *e, in
         memcpy(solved, r->move[b][f], sizeof solved);
         if (fit)
             status = mote_csrbf_fit_solve(fit, solved, solved);
-        double *x = e->weights[b][f] = calloc((size_t)3 * field->padded + 1, sizeof *x);
-        if (!x)
-            status = mote_fail(MOTE_ENOMEM, "no memory for weights");
+        double *x = e->weights[b][f] = mote_allocate((size_t)3 * field->padded, sizeof *x);
         if (status != MOTE_OK)
             break;
         for (uint32_t j = 0; j < field->count; ++j) {

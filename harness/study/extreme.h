@@ -64,7 +64,7 @@ mote_status mote_extreme_set_gap(mote_extreme_recipe *recipe, uint32_t frame, do
 
 /* Fills truth, unrounded and coordinate_max: brute force over all pairs of triangles, none
    of which is skipped unless its box is too far away. */
-mote_status mote_extreme_measure(mote_extreme *e);
+void mote_extreme_measure(mote_extreme *e);
 
 /* Squared distance of a point from body b's surface at a frame, in 113 bits. */
 double mote_extreme_surface(const mote_extreme *e, uint32_t frame, int b, mote_vec3 point);

@@ -1,6 +1,7 @@
 /* The exact distance of two small bodies: every pair of triangles in 113 bits. */
 #include "harness/study/extreme.h"
 
+#include "harness/base/memory.h"
 #include "baselines/wide_triangle.h"
 
 #include <stdlib.h>
@@ -152,18 +153,15 @@ static void place(const mote_extreme *e, uint32_t frame, bool rounded, wide_body
     }
 }
 
-mote_status mote_extreme_measure(mote_extreme *e)
+void mote_extreme_measure(mote_extreme *e)
 {
     wide_body body[2] = {{.mesh = e->mesh[0]}, {.mesh = e->mesh[1]}};
-    mote_status status = MOTE_OK;
     for (int b = 0; b < 2; ++b) {
-        body[b].world = malloc(e->mesh[b]->vertex_count * sizeof *body[b].world);
-        body[b].boxes = malloc(e->mesh[b]->triangle_count * sizeof *body[b].boxes);
-        if (!body[b].world || !body[b].boxes)
-            status = mote_fail(MOTE_ENOMEM, "no memory for a body's truth");
+        body[b].world = mote_allocate(e->mesh[b]->vertex_count, sizeof *body[b].world);
+        body[b].boxes = mote_allocate(e->mesh[b]->triangle_count, sizeof *body[b].boxes);
     }
     e->coordinate_max = 0;
-    for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES && status == MOTE_OK; ++f) {
+    for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES; ++f) {
         place(e, f, true, body, &e->coordinate_max);
         e->truth[f] = distance(body);
         place(e, f, false, body, &e->coordinate_max);
@@ -173,7 +171,6 @@ mote_status mote_extreme_measure(mote_extreme *e)
         free(body[b].world);
         free(body[b].boxes);
     }
-    return status;
 }
 
 double mote_extreme_surface(const mote_extreme *e, uint32_t frame, int b, mote_vec3 point)

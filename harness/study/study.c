@@ -1,5 +1,6 @@
 #include "harness/study/study.h"
 
+#include "harness/base/memory.h"
 #include "harness/scene/catalog.h"
 #include "harness/figure/figures.h"
 #include "harness/base/json_read.h"
@@ -23,11 +24,7 @@ mote_status mote_study_open(const char *directory, bool quick, mote_study *study
     study->run = mote_format("%s/claims-run", directory);
     char *scenarios = mote_format("%s/claims-run/scenarios", directory);
     char *figures = mote_format("%s/figures", directory);
-    mote_status status = MOTE_OK;
-    if (!study->run || !scenarios || !figures)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a name");
-    if (status == MOTE_OK)
-        status = mote_directory_make(scenarios);
+    mote_status status = mote_directory_make(scenarios);
     if (status == MOTE_OK)
         status = mote_directory_make(figures);
     free(scenarios);
@@ -114,10 +111,9 @@ mote_status mote_study_variant(mote_study *study, const mote_variant *variant,
         return MOTE_OK;
     char *base = mote_catalog_path(variant->base);
     char *name = mote_format("scenarios/%s.json", variant->name);
-    char *path = name ? mote_format("%s/%s", study->run, name) : NULL;
+    char *path = mote_format("%s/%s", study->run, name);
     json_t *root = NULL;
-    mote_status status = base && path ? change_letters(base, variant, &root)
-                                      : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = change_letters(base, variant, &root);
     if (status == MOTE_OK)
         status = mote_record_json(study->run, name, root);
     if (status == MOTE_OK)
@@ -164,13 +160,11 @@ static void count_frame(const mote_subject *subject, const mote_cell_row *row, d
     t->allocations += row->frame >= WARM_FRAME ? (double)row->allocations : 0;
 }
 
-static mote_status make_sample(const mote_subject *subject, const mote_cell_result *result,
-                               mote_sample *sample)
+static void make_sample(const mote_subject *subject, const mote_cell_result *result,
+                        mote_sample *sample)
 {
     const size_t count = result->row_count;
-    double *errors = malloc(2 * (count + 1) * sizeof *errors);
-    if (!errors)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu errors", count);
+    double *errors = mote_allocate(2 * count, sizeof *errors);
     double *times = errors + count, sum = 0;
     tally t = {0};
     for (size_t i = 0; i < count; ++i) {
@@ -195,7 +189,6 @@ static mote_status make_sample(const mote_subject *subject, const mote_cell_resu
     of[MOTE_MEASURED_SUM_US] = sum;
     of[MOTE_MEASURED_ALLOCATIONS] = t.allocations;
     free(errors);
-    return MOTE_OK;
 }
 
 mote_status mote_study_sample(const mote_subject *subject, const char *method, mote_tour tour,
@@ -208,7 +201,7 @@ mote_status mote_study_sample(const mote_subject *subject, const char *method, m
         one.seed += s;
         status = mote_study_measure(subject, method, one, &result);
         if (status == MOTE_OK) {
-            status = make_sample(subject, &result, &samples[s]);
+            make_sample(subject, &result, &samples[s]);
             mote_cell_result_free(&result);
         }
     }
@@ -258,8 +251,7 @@ mote_estimate mote_sample_estimate(const mote_sample *samples, size_t count,
 mote_status mote_study_plot(const mote_study *study, const char *name, mote_text *text)
 {
     char *file = mote_format("figures/%s.dat", name);
-    mote_status status = file ? mote_record_text(study->directory, file, text)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    mote_status status = mote_record_text(study->directory, file, text);
     if (status == MOTE_OK)
         status = mote_figures_plot(study->directory, name, name);
     free(file);

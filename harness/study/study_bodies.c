@@ -1,5 +1,6 @@
 #include "harness/study/study_bodies.h"
 
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/figure/figures.h"
 #include "harness/summary/screen.h"
@@ -77,11 +78,9 @@ static mote_status write_scene(const study *s, const scene *of, char **path)
     mote_text_add(&text, "]}}\n");
     char *name = mote_format("scenarios/%s-%u-%s.json", of->four ? "letters" : "w", of->count,
                              of->density);
-    *path = name ? mote_format("%s/%s", s->directory, name) : NULL;
-    mote_status status = *path ? mote_record_text(s->directory, name, &text)
-                               : mote_fail(MOTE_ENOMEM, "no memory for a scenario");
+    *path = mote_format("%s/%s", s->directory, name);
+    const mote_status status = mote_record_text(s->directory, name, &text);
     free(name);
-    free(text.data);
     return status;
 }
 
@@ -253,11 +252,9 @@ static double ratio_of(const study *s, const mote_summary_row *row)
                : mean_of(&s->summary.rows[row->contacts_of]) / mean_of(row);
 }
 
-static mote_status add_csv_row(const study *s, const mote_summary_row *row, mote_text *text)
+static void add_csv_row(const study *s, const mote_summary_row *row, mote_text *text)
 {
-    double *work = malloc((row->frames + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", row->frames);
+    double *work = mote_allocate(row->frames, sizeof *work);
     mote_text_add(text, "%s,\"%s\",%u,", row->first->scenario, row->label, row->first->bodies);
     if (row->finished > 0)
         mote_text_add(
@@ -280,25 +277,20 @@ static mote_status add_csv_row(const study *s, const mote_summary_row *row, mote
         mote_text_add(text, "%.6g", ratio_of(s, row));
     mote_text_add(text, ",%s\n", mote_cell_status_names[row->status]);
     free(work);
-    return MOTE_OK;
 }
 
 static mote_status write_csv(const study *s)
 {
     mote_text text = {0};
-    mote_status status = MOTE_OK;
     mote_text_add(
         &text,
         "scenario,method,bodies,near_pairs_a_body,steps,step_mean_ns,step_ns,step_p95_ns,"
         "bounds_ns,deform_ns,update_ns,broad_ns,query_ns,motion_ns,wall_ns,"
         "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,contacts,missed,"
         "false_contacts,ratio,status\n");
-    for (size_t k = 0; k < s->summary.count && status == MOTE_OK; ++k)
-        status = add_csv_row(s, &s->summary.rows[k], &text);
-    if (status == MOTE_OK)
-        return mote_record_text(s->directory, "bodies.csv", &text);
-    free(text.data);
-    return status;
+    for (size_t k = 0; k < s->summary.count; ++k)
+        add_csv_row(s, &s->summary.rows[k], &text);
+    return mote_record_text(s->directory, "bodies.csv", &text);
 }
 
 static mote_status report(const study *s, bool *met)
@@ -322,8 +314,7 @@ mote_status mote_study_bodies(const char *directory, bool quick, int argc, char 
     study s = {.directory = directory, .quick = quick, .argc = argc, .argv = argv};
     char *folder = mote_format("%s/scenarios", directory);
     mote_figures figures = {0};
-    mote_status status =
-        folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a study");
+    mote_status status = mote_directory_make(folder);
     free(folder);
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0] && status == MOTE_OK; ++k)
         status = measure_scene(&s, &scenes[k]);

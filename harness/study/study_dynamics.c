@@ -32,7 +32,7 @@ typedef struct study {
 static char *row_name(const mote_dynamics_row *row)
 {
     char *name = mote_format("rows/%s-%s.json", row->scene, row->method);
-    for (char *c = name ? name + strlen("rows/") : NULL; c && *c; ++c) {
+    for (char *c = name + strlen("rows/"); *c; ++c) {
         if (!isalnum((unsigned char)*c) && *c != '.')
             *c = '-';
     }
@@ -43,9 +43,9 @@ static char *row_name(const mote_dynamics_row *row)
 static bool recall(const study *s, mote_dynamics_row *row)
 {
     char *name = row_name(row);
-    char *path = name ? mote_format("%s/%s", s->directory, name) : NULL;
+    char *path = mote_format("%s/%s", s->directory, name);
     json_t *object = NULL;
-    bool there = path && access(path, F_OK) == 0 &&
+    bool there = access(path, F_OK) == 0 &&
                  mote_record_read_json(s->directory, name, &object) == MOTE_OK;
     const char *program = json_string_value(json_object_get(object, "program"));
     const char *measured = json_string_value(json_object_get(object, "measured"));
@@ -69,8 +69,6 @@ static bool recall(const study *s, mote_dynamics_row *row)
 static mote_status store(const study *s, const mote_dynamics_row *row)
 {
     char *name = row_name(row);
-    if (!name)
-        return mote_fail(MOTE_ENOMEM, "no memory for a row");
     json_t *object = mote_dynamics_row_json(row);
     (void)json_object_set_new(object, "program", json_string(s->program));
     (void)json_object_set_new(object, "commit", json_string(s->commit));
@@ -205,8 +203,7 @@ static mote_status measure_all(study *s, uint32_t jobs)
 {
     char *rows = mote_format("%s/rows", s->directory);
     char *path = mote_format("%s/rows/lock", s->directory);
-    mote_status status = rows && path ? mote_directory_make(rows)
-                                      : mote_fail(MOTE_ENOMEM, "no memory for a path");
+    mote_status status = mote_directory_make(rows);
     if (status == MOTE_OK) {
         s->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (s->lock < 0)

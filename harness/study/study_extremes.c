@@ -1,5 +1,6 @@
 #include "harness/study/study_extremes.h"
 
+#include "harness/base/memory.h"
 #include "harness/study/extreme.h"
 #include "harness/figure/figures.h"
 #include "harness/base/record.h"
@@ -33,7 +34,7 @@ typedef struct study {
     const char *method[METHODS_MAX];
     bool is_ours[METHODS_MAX];
     scene_row *rows;
-    size_t row_count, row_room;
+    size_t row_count, row_capacity;
     size_t counts[METHODS_MAX][MOTE_EXTREME_VERDICTS];
 } study;
 
@@ -47,19 +48,12 @@ static void list_methods(study *s)
     }
 }
 
-static mote_status add_row(study *s, scene_row **row)
+static scene_row *add_row(study *s)
 {
-    if (s->row_count == s->row_room) {
-        const size_t room = 2 * s->row_room + 16;
-        scene_row *grown = realloc(s->rows, room * sizeof *grown);
-        if (!grown)
-            return mote_fail(MOTE_ENOMEM, "no memory for %zu extremes", room);
-        s->rows = grown;
-        s->row_room = room;
-    }
-    *row = &s->rows[s->row_count++];
-    memset(*row, 0, sizeof **row);
-    return MOTE_OK;
+    s->rows = mote_reserve(s->rows, s->row_count + 1, &s->row_capacity, sizeof *s->rows);
+    scene_row *row = &s->rows[s->row_count++];
+    memset(row, 0, sizeof *row);
+    return row;
 }
 
 static void print_header(const study *s)
@@ -104,11 +98,11 @@ static mote_status measure_scene(study *s, const mote_extreme_recipe *plain,
     if (status == MOTE_OK)
         status = mote_extreme_make(&recipe, &e);
     if (status == MOTE_OK && !e.refusal[0])
-        status = mote_extreme_measure(&e);
-    if (status == MOTE_OK)
-        status = add_row(s, &row);
-    if (status == MOTE_OK)
+        mote_extreme_measure(&e);
+    if (status == MOTE_OK) {
+        row = add_row(s);
         describe_scene(&e, row);
+    }
     for (size_t m = 0; m < s->method_count && status == MOTE_OK; ++m) {
         status = mote_extreme_run(&e, s->method[m], &row->cells[m]);
         s->counts[m][row->cells[m].verdict]++;
@@ -325,7 +319,6 @@ static void add_figure_data(const study *s, mote_text *text)
     for (size_t m = 0; m < s->method_count; ++m)
         mote_text_add(text, "%zu \"%s\"\n", m, s->method[m]);
     mote_text_add(text, "\n\n%s", cells.data ? cells.data : "");
-    text->failed = text->failed || cells.failed;
     free(cells.data);
 }
 
@@ -334,8 +327,7 @@ static mote_status write_figure(const study *s, const char *directory)
     mote_text text = {0};
     add_figure_data(s, &text);
     char *folder = mote_format("%s/figures", directory);
-    mote_status status =
-        folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    mote_status status = mote_directory_make(folder);
     if (status == MOTE_OK)
         status = mote_record_text(directory, "figures/extremes.dat", &text);
     else

@@ -165,7 +165,7 @@ PLANT(mote_truth_load_or_compute, const mote_scenario *scenario, const char *dir
     const mote_status status = due("mote_truth_load_or_compute");
     if (status != MOTE_OK)
         return status;
-    need(mote_truth_allocate(scenario->frames, truth) == MOTE_OK);
+    *truth = mote_truth_allocate(scenario->frames);
     for (uint32_t k = 0; k < scenario->frames; ++k) {
         (*truth)->distance[k] = distance_at(k + 1) * scenario->length;
         (*truth)->witness_a[k] = (*truth)->witness_b[k] = mote_vec3_make(0, 0, 0);
@@ -398,11 +398,11 @@ void __wrap_mote_summary_free(mote_summary *summary)
     free(summary->rows);
 }
 
-PLANT(mote_extreme_measure, mote_extreme *e)
+void __wrap_mote_extreme_measure(mote_extreme *e);
+void __wrap_mote_extreme_measure(mote_extreme *e)
 {
     for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f)
         e->truth[f] = e->unrounded[f] = 0.1 * e->length;
-    return due("mote_extreme_measure");
 }
 
 PLANT(mote_extreme_set_gap, mote_extreme_recipe *recipe, uint32_t frame, double gap)

@@ -36,7 +36,7 @@ static void make(const char *name, int k, bool measured, mote_extreme *e)
     assert_int_equal(family->change(&plain, k, &changed), MOTE_OK);
     assert_int_equal(mote_extreme_make(&changed, e), MOTE_OK);
     if (measured)
-        assert_int_equal(mote_extreme_measure(e), MOTE_OK);
+        mote_extreme_measure(e);
 }
 
 /* Cubes of side 1 in line, at gaps that doubles hold exactly. */
@@ -49,7 +49,7 @@ TEST(mote_extreme_measure_of_cubes_is_their_gap)
         changed.place[1][f] = mote_vec3_make(1 + gaps[f], 0.25, -0.5);
     mote_extreme e = {0};
     assert_int_equal(mote_extreme_make(&changed, &e), MOTE_OK);
-    assert_int_equal(mote_extreme_measure(&e), MOTE_OK);
+    mote_extreme_measure(&e);
     for (int f = 0; f < MOTE_EXTREME_FRAMES; ++f) {
         assert_true(e.truth[f] == gaps[f]);
         assert_true(e.unrounded[f] == gaps[f]);
