@@ -56,6 +56,9 @@ static const library libraries[] = {
     {"bullet/", {"core/body/parts"}},
     {"fcl/", {"baselines/fcl_"}},
     {"embree", {"baselines/embree_"}},
+    {"ode/", {"baselines/ode.c"}},
+    {"btBullet", {"baselines/bullet_"}},
+    {"BulletCollision", {"baselines/bullet_"}},
     {"assimp/", {"harness/mesh/mesh_assimp.c"}},
 };
 

@@ -1,0 +1,229 @@
+/* bullet-gimpact: Bullet's GImpact collision of two triangle meshes, for contact only. Built
+   only where Bullet's collision library is installed. Single precision, as Debian's library is
+   used by others; trees of quantised boxes are built over the rest pose and refitted in each
+   frame.
+
+   GImpact collects every contact and cannot be asked for one. stop=yes ends it at the first by
+   an exception thrown out of its callback: faster where bodies touch, and not how anyone uses
+   it, so that it is a choice of its own. Bullet's public contactPairTest and its closest-point
+   algorithms find no contact between two GImpact meshes: the algorithm for contact points is
+   asked for. */
+#include "baselines/engine.h"
+
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
+#include <btBulletCollisionCommon.h>
+
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace
+{
+
+enum ParameterIndex { UPDATE, STOP, POSITIONS, PARAMETER_COUNT };
+
+const mote_parameter parameters[PARAMETER_COUNT] = {
+    {"update", MOTE_PARAMETER_CHOICE, 0, 0, "refit|none", "refit",
+     "how a tree follows a changed shape; none: rigid bodies, by their poses"},
+    {"stop", MOTE_PARAMETER_CHOICE, 0, 0, "no|yes", "no",
+     "yes: an exception ends the query at the first contact"},
+    {"positions", MOTE_PARAMETER_CHOICE, 0, 0, "deform|given", "deform",
+     "deform: pay for deforming all vertices; given: they come free of charge"},
+};
+
+struct FirstContact {
+};
+
+/* Hears of contacts, and keeps only whether there was one. */
+class Listener : public btManifoldResult
+{
+  public:
+    Listener(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b, bool stop_)
+        : btManifoldResult(a, b), stop(stop_)
+    {
+    }
+
+    void addContactPoint(const btVector3 &, const btVector3 &, btScalar depth) override
+    {
+        ++points;
+        if (depth > 0)
+            return;
+        contact = true;
+        if (stop)
+            throw FirstContact();
+    }
+
+    bool contact = false;
+    uint64_t points = 0;
+
+  private:
+    bool stop;
+};
+
+/* One body in Bullet, which reads vertices and triangles where they lie here. */
+struct Body {
+    std::vector<btScalar> vertices; /* 3 a vertex */
+    std::vector<int> triangles;
+    std::unique_ptr<btTriangleIndexVertexArray> arrays;
+    std::unique_ptr<btGImpactMeshShape> shape;
+    btCollisionObject object;
+};
+
+class Pair
+{
+  public:
+    Pair(const mote_engine &engine_, bool stop_) : engine(engine_), stop(stop_)
+    {
+        btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher);
+        for (int b = 0; b < 2; ++b)
+            build(b);
+    }
+
+    mote_status update(const mote_frame *frame);
+    void query(mote_answer *answer);
+
+  private:
+    void build(int b);
+    void write_vertex(int b, uint32_t i, mote_vec3 p);
+    void place(int b);
+
+    mote_engine engine;
+    bool stop;
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    Body body[2];
+};
+
+void Pair::write_vertex(int b, uint32_t i, mote_vec3 p)
+{
+    btScalar *vertex = &body[b].vertices[3 * static_cast<size_t>(i)];
+    vertex[0] = static_cast<btScalar>(p.x);
+    vertex[1] = static_cast<btScalar>(p.y);
+    vertex[2] = static_cast<btScalar>(p.z);
+}
+
+void Pair::build(int b)
+{
+    const mote_mesh *mesh = engine.body[b].mesh;
+    Body &made = body[b];
+    made.vertices.resize(3 * static_cast<size_t>(mesh->vertex_count));
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i)
+        write_vertex(b, i, mote_engine_rest(&engine, b, i));
+    made.triangles.reserve(3 * static_cast<size_t>(mesh->triangle_count));
+    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+        for (int k = 0; k < 3; ++k)
+            made.triangles.push_back(static_cast<int>(mesh->triangles[i][k]));
+    }
+    made.arrays = std::make_unique<btTriangleIndexVertexArray>(
+        static_cast<int>(mesh->triangle_count), made.triangles.data(),
+        static_cast<int>(3 * sizeof(int)), static_cast<int>(mesh->vertex_count),
+        made.vertices.data(), static_cast<int>(3 * sizeof(btScalar)));
+    made.shape = std::make_unique<btGImpactMeshShape>(made.arrays.get());
+    made.shape->setMargin(0);
+    made.shape->updateBound();
+    made.object.setCollisionShape(made.shape.get());
+}
+
+void Pair::place(int b)
+{
+    const mote_engine_body &state = engine.body[b];
+    btMatrix3x3 rotation;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j)
+            rotation[i][j] = static_cast<btScalar>(state.rotation.m[i][j]);
+    }
+    const btVector3 translation(static_cast<btScalar>(state.translation.x),
+                                static_cast<btScalar>(state.translation.y),
+                                static_cast<btScalar>(state.translation.z));
+    body[b].object.setWorldTransform(btTransform(rotation, translation));
+}
+
+mote_status Pair::update(const mote_frame *frame)
+{
+    mote_status status = mote_engine_frame(&engine, frame);
+    for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
+        if (engine.body[b].refit) {
+            for (uint32_t i = 0; i < engine.body[b].mesh->vertex_count; ++i)
+                write_vertex(b, i, mote_engine_vertex(&engine, b, i));
+            body[b].shape->postUpdate();  /* its parts no longer fit, */
+            body[b].shape->updateBound(); /* which refits them */
+        }
+        place(b);
+    }
+    return status;
+}
+
+void Pair::query(mote_answer *answer)
+{
+    const btCollisionObjectWrapper a(nullptr, body[0].shape.get(), &body[0].object,
+                                     body[0].object.getWorldTransform(), -1, -1);
+    const btCollisionObjectWrapper b(nullptr, body[1].shape.get(), &body[1].object,
+                                     body[1].object.getWorldTransform(), -1, -1);
+    btCollisionAlgorithm *algorithm =
+        dispatcher.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    Listener listener(&a, &b, stop);
+    const btDispatcherInfo info;
+    try {
+        algorithm->processCollision(&a, &b, info, &listener);
+    } catch (const FirstContact &) {
+    }
+    algorithm->~btCollisionAlgorithm();
+    dispatcher.freeCollisionAlgorithm(algorithm);
+    answer->has_contact = true;
+    answer->contact = listener.contact;
+    answer->counters.triangle_tests = listener.points;
+}
+
+mote_traits traits(const double *values)
+{
+    const bool vertices = values[UPDATE] != MOTE_ENGINE_NONE, given = values[POSITIONS] > 0;
+    mote_traits result = {};
+    result.needs_vertices = vertices && !given;
+    result.given_vertices = vertices && given;
+    return result;
+}
+
+mote_status create(const mote_setup *setup, void **state)
+{
+    mote_engine engine;
+    const mote_engine_update mode = static_cast<mote_engine_update>(setup->values[UPDATE]);
+    const mote_status status = mote_engine_begin(&engine, setup, mode, "Bullet's GImpact");
+    if (status != MOTE_OK)
+        return status;
+    try {
+        *state = new Pair(engine, setup->values[STOP] > 0);
+    } catch (const std::bad_alloc &) {
+        return mote_fail(MOTE_ENOMEM, "no memory for bullet-gimpact");
+    }
+    return MOTE_OK;
+}
+
+void destroy(void *state)
+{
+    delete static_cast<Pair *>(state);
+}
+
+mote_status update(void *state, const mote_frame *frame)
+{
+    return static_cast<Pair *>(state)->update(frame);
+}
+
+mote_status query(void *state, const mote_frame *, mote_answer *answer)
+{
+    static_cast<Pair *>(state)->query(answer);
+    return MOTE_OK;
+}
+
+} // namespace
+
+MOTE_METHOD(bullet_gimpact) = {"bullet-gimpact",
+                               "Bullet GImpact: quantised box trees, refitted; contact only",
+                               parameters,
+                               PARAMETER_COUNT,
+                               traits,
+                               create,
+                               destroy,
+                               update,
+                               query,
+                               nullptr};

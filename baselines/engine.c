@@ -1,0 +1,99 @@
+#include "baselines/engine.h"
+
+#include "baselines/input.h"
+
+#include <math.h>
+#include <string.h>
+
+static mote_vec3 box_centre(const mote_mesh *mesh)
+{
+    mote_vec3 low = mesh->positions[0], high = low;
+    for (uint32_t i = 1; i < mesh->vertex_count; ++i) {
+        const mote_vec3 p = mesh->positions[i];
+        low = mote_vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
+        high = mote_vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
+    }
+    return mote_scale(mote_add(low, high), 0.5);
+}
+
+static mote_mat3 identity(void)
+{
+    return (mote_mat3){.m = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+}
+
+mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
+                              mote_engine_update update, const char *name)
+{
+    if (setup->ask != MOTE_ASK_CONTACT)
+        return mote_fail(MOTE_EUNSUPPORTED,
+                         "%s has no distance between two meshes, only contact", name);
+    if (setup->tolerance > 0)
+        return mote_fail(MOTE_EUNSUPPORTED, "%s answers for contact at tolerance 0 only", name);
+    mote_status status = mote_input_check(setup);
+    if (status != MOTE_OK)
+        return status;
+    *engine =
+        (mote_engine){.scale = ldexp(1, -(int)fmax(-1000, fmin(1000, ilogb(setup->length))))};
+    for (int b = 0; b < 2; ++b) {
+        mote_engine_body *body = &engine->body[b];
+        body->mesh = setup->body[b]->mesh;
+        body->centre = box_centre(body->mesh);
+        body->rigid = setup->body[b]->field->count == 0;
+        body->rotation = identity();
+        if (update == MOTE_ENGINE_NONE && !body->rigid)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "update=none needs rigid bodies; body %d deforms", b);
+    }
+    return MOTE_OK;
+}
+
+static mote_status follow(mote_engine_body *body, const mote_body_state *state, int b)
+{
+    mote_status status = mote_input_check_pose(&state->pose, b);
+    if (status != MOTE_OK)
+        return status;
+    const mote_mat3 *rotation = &state->pose.rotation;
+    body->moved_centre = mote_pose_apply(&state->pose, body->centre);
+    body->refit = false;
+    if (body->rigid) {
+        body->rotation = *rotation;
+        return MOTE_OK;
+    }
+    body->refit = !body->fitted || state->shape_changed ||
+                  memcmp(rotation, &body->fitted_rotation, sizeof *rotation) != 0;
+    if (body->refit) {
+        status = mote_input_check_vertices(state->vertices, body->mesh->vertex_count, b);
+        body->vertices = state->vertices;
+        body->fitted_rotation = *rotation;
+        body->fitted = true;
+    }
+    return status;
+}
+
+mote_status mote_engine_frame(mote_engine *engine, const mote_frame *frame)
+{
+    for (int b = 0; b < 2; ++b) {
+        mote_status status = follow(&engine->body[b], &frame->body[b], b);
+        if (status != MOTE_OK) { /* no body has been refitted for this frame */
+            engine->body[0].fitted = engine->body[1].fitted = false;
+            return status;
+        }
+    }
+    for (int b = 0; b < 2; ++b)
+        engine->body[b].translation =
+            mote_scale(mote_sub(engine->body[b].moved_centre, engine->body[0].moved_centre),
+                       engine->scale);
+    return MOTE_OK;
+}
+
+mote_vec3 mote_engine_rest(const mote_engine *engine, int b, uint32_t i)
+{
+    const mote_engine_body *body = &engine->body[b];
+    return mote_scale(mote_sub(body->mesh->positions[i], body->centre), engine->scale);
+}
+
+mote_vec3 mote_engine_vertex(const mote_engine *engine, int b, uint32_t i)
+{
+    const mote_engine_body *body = &engine->body[b];
+    return mote_scale(mote_sub(body->vertices[i], body->moved_centre), engine->scale);
+}

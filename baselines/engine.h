@@ -1,0 +1,63 @@
+/* What the physics engines (ODE, Bullet) have in common as baselines: they answer whether two
+   meshes touch, not how far apart they are, and take vertices of a body in its own coordinates
+   with a pose.
+
+   Their boxes are floats, and Bullet's everything is, so they are given numbers near 1: each
+   body's vertices relative to the centre of its rest box, which moves with the body, both
+   bodies relative to the centre of body 0, and all scaled by the power of two that brings L
+   into [1, 2). A rigid body is built once and moved by its pose. A body that deforms is
+   refitted where its shape or its rotation changed (weights are in world axes); otherwise it is
+   moved. */
+#ifndef MOTE_BASELINES_ENGINE_H
+#define MOTE_BASELINES_ENGINE_H
+
+#include "core/method/method.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum mote_engine_update {
+    MOTE_ENGINE_REFIT,
+    MOTE_ENGINE_NONE, /* rigid bodies, by their poses alone */
+    MOTE_ENGINE_REBUILD
+} mote_engine_update;
+
+typedef struct mote_engine_body {
+    const mote_mesh *mesh;
+    mote_vec3 centre; /* of the rest box */
+    bool rigid;
+    bool refit;                /* this frame's vertices are not those of the last refit */
+    bool fitted;               /* there was a refit */
+    mote_mat3 fitted_rotation; /* at that refit */
+    mote_vec3 moved_centre;    /* where the centre is in this frame; world */
+    const mote_vec3 *vertices; /* of this frame; NULL for a rigid body */
+    mote_mat3 rotation;        /* what the engine is to apply in this frame, */
+    mote_vec3 translation;     /* in its unit */
+} mote_engine_body;
+
+typedef struct mote_engine {
+    mote_engine_body body[2];
+    double scale;
+} mote_engine;
+
+/* Checks the setup and fills the engine. MOTE_EUNSUPPORTED where the question is another one
+   than contact at tolerance 0, or where update is MOTE_ENGINE_NONE and a body deforms;
+   MOTE_EINVAL as mote_input_check. name: of the engine, for messages. The meshes are borrowed.
+   Cost O(v + t). */
+mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
+                              mote_engine_update update, const char *name);
+
+/* Sets what a frame changes: refit, moved_centre, vertices, rotation, translation. MOTE_EINVAL
+   where a pose or a vertex is not finite. Cost O(1), O(v) for a body to refit. */
+mote_status mote_engine_frame(mote_engine *engine, const mote_frame *frame);
+
+/* Vertex i of body b in the engine's unit: at rest, and in the frame of the last
+   mote_engine_frame. */
+mote_vec3 mote_engine_rest(const mote_engine *engine, int b, uint32_t i);
+mote_vec3 mote_engine_vertex(const mote_engine *engine, int b, uint32_t i);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
