@@ -11,6 +11,7 @@
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
+#   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
@@ -107,6 +108,12 @@ oracle: program-oracle
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
+
+# On the models that assimp is tested with, or those in MODELS.
+MODELS ?= /usr/share/assimp/models
+.PHONY: readers
+readers: program-readers deps-readers
+	@$(BUILD)/tests/readers --out $(call out,readers) $(call quoted,$(MODELS))
 
 tune: build
 	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)
