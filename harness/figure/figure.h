@@ -52,6 +52,12 @@ mote_figure_writer mote_figure_letters;
 mote_figure_writer mote_figure_animation;
 void mote_figure_animation_clear(const char *directory);
 
+/* The folder of an animation's pictures; a picture, numbered from 0, with its hash. text is
+   taken over. */
+mote_status mote_figure_frames_begin(const mote_figure_run *run);
+mote_status mote_figure_frame_write(const mote_figure_run *run, unsigned number,
+                                    mote_text *text, uint64_t *hash);
+
 /* 11920: "11,920". */
 #define MOTE_FIGURE_NUMBER 32
 const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER]);

@@ -180,11 +180,13 @@ static mote_place place_of(const front *f, const mote_summary_row *row)
                            log10(3 * wrong / LEAST_PERCENT) * f->per_y);
 }
 
-/* Finds the rows and the axes; returns how many rows there are. */
+/* Finds the rows and the axes; returns how many rows there are, 0 where they vary fewer than
+   two parameters. */
 static int open_front(const mote_summary *summary, const char *scenario, front *f)
 {
     double low = HUGE_VAL, high = 0;
-    int count = 0;
+    int count = 0, lines = 0;
+    bool varied[SERIES] = {false};
     memset(f, 0, sizeof *f);
     f->room.taken = f->taken;
     for (int s = 0; s < SERIES; ++s) {
@@ -195,10 +197,13 @@ static int open_front(const mote_summary *summary, const char *scenario, front *
             f->row[s][k] = row;
             low = fmin(low, row->total.median);
             high = fmax(high, row->total.median);
+            varied[s] = varied[s] || strcmp(series[s][k + 1], WHOLE) != 0;
             ++count;
         }
     }
-    if (count == 0)
+    for (int s = 0; s < SERIES; ++s)
+        lines += varied[s];
+    if (lines < 2)
         return 0;
     f->low_x = log10(low / BEYOND_X);
     f->per_x = WIDTH / (log10(high * BEYOND_X) - f->low_x);

@@ -230,23 +230,21 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
     return status;
 }
 
-/* Writes one frame's file; *hash is that of its text. */
-static mote_status write_frame(const mote_figure_run *run, mote_figure_scene *scene,
-                               const mote_figure_camera *camera, const char *label,
-                               unsigned number, uint32_t frame, uint64_t *hash)
+mote_status mote_figure_frames_begin(const mote_figure_run *run)
 {
-    mote_text text = {0};
-    char *name = mote_format("figures/frames/%03u.dat", number);
-    if (!name)
-        return mote_fail(MOTE_ENOMEM, "no memory for a frame's name");
-    add_frame(scene, camera, frame, &text);
-    mote_text_add(&text, "\n\n");
-    mote_gnuplot_quote(&text, label);
-    mote_text_add(&text, "\n");
-    *hash = mote_hash_bytes(MOTE_HASH_START, text.data, text.size);
-    const mote_status status = mote_record_text(run->directory, name, &text);
-    free(name);
+    char *folder = mote_format("%s/figures/frames", run->directory);
+    const mote_status status = mote_directory_make(folder);
+    free(folder);
     return status;
+}
+
+mote_status mote_figure_frame_write(const mote_figure_run *run, unsigned number,
+                                    mote_text *text, uint64_t *hash)
+{
+    char name[64];
+    (void)snprintf(name, sizeof name, "figures/frames/%03u.dat", number);
+    *hash = mote_hash_bytes(MOTE_HASH_START, text->data, text->size);
+    return mote_record_text(run->directory, name, text);
 }
 
 mote_status mote_figure_animation(const mote_figure_run *run, const char *scenario,
@@ -257,23 +255,24 @@ mote_status mote_figure_animation(const mote_figure_run *run, const char *scenar
         mote_text_add(&figure->missing, "a method that ran on %s", scenario);
         return MOTE_OK;
     }
-    mote_figure_scene scene;
-    char *folder = mote_format("%s/figures/frames", run->directory);
-    mote_status status =
-        folder ? mote_directory_make(folder) : mote_fail(MOTE_ENOMEM, "no memory for a name");
-    free(folder);
-    if (status != MOTE_OK)
-        return status;
-    status = mote_figure_scene_open(row, &scene);
+    mote_figure_scene scene = {0};
+    mote_status status = mote_figure_frames_begin(run);
+    if (status == MOTE_OK)
+        status = mote_figure_scene_open(row, &scene);
     if (status == MOTE_OK) {
         const mote_figure_camera camera = whole_camera(&scene);
         unsigned number = 0;
         for (uint32_t k = 1; k <= scene.scenario->frames && status == MOTE_OK;
              k += ANIMATION_STEP) {
             char label[64];
-            uint64_t hash = 0;
+            mote_text text = {0};
+            uint64_t hash;
             frame_text(row, k, label, sizeof label);
-            status = write_frame(run, &scene, &camera, label, number, k, &hash);
+            add_frame(&scene, &camera, k, &text);
+            mote_text_add(&text, "\n\n");
+            mote_gnuplot_quote(&text, label);
+            mote_text_add(&text, "\n");
+            status = mote_figure_frame_write(run, number, &text, &hash);
             mote_text_add(&figure->data, "%u %016" PRIx64 "\n", number++, hash);
         }
         mote_text_add(&figure->caption,
@@ -287,14 +286,12 @@ mote_status mote_figure_animation(const mote_figure_run *run, const char *scenar
 void mote_figure_animation_clear(const char *directory)
 {
     char *folder = mote_format("%s/figures/frames", directory);
-    for (unsigned number = 0; folder; ++number) {
+    bool there = true;
+    for (unsigned number = 0; there; ++number) {
         char *name = mote_format("%s/%03u.dat", folder, number);
-        const bool there = name && unlink(name) == 0;
+        there = unlink(name) == 0;
         free(name);
-        if (!there)
-            break;
     }
-    if (folder)
-        (void)rmdir(folder);
+    (void)rmdir(folder);
     free(folder);
 }

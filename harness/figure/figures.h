@@ -1,9 +1,9 @@
-/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp.
-   Nothing is timed. Figures are made from what the run stored, and three also from its
-   scenarios, computed again: the deformed vertices of a frame (1, 2); the places of
-   particles, shown only where the method answers as stored, to the bit (1); and which of 100
-   letters touch (15, of a coarse scenario made for the picture). The same cells give the
-   same data and, but for PDF's date, the same drawings. */
+/* The figures of a run: data files in DIR/figures, drawn by gnuplot from plots/NAME.gp. Nothing
+   is measured: figures are made from what the run stored. Pictures of bodies (1, 2, the letters
+   of 15) take deformed vertices from the run's scenarios, whose fingerprints must be those that
+   were measured. Particles (1) are found by asking their method again; they are shown only
+   while it answers as stored, to the bit. The same cells give the same data and, but for PDF's
+   date, the same drawings. */
 #ifndef MOTE_HARNESS_FIGURES_H
 #define MOTE_HARNESS_FIGURES_H
 

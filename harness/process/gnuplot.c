@@ -35,7 +35,7 @@ mote_status mote_gnuplot_draw(const char *folder, const char *script, const char
     char *draw = mote_format("%s/plots/draw.gp", mote_data_directory());
     const char *const argv[] = {"gnuplot", "-c",    draw,   plots,   script,
                                 file,      heading, footer, formats, NULL};
-    const mote_status status = mote_spawn(argv, folder, NULL, 0);
+    const mote_status status = mote_spawn_quiet(argv, folder);
     free(file);
     free(plots);
     free(draw);

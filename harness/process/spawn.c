@@ -1,7 +1,10 @@
 #include "harness/process/spawn.h"
 
+#include "harness/base/file.h"
+
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,11 +13,15 @@
 
 #define STATUS_NOT_RUN 127
 
-static _Noreturn void run(const char *const argv[], const char *directory, int out)
+/* out: where its output goes, and with errors_too its errors; -1: where ours do. */
+static _Noreturn void run(const char *const argv[], const char *directory, int out,
+                          bool errors_too)
 {
     if (directory && chdir(directory) != 0)
         _exit(STATUS_NOT_RUN);
     if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
+        _exit(STATUS_NOT_RUN);
+    if (out >= 0 && errors_too && dup2(out, STDERR_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
     (void)setenv("LC_ALL", "C.UTF-8", 1);
     /* execvp does not write to its arguments: POSIX keeps the type for old callers. */
@@ -46,8 +53,8 @@ static void keep_output(int in, char *output, size_t size)
     output[used] = '\0';
 }
 
-mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
-                       size_t size)
+static mote_status spawn(const char *const argv[], const char *directory, char *output,
+                         size_t size, bool errors_too)
 {
     int ends[2] = {-1, -1};
     if (output && pipe(ends) != 0)
@@ -55,7 +62,7 @@ mote_status mote_spawn(const char *const argv[], const char *directory, char *ou
     (void)fflush(NULL);
     pid_t pid = fork();
     if (pid == 0)
-        run(argv, directory, ends[1]);
+        run(argv, directory, ends[1], errors_too);
     int error = errno;
     if (output) {
         (void)close(ends[1]);
@@ -74,4 +81,24 @@ mote_status mote_spawn(const char *const argv[], const char *directory, char *ou
         return mote_fail(MOTE_EIO, "%s: cannot be run; is it installed?", argv[0]);
     return mote_fail(MOTE_EIO, "%s: ended with status %d", argv[0],
                      WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+}
+
+mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
+                       size_t size)
+{
+    return spawn(argv, directory, output, size, false);
+}
+
+mote_status mote_spawn_quiet(const char *const argv[], const char *directory)
+{
+    char said[4096] = "";
+    const mote_status status = spawn(argv, directory, said, sizeof said, true);
+    if (status == MOTE_OK || !said[0])
+        return status;
+    for (char *p = said; *p; ++p)
+        *p = *p == '\n' ? ' ' : *p;
+    char *error = mote_format("%s", mote_error_text());
+    (void)mote_fail(status, "%s: %s", error, said);
+    free(error);
+    return status;
 }

@@ -15,4 +15,8 @@
 mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
                        size_t size);
 
+/* Likewise, but nothing that it writes is shown; after a failure it stands in the error's text,
+   on one line. */
+mote_status mote_spawn_quiet(const char *const argv[], const char *directory);
+
 #endif

@@ -37,6 +37,9 @@ static const char *const threaded[] = {"certified:ahead=3", "certified:threads=2
 /* Seconds between two lines of progress where there is no terminal. */
 #define PROGRESS_PAUSE 10
 
+/* Frames: the shortest and the longest period of a deformation. */
+#define PERIODS "250, 600"
+
 /* What must hold. */
 #define LEAST_RATIO 20.0
 #define MOST_BYTES 1073741824.0
@@ -49,14 +52,16 @@ typedef struct study {
     mote_summary summary;
 } study;
 
-static void add_shape(mote_text *text, char letter, unsigned triangles, unsigned seed)
+/* periods: of the deformation, "shortest, longest", in frames. */
+static void add_shape(mote_text *text, char letter, unsigned triangles, unsigned seed,
+                      const char *periods)
 {
     mote_text_add(
         text,
         "%s\n      {\"letter\": \"%c\", \"triangles\": %u, \"field\": {\"count\": 14, "
         "\"support\": 0.5,\n       \"displacement\": {\"random\": {\"seed\": %u, "
-        "\"amplitude\": 0.05, \"periods\": [250, 600]}}}}",
-        seed > 1 ? "," : "", letter, triangles, seed);
+        "\"amplitude\": 0.05, \"periods\": [%s]}}}}",
+        seed > 1 ? "," : "", letter, triangles, seed, periods);
 }
 
 /* Writes the scenario of a scene; the caller frees *path. */
@@ -69,11 +74,11 @@ static mote_status write_scene(const study *s, const scene *of, char **path)
                   "\"near_pairs\": %s, \"near\": 0.1, \"speed\": 0.004, \"spin\": 0.5,\n"
                   "    \"shapes\": [",
                   of->count, of->density, of->count, of->density);
-    add_shape(&text, 'W', 11920, 1);
+    add_shape(&text, 'W', 11920, 1, PERIODS);
     if (of->four) {
-        add_shape(&text, 'T', 1380, 2);
-        add_shape(&text, 'M', 2968, 3);
-        add_shape(&text, 'V', 1764, 4);
+        add_shape(&text, 'T', 1380, 2, PERIODS);
+        add_shape(&text, 'M', 2968, 3, PERIODS);
+        add_shape(&text, 'V', 1764, 4, PERIODS);
     }
     mote_text_add(&text, "]}}\n");
     char *name = mote_format("scenarios/%s-%u-%s.json", of->four ? "letters" : "w", of->count,
@@ -92,34 +97,69 @@ static mote_status add_ways(const char *const *texts, size_t count, mote_choices
     return status;
 }
 
+/* Measures the first `last` frames (0: all) of the scenario at path into a directory. */
+static mote_status measure(const study *s, const char *directory, const char *path,
+                           const mote_choices *ways, uint32_t last)
+{
+    mote_run_outcome outcome;
+    const char *const scenarios[] = {path};
+    const mote_run_options options = {.scenarios = scenarios,
+                                      .scenario_count = 1,
+                                      .choices = ways,
+                                      .plan = {.replicates = 1,
+                                               .first = last ? 1 : 0,
+                                               .last = last,
+                                               .seed = 1,
+                                               .contacts_only = true},
+                                      .directory = directory,
+                                      .timeout = 1800,
+                                      .progress = PROGRESS_PAUSE,
+                                      .argc = s->argc,
+                                      .argv = s->argv};
+    return mote_run(&options, &outcome);
+}
+
 static mote_status measure_scene(const study *s, const scene *of)
 {
     mote_choices ways = {0};
     char *path = NULL;
-    mote_run_outcome outcome;
     mote_status status =
         of->four ? add_ways(own_ways, 1, &ways) : add_ways(every_way, 6, &ways);
     if (status == MOTE_OK && of->count >= 100)
         status = add_ways(threaded, 3, &ways);
     if (status == MOTE_OK)
         status = write_scene(s, of, &path);
-    const char *const scenarios[] = {path};
-    const mote_run_options options = {.scenarios = scenarios,
-                                      .scenario_count = 1,
-                                      .choices = &ways,
-                                      .plan = {.replicates = 1,
-                                               .first = 1,
-                                               .last = of->frames[s->quick],
-                                               .seed = 1,
-                                               .contacts_only = true},
-                                      .directory = s->directory,
-                                      .timeout = 1800,
-                                      .progress = PROGRESS_PAUSE,
-                                      .argc = s->argc,
-                                      .argv = s->argv};
     if (status == MOTE_OK)
-        status = mote_run(&options, &outcome);
+        status = measure(s, s->directory, path, &ways, of->frames[s->quick]);
     mote_choices_free(&ways);
+    free(path);
+    return status;
+}
+
+/* The built-in scenario letters with so few triangles that gnuplot can draw them, in a run of
+   its own, DIRECTORY/film: figure 15 shows which letters are in contact. */
+static mote_status measure_film(const study *s)
+{
+    static const char letters[] = "WTMV";
+    mote_text text = {0};
+    mote_choices ways = {0};
+    mote_text_add(&text, "{\"purpose\": \"letters with few triangles, for pictures\", "
+                         "\"like\": \"letters\",\n \"bodies\": {\"shapes\": [");
+    for (unsigned k = 0; letters[k]; ++k)
+        add_shape(&text, letters[k], 500, k + 1, "60, 200");
+    mote_text_add(&text, "]}}\n");
+    char *folder = mote_format("%s/film", s->directory);
+    char *path = mote_format("%s/letters.json", folder);
+    mote_status status = mote_directory_make(folder);
+    if (status == MOTE_OK)
+        status = mote_record_text(folder, "letters.json", &text);
+    if (status == MOTE_OK)
+        status = add_ways(own_ways, 1, &ways);
+    if (status == MOTE_OK)
+        status = measure(s, folder, path, &ways, 0);
+    mote_choices_free(&ways);
+    free(text.data);
+    free(folder);
     free(path);
     return status;
 }
@@ -318,6 +358,8 @@ mote_status mote_study_bodies(const char *directory, bool quick, int argc, char 
     free(folder);
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0] && status == MOTE_OK; ++k)
         status = measure_scene(&s, &scenes[k]);
+    if (status == MOTE_OK)
+        status = measure_film(&s);
     if (status == MOTE_OK)
         status = mote_summary_make(directory, &s.summary);
     if (status == MOTE_OK) {

@@ -85,9 +85,10 @@ static mote_status read_lines(const char *path, const char *text, mote_scene_con
     return MOTE_OK;
 }
 
-static mote_status read_contacts(const char *directory, const mote_stored_cell *cell,
-                                 mote_scene_contacts *contacts)
+mote_status mote_scene_contacts_read(const char *directory, const mote_stored_cell *cell,
+                                     mote_scene_contacts *contacts)
 {
+    *contacts = (mote_scene_contacts){.count = 0};
     char *path = mote_format("%s/cells/%s.pairs.csv", directory, cell->id), *text = NULL;
     size_t size;
     mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
@@ -163,10 +164,10 @@ static mote_status count_differing(const char *directory, const mote_stored_cell
     double missed = 0, wrong = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        mote_scene_contacts said = {.count = 0};
+        mote_scene_contacts said;
         if (!ran(cell))
             continue;
-        const mote_status status = read_contacts(directory, cell, &said);
+        const mote_status status = mote_scene_contacts_read(directory, cell, &said);
         const uint32_t own = cell->frame[cell->frames - 1];
         const uint32_t its = reference->frame[reference->frames - 1];
         const uint32_t last = own < its ? own : its;
@@ -200,7 +201,7 @@ mote_status mote_scene_contacts_count(const char *directory, mote_summary_row *r
             free(real.list);
             real = (mote_scene_contacts){.count = 0};
             known = row->contacts_of;
-            status = read_contacts(directory, reference, &real);
+            status = mote_scene_contacts_read(directory, reference, &real);
         }
         if (status == MOTE_OK)
             status = count_differing(directory, reference, &real, row);

@@ -16,6 +16,11 @@ typedef struct mote_scene_contacts {
     size_t count;
 } mote_scene_contacts;
 
+/* Reads the contacts of a cell, directory/cells/ID.pairs.csv. MOTE_EINVAL with file and line
+   when mote did not write it. The caller frees contacts->list, after an error, too. */
+mote_status mote_scene_contacts_read(const char *directory, const mote_stored_cell *cell,
+                                     mote_scene_contacts *contacts);
+
 /* How many of `of`, in frames up to `last`, are not in `in`. */
 size_t mote_scene_contacts_lacking(const mote_scene_contacts *of, const mote_scene_contacts *in,
                                    uint32_t last);

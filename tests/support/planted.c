@@ -253,7 +253,9 @@ static void plant_scene(const mote_run_options *options, const char *label, size
 
 PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
 {
-    for (size_t k = 0; options->plan.contacts_only && k < options->choices->count; ++k)
+    /* The film is of all frames, and in no table. */
+    const bool scene = options->plan.contacts_only && options->plan.last > 0;
+    for (size_t k = 0; scene && k < options->choices->count; ++k)
         plant_scene(options, options->choices->items[k].text, k);
     *outcome =
         (mote_run_outcome){.cells = 1, .failed = planted.body_failed ? 1 : 0, .started = true};

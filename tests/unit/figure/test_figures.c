@@ -340,6 +340,33 @@ TEST(ratios_of_processes_without_a_pair_are_missing)
     mote_summary_free(&summary);
 }
 
+/* n alone, as `make bench` varies it: no line of the figure but one would have a point. */
+TEST(tracked_particles_of_one_parameter_are_no_figure_14)
+{
+    static const int n[] = {2, 4, 8, 16, 32};
+    char folder[256], parameters[32], id[32];
+    mote_summary summary;
+    mote_figure figure = {0};
+    path_of("n-alone", folder);
+    for (size_t i = 0; i < sizeof n / sizeof n[0]; ++i) {
+        (void)snprintf(parameters, sizeof parameters, "{\"n\": %d}", n[i]);
+        (void)snprintf(id, sizeof id, "particle-%d", n[i]);
+        const stored_cell cell = {.id = id,
+                                  .method = "particle",
+                                  .parameters = parameters,
+                                  .rows = "1,0,0,100,0.5,0,0,0,7\n2,0,0,100,0.5,0.1,0,0,7\n"};
+        assert_true(stored_cell_write(folder, &cell));
+    }
+    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    assert_int_equal(summary.count, sizeof n / sizeof n[0]);
+    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_figure_tracked(&run, "s", &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_string_equal(figure.missing.data, "the rows of `make ingredients`");
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
 /* All frames up to the one that is shown are asked again: none may be beyond the scenario. */
 TEST(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused)
 {

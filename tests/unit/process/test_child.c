@@ -192,6 +192,26 @@ TEST(spawn_of_programs_that_fail_says_how)
     assert_string_equal(said, "\n/");
 }
 
+TEST(spawn_quiet_tells_what_a_program_said_only_where_it_fails)
+{
+    int ends[2], kept = dup(STDERR_FILENO);
+    char shown[64];
+    assert_int_equal(pipe(ends), 0);
+    assert_int_equal(dup2(ends[1], STDERR_FILENO), STDERR_FILENO);
+    const char *const well[] = {"sh", "-c", "echo a warning; echo another >&2", NULL};
+    const mote_status status = mote_spawn_quiet(well, NULL);
+    assert_int_equal(dup2(kept, STDERR_FILENO), STDERR_FILENO);
+    (void)close(kept);
+    (void)close(ends[1]);
+    assert_int_equal(status, MOTE_OK);
+    assert_int_equal(read(ends[0], shown, sizeof shown), 0);
+    (void)close(ends[0]);
+    const char *const badly[] = {"sh", "-c", "echo line 3:; echo no such column >&2; exit 2",
+                                 NULL};
+    assert_int_equal(mote_spawn_quiet(badly, NULL), MOTE_EIO);
+    assert_string_equal(mote_error_text(), "sh: ended with status 2: line 3: no such column");
+}
+
 /* In the C locale gnuplot would warn once a figure. */
 TEST(spawn_in_any_locale_is_in_utf_8)
 {
