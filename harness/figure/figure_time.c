@@ -307,12 +307,13 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
             continue;
         const mote_summary_row *best = &run->summary->rows[row->ratio_best.to];
         if (figure->caption.size == 0)
-            mote_text_add(&figure->caption,
-                          "How many times as fast as %s, the fastest configuration of FCL in "
-                          "this run on %s: medians over %d consecutive parts of the frames, of "
-                          "ratios paired frame by frame within each process, with 95 %% "
-                          "intervals over processes. Below the dashed line FCL is faster.",
-                          best->label, scenario, PARTS);
+            mote_text_add(
+                &figure->caption,
+                "How many times as fast as %s, the fastest configuration of FCL in "
+                "this run on %s: medians over at most %d parts of consecutive frames, of "
+                "ratios paired frame by frame within each process, with 95 %% "
+                "intervals over processes. Below the dashed line FCL is faster.",
+                best->label, scenario, PARTS);
         least = row->finished < least ? row->finished : least;
         status = add_ratios(row, best, &figure->data);
     }
