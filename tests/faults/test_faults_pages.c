@@ -56,6 +56,8 @@
     "\"spin\": 1, \"shapes\": [{\"file\": \"cube.obj\"}]}}\n"
 
 #define INSTALLED "share/mote/datasets/scenarios/"
+#define FILM "{\"purpose\": \"a film\", \"like\": \"letters\", \"frames\": 11}\n"
+
 static const struct {
     const char *name, *text;
 } files[] = {
@@ -204,6 +206,17 @@ static bool make_runs(void)
     return fault_lines_run(runs, sizeof runs / sizeof runs[0]);
 }
 
+/* As make bodies leaves it. */
+static bool make_film(void)
+{
+    static const fault_line run[] = {LINE(run,
+                                          " several/film/letters.json --method certified "
+                                          "--pairs contacts --replicates 1 --out several/film",
+                                          0)};
+    return mote_directory_make("several/film") == MOTE_OK &&
+           fault_lines_write("several/film/letters.json", FILM) && fault_lines_run(run, 1);
+}
+
 static int make_files(void)
 {
     if (!fault_lines_open() || !fault_lines_install())
@@ -212,9 +225,8 @@ static int make_files(void)
         if (!fault_lines_write(files[i].name, files[i].text))
             return -1;
     }
-    return make_runs() && fault_lines_write("run/claims.json", CLAIMS) &&
+    return make_runs() && make_film() && fault_lines_write("run/claims.json", CLAIMS) &&
                    fault_lines_write("run/requirements.json", CLAIMS) &&
-                   mote_directory_make("several") == MOTE_OK &&
                    fault_lines_write("several/summary.json", BODIES) &&
                    mote_directory_make("claims") == MOTE_OK &&
                    fault_lines_write("claims/claims.json", CLAIMS)
