@@ -243,7 +243,7 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
         status = MOTE_OK;
     }
     if (status == MOTE_OK && some && figure.missing.size > 0) {
-        add_missing(d, kind, &figure, "not whole", true);
+        add_missing(d, kind, &figure, "not whole", false); /* its caption says so */
         mote_text_add(&figure.caption, " Not in it: %s.", figure.missing.data);
     } else if (status == MOTE_OK && figure.missing.size > 0 && !quiet) {
         add_missing(d, kind, &figure, "not drawn", refused);

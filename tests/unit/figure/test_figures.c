@@ -355,7 +355,7 @@ TEST(tracked_particles_of_one_parameter_are_no_figure_14)
                                   .method = "particle",
                                   .parameters = parameters,
                                   .rows = "1,0,0,100,0.5,0,0,0,7\n2,0,0,100,0.5,0.1,0,0,7\n"};
-        assert_true(stored_cell_write(folder, &cell));
+        stored_cell_put(folder, cell);
     }
     assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
     assert_int_equal(summary.count, sizeof n / sizeof n[0]);
