@@ -145,7 +145,7 @@ json_t *mote_approaches_json(const mote_approaches *sum)
     return object;
 }
 
-/* Counts are sums of at most this. */
+/* A stored count above this cannot be right. */
 #define COUNT_MAX ((json_int_t)1 << 53)
 
 static bool read_count(const json_t *value, uint64_t *count)
@@ -166,7 +166,7 @@ bool mote_approaches_read(const json_t *object, mote_approaches *sum)
     MOTE_APPROACHES_FIGURES(GET_FIGURE)
 #undef GET_COUNT
 #undef GET_FIGURE
-    /* Shares and means are made of these. */
+    /* Shares and means are computed from these. */
     return whole && sum->passes_through <= sum->approaches &&
            sum->contact_runs_passed <= sum->contact_runs;
 }

@@ -37,8 +37,8 @@
     X(delay_sum) /* steps to the first report, over the runs that were reported */             \
     X(delay_max)
 
-/* Figures: lengths in L, drifts relative, the greatest of all approaches; query_ns is the mean
-   of a step. Depth is measured until a contact is reported. */
+/* Values: lengths in L, drifts relative, each the largest over all approaches; query_ns is
+   the mean of a step. Depth is measured until a contact is reported. */
 #define MOTE_APPROACHES_FIGURES(X)                                                             \
     X(max_penetration_unreported)                                                              \
     X(max_penetration_passes)                                                                  \
@@ -70,11 +70,11 @@ mote_status mote_approaches_simulate(const mote_scenario *scenario, const char *
 double mote_approaches_share(const mote_approaches *sum);
 mote_confidence mote_approaches_interval(const mote_approaches *sum);
 
-/* Steps from the begin of a contact to its first report, mean over the reported ones. */
+/* Steps from the beginning of a contact to its first report, mean over the reported ones. */
 double mote_approaches_delay(const mote_approaches *sum);
 
-/* An object with every count and figure, and back; false when one is missing or cannot be: a
-   count is negative, or what passed more than there was. */
+/* An object with every count and value, and back; false when one is missing or impossible: a
+   count is negative, or more passed through than there were approaches. */
 json_t *mote_approaches_json(const mote_approaches *sum);
 bool mote_approaches_read(const json_t *object, mote_approaches *sum);
 

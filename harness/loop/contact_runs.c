@@ -44,7 +44,7 @@ static mote_status count_contact(mote_contact_runs *runs, uint32_t k,
     return depth(context, truth->body, run->depth, &run->depth);
 }
 
-/* Contacts that only the method says. */
+/* Counts contacts that only the method reports. */
 static void count_false(mote_contact_runs *runs, const mote_bodies_pair *truth,
                         size_t truth_count, const mote_bodies_pair *said, size_t said_count)
 {

@@ -1,5 +1,5 @@
-/* What a method says of contacts against the truth, run by run: a run is a maximal sequence of
-   steps at which a pair of bodies touches. */
+/* Compares the contacts that a method reports with the truth, run by run: a run is a maximal
+   sequence of steps at which a pair of bodies touches. */
 #ifndef MOTE_HARNESS_CONTACT_RUNS_H
 #define MOTE_HARNESS_CONTACT_RUNS_H
 
@@ -18,13 +18,14 @@ typedef struct mote_contact_runs {
     bool depth_unreported; /* measure depth only until a run is reported: it takes longest */
     mote_contact_run *current, *next; /* in the order of pairs */
     size_t count, current_capacity, next_capacity;
-    uint64_t contact_steps;         /* pairs and steps at which truth is a contact */
-    uint64_t missed_steps;          /* of them the method said none */
-    uint64_t false_steps;           /* pairs and steps: the method said contact, truth none */
-    uint64_t approaches;            /* runs that ended */
-    uint64_t passes;                /* of them the method never said contact: passes through */
-    uint64_t deep_passes;           /* of them a vertex of one body was inside the other */
-    uint64_t delay_sum, delay_max;  /* steps from a run's begin to its first report */
+    uint64_t contact_steps; /* pairs and steps at which truth is a contact */
+    uint64_t missed_steps;  /* of these, the method reported no contact */
+    uint64_t false_steps;   /* pairs and steps at which the method reported a contact and the
+                               truth is none */
+    uint64_t approaches;    /* runs that ended */
+    uint64_t passes;        /* of these, never reported by the method: passes through */
+    uint64_t deep_passes;   /* of these, with a vertex of one body inside the other */
+    uint64_t delay_sum, delay_max;  /* steps from the beginning of a run to its first report */
     double depth_max, depth_passes; /* absolute */
 } mote_contact_runs;
 
@@ -32,8 +33,8 @@ typedef struct mote_contact_runs {
 typedef mote_status (*mote_contact_depth)(void *context, const uint32_t body[2], double above,
                                           double *depth);
 
-/* Counts step k: near pairs with the truth's and with the method's answers, both in the order
-   of pairs. depth is asked of pairs whose surfaces meet. */
+/* Counts step k: near pairs with the truth's and with the method's answers, both in the
+   order of pairs. depth is called for pairs whose surfaces meet. */
 mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
                                    const mote_bodies_pair *truth, size_t truth_count,
                                    const mote_bodies_pair *said, size_t said_count,

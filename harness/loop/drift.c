@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* What should stay as it is, and the sizes that changes are measured by. */
+/* The conserved quantities, and the sizes relative to which changes are measured. */
 typedef struct invariants {
     double energy, energy_size;
     mote_vec3 momentum, angular;

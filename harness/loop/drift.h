@@ -1,4 +1,4 @@
-/* How well a simulation keeps what physics keeps: energy, momentum, angular momentum. */
+/* How well a simulation conserves energy, momentum and angular momentum. */
 #ifndef MOTE_HARNESS_DRIFT_H
 #define MOTE_HARNESS_DRIFT_H
 
@@ -17,7 +17,7 @@ typedef struct mote_drift_bodies {
     mote_vec3 gravity; /* absolute */
 } mote_drift_bodies;
 
-/* What was taken from the bodies from outside, so far. */
+/* What has been taken from the bodies from outside so far. */
 typedef struct mote_drift_lost {
     double energy;      /* in impacts */
     mote_vec3 momentum; /* at the walls */

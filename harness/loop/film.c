@@ -12,7 +12,8 @@
 
 #define PARTICLES_MAX 256
 
-/* Where the picture is seen from, as far as that is across the line between the bodies. */
+/* The direction to look from, before it is made perpendicular to the line between the
+   bodies. */
 static const mote_vec3 front = {0.35, 0.45, 1};
 
 struct mote_film {
@@ -23,7 +24,7 @@ struct mote_film {
     bool contact;                /* reported in the step before */
     mote_deform **deform;        /* of the shapes */
     mote_vec3 **world;           /* vertices of the bodies */
-    mote_vec3 right, up, toward; /* axes of the picture, toward who looks */
+    mote_vec3 right, up, toward; /* axes of the picture, the last toward the viewer */
     double box[4];               /* low x, high x, low y, high y of all pictures, over L */
 };
 
@@ -75,7 +76,7 @@ static char *picture_file(const mote_film *film, uint32_t picture)
     return mote_format("%s/%03u.dat", film->folder, picture);
 }
 
-/* With all that was written to it. */
+/* Closes a file, with all that was written to it. */
 static void remove_folder(const mote_film *film)
 {
     static const char *const others[] = {"film.dat", "film.gif"};
@@ -245,7 +246,7 @@ mote_status mote_film_watch(void *film, const mote_simulation_view *view)
     return status;
 }
 
-/* Where the pictures are: their number, and the box. */
+/* The number of pictures and their common box. */
 static mote_status write_index(const mote_film *film)
 {
     mote_text text = {0};

@@ -6,16 +6,16 @@
 
 #include "harness/loop/simulator.h"
 
-/* Pictures, about; besides, one where a contact is first reported, twice as many in all at
-   most. */
+/* About how many pictures there are; one more is added wherever a contact is first reported,
+   up to twice as many in all. */
 #define MOTE_FILM_PICTURES 120u
 
 typedef struct mote_film mote_film;
 
-/* Of a simulation of so many steps by a method (its name as shown), into the GIF file path. The
-   simulator is borrowed until the film is destroyed. Geometry is kept in the folder
-   path.frames, up to some 200 bytes a triangle and picture, until then. MOTE_EIO; MOTE_ENOMEM
-   for what a shape's deformation needs. */
+/* For a simulation of that many steps by a method (its name as shown), into the GIF file
+   path. The simulator is borrowed until the film is destroyed. Geometry is kept in the
+   folder path.frames, up to some 200 bytes a triangle and picture, until then. MOTE_EIO;
+   MOTE_ENOMEM for what a shape's deformation needs. */
 mote_status mote_film_create(const mote_simulator *simulator, const char *method,
                              uint32_t steps, const char *path, mote_film **film);
 void mote_film_destroy(mote_film *film); /* NULL is allowed */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Triangles that follow each other in the mesh and share a box: mostly they are neighbours. */
+/* So many consecutive triangles of the mesh share a box: mostly they are neighbours. */
 #define BLOCK 32u
 
 typedef struct box {
@@ -181,7 +181,7 @@ static void fill(shadow *s)
     uint32_t sum = 0;
     for (size_t c = 0; c <= cells; ++c) {
         sum += s->first[c];
-        s->first[c] = sum; /* the end of the cell: entries are filled in from behind */
+        s->first[c] = sum; /* the end of the cell: entries are filled in from the end */
     }
     if (sum > s->capacity) {
         s->entry = mote_resize(s->entry, sum, sizeof *s->entry);

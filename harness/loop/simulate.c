@@ -15,7 +15,7 @@ typedef struct gap {
     mote_vec3 witness[2];
 } gap;
 
-/* What a simulation knows from step to step. */
+/* The state that a simulation keeps from step to step. */
 typedef struct simulation {
     mote_simulator *simulator;
     const mote_simulation_start *start;
@@ -116,7 +116,7 @@ static mote_status depth_of(void *context, const uint32_t body[2], double above,
     return status;
 }
 
-/* Turns a coordinate of the velocity back at a wall. */
+/* Reflects a coordinate of the velocity at a wall. */
 static void bounce(simulation *s, double mass, double centre, double room, double *velocity,
                    double *lost)
 {
@@ -185,7 +185,7 @@ static mote_status watch(const simulation *s, uint32_t k)
     return s->start->watch(s->start->context, &view);
 }
 
-/* One step: what is, what the method says, what follows. */
+/* One step: the truth, the method's answers, the response. */
 static mote_status step(simulation *s, uint32_t k)
 {
     const mote_stage_kind *kind = s->simulator->kind;

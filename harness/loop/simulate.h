@@ -1,7 +1,7 @@
 /* The closed loop (paper section 4): rigid bodies whose surfaces deform as a scenario
-   prescribes move freely, and where a method says that two of them touch, those collide. What
-   the method lets pass is found by an exact method beside it. Two bodies and many go the same
-   way; many also turn back at the walls of their box. */
+   prescribes move freely, and where a method says that two of them touch, those collide. An
+   exact method runs beside it and shows which contacts it misses. The same code simulates
+   two bodies and many; many are also reflected at the walls of their box. */
 #ifndef MOTE_HARNESS_SIMULATE_H
 #define MOTE_HARNESS_SIMULATE_H
 

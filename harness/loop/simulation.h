@@ -1,4 +1,4 @@
-/* What a simulation is told, what it lets be seen, and what it counts. */
+/* The options of a simulation, what a caller can watch, and its results. */
 #ifndef MOTE_HARNESS_SIMULATION_H
 #define MOTE_HARNESS_SIMULATION_H
 
@@ -7,8 +7,8 @@
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"
 
-/* Truth is not asked where a lower bound of the distance of two bodies exceeds this part of L.
- */
+/* The truth is not computed where a lower bound of the distance of two bodies exceeds this
+   part of L. */
 #define MOTE_SIMULATION_NEAR 0.05
 
 /* Frames a step, and steps, at most. */
@@ -20,7 +20,7 @@ typedef struct mote_simulation_options {
     double restitution; /* 0 .. 1 */
     double tolerance;   /* of L, above 0, at most MOTE_SIMULATION_NEAR: contact */
     mote_vec3 gravity;  /* L a frame squared; 0: none */
-    double time_step;   /* frames that motion and deformation go on by in a step, > 0 */
+    double time_step;   /* by how many frames motion and deformation advance in a step, > 0 */
 } mote_simulation_options;
 
 /* Density 1, restitution 1, no gravity, the scenario's tolerance or, when that is 0, 0.005, a
@@ -42,7 +42,7 @@ typedef struct mote_simulation_view {
     const mote_bodies_pair *said;  /* the method's answers for the near pairs, [said_count] */
     size_t said_count;
     const mote_probe *method; /* of two bodies, asked just now: mote_probe_particles; or NULL */
-    bool contact;             /* the method says that some pair is in contact */
+    bool contact;             /* the method reports a contact of some pair */
     bool truth;               /* some pair is */
 } mote_simulation_view;
 
@@ -55,7 +55,7 @@ typedef struct mote_simulation_start {
     uint32_t first; /* frame whose deformation two bodies show first (1 .. frames); after the
                        last frame their deformation runs backwards. Many begin with frame 1 */
     uint32_t steps; /* of options.time_step, >= 1 */
-    double apart;   /* end early when two bodies, moving apart, are so far apart for certain
+    double apart;   /* end early when two bodies move apart and are certainly this far apart
                        (absolute); 0: never */
     uint64_t seed;  /* of the method */
     bool
@@ -64,19 +64,20 @@ typedef struct mote_simulation_start {
     void *context;               /* what watch is called with */
 } mote_simulation_start;
 
-/* Steps are counted once for each pair that is in contact, or is said to be. */
+/* Steps are counted once for each pair that is in contact or reported to be. */
 typedef struct mote_simulation_result {
     uint32_t steps;         /* made */
     uint64_t contact_steps; /* truth is a contact */
     uint64_t missed_steps;  /* of them the method said none */
-    uint64_t false_steps;   /* the method said contact, truth none */
-    uint64_t truth_asked;   /* steps at which truth was asked; it was not needed at others */
-    uint64_t responses;     /* impacts that changed the motion */
-    uint64_t bounces;       /* off the walls */
-    uint64_t approaches;    /* maximal runs of steps at which truth is a contact */
-    uint64_t passes;        /* of them the method never said contact: passes through */
-    uint64_t deep_passes;   /* of them a vertex of one body was inside the other */
-    uint64_t delay_sum, delay_max; /* steps from a run's begin to its first report */
+    uint64_t false_steps;   /* the method reported a contact, the truth is none */
+    uint64_t
+        truth_asked;    /* steps at which the truth was computed; at others it was not needed */
+    uint64_t responses; /* impacts that changed the motion */
+    uint64_t bounces;   /* off the walls */
+    uint64_t approaches;           /* maximal runs of steps at which truth is a contact */
+    uint64_t passes;               /* of these, never reported by the method: passes through */
+    uint64_t deep_passes;          /* of these, with a vertex of one body inside the other */
+    uint64_t delay_sum, delay_max; /* steps from the beginning of a run to its first report */
     double depth_max;              /* of L: deepest vertex inside another body */
     double depth_passes;           /* the same in passes only */
     double energy_drift;   /* largest change not due to impacts below restitution 1, relative */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A simulator of so many bodies and shapes, which are still to be filled in. */
+/* A simulator with room for this many bodies and shapes, which the caller fills in. */
 static mote_simulator *new_simulator(uint32_t count, uint32_t shape_count,
                                      const mote_method_choice *choice,
                                      const mote_simulation_options *options, double length)

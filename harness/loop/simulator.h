@@ -1,4 +1,4 @@
-/* The bodies of a simulation with their masses, and who answers for them. */
+/* The bodies of a simulation with their masses, and the methods that answer for them. */
 #ifndef MOTE_HARNESS_SIMULATOR_H
 #define MOTE_HARNESS_SIMULATOR_H
 

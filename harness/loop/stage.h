@@ -1,6 +1,7 @@
-/* What a closed loop of two bodies and one of many do not share: how the scenario deforms the
-   bodies, which of them are near, and who answers for those. For two bodies nothing has to be
-   found, and truth is not asked while they are far apart. Private to harness/loop. */
+/* What a closed loop of two bodies and one of many do not share: how the scenario deforms
+   the bodies, which of them are near, and what answers for those. For two bodies no near
+   pairs have to be found, and the truth is not computed while they are far apart. Private to
+   harness/loop. */
 #ifndef MOTE_HARNESS_STAGE_H
 #define MOTE_HARNESS_STAGE_H
 
@@ -22,8 +23,9 @@ typedef struct mote_stage_kind {
     const mote_body_state *(*show)(void *state, uint32_t k, const mote_rigid_state *states);
     /* The method's answers for the bodies shown; its time is added to *ns. */
     mote_status (*ask_method)(void *state, mote_stage_pairs *said, double *ns);
-    /* The exact method's; a near pair that is missing is not in contact. *asked is raised where
-       it had to be asked. *lower: proven of the smallest distance, 0 where nothing is. */
+    /* The exact method's; a near pair that is missing is not in contact. *asked is
+       incremented where it had to be computed. *lower: a proven lower bound of the smallest
+       distance, 0 where there is none. */
     mote_status (*ask_truth)(void *state, mote_stage_pairs *truth, uint64_t *asked,
                              double *lower);
     /* Of a method that has them, after ask_method: the probe of two bodies; else NULL. */

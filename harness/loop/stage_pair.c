@@ -101,8 +101,7 @@ static mote_status pair_restart(void *state, const mote_simulation_start *start)
     return create_probe(s, &s->choice, start->seed, &s->method);
 }
 
-/* The place among the frames whose deformation step k shows: forwards, then backwards, and so
-   on. */
+/* The frame whose deformation step k shows: forwards, then backwards, and so on. */
 static double shown_place(const pair_stage *s, uint32_t k)
 {
     if (s->scenario->frames == 1)
@@ -173,7 +172,7 @@ static const mote_body_state *pair_show(void *state, uint32_t k, const mote_rigi
     return s->frame.body;
 }
 
-/* Of this thread's processor time: simulations run beside others. */
+/* In processor time of this thread, since simulations run in parallel. */
 static double now_ns(void)
 {
     struct timespec t;
@@ -191,7 +190,7 @@ static mote_status pair_ask_method(void *state, mote_stage_pairs *said, double *
     if (status != MOTE_OK)
         return status;
     if (!answer->has_contact && !answer->has_distance)
-        return mote_fail(MOTE_EUNSUPPORTED, "%s says neither distance nor contact",
+        return mote_fail(MOTE_EUNSUPPORTED, "%s gives neither distance nor contact",
                          s->choice.text);
     if (!answer->has_contact)
         answer->contact = answer->distance <= tolerance_of(s);

@@ -88,7 +88,7 @@ static mote_status ask(mote_bodies_engine *engine, const mote_body_state *states
     return status;
 }
 
-/* Methods may work with several threads: theirs is the time that passes. */
+/* Methods may use several threads, so real time is measured. */
 static mote_status scene_ask_method(void *state, mote_stage_pairs *said, double *ns)
 {
     scene_stage *s = state;

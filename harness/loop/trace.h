@@ -1,14 +1,14 @@
-/* A simulated run as a scenario file, so that every method can be asked of the same frames. */
+/* A simulation as a scenario file, so that every method can be run over the same frames. */
 #ifndef MOTE_HARNESS_TRACE_H
 #define MOTE_HARNESS_TRACE_H
 
 #include "harness/loop/simulator.h"
 
-/* Writes the scenario with a key pose for each of states[count][2], count >= 2, in place of its
-   motion, and the tolerance of the simulation; deformation starts with frame 1. Positions come
-   back to some 1e-16 L. Names of meshes and the active interval are right in the new file
-   (harness/run/scenario_save.h). MOTE_EIO; MOTE_EINVAL where a body deforms, but not by a frame
-   a step or beyond the last frame: a scenario has no such deformation. */
+/* Writes the scenario with a key pose for each of states[count][2], count >= 2, in place of
+   its motion, and the tolerance of the simulation; deformation starts with frame 1.
+   Positions come back to some 1e-16 L. Names of meshes and the active interval are right in
+   the new file (harness/run/scenario_save.h). MOTE_EIO; MOTE_EINVAL where a body deforms,
+   but not by a frame a step or beyond the last frame: a scenario cannot say that. */
 mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
                              const mote_rigid_state *states, uint32_t count,
                              const mote_simulation_options *options, const char *path);
