@@ -4,7 +4,7 @@
 #define MOTE_HARNESS_REPORT_ROWS_H
 
 #include "harness/report/report.h"
-#include "harness/summary/row_note.h"
+#include "harness/summary/table.h"
 
 /* The rows in the order in which they are shown: block by block, within a block by median total
    time, rows without a time that can be compared last. Part of mote_report_gather. */

@@ -1,6 +1,7 @@
 #include "harness/summary/column.h"
 
 #include "harness/base/record.h"
+#include "harness/summary/column_value.h"
 #include "harness/summary/dominance.h"
 
 #include <string.h>
@@ -15,12 +16,6 @@
     static double name(const mote_summary_row *row)                                            \
     {                                                                                          \
         return (double)(expression);                                                           \
-    }
-/* A value stored in the row's cells as it is. */
-#define DEFINE_STORED(name, key)                                                               \
-    static json_t *name(const mote_summary_row *row)                                           \
-    {                                                                                          \
-        return json_incref(json_object_get(row->first->json, key));                            \
     }
 
 static const char *label_of(const mote_summary *summary, size_t index)
@@ -37,7 +32,7 @@ DEFINE_TEXT(label, row->label)
 DEFINE_TEXT(status, mote_cell_status_names[row->status])
 DEFINE_TEXT(machine, row->first->machine[0] ? row->first->machine : NULL)
 DEFINE_TEXT(ask, row->first->ask[0] ? row->first->ask : NULL)
-DEFINE_TEXT(reason, json_string_value(json_object_get(row->first->json, "reason")))
+DEFINE_TEXT(reason, mote_summary_row_reason(row))
 DEFINE_TEXT(accounting, row->given ? "given" : "charged")
 DEFINE_TEXT(ratio_to, label_of(summary, row->ratio.to))
 DEFINE_TEXT(ratio_given_to, label_of(summary, row->ratio_given.to))
@@ -54,13 +49,6 @@ DEFINE_NUMBER(jobs, row->jobs)
 DEFINE_NUMBER(times_comparable, row->jobs == 1)
 DEFINE_NUMBER(on_front, mote_on_front(row))
 DEFINE_NUMBER(stands_for_method, row->stands_for_method)
-
-DEFINE_STORED(parameters, "parameters")
-DEFINE_STORED(triangles, "triangles")
-DEFINE_STORED(vertices, "vertices")
-DEFINE_STORED(tolerance, "tolerance")
-DEFINE_STORED(shapes, "shapes")
-DEFINE_STORED(near_pairs_wanted, "near_pairs_wanted")
 
 static json_t *bodies(const mote_summary_row *row)
 {
@@ -89,75 +77,9 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
     return count > 0 ? row->heap_live_bytes / count : MOTE_NONE;
 }
 
-/* Mean and largest of each count over the frames of all replicates. */
-static json_t *counters(const mote_summary_row *row)
-{
-    json_t *object = json_object();
-    for (int k = 0; k < MOTE_STORED_COUNTS && row->finished > 0; ++k) {
-        double sum = 0, max = 0, all = 0;
-        for (size_t r = 0; r < row->replicates; ++r) {
-            sum += row->cells[r].counts[k].sum;
-            max = row->cells[r].counts[k].max > max ? row->cells[r].counts[k].max : max;
-            all += (double)row->cells[r].frames;
-        }
-        (void)json_object_set_new(object, mote_stored_count_names[k],
-                                  json_pack("{s:f, s:f}", "mean", sum / all, "max", max));
-    }
-    return object;
-}
-
-/* What comparisons with another run are made from. */
-static json_t *processes(const mote_summary_row *row)
-{
-    json_t *list = json_array();
-    for (size_t r = 0; r < row->replicates; ++r) {
-        const mote_stored_cell *cell = &row->cells[r];
-        if (cell->status != MOTE_CELL_OK)
-            continue;
-        json_t *counts = json_object();
-        for (int k = 0; k < MOTE_STORED_COUNTS; ++k)
-            (void)json_object_set_new(counts, mote_stored_count_names[k],
-                                      json_real(cell->counts[k].sum));
-        (void)json_array_append_new(
-            list, json_pack("{s:i, s:o, s:o, s:o}", "replicate", (int)cell->replicate,
-                            "median_ns", mote_json_number(row->processes[r].median), "ratio",
-                            mote_json_number(row->processes[r].ratio), "counters", counts));
-    }
-    return list;
-}
-
-static json_t *quiet(const mote_summary_row *row)
-{
-    json_t *totals = json_array(), *ratios = json_array();
-    for (int k = 0; k < MOTE_QUIET_GROUPS; ++k) {
-        (void)json_array_append_new(totals, mote_json_number(row->quiet.total[k]));
-        (void)json_array_append_new(ratios, mote_json_number(row->quiet.ratio[k]));
-    }
-    return json_pack("{s:o, s:o}", "total_ns", totals, "ratio", ratios);
-}
-
 #define TWO_WHOLE                                                                              \
     "{\"type\": \"array\", \"items\": {\"type\": \"integer\", \"minimum\": 0}, "               \
     "\"minItems\": 2, \"maxItems\": 2}"
-
-static const char counters_schema[] =
-    "{\"type\": \"object\", \"additionalProperties\": {\"type\": \"object\", \"properties\": "
-    "{\"mean\": {\"type\": \"number\"}, \"max\": {\"type\": \"number\"}}, \"required\": "
-    "[\"mean\", \"max\"]}}";
-
-static const char processes_schema[] =
-    "{\"type\": \"array\", \"items\": {\"type\": \"object\", \"properties\": {\"replicate\": "
-    "{\"type\": \"integer\"}, \"median_ns\": {\"type\": [\"number\", \"null\"]}, \"ratio\": "
-    "{\"type\": [\"number\", \"null\"]}, \"counters\": {\"type\": \"object\", "
-    "\"additionalProperties\": {\"type\": \"number\"}}}, \"required\": [\"replicate\", "
-    "\"median_ns\", \"ratio\", \"counters\"]}}";
-
-static const char quiet_schema[] =
-    "{\"type\": \"object\", \"properties\": {\"total_ns\": {\"type\": \"array\", \"items\": "
-    "{\"type\": [\"number\", \"null\"]}, \"minItems\": 5, \"maxItems\": 5}, \"ratio\": "
-    "{\"type\": "
-    "\"array\", \"items\": {\"type\": [\"number\", \"null\"]}, \"minItems\": 5, \"maxItems\": "
-    "5}}, \"required\": [\"total_ns\", \"ratio\"]}";
 
 #define AT(member) .offset = offsetof(mote_summary_row, member)
 #define PLACE(table, report, brief)                                                            \
@@ -477,19 +399,19 @@ const mote_column mote_columns[] = {
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Every parameter with its value, defaults included",
-     .json = parameters,
+     .stored = true,
      .schema = "{\"type\": \"object\"}"},
     {.key = "triangles",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
-     .json = triangles,
+     .stored = true,
      .schema = TWO_WHOLE},
     {.key = "vertices",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
-     .json = vertices,
+     .stored = true,
      .schema = TWO_WHOLE},
     {.key = "bodies",
      .type = MOTE_COLUMN_OBJECT,
@@ -503,14 +425,14 @@ const mote_column mote_columns[] = {
      .optional = true,
      .unit = "",
      .meaning = "How many shapes these have",
-     .json = shapes,
+     .stored = true,
      .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
     {.key = "near_pairs_wanted",
      .type = MOTE_COLUMN_OBJECT,
      .optional = true,
      .unit = "pairs",
      .meaning = "Near pairs a body that their scenario asks for; null: it gives a box",
-     .json = near_pairs_wanted,
+     .stored = true,
      .schema = "{\"type\": [\"number\", \"null\"]}"},
     {.key = "near_pairs",
      .type = MOTE_COLUMN_OBJECT,
@@ -546,7 +468,7 @@ const mote_column mote_columns[] = {
      .optional = true,
      .unit = "",
      .meaning = "How far apart bodies in contact may be",
-     .json = tolerance,
+     .stored = true,
      .schema = "{\"type\": \"number\"}"},
     {.key = "reason",
      .optional = true,
@@ -574,23 +496,23 @@ const mote_column mote_columns[] = {
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Mean and largest of each deterministic count over the frames",
-     .json = counters,
-     .schema = counters_schema},
+     .json = mote_column_counters,
+     .schema = MOTE_COUNTERS_SCHEMA},
     {.key = "processes",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning =
          "Each replicate: the median of its total, its paired ratio to fcl-aabb, the sums of "
          "its counts",
-     .json = processes,
-     .schema = processes_schema},
+     .json = mote_column_processes,
+     .schema = MOTE_PROCESSES_SCHEMA},
     {.key = "quiet",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Of each frame the fastest of a fifth of the replicates, then the median over "
                 "frames; null below ten replicates",
-     .json = quiet,
-     .schema = quiet_schema},
+     .json = mote_column_quiet,
+     .schema = MOTE_QUIET_SCHEMA},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 

@@ -51,6 +51,7 @@ typedef struct mote_column {
     double (*number)(const mote_summary_row *row);
     const char *(*text)(const mote_summary *summary, const mote_summary_row *row);
     json_t *(*json)(const mote_summary_row *row); /* new reference */
+    bool stored;        /* as it stands in the row's cells, under the same key */
     const char *schema; /* JSON of its schema, where the type does not say enough */
 
     /* How it is shown, for those in a view. */

@@ -147,8 +147,9 @@ static void print_failures(const mote_summary *summary, size_t start, size_t end
         if (row->status == MOTE_CELL_OK)
             continue;
         mote_text words = {0};
+        const char *reason = mote_summary_row_reason(row);
         mote_text_add(&words, "%s %s: %s", row->label, mote_cell_status_names[row->status],
-                      mote_table_reason(row));
+                      reason ? reason : "");
         print_words(&words, out);
         free(words.data);
     }

@@ -13,6 +13,8 @@ static json_t *value_json(const mote_column *column, const mote_summary *summary
 {
     if (column->json)
         return column->json(row);
+    if (column->stored)
+        return json_incref(json_object_get(row->first->json, column->key));
     if (column->type == MOTE_COLUMN_TEXT) {
         const char *text = mote_column_text(column, summary, row);
         return text ? json_string(text) : NULL;

@@ -279,6 +279,11 @@ bool mote_summary_row_measured(const mote_summary_row *row)
     return row->status == MOTE_CELL_OK && row->jobs == 1 && row->total.median > 0;
 }
 
+const char *mote_summary_row_reason(const mote_summary_row *row)
+{
+    return json_string_value(json_object_get(row->first->json, "reason"));
+}
+
 bool mote_summary_is_fcl(const mote_summary_row *row)
 {
     return strncmp(row->first->method, "fcl-", 4) == 0;

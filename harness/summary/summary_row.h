@@ -103,6 +103,9 @@ typedef enum mote_part { MOTE_PART_TOTAL, MOTE_PART_GIVEN } mote_part;
 double mote_summary_median_within(const mote_summary_row *row, uint32_t first, uint32_t last,
                                   mote_part part);
 
+/* Why a row that is not ok has no figures; NULL where nobody says. */
+const char *mote_summary_row_reason(const mote_summary_row *row);
+
 /* Whether the row's method is one of FCL's. */
 bool mote_summary_is_fcl(const mote_summary_row *row);
 

@@ -101,6 +101,22 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
                        several ? row->first->machine : "");
 }
 
+bool mote_row_note(const mote_row_facts *facts, int i, char text[MOTE_ROW_NOTE])
+{
+    const bool applies[MOTE_ROW_NOTES] = {facts->stride > 1, facts->jobs > 1,
+                                          facts->replicates_failed > 0 &&
+                                              facts->replicates > 0};
+    if (applies[i] && i == 0)
+        (void)snprintf(text, MOTE_ROW_NOTE, "every %.0fth frame", facts->stride);
+    else if (applies[i] && i == 1)
+        (void)snprintf(text, MOTE_ROW_NOTE, "times not comparable: %.0f cells at once",
+                       facts->jobs);
+    else if (applies[i])
+        (void)snprintf(text, MOTE_ROW_NOTE, "%.0f of %.0f replicates ended badly",
+                       facts->replicates_failed, facts->replicates + facts->replicates_failed);
+    return applies[i];
+}
+
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
 {
     const mote_row_facts facts = {.stride = row->first->stride,
@@ -111,18 +127,13 @@ bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE
     return mote_row_note(&facts, i, text);
 }
 
-const char *mote_table_reason(const mote_summary_row *row)
-{
-    const char *reason = json_string_value(json_object_get(row->first->json, "reason"));
-    return reason ? reason : "";
-}
-
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
     (void)fprintf(out, "%-*s", width, row->label);
     if (row->status != MOTE_CELL_OK) {
+        const char *reason = mote_summary_row_reason(row);
         (void)fprintf(out, " %s: %s\n", mote_cell_status_names[row->status],
-                      mote_table_reason(row));
+                      reason ? reason : "");
         return;
     }
     mote_table_values(MOTE_VIEW_TABLE, row, out);

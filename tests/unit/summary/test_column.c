@@ -53,7 +53,7 @@ TEST(columns_have_names_that_differ_and_a_source_each)
     for (size_t i = 0; i < mote_column_count; ++i) {
         const mote_column *column = &mote_columns[i];
         const int sources = (column->offset > 0) + (column->number != NULL) +
-                            (column->text != NULL) + (column->json != NULL);
+                            (column->text != NULL) + (column->json != NULL) + column->stored;
         assert_ptr_equal(mote_column_find(column->object, column->key), column);
         assert_int_equal(sources, 1);
         assert_non_null(column->unit);
