@@ -30,7 +30,7 @@ if(MOTE_SANITIZE)
   target_compile_options(mote_flags INTERFACE -fsanitize=address,undefined
                          -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
   target_link_options(mote_flags INTERFACE -fsanitize=address,undefined)
-  # What sanitizers add hides from gcc what it knows of sizes and values: these warn in vain. The
+  # With sanitizers gcc loses track of sizes and values, so that these warnings are false. The
   # release build has them.
   target_compile_options(mote_flags INTERFACE
     $<$<C_COMPILER_ID:GNU>:-Wno-format-truncation;-Wno-maybe-uninitialized>)

@@ -19,7 +19,7 @@ foreach(name ${public_headers})
   file(READ ${header} text)
   string(REGEX REPLACE "#include \"core/([a-z]+/)?" "#include \"mote/" text "${text}")
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/include/mote/${name}.h CONTENT "${text}" @ONLY)
-  # What it declares, which starts in the first column, is what the shared library exports.
+  # The functions that they declare, in the first column, are what the shared library exports.
   string(REGEX MATCHALL "\n[a-z][^\n;(]*[ *]mote_[a-z0-9_]+(\\(|\\[\\];)" declared "${text}")
   list(FILTER declared EXCLUDE REGEX "^\n(static|typedef) ")
   list(TRANSFORM declared REPLACE "^.*[ *](mote_[a-z0-9_]+).*$" "\\1")

@@ -31,8 +31,8 @@ fi
 errors=$(mktemp)
 trap 'rm -f "$errors"' EXIT
 
-# apt ARGUMENT...: apt-get, waiting for whoever uses it now. By itself it waits for the lock of dpkg
-# only; for the lock of its lists and archives it is called again, for ten minutes.
+# apt ARGUMENT...: apt-get, waiting while another process uses it. By itself it waits for the
+# lock of dpkg only; for the lock of its lists and archives it is called again, for ten minutes.
 apt() {
     tries=60
     until $run env DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=600 "$@" \

@@ -2,7 +2,7 @@
 # one frame and its label; BASE.dat has a line a frame.
 high = 440
 load plots."/style.gp"
-# Before there are ranges, which it would keep to.
+# Before any ranges are set, since it would keep to them.
 stats data using 1 nooutput
 load plots."/solid.gp"
 set xrange [-1:1]

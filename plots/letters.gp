@@ -4,7 +4,7 @@
 wide = 640
 high = 600
 load plots."/style.gp"
-# Before there are ranges, which it would keep to.
+# Before any ranges are set, since it would keep to them.
 stats data using 1 nooutput
 load plots."/solid.gp"
 set view 0,0,2.1

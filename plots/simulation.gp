@@ -7,7 +7,7 @@ high = 480
 load plots."/style.gp"
 array line[5]
 do for [k=1:5] {
-    # Before there are ranges, which it would keep to.
+    # Before any ranges are set, since it would keep to them.
     stats data using k nooutput
     line[k] = STATS_max
 }
@@ -34,7 +34,7 @@ do for [k=0:int(line[1])-1] {
     set xrange [-1:1]
     set yrange [-0.75:0.75]
     set zrange [-3:3]
-    # The begin of a contact that is reported stands still for a moment.
+    # The picture at the beginning of a reported contact is shown longer.
     do for [again=1:(now[1] && !before ? 6 : 1)] {
         set multiplot
         eval show_heading

@@ -1,7 +1,7 @@
 #!/bin/sh
 # perf.sh check MOTE OUT: measures a fixed set into OUT and compares it with results/reference. Fails
-#   only where something is worse twice, measured anew, and says where nothing can be said.
-# perf.sh accept MOTE OUT WHY: measures it and makes it the reference, with a line in the history.
+#   only where something is worse twice, measured anew, and names what stays undecided. perf.sh
+# accept MOTE OUT WHY: measures it and makes it the reference, with a line in the history.
 set -eu
 action=$1
 mote=$2

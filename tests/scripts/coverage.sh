@@ -11,7 +11,7 @@ mkdir -p "$out"
 [ -n "$only" ] || find "$build" -name '*.gcda' -delete
 (cd "$build" && ctest -j "$jobs" --output-on-failure ${only:+-R "$only"}) >"$out/tests.log" 2>&1 ||
     { sed -n '/tests failed/,$p' "$out/tests.log"; failed=1; }
-# Threads count without a lock: a count that went wrong by it is below 0, and its line left out.
+# Threads count without a lock; a count that became negative by this is left out with its line.
 gcovr --gcov-ignore-parse-errors --root . --filter '(core|harness)/' -j "$jobs" \
     --exclude-throw-branches --exclude-unreachable-branches \
     --csv "$out/coverage.csv" --html-details "$out/coverage.html" "$build" || exit 1

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Keeps what was tried as committed evidence, and writes results/reference/reliability.md again.
+# Adds the results of reliability studies to results/reference, as committed evidence, and
+# writes results/reference/reliability.md again.
 #   record.sh CHECKS.tsv [COMMIT [DATE]]      lines of {check, tried, failed}, as make reliability
 #                                             leaves them; COMMIT and DATE: of what was tested
 #   record.sh --page                          writes the page again from what is stored
