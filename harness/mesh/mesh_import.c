@@ -46,10 +46,18 @@ static mote_status read_text(const char *path, const char *text, size_t size, bo
     return status;
 }
 
+static bool is_off_file(const char *path)
+{
+    return has_ending(path, ".off");
+}
+
+static bool is_read_by_us(const char *path)
+{
+    return is_off_file(path) || has_ending(path, ".obj");
+}
+
 static mote_status read_soup(const char *path, mote_soup *soup)
 {
-    const bool is_obj = has_ending(path, ".obj");
-    const bool is_off = has_ending(path, ".off");
     char *text;
     size_t size;
     mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
@@ -57,12 +65,12 @@ static mote_status read_soup(const char *path, mote_soup *soup)
         return status;
     if (size == 0)
         status = mote_fail(MOTE_EINVAL, "%s: an empty file, no face in it; give a mesh", path);
-    else if (is_obj || is_off)
-        status = read_text(path, text, size, is_off, soup);
+    else if (is_read_by_us(path))
+        status = read_text(path, text, size, is_off_file(path), soup);
     else
         status = mote_soup_check_text(path, text, size);
     free(text);
-    if (status != MOTE_OK || is_obj || is_off)
+    if (status != MOTE_OK || is_read_by_us(path))
         return status;
     status = mote_soup_read_assimp(path, soup);
     if (status == MOTE_OK)
@@ -210,7 +218,9 @@ mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *im
     if (status == MOTE_OK)
         status = make_mesh(path, output, got, mesh, import);
     else if (strncmp(mote_error_text(), reader, strlen(reader)) == 0)
-        status = mote_fail(status, "%s; give the mesh in OBJ or OFF", mote_error_text());
+        status = mote_fail(status, "%s; give %s", mote_error_text(),
+                           is_read_by_us(path) ? "triangles, or fewer of them"
+                                               : "the mesh in OBJ or OFF");
     free(output);
     free(reader);
     return status;

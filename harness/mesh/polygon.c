@@ -128,10 +128,14 @@ static bool is_on_segment(const double p[2], const double a[2], const double b[2
     return is_between(p[0], a[0], b[0]) && is_between(p[1], a[1], b[1]);
 }
 
-/* Whether two segments have a point in common. */
+/* Whether two segments have a point in common. Most are told apart by their second
+   coordinates: edges that are compared overlap in the first. */
 static bool segments_meet(const double a[2], const double b[2], const double c[2],
                           const double d[2])
 {
+    if ((a[1] < c[1] && a[1] < d[1] && b[1] < c[1] && b[1] < d[1]) ||
+        (a[1] > c[1] && a[1] > d[1] && b[1] > c[1] && b[1] > d[1]))
+        return false;
     const int ac = mote_orientation(a, b, c), ad = mote_orientation(a, b, d);
     const int ca = mote_orientation(c, d, a), cb = mote_orientation(c, d, b);
     if (ac * ad < 0 && ca * cb < 0)
@@ -201,14 +205,18 @@ static void orient(outline *o, uint32_t start)
 static bool is_ear(const outline *o, uint32_t i)
 {
     const uint32_t before = o->previous[i], after = o->next[i];
+    const double *a = o->at[before], *b = o->at[i], *c = o->at[after];
+    const double low[2] = {fmin(a[0], fmin(b[0], c[0])), fmin(a[1], fmin(b[1], c[1]))};
+    const double high[2] = {fmax(a[0], fmax(b[0], c[0])), fmax(a[1], fmax(b[1], c[1]))};
     if (turn_at(o, i) <= 0)
         return false;
     for (uint32_t k = 0; k < o->obstacle_count; ++k) {
         const uint32_t j = o->obstacle[k];
-        if (j != before && j != i && j != after &&
-            mote_orientation(o->at[before], o->at[i], o->at[j]) >= 0 &&
-            mote_orientation(o->at[i], o->at[after], o->at[j]) >= 0 &&
-            mote_orientation(o->at[after], o->at[before], o->at[j]) >= 0)
+        const double *p = o->at[j];
+        if (p[0] < low[0] || p[0] > high[0] || p[1] < low[1] || p[1] > high[1])
+            continue;
+        if (j != before && j != i && j != after && mote_orientation(a, b, p) >= 0 &&
+            mote_orientation(b, c, p) >= 0 && mote_orientation(c, a, p) >= 0)
             return false;
     }
     return true;

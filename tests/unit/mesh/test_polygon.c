@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #define CORNERS_MAX 64
 
@@ -338,4 +339,36 @@ TEST(polygon_that_is_not_flat_is_seen_along_some_line)
     }
     uint32_t many[CORNERS_MAX][3];
     assert_int_equal(mote_polygon_triangulate(helix, 32, many), MOTE_EINVAL);
+}
+
+/* A comb of teeth side by side, one unit of width with height 0.5 and one with 5 each, seen
+ * along the one axis or the other. */
+TEST(polygon_of_ten_thousand_corners_takes_seconds_at_most)
+{
+    enum { TEETH = 2500, CORNERS = 4 * TEETH + 2 };
+    static double xyz[3 * CORNERS];
+    static uint32_t triangles[CORNERS][3];
+    for (int turned = 0; turned < 2; ++turned) {
+        for (size_t i = 0; i < CORNERS; ++i) {
+            const size_t tooth = i / 4, k = i % 4;
+            double at[2] = {2.0 * (double)tooth + (k >= 2), k == 0 || k == 3 ? 5 : 0.5};
+            if (tooth == TEETH) {
+                at[0] = k == 0 ? 2 * TEETH : -1;
+                at[1] = 0;
+            }
+            xyz[3 * i + (size_t)turned] = at[0];
+            xyz[3 * i + (size_t)!turned] = at[1];
+            xyz[3 * i + 2] = 0;
+        }
+        const clock_t start = clock();
+        assert_int_equal(mote_polygon_triangulate(xyz, CORNERS, triangles), MOTE_OK);
+        assert_true(clock() - start < 10 * CLOCKS_PER_SEC);
+        double area = 0;
+        for (size_t t = 0; t + 2 < CORNERS; ++t) {
+            const double *a = xyz + 3 * triangles[t][0], *b = xyz + 3 * triangles[t][1],
+                         *c = xyz + 3 * triangles[t][2];
+            area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+        }
+        assert_true(fabs(fabs(area) - 5.5 * TEETH) < 1e-9 * fabs(area));
+    }
 }
