@@ -55,7 +55,7 @@ static mote_status write_partial(const char *path, const char *partial,
         return mote_fail(MOTE_EIO,
                          "%s: cannot be created: %s; name a file in a folder that exists "
                          "and can be written",
-                         partial, strerror(errno));
+                         path, strerror(errno));
     bool written = write_in_c_locale(file, positions, mesh) && fsync(fileno(file)) == 0;
     int error = errno;
     if (fclose(file) != 0 && written) {
@@ -78,7 +78,7 @@ mote_status mote_obj_print(FILE *file, const mote_vec3 *positions, const mote_me
     const mote_status status = check_positions(points, mesh->vertex_count);
     if (status != MOTE_OK || write_in_c_locale(file, points, mesh))
         return status;
-    return mote_fail(MOTE_EIO, "obj: cannot be written: %s", strerror(errno));
+    return mote_fail(MOTE_EIO, "cannot be written: %s", strerror(errno));
 }
 
 mote_status mote_obj_write(const char *path, const mote_vec3 *positions, const mote_mesh *mesh)

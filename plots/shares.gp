@@ -2,7 +2,7 @@
 # cumulated shares of deform, update and query, its name, its mean total in us.
 stats data using 1 nooutput
 rows = int(STATS_max)
-high = 105 + 22 * rows
+high = 105 + 22 * (rows < 3 ? 3 : rows) # with fewer, gnuplot warns of no room for the key
 load plots."/style.gp"
 
 set lmargin at screen 0.43

@@ -112,6 +112,12 @@ bool mote_path_is_stream(const char *path)
            (!S_ISREG(info.st_mode) || own_stream(&info) >= 0);
 }
 
+bool mote_path_is_output(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && own_stream(&info) == STDOUT_FILENO;
+}
+
 int mote_stream_open(const char *path)
 {
     struct stat info;
@@ -183,7 +189,10 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
     char *beside = mote_format("%s.%ld.part", target, (long)getpid());
     mote_status status = MOTE_OK;
     if (!replace_file(target, beside, data, size))
-        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
+        status = mote_fail(MOTE_EIO,
+                           "%s: cannot be written: %s; name a file in a folder that exists "
+                           "and can be written to",
+                           path, strerror(errno));
     free(target);
     free(beside);
     return status;

@@ -26,6 +26,9 @@ mote_status mote_file_write(const char *path, const void *data, size_t size);
    standard output or error goes to. Nothing can be put in its place, nor beside it. */
 bool mote_path_is_stream(const char *path);
 
+/* Whether a path is that of what this program's standard output goes to. */
+bool mote_path_is_output(const char *path);
+
 /* A descriptor for writing to a stream, which the caller closes; -1 with errno. */
 int mote_stream_open(const char *path);
 

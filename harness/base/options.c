@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -71,16 +72,28 @@ static void list_options(const mote_option_reader *reader, char *text, size_t si
     }
 }
 
+mote_option_reader mote_option_begin(const mote_option *options, int argc, char **argv)
+{
+    size_t count = 0;
+    while (options[count].name)
+        ++count;
+    const mote_option_reader reader = {options, count, argc, argv, 1, false};
+    return reader;
+}
+
 int mote_option_next(mote_option_reader *reader, const char **value)
 {
     *value = NULL;
-    if (reader->next == 0)
-        reader->next = 1; /* argv[0] is the sub-command */
+    if (!reader->ended && reader->next < reader->argc &&
+        strcmp(reader->argv[reader->next], "--") == 0) {
+        reader->ended = true;
+        reader->next += 1;
+    }
     if (reader->next >= reader->argc)
         return MOTE_OPTION_END;
     const char *command = reader->argv[0];
     const char *argument = reader->argv[reader->next++];
-    if (argument[0] != '-' || argument[1] == '\0') {
+    if (reader->ended || argument[0] != '-' || argument[1] == '\0') {
         *value = argument;
         return MOTE_OPTION_PLAIN;
     }
@@ -119,7 +132,7 @@ const mote_option mote_options_study[] = {
 
 int mote_study_read(int argc, char **argv, const char **directory, bool *quick)
 {
-    mote_option_reader reader = {mote_options_study, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_study, argc, argv);
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -136,7 +149,7 @@ int mote_study_read(int argc, char **argv, const char **directory, bool *quick)
 
 int mote_directory_argument(int argc, char **argv, const char **directory)
 {
-    mote_option_reader reader = {NULL, 0, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_none, argc, argv);
     const char *value, *given = NULL;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -187,6 +200,20 @@ bool mote_read_triple(const char *text, double value[3])
         text = end + 1;
     }
     return true;
+}
+
+bool mote_read_direction(const char *text, double direction[3])
+{
+    double largest = 0;
+    if (!mote_read_triple(text, direction))
+        return false;
+    for (int i = 0; i < 3; ++i)
+        largest = fmax(largest, fabs(direction[i]));
+    int exponent;
+    (void)frexp(largest, &exponent);
+    for (int i = 0; i < 3; ++i)
+        direction[i] = ldexp(direction[i], -exponent);
+    return largest > 0;
 }
 
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first, uint64_t *last)

@@ -41,14 +41,18 @@ typedef struct mote_option {
 extern const mote_option mote_options_none[];
 extern const mote_option mote_options_study[]; /* of mote_study_read */
 
-/* Reads a command line from left to right. Zero-initialise `next`. */
+/* Reads a command line from left to right. */
 typedef struct mote_option_reader {
     const mote_option *options;
     size_t count;
     int argc;
     char **argv;
-    int next;
+    int next;   /* argument to be read */
+    bool ended; /* "--" was read: what follows are no options */
 } mote_option_reader;
+
+/* A reader of what follows argv[0], the command's name. */
+mote_option_reader mote_option_begin(const mote_option *options, int argc, char **argv);
 
 #define MOTE_OPTION_PLAIN (-1) /* an argument that is no option */
 #define MOTE_OPTION_END (-2)   /* nothing left */
@@ -66,6 +70,9 @@ bool mote_read_real(const char *text, double minimum, double maximum, double *va
 
 /* Reads "x,y,z", finite numbers. False for anything else; value is then undefined. */
 bool mote_read_triple(const char *text, double value[3]);
+
+/* The same, not all 0, scaled by a power of two so that squares neither overflow nor vanish. */
+bool mote_read_direction(const char *text, double direction[3]);
 
 /* Reads "A-B" or "A", A <= B, both at least 1 and at most maximum. MOTE_EINVAL with a text. */
 mote_status mote_read_range(const char *text, uint64_t maximum, uint64_t *first,

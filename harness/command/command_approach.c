@@ -19,15 +19,6 @@ typedef struct request {
     uint64_t every;
 } request;
 
-/* Reads "x,y,z". */
-static bool read_direction(const char *text, double direction[3])
-{
-    return mote_read_triple(text, direction) && direction[0] * direction[0] +
-                                                        direction[1] * direction[1] +
-                                                        direction[2] * direction[2] >
-                                                    0;
-}
-
 /* "FRAME:GAP,FRAME:GAP" as a curve. */
 static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **curve)
 {
@@ -53,6 +44,12 @@ static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **cur
         if (*end == '\0')
             break;
         from = end + 1;
+    }
+    for (uint32_t k = 1; k < count; ++k) {
+        if (at[k] <= at[k - 1])
+            return mote_fail(MOTE_EINVAL,
+                             "--gaps: frame %u comes after frame %u; let the frames rise",
+                             at[k], at[k - 1]);
     }
     return mote_curve_create(at, gap, count, 1, curve);
 }
@@ -171,7 +168,7 @@ const mote_option mote_options_approach[] = {
 
 int mote_command_approach(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_approach, 4, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_approach, argc, argv);
     request wish = {NULL, NULL, NULL, {1, 0, 0}, 16};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
@@ -184,8 +181,9 @@ int mote_command_approach(int argc, char **argv)
             wish.gaps = value;
         else if (option == 1 && !mote_read_unsigned(value, 1, 100000, &wish.every))
             return mote_command_usage("approach", "--every %s: give a number of frames", value);
-        else if (option == 2 && !read_direction(value, wish.direction))
-            return mote_command_usage("approach", "--direction %s: give x,y,z", value);
+        else if (option == 2 && !mote_read_direction(value, wish.direction))
+            return mote_command_usage("approach", "--direction %s: give x,y,z, not all 0",
+                                      value);
         else if (option == 3)
             wish.output = value;
         if (!good)

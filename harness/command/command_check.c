@@ -130,14 +130,14 @@ static int check(const char *name, bool json, const char *directory)
 }
 
 const mote_option mote_options_check[] = {
-    {"json", NULL, "as JSON"},
+    {"json", NULL, "as JSON (default: as text)"},
     {"out", "DIR",
      "keep the exact distances in DIR/truth, or take them from there (default: neither)"},
     {NULL, NULL, NULL}};
 
 int mote_command_check(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_check, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_check, argc, argv);
     const char *name = NULL, *directory = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

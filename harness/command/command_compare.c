@@ -4,6 +4,7 @@
 #include "harness/summary/compare.h"
 #include "harness/base/record.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -25,9 +26,12 @@ static void print_table(const mote_comparison *c)
     for (size_t i = 0; i < c->count; ++i) {
         const mote_change *change = &c->changes[i];
         (void)printf("%-*s ", width, change->name ? change->name : "?");
-        if (change->ratio == change->ratio)
+        if (isfinite(change->ratio) && isfinite(change->interval.low))
             (void)printf("%6.3f [%5.3f, %5.3f] p %-7.2g %-9s", change->ratio,
                          change->interval.low, change->interval.high, change->p,
+                         mote_verdict_names[change->verdict]);
+        else if (isfinite(change->ratio)) /* too few replicates */
+            (void)printf("%6.3f %-24s %-9s", change->ratio, "no interval",
                          mote_verdict_names[change->verdict]);
         else
             (void)printf("%-41s", change->is_reference ? "what times are compared with" : "-");
@@ -84,7 +88,7 @@ const mote_option mote_options_compare[] = {
 
 int mote_command_compare(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_compare, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_compare, argc, argv);
     const char *runs[2] = {NULL, NULL}, *value;
     size_t count = 0;
     bool json = false;

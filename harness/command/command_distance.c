@@ -131,13 +131,13 @@ static int distance(const request *wish)
 const mote_option mote_options_distance[] = {
     {"method", "NAME[:key=value,...]",
      "a method to ask; may be given up to 64 times (default: fcl-aabb)"},
-    {"json", NULL, "as JSON"},
+    {"json", NULL, "as JSON (default: as text)"},
     {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
     {NULL, NULL, NULL}};
 
 static int read_request(int argc, char **argv, request *wish)
 {
-    mote_option_reader reader = {mote_options_distance, 3, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_distance, argc, argv);
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

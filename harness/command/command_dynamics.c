@@ -72,7 +72,7 @@ static mote_status study(const request *wish, int argc, char **argv, bool *met)
 
 int mote_command_dynamics(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_dynamics, 6, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_dynamics, argc, argv);
     request wish = {.directory = "results/dynamics", .jobs = 1};
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -165,7 +165,7 @@ const mote_option mote_options_export[] = {
 /* Reads the command line into wish; MOTE_EXIT_DONE when it is complete. */
 static int read_request(int argc, char **argv, request *wish)
 {
-    mote_option_reader reader = {mote_options_export, 3, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_export, argc, argv);
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

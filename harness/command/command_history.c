@@ -10,7 +10,7 @@ const mote_option mote_options_history[] = {
 
 int mote_command_history(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_history, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_history, argc, argv);
     const char *file = "results/history.csv", *value, *directory = NULL, *why = NULL;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

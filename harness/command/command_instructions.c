@@ -5,7 +5,7 @@
 
 const mote_option mote_options_instructions[] = {
     {"frames", "A-B", "the frames, counted from 1; no default"},
-    {"method", "NAME[:key=a|b,...]", "a method; may be repeated (default: every method)"},
+    {"method", "NAME[:key=a|b,...]", "a method; may be repeated; no default"},
     {"particles", "1,2,4-8",
      "the numbers of particles for methods with a key n (default: the key's own)"},
     {"out", "DIR", "where instructions.json goes; no default"},
@@ -30,7 +30,7 @@ typedef struct request {
    pass, when particles are known. */
 static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {mote_options_instructions, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_instructions, argc, argv);
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -60,7 +60,7 @@ static int read_arguments(int argc, char **argv, request *q)
 
 static mote_status read_methods(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {mote_options_instructions, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_instructions, argc, argv);
     const char *value;
     mote_status status = MOTE_OK;
     for (int option; status == MOTE_OK &&

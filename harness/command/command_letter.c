@@ -18,6 +18,8 @@ static mote_status print_mesh(const char *path, const mote_mesh *mesh)
     if (!file)
         return mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
     mote_status status = mote_obj_print(file, NULL, mesh);
+    if (status != MOTE_OK)
+        status = mote_fail(status, "%s: %s", path, mote_error_text());
     if (fclose(file) != 0 && status == MOTE_OK)
         status = mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
     return status;
@@ -40,7 +42,7 @@ const mote_option mote_options_letter[] = {
 
 int mote_command_letter(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_letter, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_letter, argc, argv);
     const char *letter = NULL, *path = NULL, *value;
     uint64_t triangles = 0;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -89,11 +89,12 @@ static int list_scenarios(bool json)
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }
 
-const mote_option mote_options_list[] = {{"json", NULL, "as JSON"}, {NULL, NULL, NULL}};
+const mote_option mote_options_list[] = {{"json", NULL, "as JSON (default: as text)"},
+                                         {NULL, NULL, NULL}};
 
 int mote_command_list(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_list, 1, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_list, argc, argv);
     const char *what = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -26,7 +26,7 @@ static int report(const char *directory, const mote_merged *merged)
 
 int mote_command_merge(int argc, char **argv)
 {
-    mote_option_reader reader = {NULL, 0, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_none, argc, argv);
     const char *directory = NULL, *value;
     mote_merged merged = {0};
     size_t runs = 0;

@@ -116,13 +116,13 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
 }
 
 const mote_option mote_options_mesh[] = {
-    {"json", NULL, "as JSON"},
+    {"json", NULL, "as JSON (default: as text)"},
     {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
     {NULL, NULL, NULL}};
 
 int mote_command_mesh(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_mesh, 2, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_mesh, argc, argv);
     const char *path = NULL, *value;
     bool json = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {

@@ -154,7 +154,7 @@ static bool read_direction(const char *text, const char **direction)
 {
     double xyz[3];
     *direction = text;
-    return mote_read_triple(text, xyz) && (xyz[0] != 0 || xyz[1] != 0 || xyz[2] != 0);
+    return mote_read_direction(text, xyz);
 }
 
 /* False where the value is wrong; expected then says what would be right. */
@@ -264,7 +264,7 @@ static int add_pair(request *q, const char *command)
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {mote_options_run, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_run, argc, argv);
     for (;;) {
         const char *value, *expected;
         int option = mote_option_next(&reader, &value);

@@ -1,4 +1,5 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line. */
+#include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/base/statistics.h"
@@ -82,6 +83,14 @@ static mote_status run(const request *wish, mote_simulator *simulator, mote_rigi
     return status;
 }
 
+/* The result must not stand in a trace or a film that goes to standard output. */
+static FILE *result_stream(const request *wish)
+{
+    const bool taken = (wish->trace && mote_path_is_output(wish->trace)) ||
+                       (wish->film && mote_path_is_output(wish->film));
+    return taken ? stderr : stdout;
+}
+
 static mote_status simulate(const request *wish, const subject *s)
 {
     mote_simulation_options options;
@@ -102,10 +111,11 @@ static mote_status simulate(const request *wish, const subject *s)
     if (status == MOTE_OK && trace)
         status = mote_trace_write(s->pair, mote_simulator_masses(simulator), trace,
                                   result.steps + 1, &options, wish->trace);
+    FILE *out = result_stream(wish);
     if (status == MOTE_OK && wish->json)
-        mote_simulation_json(wish->scenario, bodies, &wish->choice, &result);
+        status = mote_simulation_json(wish->scenario, bodies, &wish->choice, &result, out);
     else if (status == MOTE_OK)
-        mote_simulation_print(wish->scenario, bodies, &wish->choice, &result);
+        mote_simulation_print(wish->scenario, bodies, &wish->choice, &result, out);
     free(trace);
     mote_simulator_destroy(simulator);
     return status;
@@ -122,7 +132,7 @@ static bool read_vector(const char *text, mote_vec3 *v)
 
 const mote_option mote_options_simulate[] = {
     {"method", "NAME[:key=value,...]", "the method that says where bodies touch; no default"},
-    {"json", NULL, "as JSON"},
+    {"json", NULL, "as JSON (default: as text)"},
     {"steps", "K", "1 to 1000000 (default: all frames of the scenario)"},
     {"seed", "S", "of the method (default: 1)"},
     {"density", "D", "of all bodies (default: 1)"},
@@ -193,7 +203,7 @@ static bool read_option(request *wish, int option, const char *value)
 
 int mote_command_simulate(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_simulate, 11, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_simulate, argc, argv);
     request wish = {.density = MOTE_NONE,
                     .restitution = MOTE_NONE,
                     .tolerance = MOTE_NONE,

@@ -82,7 +82,7 @@ const mote_option mote_options_summarize[] = {
      "only the best rows, sorted by time, in at most 100 columns (default: all, in a wide "
      "table)"},
     {NULL, NULL, NULL}};
-enum { OPTION_FORMAT, OPTION_BEST, OPTION_COUNT };
+enum { OPTION_FORMAT, OPTION_BEST };
 
 typedef struct request {
     const char *directory;
@@ -93,7 +93,7 @@ typedef struct request {
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
 static int read_arguments(int argc, char **argv, request *q)
 {
-    mote_option_reader reader = {mote_options_summarize, OPTION_COUNT, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_summarize, argc, argv);
     const char *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
@@ -126,15 +126,16 @@ int mote_command_summarize(int argc, char **argv)
     mote_summary summary;
     if (mote_summary_make(q.directory, &summary) != MOTE_OK)
         return mote_command_fail();
-    int code = MOTE_EXIT_DONE;
-    if (mote_summary_write(&summary, q.directory) != MOTE_OK) {
-        code = mote_command_fail();
-    } else if (q.best) {
+    /* Rows are printed also of a run that cannot be written to. */
+    int code;
+    if (q.best) {
         mote_screen_print(&summary, stdout);
         code = mote_command_finish(MOTE_EXIT_DONE);
     } else {
         code = print(&summary, q.directory, q.format);
     }
+    if (code == MOTE_EXIT_DONE && mote_summary_write(&summary, q.directory) != MOTE_OK)
+        code = mote_command_fail();
     mote_summary_free(&summary);
     return code;
 }

@@ -41,7 +41,7 @@ const mote_option mote_options_tune[] = {
 
 int mote_command_tune(int argc, char **argv)
 {
-    mote_option_reader reader = {mote_options_tune, 1, argc, argv, 0};
+    mote_option_reader reader = mote_option_begin(mote_options_tune, argc, argv);
     const char *directory = NULL, *scenario = NULL, *value;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)

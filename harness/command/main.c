@@ -56,8 +56,15 @@ static int print_help(void)
         "\nmote COMMAND --help explains the options of a command.\n\n"
         "Exit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
         "5 a cell failed, 6 out of memory; 130 and 143 after Ctrl-C and SIGTERM.\n\n"
-        "Scenario files name only files of their own folder, unless others are allowed:\n"
-        "mote --allow DIR COMMAND ... (before the command, as often as needed).\n");
+        "SCENARIO is a name of `mote list scenarios`, a scenario file (NAME.json), or two\n"
+        "meshes that approach, touch and part: pair:A.obj:B.obj, or pair:A.obj:B.obj:X,Y,Z\n"
+        "with the direction in which B lies. Meshes are OBJ, PLY, STL, OFF or glTF.\n\n"
+        "Before the command:\n"
+        "  --allow DIR  a scenario file may name files below DIR as well (default: of its own\n"
+        "               folder only); as often as needed\n"
+        "  --strict     edges of more than two faces are refused (default: they are cut "
+        "apart)\n"
+        "-- ends the options: what follows are names, even if they begin with a dash.\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
@@ -142,8 +149,10 @@ int main(int argc, char **argv)
         const int is_strict = strcmp(argv[1], "--strict") == 0;
         if (is_strict)
             mote_mesh_import_strictly();
-        else if (argc == 2 || strcmp(argv[1], "--allow") != 0)
+        else if (strcmp(argv[1], "--allow") != 0)
             break;
+        else if (argc == 2)
+            return mote_command_usage("--allow", "no folder; write `mote --allow DIR COMMAND`");
         else if (mote_fence_allow(argv[2]) != MOTE_OK)
             return mote_command_fail();
         argc -= 2 - is_strict;

@@ -17,9 +17,9 @@ static void put_figure(json_t *root, const char *key, double value)
     (void)json_object_set_new(root, key, isnan(value) ? json_null() : json_real(value));
 }
 
-void mote_simulation_json(const char *scenario, uint32_t bodies,
-                          const mote_method_choice *choice,
-                          const mote_simulation_result *result)
+mote_status mote_simulation_json(const char *scenario, uint32_t bodies,
+                                 const mote_method_choice *choice,
+                                 const mote_simulation_result *result, FILE *out)
 {
     json_t *root = json_pack("{s:s, s:s}", "scenario", scenario, "method", choice->text);
     put_count(root, "bodies", bodies);
@@ -42,34 +42,39 @@ void mote_simulation_json(const char *scenario, uint32_t bodies,
     put_figure(root, "energy_drift", result->energy_drift);
     put_figure(root, "momentum_drift", result->momentum_drift);
     put_figure(root, "angular_momentum_drift", result->angular_drift);
+    if (!root)
+        return mote_fail(MOTE_EINVAL, "a name to be printed is not UTF-8; rename what has it");
     mote_text text = {0};
     mote_json_print(root, 17, &text);
     json_decref(root);
-    (void)fputs(text.data, stdout);
+    (void)fputs(text.data, out);
     free(text.data);
+    return MOTE_OK;
 }
 
 void mote_simulation_print(const char *scenario, uint32_t bodies,
                            const mote_method_choice *choice,
-                           const mote_simulation_result *result)
+                           const mote_simulation_result *result, FILE *out)
 {
-    (void)printf("%s, %s: %u bodies, %u steps, %.3g us each for the method\n", scenario,
-                 choice->text, bodies, result->steps, result->query_ns / 1e3);
-    (void)printf("approaches %" PRIu64 ", passes through %" PRIu64 " (%" PRIu64
-                 " of them with a vertex inside)\n",
-                 result->approaches, result->passes, result->deep_passes);
-    (void)printf("contact in %" PRIu64 " steps, missed in %" PRIu64 ", false in %" PRIu64
-                 ", delay %" PRIu64 " at most\n",
-                 result->contact_steps, result->missed_steps, result->false_steps,
-                 result->delay_max);
-    (void)printf("responses %" PRIu64 ", penetration at most %.3g L", result->responses,
-                 result->depth_max);
+    (void)fprintf(out, "%s, %s: %u bodies, %u steps, %.3g us each for the method\n", scenario,
+                  choice->text, bodies, result->steps, result->query_ns / 1e3);
+    (void)fprintf(out,
+                  "approaches %" PRIu64 ", passes through %" PRIu64 " (%" PRIu64
+                  " of them with a vertex inside)\n",
+                  result->approaches, result->passes, result->deep_passes);
+    (void)fprintf(out,
+                  "contact in %" PRIu64 " steps, missed in %" PRIu64 ", false in %" PRIu64
+                  ", delay %" PRIu64 " at most\n",
+                  result->contact_steps, result->missed_steps, result->false_steps,
+                  result->delay_max);
+    (void)fprintf(out, "responses %" PRIu64 ", penetration at most %.3g L", result->responses,
+                  result->depth_max);
     if (bodies > 2)
-        (void)printf(", bounces off the walls %" PRIu64 ", near pairs %.3g a step",
-                     result->bounces, result->near_pairs);
-    (void)printf("\ndrift: energy %.2g, momentum %.2g", result->energy_drift,
-                 result->momentum_drift);
+        (void)fprintf(out, ", bounces off the walls %" PRIu64 ", near pairs %.3g a step",
+                      result->bounces, result->near_pairs);
+    (void)fprintf(out, "\ndrift: energy %.2g, momentum %.2g", result->energy_drift,
+                  result->momentum_drift);
     if (!isnan(result->angular_drift))
-        (void)printf(", angular momentum %.2g", result->angular_drift);
-    (void)printf("\n");
+        (void)fprintf(out, ", angular momentum %.2g", result->angular_drift);
+    (void)fprintf(out, "\n");
 }

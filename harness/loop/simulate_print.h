@@ -4,14 +4,17 @@
 
 #include "harness/loop/simulation.h"
 
-/* As JSON on stdout: scenario is the name that it is shown by. */
-void mote_simulation_json(const char *scenario, uint32_t bodies,
-                          const mote_method_choice *choice,
-                          const mote_simulation_result *result);
+#include <stdio.h>
+
+/* As JSON to out: scenario is the name that it is shown by; MOTE_EINVAL where that is not
+ * UTF-8. */
+mote_status mote_simulation_json(const char *scenario, uint32_t bodies,
+                                 const mote_method_choice *choice,
+                                 const mote_simulation_result *result, FILE *out);
 
 /* As lines for people. */
 void mote_simulation_print(const char *scenario, uint32_t bodies,
                            const mote_method_choice *choice,
-                           const mote_simulation_result *result);
+                           const mote_simulation_result *result, FILE *out);
 
 #endif

@@ -21,7 +21,8 @@ static _Noreturn void run(const char *const argv[], const char *directory, int o
         _exit(STATUS_NOT_RUN);
     if (out >= 0 && dup2(out, STDOUT_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
-    if (out >= 0 && errors_too && dup2(out, STDERR_FILENO) < 0)
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (out >= 0 && dup2(errors_too ? out : nowhere, STDERR_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
     (void)setenv("LC_ALL", "C.UTF-8", 1);
     /* execvp does not write to its arguments: POSIX keeps the type for old callers. */

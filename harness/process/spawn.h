@@ -9,9 +9,9 @@
 /* Runs argv[0] (searched in PATH) with argv, ended by NULL, in directory (NULL: this one) and
    waits. It runs in an English UTF-8 locale, whatever the user's is: we parse what git and
    valgrind print, and gnuplot warns where it cannot write a figure's text. Its standard output
-   is kept in output (size bytes, cut, ended by a 0 byte; trailing line ends taken off) or, when
-   output is NULL, goes where ours goes. MOTE_EIO when it cannot be run or ends with another
-   status than 0. */
+   is kept in output (size bytes, cut, ended by a 0 byte; trailing line ends taken off) and its
+   standard error dropped; when output is NULL, both go where ours go. MOTE_EIO when it cannot
+   be run or ends with another status than 0. */
 mote_status mote_spawn(const char *const argv[], const char *directory, char *output,
                        size_t size);
 

@@ -126,9 +126,11 @@ static double expected_seconds(const mote_cell *cell, const mote_forecast *forec
 static mote_status probe_configuration(run *r, size_t index)
 {
     mote_forecast forecast = {0};
-    mote_status status = mote_cell_probe(&r->plan.cells[index], &r->process, &forecast);
+    const mote_cell *probed = &r->plan.cells[index];
+    mote_status status = mote_cell_probe(probed, &r->process, &forecast);
     if (status != MOTE_OK)
-        return status;
+        return mote_fail(status, "%s on %s: %s", probed->choice->text,
+                         mote_subject_facts_of(probed->subject).name, mote_error_text());
     uint32_t stride = choose_stride(&r->plan.cells[index], forecast.frame_seconds);
     for (size_t i = 0; i < r->plan.count; ++i) {
         mote_cell *cell = &r->plan.cells[i];
@@ -245,7 +247,7 @@ static mote_status take_lock(run *r, const char *path)
     r->lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (r->lock < 0) {
         int error = errno;
-        r->output_failed = true;
+        r->output_failed = error != EACCES;
         return mote_fail(MOTE_EIO, "%s: %s; name a directory that can be written to", path,
                          strerror(error));
     }
@@ -267,9 +269,10 @@ static mote_status open_directory(run *r)
     char *cells = mote_format("%s/cells", directory);
     char *lock = mote_format("%s/.lock", directory);
     mote_status status = mote_directory_make(cells);
-    /* Whether the disk is full or read-only, rather than the name being one that no
-       directory can have. */
-    r->output_failed = status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT;
+    /* Whether the disk is full or read-only, rather than the name being one that no directory
+       can have, or one that the user may not write to. */
+    r->output_failed =
+        status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT && errno != EACCES;
     if (status == MOTE_OK)
         status = take_lock(r, lock);
     if (status == MOTE_OK)
@@ -531,8 +534,10 @@ mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
     r.process.core = options->plan.jobs > 1 ? -1 : mote_process_core();
     mote_run_outcome none = {0};
     *outcome = none;
-    mote_child_heed_signals();
     mote_status status = prepare(&r);
+    /* Until here nothing is written, and a signal ends the program at once: a large scenario is
+       loaded for many seconds. */
+    mote_child_heed_signals();
     if (status == MOTE_OK && !options->dry_run)
         status = carry_out(&r, outcome);
     outcome->started = outcome->started || mote_child_stop_asked();

@@ -24,6 +24,30 @@ static const mote_vec3 directions[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1,
                                        {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
 #define DIRECTIONS (sizeof directions / sizeof directions[0])
 
+/* The sizes at which contacts could be told from rounding, tried on cubes: the triangles' tests
+   multiply four lengths. */
+#define SMALLEST 1e-70
+#define LARGEST 1e70
+#define RATIO 1e13 /* of the two sizes */
+
+static mote_status check_sizes(const mote_scenario *scenario)
+{
+    const double a = scenario->body[0].mesh->diagonal, b = scenario->body[1].mesh->diagonal;
+    const double smaller = fmin(a, b), larger = fmax(a, b);
+    if (smaller < SMALLEST || larger > LARGEST)
+        return mote_fail(MOTE_EINVAL,
+                         "the bounding boxes' diagonals are %.3g and %.3g; contacts can be "
+                         "computed from %g to %g only: scale the meshes",
+                         a, b, SMALLEST, LARGEST);
+    if (larger / smaller > RATIO)
+        return mote_fail(MOTE_EINVAL,
+                         "the bounding boxes' diagonals are %.3g and %.3g; the smaller body is "
+                         "lost in the rounding of the larger one beyond a ratio of %g: scale "
+                         "one of them",
+                         a, b, RATIO);
+    return MOTE_OK;
+}
+
 /* A gap for each frame, in L. */
 static mote_status spread_gaps(const mote_scenario *scenario, double *gaps)
 {
@@ -71,7 +95,9 @@ mote_status mote_pair_motion_find(const mote_scenario *scenario, mote_vec3 direc
     double gaps[FRAMES];
     const uint32_t tips[2] = {tip(scenario->body[0].mesh), tip(scenario->body[1].mesh)};
     const bool given = mote_length(direction) > 0;
-    mote_status status = spread_gaps(scenario, gaps);
+    mote_status status = check_sizes(scenario);
+    if (status == MOTE_OK)
+        status = spread_gaps(scenario, gaps);
     if (status != MOTE_OK)
         return status;
     for (uint32_t k = 0; k < FRAMES; ++k)

@@ -40,14 +40,18 @@ char *mote_scenario_pair_name(const char *a, const char *b, const char *directio
 }
 
 /* Takes ":X,Y,Z" off the end of a name. */
-static void split_direction(char *files, mote_vec3 *direction)
+static mote_status split_direction(const char *name, char *files, mote_vec3 *direction)
 {
     double xyz[3];
     char *colon = strrchr(files, ':');
     if (!colon || !mote_read_triple(colon + 1, xyz) || access(colon + 1, F_OK) == 0)
-        return;
+        return MOTE_OK;
+    if (!mote_read_direction(colon + 1, xyz))
+        return mote_fail(MOTE_EINVAL, "%s: a direction of no length; give X,Y,Z, not all 0",
+                         name);
     *direction = mote_vec3_make(xyz[0], xyz[1], xyz[2]);
     *colon = '\0';
+    return MOTE_OK;
 }
 
 /* Splits "A:B" at the first ':' that has a file on either side, or else at the first. */
@@ -76,8 +80,9 @@ static mote_status read_name(const char *name, pair_name *pair)
     char *files = mote_format("%s", name + strlen(MOTE_PAIR_PREFIX));
     if (!files)
         return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
-    split_direction(files, &pair->direction);
-    const mote_status status = split_files(name, files, pair);
+    mote_status status = split_direction(name, files, &pair->direction);
+    if (status == MOTE_OK)
+        status = split_files(name, files, pair);
     free(files);
     return status;
 }
@@ -157,6 +162,7 @@ static mote_status rename_scenario(const pair_name *pair, mote_scenario *scenari
     free(stems[1]);
     if (!name)
         return mote_fail(MOTE_ENOMEM, "no memory for the name of a pair");
+    mote_scenario_clean_name(name);
     free(scenario->name);
     scenario->name = name;
     return MOTE_OK;

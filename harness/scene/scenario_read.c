@@ -135,7 +135,17 @@ char *mote_scenario_name_of(const char *path)
     const char *slash = strrchr(path, '/');
     const char *base = slash ? slash + 1 : path;
     const size_t ending = mote_name_ends(base, ".json") ? strlen(".json") : 0;
-    return mote_format("%.*s", (int)(strlen(base) - ending), base);
+    char *name = mote_format("%.*s", (int)(strlen(base) - ending), base);
+    mote_scenario_clean_name(name);
+    return name;
+}
+
+void mote_scenario_clean_name(char *name)
+{
+    for (char *p = name; *p; ++p) {
+        if ((unsigned char)*p < ' ' || *p == 0x7f)
+            *p = '_';
+    }
 }
 
 static mote_status read_scenario(const mote_json_file *file, mote_scenario *scenario)

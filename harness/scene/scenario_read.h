@@ -28,8 +28,11 @@ bool mote_scenario_of_bodies(const mote_json_file *file);
    scenario with a motion; tolerance is of L. */
 mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scenario);
 
-/* The name that a file's path gives: without folder and ".json"; NULL without memory. */
+/* The name that a file's path gives: without folder, ".json" and control characters. */
 char *mote_scenario_name_of(const char *path);
+
+/* Replaces what would break a line of a table or of a message: control characters. */
+void mote_scenario_clean_name(char *name);
 
 /* Makes a scenario of a file's root; its name comes from the file's path. */
 mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario);

@@ -43,6 +43,10 @@ static mote_status read_summary(const char *directory, const char *name, json_t 
 {
     if (strcmp(name, "summary.json") == 0 && exists(directory, "cells"))
         return make_from_cells(directory, summary);
+    if (!exists(directory, name))
+        return mote_fail(MOTE_EIO,
+                         "%s: neither cells nor a %s; name a run, or its summary.json",
+                         directory, name);
     const mote_status status = mote_record_read_json(directory, name, summary);
     if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows")))
         return mote_fail(MOTE_EINVAL, "%s/%s: no rows; name a run, or its summary.json",

@@ -79,7 +79,9 @@ static mote_status check_header(const char *file, const char *text)
 {
     if (strncmp(text, HEADER, strlen(HEADER)) == 0)
         return MOTE_OK;
-    return mote_fail(MOTE_EINVAL, "%s:1: not the header of a history", file);
+    return mote_fail(
+        MOTE_EINVAL,
+        "%s:1: not the header of a history; name a file that `mote history --add` made", file);
 }
 
 /* The history so far, with its last line ended, or the header. */

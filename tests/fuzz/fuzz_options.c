@@ -37,8 +37,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         words[count++] = word;
     }
     static const mote_option options[] = {
-        {"out", "DIR", "A."}, {"json", NULL, "B."}, {"-o", "FILE", NULL}};
-    mote_option_reader reader = {options, 3, count, words, 0};
+        {"out", "DIR", "A."}, {"json", NULL, "B."}, {"-o", "FILE", NULL}, {NULL, NULL, NULL}};
+    mote_option_reader reader = mote_option_begin(options, count, words);
     const char *value;
     for (int option = 0; option != MOTE_OPTION_END && option != MOTE_OPTION_ERROR;)
         option = mote_option_next(&reader, &value);

@@ -153,6 +153,18 @@ static const command_line bad_lines[] = {
     {"report", 2, "no directory"},
     {"claims --quick x", 2, "x: takes no argument"},
     {"claims --out", 2, "--out needs a value"},
+    {"mesh -- -x.obj", 4, "mote: -x.obj: No such file"},
+    {"mesh -- -x.obj --", 2, "--: one file at a time"},
+    {"check pair:d.obj:d.obj:0,0,0", 4, "not all 0"},
+    {"approach s.json --gaps 2:1,1:2 -o x.json", 4, "--gaps: frame 1 comes after frame 2"},
+    {"approach s.json --gaps 1:0.1 --direction 0,0,0 -o x.json", 2, "not all 0"},
+    {"approach away.json --gaps 1:0.5 -o no/x.json", 4,
+     "no/: No such file or directory; name a "},
+    {"letter W --triangles 400 -o no/W.obj", 4, "mote: no/W.obj: cannot be created"},
+    {"letter W --triangles 400 -o /dev/full", 4, "mote: /dev/full: cannot be written"},
+    {"run s.json --method particle:n=7 --out x", 4, "mote: particle:n=7 on s: n=7 is not "},
+    {"compare . .", 4, "mote: .: neither cells nor a summary.json"},
+    {"history d.obj", 4, "not the header of a history; name a file"},
 };
 
 TEST(main_bad_line_one_line_and_its_exit_status)

@@ -48,7 +48,7 @@ TEST_GROUP(put_files, NULL);
 
 static const command_line bad_lines[] = {
     {"--allow nowhere check s.json", 4, "nowhere: No such file"},
-    {"--allow", 2, "unknown command --allow"},
+    {"--allow", 2, "no folder; write `mote --allow DIR COMMAND`"},
     {"--allow .", 2, "no command"},
     {"list methods scenarios", 2, "scenarios: one thing at a time"},
     {"list -", 2, "-: list fields"},

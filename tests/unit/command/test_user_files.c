@@ -213,4 +213,13 @@ TEST(pair_with_a_name_that_is_not_utf_8_is_refused)
                 "check \"$(printf 'pair:own/\\377.obj:own/diamond.obj')\"");
 }
 
+TEST(simulation_of_a_name_that_is_not_utf_8_is_told_in_lines_and_not_in_json)
+{
+    file_put("own/\377.json", SCENE);
+    mote_expect(0, "2 steps",
+                "simulate \"$(printf 'own/\\377.json')\" --method certified --steps 2");
+    mote_expect(4, "is not UTF-8",
+                "simulate \"$(printf 'own/\\377.json')\" --method certified --steps 2 --json");
+}
+
 TEST_GROUP(put_files, NULL);

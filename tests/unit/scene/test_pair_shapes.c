@@ -89,6 +89,12 @@ static int make_meshes(void)
     put("mite", &text);
     box_text(1, 1, 1e-3, &text);
     put("plate", &text);
+    box_text(1e100, 1e100, 1e100, &text);
+    put("star", &text);
+    box_text(1e-100, 1e-100, 1e-100, &text);
+    put("atom", &text);
+    box_text(1e14, 1e14, 1e14, &text);
+    put("moon", &text);
     box_text(1e-2, 1e-2, 2, &text);
     put("rod", &text);
     sphere_text(0.5, false, &text);
@@ -172,6 +178,30 @@ TEST(pair_of_very_different_sizes_touches_as_promised)
     check_pair("mite", "cube", "");
     check_pair("u", "mite", "");
     check_pair("bowl", "mite", "");
+}
+
+/* Why no motion is sought for bodies of such sizes. */
+static void check_refused(const char *a, const char *b, const char *why)
+{
+    char name[256];
+    mote_scenario *scenario;
+    (void)snprintf(name, sizeof name, "pair:" FOLDER "/%s.obj:" FOLDER "/%s.obj", a, b);
+    assert_int_equal(mote_scenario_load(name, &scenario), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), why))
+        fail_msg("%s", mote_error_text());
+}
+
+TEST(pair_of_sizes_that_arithmetic_cannot_tell_apart_says_so)
+{
+    check_refused("star", "star", "contacts can be computed from");
+    check_refused("atom", "atom", "contacts can be computed from");
+    check_refused("cube", "moon", "lost in the rounding of the larger one");
+}
+
+TEST(pair_comes_along_a_direction_of_any_length)
+{
+    check_pair("cube", "cube", ":1e300,0,0");
+    check_pair("cube", "cube", ":0,0,-1e-300");
 }
 
 TEST(pair_comes_along_the_given_direction)
