@@ -1,5 +1,6 @@
 #include "harness/report/replay.h"
 
+#include "harness/base/memory.h"
 #include "harness/report/report_rows.h"
 
 #include <inttypes.h>
@@ -12,8 +13,6 @@
 static bool may_name(const char *word, const char *name)
 {
     char *file = mote_format("%s.json", name);
-    if (!file)
-        return false;
     size_t length = strlen(word), size = strlen(file);
     bool ends = length >= size && strcmp(word + length - size, file) == 0 &&
                 (length == size || word[length - size - 1] == '/');
@@ -116,13 +115,11 @@ static bool is_shown(const mote_summary_row *row)
 
 /* The truth from the tracks' cells, with the points from the truth's own file where that
    exists. */
-static mote_status read_truth(const mote_report *report, mote_replay_scene *scene)
+static void read_truth(const mote_report *report, mote_replay_scene *scene)
 {
     const size_t frames = scene->last - scene->first + 1;
-    scene->truth = malloc(frames * sizeof *scene->truth);
-    scene->pair = malloc(2 * frames * sizeof *scene->pair);
-    if (!scene->truth || !scene->pair)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu frames", frames);
+    scene->truth = mote_allocate(frames, sizeof *scene->truth);
+    scene->pair = mote_allocate(2 * frames, sizeof *scene->pair);
     for (size_t k = 0; k < frames; ++k) {
         scene->truth[k] = MOTE_NONE;
         scene->pair[2 * k] = scene->pair[2 * k + 1] =
@@ -137,21 +134,19 @@ static mote_status read_truth(const mote_report *report, mote_replay_scene *scen
     mote_truth *truth = NULL;
     char *path = mote_format("%s/truth/%s-%016" PRIx64 ".csv", report->directory,
                              scene->scenario->name, fingerprint);
-    if (!path || mote_truth_read(scene->scenario, fingerprint, path, &truth) != MOTE_OK) {
-        free(path);
-        return json_array_append_new(
-                   scene->notes,
-                   json_string("the true closest points: the run's truth file is missing")) == 0
-                   ? MOTE_OK
-                   : mote_fail(MOTE_ENOMEM, "no memory for a note");
+    const mote_status status = mote_truth_read(scene->scenario, fingerprint, path, &truth);
+    free(path);
+    if (status != MOTE_OK) {
+        (void)json_array_append_new(
+            scene->notes,
+            json_string("the true closest points: the run's truth file is missing"));
+        return;
     }
     for (size_t k = 0; k < frames; ++k) {
         scene->pair[2 * k] = truth->witness_a[k + scene->first - 1];
         scene->pair[2 * k + 1] = truth->witness_b[k + scene->first - 1];
     }
     mote_truth_destroy(truth);
-    free(path);
-    return MOTE_OK;
 }
 
 /* Where surfaces intersect, the truth has no points: many pairs are at distance 0. Any pair
@@ -200,12 +195,8 @@ static const mote_stored_cell *worst_cell(const mote_summary_row *row)
 static mote_status add_track(const mote_report *report, const mote_summary_row *row,
                              mote_replay_scene *scene)
 {
-    mote_replay_track *tracks =
-        realloc(scene->tracks, (scene->count + 1) * sizeof *scene->tracks);
-    if (!tracks)
-        return mote_fail(MOTE_ENOMEM, "no memory for a replay");
-    scene->tracks = tracks;
-    mote_replay_track *track = &tracks[scene->count++];
+    scene->tracks = mote_resize(scene->tracks, scene->count + 1, sizeof *scene->tracks);
+    mote_replay_track *track = &scene->tracks[scene->count++];
     *track = (mote_replay_track){.row = row, .cell = worst_cell(row)};
     const uint32_t last = track->cell->frame[track->cell->frames - 1];
     if (scene->first == 0 || track->cell->frame[0] < scene->first)
@@ -218,7 +209,7 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
                              mote_replay_scene *scene)
 {
     mote_replay_scene made = {.notes = json_array()};
-    mote_status status = made.notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for notes");
+    mote_status status = MOTE_OK;
     for (size_t i = first; i < end && status == MOTE_OK; ++i) {
         if (is_shown(mote_report_cells(report, i)))
             status = add_track(report, mote_report_cells(report, i), &made);
@@ -230,10 +221,10 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
         status = find_scenario(report, made.tracks[0].cell, &made.scenario);
     if (status == MOTE_OK)
         status = check_frames(&made);
-    if (status == MOTE_OK)
-        status = read_truth(report, &made);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        read_truth(report, &made);
         fill_contacts(&made);
+    }
     for (size_t t = 0; t < made.count && status == MOTE_OK; ++t)
         status = mote_replay_particles(&made, &made.tracks[t]);
     if (status == MOTE_OK)
@@ -286,14 +277,13 @@ static mote_status add_scene(const mote_report *report, size_t first, share *lef
     }
     left->bytes -= used;
     --left->scenes;
-    int added = 0;
-    if (status == MOTE_OK)
-        added = json_array_append_new(scenes, data);
-    else if (status == MOTE_EUNSUPPORTED)
-        added = json_array_append_new(notes, json_string(mote_error_text()));
-    else
-        return status;
-    return added == 0 ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    if (status == MOTE_OK) {
+        (void)json_array_append_new(scenes, data);
+    } else if (status == MOTE_EUNSUPPORTED) {
+        (void)json_array_append_new(notes, json_string(mote_error_text()));
+        status = MOTE_OK;
+    }
+    return status;
 }
 
 mote_status mote_replay_json(const mote_report *report, json_t **data)
@@ -301,19 +291,15 @@ mote_status mote_replay_json(const mote_report *report, json_t **data)
     json_t *scenes = json_array(), *notes = json_array();
     const size_t count = report->has_cells ? report->cells.count : 0;
     share left = {MOTE_REPLAY_PAGE_BYTES, 0};
-    mote_status status =
-        scenes && notes ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a replay");
+    mote_status status = MOTE_OK;
     for (size_t i = 0; i < count; ++i)
         left.scenes += starts_block(report, i);
     for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
         if (starts_block(report, i))
             status = add_scene(report, i, &left, scenes, notes);
     }
-    if (status == MOTE_OK) {
+    if (status == MOTE_OK)
         *data = json_pack("{s:O, s:O}", "scenes", scenes, "notes", notes);
-        if (!*data)
-            status = mote_fail(MOTE_ENOMEM, "no memory for a replay");
-    }
     json_decref(scenes);
     json_decref(notes);
     return status;

@@ -1,6 +1,8 @@
 /* The answers of a cell, read from its CSV file for pictures. */
 #include "harness/report/replay.h"
 
+#include "harness/base/memory.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,13 +68,10 @@ mote_status mote_replay_read_cell(const char *directory, mote_replay_track *trac
     char *path = mote_format("%s/cells/%s.csv", directory, track->cell->id);
     char *text = NULL;
     size_t size;
-    mote_status status = path ? mote_file_read(path, FILE_LIMIT, &text, &size)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a name");
+    const mote_status status = mote_file_read(path, FILE_LIMIT, &text, &size);
     track->rows = track->cell->frames;
-    track->distance = malloc((track->rows + 1) * sizeof *track->distance);
-    track->pair = malloc((2 * track->rows + 1) * sizeof *track->pair);
-    if (status == MOTE_OK && (!track->distance || !track->pair))
-        status = mote_fail(MOTE_ENOMEM, "no memory for %zu answers", track->rows);
+    track->distance = mote_allocate(track->rows, sizeof *track->distance);
+    track->pair = mote_allocate(2 * track->rows, sizeof *track->pair);
     if (status == MOTE_OK)
         read_rows(text, track);
     free(text);

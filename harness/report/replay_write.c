@@ -1,6 +1,7 @@
 /* A scene as JSON: single numbers as they are; arrays as packed texts that contain JSON
    again. */
 
+#include "harness/base/memory.h"
 #include "harness/report/packed.h"
 #include "harness/report/replay.h"
 #include "harness/report/replay_series.h"
@@ -18,20 +19,13 @@
 /* Errors over L below this are rounding and written as 0: they cannot be seen in a picture. */
 #define ERROR_LEAST 1e-12
 
-static mote_status no_memory(void)
-{
-    return mote_fail(MOTE_ENOMEM, "no memory for a replay");
-}
-
-/* {...} of a text that holds members, packed; members are freed. NULL when memory ran out. */
+/* {...} of a text that holds members, packed; members are freed. */
 static json_t *packed_object(mote_text *members)
 {
     mote_text whole = {0}, packed = {0};
     mote_text_add(&whole, "{%s}", members->data ? members->data : "");
-    if (!members->failed && !whole.failed)
-        mote_packed_add(&packed, whole.data, whole.size);
-    json_t *object =
-        packed.size > 0 && !packed.failed ? json_stringn(packed.data, packed.size) : NULL;
+    mote_packed_add(&packed, whole.data, whole.size);
+    json_t *object = json_stringn(packed.data, packed.size);
     free(members->data);
     free(whole.data);
     free(packed.data);
@@ -61,15 +55,13 @@ static void add_numbers(mote_text *text, const char *key, const double *values, 
 }
 
 /* The mesh at rest and the centres of its field. */
-static mote_status add_mesh(mote_text *text, const mote_body *body)
+static void add_mesh(mote_text *text, const mote_body *body)
 {
     const mote_mesh *mesh = body->mesh;
     const mote_field *field = body->field;
     const size_t corner_count = 3 * (size_t)mesh->triangle_count;
     mote_replay_box box = mote_replay_box_none();
-    int32_t *corners = malloc((corner_count + 1) * sizeof *corners);
-    if (!corners)
-        return no_memory();
+    int32_t *corners = mote_allocate(corner_count, sizeof *corners);
     for (size_t k = 0; k < corner_count; ++k)
         corners[k] = (int32_t)mesh->triangles[k / 3][k % 3];
     mote_replay_box_include(&box, mesh->positions, mesh->vertex_count);
@@ -88,7 +80,6 @@ static mote_status add_mesh(mote_text *text, const mote_body *body)
     mote_text_add(text, ", ");
     add_numbers(text, "centreZ", field->centre_z, field->count);
     free(corners);
-    return MOTE_OK;
 }
 
 static int32_t in_steps(double value, double step)
@@ -150,12 +141,10 @@ static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, i
     const size_t frames = scene->last - scene->first + 1;
     const size_t width = 3 * (size_t)scene->scenario->body[i].field->count;
     mote_frame_buffer *buffer = NULL;
-    int32_t *poses = malloc(12 * frames * sizeof *poses);
-    int32_t *shares = malloc((width * frames + 1) * sizeof *shares);
-    double *weights = malloc((width * frames + 1) * sizeof *weights);
-    mote_status status = poses && weights && shares ? MOTE_OK : no_memory();
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scene->scenario, &buffer);
+    int32_t *poses = mote_allocate(12 * frames, sizeof *poses);
+    int32_t *shares = mote_allocate(width * frames, sizeof *shares);
+    double *weights = mote_allocate(width * frames, sizeof *weights);
+    const mote_status status = mote_frame_buffer_create(scene->scenario, &buffer);
     for (size_t k = 0; k < frames && status == MOTE_OK; ++k) {
         const mote_frame *frame =
             mote_scenario_frame(scene->scenario, buffer, scene->first + (uint32_t)k, 0);
@@ -180,10 +169,9 @@ static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
     mote_text_add(text, "\"bodies\": [");
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
         mote_text_add(text, "%s{", i ? ", " : "");
-        status = add_mesh(text, &scene->scenario->body[i]);
+        add_mesh(text, &scene->scenario->body[i]);
         mote_text_add(text, ", ");
-        if (status == MOTE_OK)
-            status = add_motion(text, scene, i);
+        status = add_motion(text, scene, i);
         mote_text_add(text, "}");
     }
     mote_text_add(text, "], ");
@@ -215,33 +203,31 @@ static void add_errors(mote_text *text, const mote_replay_track *track)
    relative to these. */
 static mote_vec3 *reference_of(const mote_replay_scene *scene, const mote_replay_track *track)
 {
-    mote_vec3 *reference = malloc((2 * track->rows + 1) * sizeof *reference);
-    for (size_t k = 0; reference && k < track->rows; ++k)
+    mote_vec3 *reference = mote_allocate(2 * track->rows, sizeof *reference);
+    for (size_t k = 0; k < track->rows; ++k)
         memcpy(reference + 2 * k, scene->pair + 2 * (track->cell->frame[k] - scene->first),
                2 * sizeof *reference);
     return reference;
 }
 
-/* A track without its particles; NULL when memory ran out. */
+/* A track without its particles. */
 static json_t *track_data(const mote_replay_scene *scene, const mote_replay_grid *grid,
                           const mote_replay_track *track)
 {
     const mote_stored_cell *cell = track->cell;
     mote_vec3 *reference = reference_of(scene, track);
     mote_text answers = {0};
-    if (!reference)
-        return NULL;
     add_errors(&answers, track);
     mote_replay_add_points(&answers, "pair", grid, track->pair, 2 * track->rows, 2, reference);
     free(reference);
     json_t *data =
-        json_pack("{s:s, s:s, s:i, s:i, s:i, s:I, s:o*}", "label", track->row->label, "cell",
+        json_pack("{s:s, s:s, s:i, s:i, s:i, s:I, s:o}", "label", track->row->label, "cell",
                   cell->id, "first", (int)cell->frame[0], "stride", (int)cell->stride,
                   "replicate", (int)cell->replicate, "replicates",
                   (json_int_t)track->row->finished, "answers", packed_object(&answers));
-    if (data && track->row->n == track->row->n)
+    if (track->row->n == track->row->n)
         (void)json_object_set_new(data, "n", json_real(track->row->n));
-    return json_object_get(data, "answers") ? data : NULL;
+    return data;
 }
 
 static size_t packed_size(const json_t *object, const char *key)
@@ -249,12 +235,11 @@ static size_t packed_size(const json_t *object, const char *key)
     return json_string_length(json_object_get(object, key));
 }
 
-static mote_status add_note(json_t *notes, const char *label, const char *what)
+static void add_note(json_t *notes, const char *label, const char *what)
 {
     char *note = mote_format("%s: %s", label, what);
-    int added = note ? json_array_append_new(notes, json_string(note)) : -1;
+    (void)json_array_append_new(notes, json_string(note));
     free(note);
-    return added == 0 ? MOTE_OK : no_memory();
 }
 
 /* The first track with the same particles as track t, t itself if there is none before. */
@@ -272,19 +257,16 @@ static size_t same_particles(const mote_replay_scene *scene, size_t t)
 }
 
 /* The tracks that fit. Track t names its particles by the first track that has the same. */
-static mote_status add_tracks(const mote_replay_scene *scene, const mote_replay_grid *grid,
-                              size_t *room, json_t *data, json_t *notes)
+static void add_tracks(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                       size_t *room, json_t *data, json_t *notes)
 {
     json_t *tracks = json_array();
-    mote_status status = MOTE_OK;
-    for (size_t t = 0; t < scene->count && status == MOTE_OK; ++t) {
+    for (size_t t = 0; t < scene->count; ++t) {
         const mote_replay_track *track = &scene->tracks[t];
         json_t *one = track_data(scene, grid, track);
         const size_t size = packed_size(one, "answers");
-        if (!one) {
-            status = no_memory();
-        } else if (size > *room) {
-            status = add_note(notes, track->row->label, "left out, to keep the page small");
+        if (size > *room) {
+            add_note(notes, track->row->label, "left out, to keep the page small");
             json_decref(one);
         } else {
             *room -= size;
@@ -295,10 +277,9 @@ static mote_status add_tracks(const mote_replay_scene *scene, const mote_replay_
         }
     }
     (void)json_object_set_new(data, "tracks", tracks);
-    return status;
 }
 
-/* The particles of track t, packed; NULL when memory ran out. */
+/* The particles of a track, packed. */
 static json_t *particle_data(const mote_replay_track *track, const mote_replay_grid *grid)
 {
     mote_text text = {0};
@@ -322,26 +303,20 @@ static size_t next_particles(const mote_replay_scene *scene, const bool *done)
 }
 
 /* Particles, few first, while they fit: by the number of their track. */
-static mote_status add_particles(const mote_replay_scene *scene, const mote_replay_grid *grid,
-                                 size_t *room, json_t *data, json_t *notes)
+static void add_particles(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                          size_t *room, json_t *data, json_t *notes)
 {
-    bool *done = calloc(scene->count + 1, sizeof *done);
+    bool *done = mote_allocate(scene->count, sizeof *done);
     json_t *sets = json_object();
-    mote_status status = done && sets ? MOTE_OK : no_memory();
-    while (status == MOTE_OK) {
-        const size_t t = next_particles(scene, done);
-        if (t == scene->count)
-            break;
+    for (size_t t; (t = next_particles(scene, done)) < scene->count;) {
         done[t] = true;
         char key[32];
         (void)snprintf(key, sizeof key, "%zu", t);
         json_t *packed = particle_data(&scene->tracks[t], grid);
         const size_t size = json_string_length(packed);
-        if (!packed) {
-            status = no_memory();
-        } else if (size > *room) {
-            status = add_note(notes, scene->tracks[t].row->label,
-                              "its particles are left out, to keep the page small");
+        if (size > *room) {
+            add_note(notes, scene->tracks[t].row->label,
+                     "its particles are left out, to keep the page small");
             json_decref(packed);
         } else {
             (void)json_object_set_new(sets, key, packed);
@@ -350,7 +325,6 @@ static mote_status add_particles(const mote_replay_scene *scene, const mote_repl
     }
     (void)json_object_set_new(data, "particles", sets);
     free(done);
-    return status;
 }
 
 /* The scene without its tracks. */
@@ -361,8 +335,6 @@ static mote_status begin_scene(const mote_replay_scene *scene, const mote_replay
     mote_text bodies = {0};
     mote_status status = add_bodies(&bodies, scene, grid);
     json_t *packed = packed_object(&bodies);
-    if (status == MOTE_OK && !packed)
-        status = no_memory();
     if (status != MOTE_OK) {
         json_decref(packed);
         return status;
@@ -373,7 +345,7 @@ static mote_status begin_scene(const mote_replay_scene *scene, const mote_replay
                   "first", (int)scene->first, "last", (int)scene->last, "active",
                   (int)scenario->active.first, (int)scenario->active.last, "low", grid->low.x,
                   grid->low.y, grid->low.z, "step", grid->step, "world", packed);
-    return *data ? MOTE_OK : no_memory();
+    return MOTE_OK;
 }
 
 mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
@@ -382,21 +354,18 @@ mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, jso
     const mote_replay_grid grid = scene_grid(scene);
     json_t *made = NULL, *notes = json_deep_copy(scene->notes);
     size_t room = budget;
-    mote_status status = notes ? begin_scene(scene, &grid, &made) : no_memory();
+    mote_status status = begin_scene(scene, &grid, &made);
     if (status == MOTE_OK && packed_size(made, "world") > room)
         status =
             mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page", scene->scenario->name);
-    if (status == MOTE_OK) {
-        room -= packed_size(made, "world");
-        status = add_tracks(scene, &grid, &room, made, notes);
-    }
-    if (status == MOTE_OK)
-        status = add_particles(scene, &grid, &room, made, notes);
     if (status != MOTE_OK) {
         json_decref(made);
         json_decref(notes);
         return status;
     }
+    room -= packed_size(made, "world");
+    add_tracks(scene, &grid, &room, made, notes);
+    add_particles(scene, &grid, &room, made, notes);
     (void)json_object_set_new(made, "notes", notes);
     *used = budget - room;
     *data = made;

@@ -43,11 +43,11 @@ void mote_report_free(mote_report *report);
 
 /* Fills figures from directory/figures; adds to missing which commands draw more. Part of
    mote_report_gather. */
-mote_status mote_report_figures(mote_report *report);
+void mote_report_figures(mote_report *report);
 
 /* The page and the text. `text` is to be written by mote_record_text. */
 mote_status mote_report_html(const mote_report *report, mote_text *text);
-mote_status mote_report_markdown(const mote_report *report, mote_text *text);
+void mote_report_markdown(const mote_report *report, mote_text *text);
 
 /* Writes directory/report.html and directory/report.md. */
 mote_status mote_report_write(const char *directory);

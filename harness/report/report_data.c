@@ -122,15 +122,11 @@ static mote_status set_drawing(const mote_report *report, const mote_report_figu
     char *svg = NULL;
     size_t size = 0;
     mote_text packed = {0};
-    mote_status status = path ? mote_file_read(path, FIGURE_LIMIT, &svg, &size)
-                              : mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
+    const mote_status status = mote_file_read(path, FIGURE_LIMIT, &svg, &size);
     if (status == MOTE_OK) {
         mote_packed_add(&packed, svg, size);
-        if (packed.failed)
-            status = mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    }
-    if (status == MOTE_OK)
         set(data, "drawing", json_string(packed.data));
+    }
     free(packed.data);
     free(svg);
     free(path);

@@ -42,14 +42,12 @@ json_t *mote_report_machine(const mote_report *report)
     static const char *const after[] = {"compiler",  "build_type", "flags",
                                         "libraries", "version",    "program"};
     json_t *list = json_array();
-    for (size_t i = 0; list && i < sizeof before / sizeof before[0]; ++i)
+    for (size_t i = 0; i < sizeof before / sizeof before[0]; ++i)
         add_pair(list, before[i], mote_report_text(report->manifest, before[i]));
-    if (list) {
-        add_number(report, "cores", list);
-        add_sources(report, list);
-        add_number(report, "seed", list);
-    }
-    for (size_t i = 0; list && i < sizeof after / sizeof after[0]; ++i)
+    add_number(report, "cores", list);
+    add_sources(report, list);
+    add_number(report, "seed", list);
+    for (size_t i = 0; i < sizeof after / sizeof after[0]; ++i)
         add_pair(list, after[i], mote_report_text(report->manifest, after[i]));
     return list;
 }
@@ -84,9 +82,7 @@ static json_t *command(const json_t *session)
     {
         add_word(&text, json_is_string(word) ? json_string_value(word) : "");
     }
-    json_t *pair = text.failed
-                       ? NULL
-                       : json_pack("[s,s]", mote_report_text(session, "started"), text.data);
+    json_t *pair = json_pack("[s,s]", mote_report_text(session, "started"), text.data);
     free(text.data);
     return pair;
 }
@@ -98,10 +94,7 @@ json_t *mote_report_commands(const mote_report *report)
     json_t *list = json_array();
     MOTE_EACH(i, session, json_object_get(report->manifest, "sessions"))
     {
-        if (list && json_array_append_new(list, command(session)) != 0) {
-            json_decref(list);
-            list = NULL;
-        }
+        (void)json_array_append_new(list, command(session));
     }
     return list;
 }
@@ -123,7 +116,7 @@ json_t *mote_report_scenarios(const mote_report *report)
         catalog.count = 0;
     json_t *list = json_array();
     const char *last = NULL;
-    for (size_t i = 0; list && i < mote_report_row_count(report); ++i) {
+    for (size_t i = 0; i < mote_report_row_count(report); ++i) {
         const char *name = mote_report_text(mote_report_row(report, i), "scenario");
         if (last && strcmp(last, name) == 0)
             continue;
@@ -151,9 +144,5 @@ char *mote_report_subtitle(const mote_report *report)
     const char *started = mote_report_text(session, "started");
     if (started[0])
         mote_text_add(&text, ", %.10s", started);
-    if (text.failed) {
-        free(text.data);
-        return NULL;
-    }
     return text.data;
 }

@@ -1,4 +1,5 @@
 /* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
+#include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/figure/figures.h"
 #include "harness/report/report.h"
@@ -18,78 +19,60 @@ static bool exists(const mote_report *report, const char *file)
 {
     struct stat info;
     char *path = mote_format("%s/figures/%s", report->directory, file);
-    bool found = path && stat(path, &info) == 0;
+    bool found = stat(path, &info) == 0;
     free(path);
     return found;
 }
 
 /* Adds a figure; takes ownership of title. */
-static mote_status add_figure(mote_report *report, const char *file, char *title,
-                              const char *caption)
+static void add_figure(mote_report *report, const char *file, char *title, const char *caption)
 {
-    mote_report_figure *figures =
-        realloc(report->figures, (report->figure_count + 1) * sizeof *figures);
-    if (!figures || !title) {
-        free(title);
-        report->figures = figures ? figures : report->figures;
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    }
-    report->figures = figures;
-    mote_report_figure *figure = &figures[report->figure_count++];
+    report->figures =
+        mote_resize(report->figures, report->figure_count + 1, sizeof *report->figures);
+    mote_report_figure *figure = &report->figures[report->figure_count++];
     figure->animation = mote_name_ends(file, ".gif");
     figure->file = mote_format("figures/%s", file);
     figure->title = title;
-    figure->caption = mote_format("%s", caption);
-    if (!figure->file || !figure->caption)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    return MOTE_OK;
+    figure->caption = mote_duplicate(caption);
 }
 
 /* One entry of figures.json: the drawing that a page shows. */
-static mote_status add_entry(mote_report *report, const json_t *entry)
+static void add_entry(mote_report *report, const json_t *entry)
 {
     size_t i;
     const json_t *item;
     const char *scenario = mote_report_text(entry, "scenario");
-    mote_status status = MOTE_OK;
     MOTE_EACH(i, item, json_object_get(entry, "files"))
     {
         const char *file = json_is_string(item) ? json_string_value(item) : "";
-        const bool shown = is_drawn(file);
-        if (status != MOTE_OK || !shown || strchr(file, '/') || !exists(report, file))
+        if (!is_drawn(file) || strchr(file, '/') || !exists(report, file))
             continue;
         char *title =
             mote_format("Figure %.0f. %s%s%s", mote_report_number(entry, NULL, "number"),
                         mote_report_text(entry, "title"), scenario[0] ? ": " : "", scenario);
-        status = add_figure(report, file, title, mote_report_text(entry, "caption"));
+        add_figure(report, file, title, mote_report_text(entry, "caption"));
     }
-    return status;
 }
 
 /* One line for all figures that other commands measure. */
-static mote_status add_elsewhere(mote_report *report, const json_t *not_drawn)
+static void add_elsewhere(mote_report *report, const json_t *not_drawn)
 {
     mote_text text = {0};
     mote_figures_elsewhere(not_drawn, &text);
-    bool added = true;
     if (text.size > 0)
-        added = json_array_append_new(report->missing, json_string(text.data)) == 0;
+        (void)json_array_append_new(report->missing, json_string(text.data));
     free(text.data);
-    return added ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a report");
 }
 
-static mote_status read_list(mote_report *report, const json_t *list)
+static void read_list(mote_report *report, const json_t *list)
 {
     size_t i;
     const json_t *item;
-    mote_status status = MOTE_OK;
     MOTE_EACH(i, item, json_object_get(list, "figures"))
     {
-        if (status == MOTE_OK)
-            status = add_entry(report, item);
+        add_entry(report, item);
     }
-    return status == MOTE_OK ? add_elsewhere(report, json_object_get(list, "not_drawn"))
-                             : status;
+    add_elsewhere(report, json_object_get(list, "not_drawn"));
 }
 
 static int by_file(const void *a, const void *b)
@@ -98,40 +81,35 @@ static int by_file(const void *a, const void *b)
     return strcmp(first->file, second->file);
 }
 
-static mote_status read_folder(mote_report *report)
+static void read_folder(mote_report *report)
 {
     char *path = mote_format("%s/figures", report->directory);
-    DIR *folder = path ? opendir(path) : NULL;
+    DIR *folder = opendir(path);
     free(path);
-    mote_status status = MOTE_OK;
-    for (const struct dirent *entry = folder ? readdir(folder) : NULL;
-         entry && status == MOTE_OK; entry = readdir(folder)) {
+    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
+         entry = readdir(folder)) {
         const char *file = entry->d_name;
         if (is_drawn(file))
-            status =
-                add_figure(report, file, mote_format("%.*s", (int)strlen(file) - 4, file), "");
+            add_figure(report, file, mote_format("%.*s", (int)strlen(file) - 4, file), "");
     }
     if (folder)
         (void)closedir(folder);
     if (report->figure_count > 0)
         qsort(report->figures, report->figure_count, sizeof *report->figures, by_file);
-    return status;
 }
 
-mote_status mote_report_figures(mote_report *report)
+void mote_report_figures(mote_report *report)
 {
     json_t *list = NULL;
-    mote_status status = MOTE_OK;
     if (mote_record_read_json(report->directory, "figures/figures.json", &list) == MOTE_OK) {
-        status = read_list(report, list);
+        read_list(report, list);
         json_decref(list);
-        return status;
+        return;
     }
     char *text = mote_format("figures: no list of them (figures/figures.json); `mote figures "
                              "%s` draws them",
                              report->directory);
-    if (!text || json_array_append_new(report->missing, json_string(text)) != 0)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a report");
+    (void)json_array_append_new(report->missing, json_string(text));
     free(text);
-    return status == MOTE_OK ? read_folder(report) : status;
+    read_folder(report);
 }

@@ -1,5 +1,6 @@
 #include "harness/base/record.h"
 #include "harness/base/data.h"
+#include "harness/base/memory.h"
 #include "harness/report/report.h"
 #include "harness/report/report_rows.h"
 #include "harness/summary/summary_json.h"
@@ -12,87 +13,74 @@
 
 #define DEFECTS_LIMIT ((size_t)1 << 20)
 
-static mote_status no_memory(void)
-{
-    return mote_fail(MOTE_ENOMEM, "no memory for a report");
-}
-
 /* Adds a text to a list; takes ownership of it. */
-static mote_status add_text(json_t *list, char *what)
+static void add_text(json_t *list, char *what)
 {
-    int added = what ? json_array_append_new(list, json_string(what)) : -1;
+    (void)json_array_append_new(list, json_string(what));
     free(what);
-    return added == 0 ? MOTE_OK : no_memory();
 }
 
 static bool exists(const char *directory, const char *name)
 {
     char *path = mote_format("%s/%s", directory, name);
     struct stat info;
-    bool found = path && stat(path, &info) == 0;
+    bool found = stat(path, &info) == 0;
     free(path);
     return found;
 }
 
 /* Reads directory/name. A file that is missing or cannot be read is noted, and is no
    failure. */
-static mote_status read_json(mote_report *report, const char *name, const char *remedy,
-                             json_t **object)
+static void read_json(mote_report *report, const char *name, const char *remedy,
+                      json_t **object)
 {
     if (!exists(report->directory, name))
-        return add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
-    mote_status status = mote_record_read_json(report->directory, name, object);
-    if (status == MOTE_OK || status == MOTE_ENOMEM)
-        return status;
-    return add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
+        add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
+    else if (mote_record_read_json(report->directory, name, object) != MOTE_OK)
+        add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
 }
 
 /* A text of `damaged` for each line. */
-static mote_status add_lines(mote_report *report, const char *text)
+static void add_lines(mote_report *report, const char *text)
 {
-    mote_status status = MOTE_OK;
-    while (*text && status == MOTE_OK) {
+    while (*text) {
         text += strncmp(text, "mote: ", 6) == 0 ? 6 : 0;
         size_t length = strcspn(text, "\n");
         if (length > 0)
-            status = add_text(report->damaged, mote_format("a cell: %.*s", (int)length, text));
+            add_text(report->damaged, mote_format("a cell: %.*s", (int)length, text));
         text += length + 1; /* each line has an end */
     }
-    return status;
 }
 
 /* The rows: from the cells that can be read, or else as they were stored. */
-static mote_status read_rows(mote_report *report)
+static void read_rows(mote_report *report)
 {
     mote_text damaged = {0};
-    mote_status status = mote_summary_make_whole(report->directory, &damaged, &report->cells);
-    const bool made = status == MOTE_OK;
+    const bool made =
+        mote_summary_make_whole(report->directory, &damaged, &report->cells) == MOTE_OK;
     if (made && damaged.size > 0)
-        status = add_lines(report, damaged.data);
+        add_lines(report, damaged.data);
     free(damaged.data);
     if (made && report->cells.count > 0) {
         report->has_cells = true;
         report->summary = mote_summary_json(&report->cells);
-        return status != MOTE_OK || report->summary ? status : no_memory();
+        return;
     }
-    if (made)
+    if (made) {
         mote_summary_free(&report->cells);
-    if (made && status == MOTE_OK)
-        status = add_text(
-            report->missing,
-            mote_format("cells: none that can be read; `mote run --out %s` measures them",
-                        report->directory));
-    else if (status != MOTE_ENOMEM)
-        status = add_text(report->missing, mote_format("cells: %s", mote_error_text()));
-    if (status != MOTE_OK)
-        return status;
-    return read_json(report, "summary.json", "`mote summarize` writes it from the cells",
-                     &report->summary);
+        add_text(report->missing,
+                 mote_format("cells: none that can be read; `mote run --out %s` measures them",
+                             report->directory));
+    } else {
+        add_text(report->missing, mote_format("cells: %s", mote_error_text()));
+    }
+    read_json(report, "summary.json", "`mote summarize` writes it from the cells",
+              &report->summary);
 }
 
 /* The claims are measured by a run of their own, which `make claims` writes beside the
    others. */
-static mote_status read_claims(mote_report *report)
+static void read_claims(mote_report *report)
 {
     static const char *const folders[] = {"", "../claims/"};
     size_t k = 0;
@@ -103,29 +91,25 @@ static mote_status read_claims(mote_report *report)
             break;
         ++k;
     }
-    if (k == 2)
-        return add_text(report->missing, mote_format("claims.json: neither in the run nor in "
-                                                     "../claims; `make claims` measures them"));
-    report->claims_folder = mote_format("%s", folders[k]);
+    if (k == 2) {
+        add_text(report->missing, mote_format("claims.json: neither in the run nor in "
+                                              "../claims; `make claims` measures them"));
+        return;
+    }
+    report->claims_folder = mote_duplicate(folders[k]);
     char claims[64], requirements[64];
     (void)snprintf(claims, sizeof claims, "%sclaims.json", folders[k]);
     (void)snprintf(requirements, sizeof requirements, "%srequirements.json", folders[k]);
-    mote_status status = report->claims_folder ? MOTE_OK : no_memory();
-    if (status == MOTE_OK)
-        status = read_json(report, claims, "`make claims` measures them", &report->claims);
-    if (status == MOTE_OK)
-        status = read_json(report, requirements, "`make claims` measures them",
-                           &report->requirements);
-    return status;
+    read_json(report, claims, "`make claims` measures them", &report->claims);
+    read_json(report, requirements, "`make claims` measures them", &report->requirements);
 }
 
-static mote_status read_defects(mote_report *report)
+static void read_defects(mote_report *report)
 {
     size_t size;
-    if (mote_data_read("datasets/defects.md", DEFECTS_LIMIT, &report->defects, &size) ==
+    if (mote_data_read("datasets/defects.md", DEFECTS_LIMIT, &report->defects, &size) !=
         MOTE_OK)
-        return MOTE_OK;
-    return add_text(report->missing, mote_format("known defects: %s", mote_error_text()));
+        add_text(report->missing, mote_format("known defects: %s", mote_error_text()));
 }
 
 /* The last part of a path; that of the working directory for ".". */
@@ -157,30 +141,22 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     made.damaged = json_array();
     made.missing = json_array();
     made.name = last_part(directory);
-    mote_status status = made.damaged && made.missing && made.name ? MOTE_OK : no_memory();
-    if (status == MOTE_OK)
-        status = read_json(&made, "manifest.json", "`mote run` writes it", &made.manifest);
-    if (status == MOTE_OK)
-        status = read_rows(&made);
-    if (status == MOTE_OK)
-        status = mote_report_sort(&made);
-    if (status == MOTE_OK)
-        status = mote_report_figures(&made);
-    bool own_claims = exists(directory, "claims.json");
-    if (status == MOTE_OK && !made.summary && !made.figure_count && !own_claims)
-        status = mote_fail(MOTE_EIO,
-                           "%s: nothing to report: no cells that can be read, no summary.json, "
-                           "no claims.json, no figures; name the directory of a run",
-                           directory);
-    if (status == MOTE_OK)
-        status = read_claims(&made);
-    if (status == MOTE_OK)
-        status = read_defects(&made);
-    if (status == MOTE_OK)
-        *report = made;
-    else
+    read_json(&made, "manifest.json", "`mote run` writes it", &made.manifest);
+    read_rows(&made);
+    mote_report_sort(&made);
+    mote_report_figures(&made);
+    if (!made.summary && !made.figure_count && !exists(directory, "claims.json")) {
         mote_report_free(&made);
-    return status;
+        return mote_fail(
+            MOTE_EIO,
+            "%s: nothing to report: no cells that can be read, no summary.json, no "
+            "claims.json, no figures; name the directory of a run",
+            directory);
+    }
+    read_claims(&made);
+    read_defects(&made);
+    *report = made;
+    return MOTE_OK;
 }
 
 void mote_report_free(mote_report *report)
@@ -213,10 +189,10 @@ mote_status mote_report_write(const char *directory)
         return status;
     mote_text html = {0}, markdown = {0};
     status = mote_report_html(&report, &html);
-    if (status == MOTE_OK)
-        status = mote_report_markdown(&report, &markdown);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        mote_report_markdown(&report, &markdown);
         status = mote_record_text(directory, "report.html", &html);
+    }
     if (status == MOTE_OK)
         status = mote_record_text(directory, "report.md", &markdown);
     free(html.data);

@@ -53,11 +53,9 @@ static mote_status add_head(const mote_report *report, mote_text *text)
     return MOTE_OK;
 }
 
-static mote_status add_frame(const mote_report *report, mote_text *text)
+static void add_frame(const mote_report *report, mote_text *text)
 {
     char *subtitle = mote_report_subtitle(report);
-    if (!subtitle)
-        return mote_fail(MOTE_ENOMEM, "no memory for a report");
     mote_text_add(text, "<header>\n<p>mote, report of a run</p>\n<h1>");
     mote_escape_html(text, report->name);
     mote_text_add(text, "</h1>\n<p>");
@@ -67,7 +65,6 @@ static mote_status add_frame(const mote_report *report, mote_text *text)
                         "href=\"report.md\">report.md</a> has them as plain text.</p>"
                         "</noscript>\n<nav aria-label=\"Sections\"></nav>\n<main></main>\n");
     free(subtitle);
-    return MOTE_OK;
 }
 
 /* A script element; `name` is what a message calls its source. */
@@ -98,7 +95,7 @@ static mote_status add_scripts(mote_text *text)
 }
 
 /* An element of data, which no text within it can end; takes ownership of data. */
-static mote_status add_data(const char *id, json_t *data, mote_text *text)
+static void add_data(const char *id, json_t *data, mote_text *text)
 {
     char *json = json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));
     json_decref(data);
@@ -106,7 +103,6 @@ static mote_status add_data(const char *id, json_t *data, mote_text *text)
     mote_escape_script(text, json);
     mote_text_add(text, "</script>\n");
     free(json);
-    return MOTE_OK;
 }
 
 mote_status mote_report_html(const mote_report *report, mote_text *text)
@@ -115,18 +111,18 @@ mote_status mote_report_html(const mote_report *report, mote_text *text)
     char *program = NULL;
     size_t size = 0;
     mote_status status = add_head(report, text);
-    if (status == MOTE_OK)
-        status = add_frame(report, text);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        add_frame(report, text);
         status = mote_report_data(report, &data);
+    }
     if (status == MOTE_OK)
-        status = add_data("report-data", data, text);
+        add_data("report-data", data, text);
     const bool bundled = status == MOTE_OK && report->has_cells &&
                          read_replay_program(&program, &size) == MOTE_OK;
     if (bundled)
         status = mote_replay_json(report, &replay);
     if (bundled && status == MOTE_OK)
-        status = add_data("replay-data", replay, text);
+        add_data("replay-data", replay, text);
     if (status == MOTE_OK)
         status = add_scripts(text);
     if (bundled && status == MOTE_OK)

@@ -16,12 +16,10 @@ static const char *pair_text(const json_t *pair, size_t index)
 }
 
 /* "- key: value" for each pair. */
-static mote_status add_pairs(json_t *pairs, mote_text *text)
+static void add_pairs(json_t *pairs, mote_text *text)
 {
     size_t i;
     const json_t *pair;
-    if (!pairs)
-        return mote_fail(MOTE_ENOMEM, "no memory for a report");
     MOTE_EACH(i, pair, pairs)
     {
         mote_text_add(text, "- ");
@@ -31,16 +29,13 @@ static mote_status add_pairs(json_t *pairs, mote_text *text)
         mote_text_add(text, "\n");
     }
     json_decref(pairs);
-    return MOTE_OK;
 }
 
-static mote_status add_commands(const mote_report *report, mote_text *text)
+static void add_commands(const mote_report *report, mote_text *text)
 {
     size_t i;
     const json_t *pair;
     json_t *commands = mote_report_commands(report);
-    if (!commands)
-        return mote_fail(MOTE_ENOMEM, "no memory for a report");
     if (json_array_size(commands) > 0)
         mote_text_add(text, "\nMeasured by\n");
     MOTE_EACH(i, pair, commands)
@@ -53,7 +48,6 @@ static mote_status add_commands(const mote_report *report, mote_text *text)
     }
     mote_text_add(text, "%s", json_array_size(commands) > 0 ? "\n" : "");
     json_decref(commands);
-    return MOTE_OK;
 }
 
 /* Files that cannot be read come first, since the tables lack them. */
@@ -354,7 +348,7 @@ static void add_cells(const mote_report *report, mote_text *text)
     }
 }
 
-mote_status mote_report_markdown(const mote_report *report, mote_text *text)
+void mote_report_markdown(const mote_report *report, mote_text *text)
 {
     char *subtitle = mote_report_subtitle(report);
     mote_text_add(text, "# ");
@@ -367,14 +361,9 @@ mote_status mote_report_markdown(const mote_report *report, mote_text *text)
                   "bounding volume hierarchies, on deforming triangle meshes? Every\nmethod "
                   "gets the same frames; its answers are compared with the exact "
                   "distance.\n\n");
-    mote_status status = subtitle ? MOTE_OK : mote_fail(MOTE_ENOMEM, "no memory for a report");
     free(subtitle);
-    if (status == MOTE_OK)
-        status = add_pairs(mote_report_scenarios(report), text);
-    if (status == MOTE_OK)
-        status = add_commands(report, text);
-    if (status != MOTE_OK)
-        return status;
+    add_pairs(mote_report_scenarios(report), text);
+    add_commands(report, text);
     add_damaged(report, text);
     add_results(report, text);
     add_figures(report, text);
@@ -382,7 +371,7 @@ mote_status mote_report_markdown(const mote_report *report, mote_text *text)
     add_claims(report, report->requirements, "Requirements", "requirements.json", text);
     if (report->manifest) {
         mote_text_add(text, "\n## The machine and the program\n\n");
-        status = add_pairs(mote_report_machine(report), text);
+        add_pairs(mote_report_machine(report), text);
         mote_text_add(text, "\nFrom [manifest.json](manifest.json).\n");
     }
     if (report->defects) {
@@ -391,5 +380,4 @@ mote_status mote_report_markdown(const mote_report *report, mote_text *text)
     }
     add_missing(report, text);
     add_cells(report, text);
-    return status;
 }

@@ -1,5 +1,7 @@
 #include "harness/report/report_rows.h"
 
+#include "harness/base/memory.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -123,12 +125,10 @@ static void sort_block(mote_report *report, size_t first, size_t end)
     }
 }
 
-mote_status mote_report_sort(mote_report *report)
+void mote_report_sort(mote_report *report)
 {
     const size_t count = mote_report_row_count(report);
-    report->order = malloc((count + 1) * sizeof *report->order);
-    if (!report->order)
-        return mote_fail(MOTE_ENOMEM, "no memory for a report");
+    report->order = mote_allocate(count, sizeof *report->order);
     for (size_t i = 0; i < count; ++i)
         report->order[i] = i;
     for (size_t first = 0; first < count;) {
@@ -136,7 +136,6 @@ mote_status mote_report_sort(mote_report *report)
         sort_block(report, first, end);
         first = end;
     }
-    return MOTE_OK;
 }
 
 mote_report_glance mote_report_block_glance(const mote_report *report, size_t first, size_t end)

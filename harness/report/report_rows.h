@@ -8,7 +8,7 @@
 
 /* The rows in the order in which they are shown: block by block, within a block by median total
    time, rows without a time that can be compared last. Part of mote_report_gather. */
-mote_status mote_report_sort(mote_report *report);
+void mote_report_sort(mote_report *report);
 
 /* Row i as shown, i < mote_report_row_count; 0 rows where there is no summary. */
 size_t mote_report_row_count(const mote_report *report);
