@@ -23,8 +23,8 @@ static inline void program_split(char *line, char *argv[PROGRAM_ARGUMENTS])
     argv[count] = NULL;
 }
 
-/* Starts `mote LINE`, standard output and error into the file `said`. */
-static inline pid_t program_start(const char *line, const char *said)
+/* Starts `mote LINE`, standard output and error into a file. */
+static inline pid_t program_start(const char *line, const char *file)
 {
     pid_t pid = fork();
     if (pid != 0)
@@ -33,7 +33,7 @@ static inline pid_t program_start(const char *line, const char *said)
     char *argv[PROGRAM_ARGUMENTS];
     (void)snprintf(copy, sizeof copy, "%s", line);
     program_split(copy, argv);
-    int out = open(said, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    int out = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0644);
     if (out >= 0 && dup2(out, STDOUT_FILENO) >= 0 && dup2(out, STDERR_FILENO) >= 0)
         (void)execv(argv[0], argv);
     _exit(127);

@@ -2,40 +2,32 @@
    what it needs: compared with figures.json, and with the scripts in plots/. */
 #include "harness/base/file.h"
 #include "harness/base/record.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 
 #include <dirent.h>
 
-static char base[] = "/tmp/mote-test-figure-list-XXXXXX";
-static char run_folder[64], readme[1 << 16];
+static char *readme;
 
 static int make_run(void)
 {
-    char line[256], said[64];
-    if (!mkdtemp(base))
-        return -1;
-    program_read(MOTE_SOURCE_DIR "/results/README.md", readme, sizeof readme);
-    (void)snprintf(run_folder, sizeof run_folder, "%s/run", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    (void)snprintf(line, sizeof line,
-                   "run tt --frames 1-20 --replicates 2 --method fcl-aabb --method certified "
-                   "--out %s",
-                   run_folder);
-    if (program_wait(program_start(line, said)) != 0)
-        return -1;
-    (void)snprintf(line, sizeof line, "figures %s", run_folder);
-    return program_wait(program_start(line, said));
+    readme = file_text(MOTE_SOURCE_DIR "/results/README.md");
+    return mote(
+               "run tt --frames 1-20 --replicates 2 --method fcl-aabb --method certified --out "
+               "run") ||
+           mote("figures run");
 }
 
-static int remove_base(void)
+static int free_readme(void)
 {
-    return program_remove(base);
+    free(readme);
+    return 0;
 }
 
-TEST_GROUP(make_run, remove_base);
+TEST_GROUP(make_run, free_readme);
 
 /* The line of README about a figure: "| 4 | `front-SCENARIO` | ..."; NULL: there is none. */
 static const char *line_of(int number, const char *name)
@@ -52,7 +44,7 @@ TEST(every_drawn_figure_is_in_the_readme)
     size_t i;
     const json_t *figure;
     json_t *list;
-    assert_int_equal(mote_record_read_json(run_folder, "figures/figures.json", &list), MOTE_OK);
+    assert_int_equal(mote_record_read_json("run", "figures/figures.json", &list), MOTE_OK);
     assert_true(json_array_size(json_object_get(list, "figures")) > 0);
     MOTE_EACH(i, figure, json_object_get(list, "figures"))
     {
@@ -75,7 +67,7 @@ TEST(every_figure_not_drawn_is_in_the_readme_with_its_command)
     size_t i;
     const json_t *figure;
     json_t *list;
-    assert_int_equal(mote_record_read_json(run_folder, "figures/figures.json", &list), MOTE_OK);
+    assert_int_equal(mote_record_read_json("run", "figures/figures.json", &list), MOTE_OK);
     assert_true(json_array_size(json_object_get(list, "not_drawn")) > 6);
     MOTE_EACH(i, figure, json_object_get(list, "not_drawn"))
     {
@@ -84,7 +76,7 @@ TEST(every_figure_not_drawn_is_in_the_readme_with_its_command)
         char command[256], ending[300];
         (void)snprintf(command, sizeof command, "%s",
                        json_string_value(json_object_get(figure, "command")));
-        char *directory = strstr(command, run_folder);
+        char *directory = strstr(command, "run");
         if (directory)
             (void)strcpy(directory, "DIR");
         (void)snprintf(ending, sizeof ending, "| `%s` |\n", command);

@@ -5,6 +5,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/program.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
@@ -15,61 +16,32 @@
 #include <math.h>
 #include <sys/stat.h>
 
-static char base[] = "/tmp/mote-test-figures-XXXXXX";
 static char text[1 << 18];
 
 /* A scenario whose name is a command to gnuplot and to a shell, were it ever run. */
 #define HOSTILE "'; system(\"touch HACKED\") `touch HACKED` $(touch HACKED)"
 
-static void path_of(const char *name, char path[256])
-{
-    (void)snprintf(path, 256, "%s/%s", base, name);
-}
-
-/* mote COMMAND BASE/DIRECTORY; what it said is in text. */
-static int run(const char *command, const char *directory)
-{
-    char line[512], said[256];
-    path_of("said", said);
-    (void)snprintf(line, sizeof line, "%s %s/%s", command, base, directory);
-    const int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
-}
-
 static bool exists(const char *name)
 {
-    char path[256];
     struct stat info;
-    path_of(name, path);
-    return stat(path, &info) == 0 && info.st_size > 0;
+    return stat(name, &info) == 0 && info.st_size > 0;
 }
 
 /* Makes one small run: two scenarios, some n, two replicates. */
 static int make_run(void)
 {
-    return mkdtemp(base) &&
-                   run("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "
-                       "particle-paper:refine=no|near --method fcl-aabb --out",
-                       "run") == 0 &&
-                   run("figures", "run") == 0
-               ? 0
-               : -1;
+    return mote("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "
+                "'particle-paper:refine=no|near' --method fcl-aabb --out run") ||
+           mote("figures run");
 }
 
-static int remove_run(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_run, remove_run);
+TEST_GROUP(make_run, NULL);
 
 static json_t *read_list(const char *directory, const char *key)
 {
-    char folder[256];
     json_t *object = NULL;
-    path_of(directory, folder);
-    assert_int_equal(mote_record_read_json(folder, "figures/figures.json", &object), MOTE_OK);
+    assert_int_equal(mote_record_read_json(directory, "figures/figures.json", &object),
+                     MOTE_OK);
     json_t *list = json_incref(json_object_get(object, key));
     json_decref(object);
     return list;
@@ -95,12 +67,12 @@ TEST(figures_of_a_run_are_there_in_every_format)
 
 TEST(figures_that_cannot_be_drawn_are_named)
 {
-    assert_int_equal(run("figures", "run"), 0);
+    mote_expect(0, "", "figures run");
     assert_non_null(strstr(
-        text, "run: figures that other commands measure: 2 (`make bench`), 3 (`make bench "
+        said, "run: figures that other commands measure: 2 (`make bench`), 3 (`make bench "
               "PROFILE=quick`), 6, 7 (`make sweep`), 10 (`make extremes OUT="));
-    assert_non_null(strstr(text, "run`), 13, 14 (`make ingredients`), 15 (`make bodies`)\n"));
-    assert_null(strstr(text, "figure ")); /* one line for all of them */
+    assert_non_null(strstr(said, "run`), 13, 14 (`make ingredients`), 15 (`make bodies`)\n"));
+    assert_null(strstr(said, "figure ")); /* one line for all of them */
     json_t *missing = read_list("run", "missing");
     assert_int_equal(json_array_size(missing), 11); /* of figures 2 and 15, both */
     json_decref(missing);
@@ -110,18 +82,15 @@ TEST(figures_that_cannot_be_drawn_are_named)
    time over the whole's, and the front over n, launch and track. */
 TEST(figures_of_ingredients_have_the_rows_of_each)
 {
-    char path[256];
-    assert_int_equal(
-        run("run jump --frames 1-12 --replicates 1 --method particle:n=0 --method "
-            "particle:n=8,track=0|8,refine=1|4 --method particle:n=8,leap=off --method "
-            "particle:n=8,launch=1|8 --method particle:n=8,reseed=off,forces=off|on --out",
-            "parts"),
-        0);
-    assert_int_equal(run("figures", "parts"), 0);
+    mote_expect(0, "",
+                "run jump --frames 1-12 --replicates 1 --method particle:n=0 --method "
+                "'particle:n=8,track=0|8,refine=1|4' --method particle:n=8,leap=off --method "
+                "'particle:n=8,launch=1|8' --method 'particle:n=8,reseed=off,forces=off|on' "
+                "--out parts");
+    mote_expect(0, "", "figures parts");
     assert_true(exists("parts/figures/ingredients.svg"));
     assert_true(exists("parts/figures/tracked-jump.png"));
-    path_of("parts/figures/ingredients.dat", path);
-    program_read(path, text, sizeof text);
+    program_read("parts/figures/ingredients.dat", text, sizeof text);
     const char *block = strstr(text, "\"jump\"\n0 0 ");
     assert_non_null(block); /* the whole is exact there */
     assert_non_null(strstr(block, " 1 1 1 \n1 "));
@@ -134,8 +103,7 @@ TEST(figures_of_ingredients_have_the_rows_of_each)
         ++lines;
     }
     assert_int_equal(lines, 8);
-    path_of("parts/figures/tracked-jump.dat", path);
-    program_read(path, text, sizeof text);
+    program_read("parts/figures/tracked-jump.dat", text, sizeof text);
     assert_non_null(strstr(text, "\"launch\"\n"));
     assert_null(strstr(text, "\"n\"\n\n")); /* no empty line of points */
 }
@@ -143,17 +111,14 @@ TEST(figures_of_ingredients_have_the_rows_of_each)
 /* The footer's run is the manifest's, its data the hash of the file that is drawn. */
 TEST(footers_name_run_and_data)
 {
-    char folder[256], path[256], expected[128];
+    char expected[128];
     json_t *manifest = NULL;
-    path_of("run", folder);
-    assert_int_equal(mote_record_read_json(folder, "manifest.json", &manifest), MOTE_OK);
+    assert_int_equal(mote_record_read_json("run", "manifest.json", &manifest), MOTE_OK);
     const char *program = json_string_value(json_object_get(manifest, "program"));
-    path_of("run/figures/shares-tt.dat", path);
-    program_read(path, text, sizeof text);
+    program_read("run/figures/shares-tt.dat", text, sizeof text);
     (void)snprintf(expected, sizeof expected, "data %016llx",
                    (unsigned long long)mote_hash_text(text));
-    path_of("run/figures/shares-tt.svg", path);
-    program_read(path, text, sizeof text);
+    program_read("run/figures/shares-tt.svg", text, sizeof text);
     assert_non_null(strstr(text, expected));
     (void)snprintf(expected, sizeof expected, "-%.8s, commit", program);
     assert_non_null(strstr(text, expected));
@@ -174,10 +139,10 @@ TEST(drawing_again_gives_the_same_bytes)
                                         "figures.json"};
     char path[256];
     for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
-        (void)snprintf(path, sizeof path, "%s/run/figures/%s", base, names[i]);
+        (void)snprintf(path, sizeof path, "run/figures/%s", names[i]);
         program_read(path, before, sizeof before);
         if (i == 0)
-            assert_int_equal(run("figures", "run"), 0);
+            mote_expect(0, "", "figures run");
         program_read(path, again, sizeof again);
         assert_true(strlen(again) > 100);
         assert_string_equal(before, again);
@@ -202,10 +167,9 @@ static void rewrite(const char *path, const char *from, const char *to)
 static void copy_run(const char *to, void (*change)(const char *path))
 {
     char command[600], folder[256];
-    (void)snprintf(command, sizeof command, "cp -r %s/run %s/%s && rm -r %s/%s/figures", base,
-                   base, to, base, to);
+    (void)snprintf(command, sizeof command, "cp -r run %s && rm -r %s/figures", to, to);
     assert_int_equal(system(command), 0);
-    (void)snprintf(folder, sizeof folder, "%s/%s/cells", base, to);
+    (void)snprintf(folder, sizeof folder, "%s/cells", to);
     DIR *cells = opendir(folder);
     assert_non_null(cells);
     for (const struct dirent *entry = readdir(cells); entry; entry = readdir(cells)) {
@@ -226,7 +190,7 @@ static void rename_scenario(const char *path)
 TEST(scenario_that_is_a_command_is_drawn_and_never_run)
 {
     copy_run("hostile", rename_scenario);
-    assert_int_equal(run("figures", "hostile"), 0);
+    mote_expect(0, "", "figures hostile");
     assert_false(exists("hostile/figures/HACKED"));
     assert_int_equal(access("HACKED", F_OK), -1);
     json_t *list = read_list("hostile", "figures");
@@ -238,7 +202,7 @@ TEST(scenario_that_is_a_command_is_drawn_and_never_run)
         assert_int_equal(strspn(name, "abcdefghijklmnopqrstuvwxyzACDEHKT0123456789-_"),
                          strlen(name));
         assert_string_equal(json_string_value(json_object_get(entry, "scenario")), HOSTILE);
-        (void)snprintf(path, sizeof path, "%s/hostile/figures/%s.svg", base, name);
+        (void)snprintf(path, sizeof path, "hostile/figures/%s.svg", name);
         program_read(path, text, sizeof text);
         if (!strstr(text, HOSTILE))
             fail_msg("%s does not show the scenario's name", path);
@@ -257,8 +221,7 @@ static void damage_some(const char *path)
 TEST(damaged_cells_are_named_and_the_rest_is_drawn)
 {
     copy_run("damaged", damage_some);
-    assert_int_equal(run("figures", "damaged"), 0);
-    assert_non_null(strstr(text, "left out"));
+    mote_expect(0, "left out", "figures damaged");
     assert_true(exists("damaged/figures/shares-tt.svg"));
 }
 
@@ -272,29 +235,26 @@ static void take_frames_away(const char *path)
 TEST(cells_that_name_no_frames_are_drawn)
 {
     copy_run("frames", take_frames_away);
-    assert_int_equal(run("figures", "frames"), 0);
+    mote_expect(0, "", "figures frames");
     assert_true(exists("frames/figures/shares-tt.svg"));
 }
 
 #define FRAMES 400
 
-/* Replicate r of a method in a folder of base: a row for every step-th frame, of ns each. */
+/* Replicate r of a method in a folder: a row for every step-th frame, of ns each. */
 static void write_replicate(const char *name, const char *method, int r, int step, int ns)
 {
-    char folder[256];
     mote_text rows = {0};
-    path_of(name, folder);
     for (int k = 1; k <= FRAMES; k += step)
         mote_text_add(&rows, "%d,0,0,%d,0.5,0,0,0,7\n", k, ns);
     const stored_cell cell = {.method = method, .replicate = r, .rows = rows.data};
-    stored_cell_put(folder, cell);
+    stored_cell_put(name, cell);
     free(rows.data);
 }
 
 /* Processes are paired by their numbers, and one may have more frames than the first. */
 TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
 {
-    char folder[256];
     mote_summary summary;
     mote_figure figure = {0};
     write_replicate("pairs", "certified", 1, FRAMES - 1, 1000);
@@ -303,9 +263,8 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
     write_replicate("pairs", "fcl-aabb", 2, 1, 4000);
     write_replicate("pairs", "fcl-aabb", 80, 1, 4000);
     write_replicate("pairs", "fcl-aabb", 81, 1, 9000);
-    path_of("pairs", folder);
-    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
-    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_summary_make("pairs", &summary), MOTE_OK);
+    const mote_figure_run run = {"pairs", &summary, NULL};
     assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
     size_t lines = 0;
     for (const char *at = figure.data.data; (at = strchr(at, '\n')) && at[1]; ++lines) {
@@ -324,14 +283,12 @@ TEST(ratios_of_processes_that_are_missing_or_cut_are_of_pairs)
 
 TEST(ratios_of_processes_without_a_pair_are_missing)
 {
-    char folder[256];
     mote_summary summary;
     mote_figure figure = {0};
     write_replicate("lone", "certified", 1, 1, 1000);
     write_replicate("lone", "fcl-aabb", 2, 1, 4000);
-    path_of("lone", folder);
-    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
-    const mote_figure_run run = {folder, &summary, NULL};
+    assert_int_equal(mote_summary_make("lone", &summary), MOTE_OK);
+    const mote_figure_run run = {"lone", &summary, NULL};
     assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
     assert_int_equal(figure.data.size, 0);
     assert_non_null(strstr(figure.missing.data, "a method of ours and one of FCL's"));
@@ -371,10 +328,8 @@ TEST(tracked_particles_of_one_parameter_are_no_figure_14)
 TEST(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused)
 {
     static const uint32_t frames[] = {60, 2001, UINT32_MAX};
-    char folder[256];
     mote_summary summary;
-    path_of("run", folder);
-    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make("run", &summary), MOTE_OK);
     for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
         mote_figure_scene scene;
         summary.rows[0].first->frame[59] = frames[i];
@@ -396,30 +351,21 @@ static void remove_csv(const char *path)
 TEST(run_of_which_nothing_can_be_drawn_is_bad_input)
 {
     copy_run("bare", remove_csv);
-    assert_int_equal(run("figures", "bare"), 4);
-    assert_non_null(strstr(text, "left out"));
-    assert_int_equal(run("figures", "nowhere"), 4);
-    assert_non_null(strstr(text, "nowhere: No such file"));
-    assert_int_equal(run("figures", "said"), 4);
-    char path[256];
-    path_of("empty", path);
-    assert_int_equal(mkdir(path, 0777), 0);
-    assert_int_equal(run("figures", "empty"), 4);
-    assert_non_null(strstr(text, "nothing to draw"));
+    mote_expect(4, "left out", "figures bare");
+    mote_expect(4, "nowhere: No such file", "figures nowhere");
+    mote_expect(4, "", "figures said");
+    assert_int_equal(mkdir("empty", 0777), 0);
+    mote_expect(4, "nothing to draw", "figures empty");
 }
 
 TEST(claims_alone_are_drawn)
 {
-    char path[256];
-    path_of("claims", path);
-    assert_int_equal(mkdir(path, 0777), 0);
-    path_of("claims/claims.json", path);
-    file_put(path, "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
-                   "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
-                   "\"values\": [{\"name\": \"n = 3\"}]}]");
-    assert_int_equal(run("figures", "claims"), 0);
-    path_of("claims/figures/claims.svg", path);
-    program_read(path, text, sizeof text);
+    file_put("claims/claims.json",
+             "[{\"id\": \"a\", \"claim\": \"two is enough\", \"value\": 2, \"interval\": "
+             "[1.5, 2.5], \"unit\": \"L\", \"verdict\": \"holds within limits\", "
+             "\"values\": [{\"name\": \"n = 3\"}]}]");
+    mote_expect(0, "", "figures claims");
+    program_read("claims/figures/claims.svg", text, sizeof text);
     assert_non_null(strstr(text, "two is enough"));
     assert_non_null(strstr(text, "n = 3: 2 [1.5, 2.5] L"));
     assert_non_null(strstr(text, "within limits"));

@@ -4,12 +4,13 @@
 
 #include "harness/base/file.h"
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
+#include <unistd.h>
+
 #define FILE_NAME "b.json"
-#define SAID "said"
 #define FILM "film.gif"
 
 static void write_file(const char *bodies)
@@ -50,11 +51,11 @@ TEST(contact_runs_step_runs_of_several_pairs_are_kept_apart)
 {
     static const char *const truth[] = {"0-1 2-3", "0-1! 2-3!", "0-1! 1-4! 2-3!", "0-1! 1-4",
                                         "0-1 1-4!"};
-    static const char *const said[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
+    static const char *const told[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
     mote_contact_runs runs = {.count = 0};
     for (uint32_t k = 0; k < 5; ++k) {
         mote_bodies_pair a[8], b[8];
-        const size_t m = pairs_of(truth[k], a), n = pairs_of(said[k], b);
+        const size_t m = pairs_of(truth[k], a), n = pairs_of(told[k], b);
         assert_int_equal(mote_contact_runs_step(&runs, k, a, m, b, n, depth_by_body, NULL),
                          MOTE_OK);
     }
@@ -138,38 +139,26 @@ TEST(simulator_run_of_many_one_particle_misses_contacts)
     assert_true(r.energy_drift < 1e-12 && r.momentum_drift < 1e-13);
 }
 
-static int run(const char *line, char said[4096])
-{
-    const int code = program_wait(program_start(line, SAID));
-    program_read(SAID, said, 4096);
-    return code;
-}
-
-static void check(const char *line, int code, const char *text)
-{
-    char said[4096];
-    const int ended = run(line, said);
-    if (ended != code || !strstr(said, text))
-        fail_msg("%s: exit %d: %s", line, ended, said);
-}
-
 TEST(mote_simulate_several_bodies_on_the_command_line)
 {
     write_file("\"count\": 8, \"box\": 3, " LETTERS);
-    check("simulate " FILE_NAME " --method certified --steps 3 --json", 0,
-          "\"passes_through\": 0");
-    check("simulate " FILE_NAME " --method certified --steps 3 --json", 0, "\"bodies\": 8");
-    check("simulate " FILE_NAME " --method certified --steps 3", 0, "8 bodies, 3 steps");
-    check("simulate " FILE_NAME " --method brute-force", 4, "no form for several bodies");
-    check("simulate " FILE_NAME " --method particle", 4, "give n=");
-    check("simulate " FILE_NAME " --method certified --trace x.json", 2, "for two bodies");
-    check("simulate " FILE_NAME " --method certified --tolerance 0.2", 4, "contact tolerance");
-    check("simulate " FILE_NAME " --method certified --time-step 0", 4, "time step");
+    mote_expect(0, "\"passes_through\": 0",
+                "simulate " FILE_NAME " --method certified --steps 3 --json");
+    mote_expect(0, "\"bodies\": 8",
+                "simulate " FILE_NAME " --method certified --steps 3 --json");
+    mote_expect(0, "8 bodies, 3 steps", "simulate " FILE_NAME " --method certified --steps 3");
+    mote_expect(4, "no form for several bodies", "simulate " FILE_NAME " --method brute-force");
+    mote_expect(4, "give n=", "simulate " FILE_NAME " --method particle");
+    mote_expect(2, "for two bodies",
+                "simulate " FILE_NAME " --method certified --trace x.json");
+    mote_expect(4, "contact tolerance",
+                "simulate " FILE_NAME " --method certified --tolerance 0.2");
+    mote_expect(4, "time step", "simulate " FILE_NAME " --method certified --time-step 0");
     write_file("\"count\": 2, \"box\": 4, \"near\": 0.02, " LETTERS);
-    check("simulate " FILE_NAME " --method certified --tolerance 0.04", 4, "above near");
+    mote_expect(4, "above near", "simulate " FILE_NAME " --method certified --tolerance 0.04");
     write_file("\"count\": 2, \"box\": 4, \"shapes\": [{\"file\": \"" MOTE_SOURCE_DIR
                "/datasets/meshes/teapot.obj\"}]");
-    check("simulate " FILE_NAME " --method certified", 4, "shape 1 cannot respond");
+    mote_expect(4, "shape 1 cannot respond", "simulate " FILE_NAME " --method certified");
 }
 
 /* Pictures of eight bodies, also where a contact is reported. */
@@ -178,7 +167,8 @@ TEST(mote_simulate_films_several_bodies)
     char *gif = NULL;
     size_t size = 0;
     write_file("\"count\": 8, \"box\": 3, " LETTERS);
-    check("simulate " FILE_NAME " --method certified --steps 3 --film " FILM, 0, "8 bodies");
+    mote_expect(0, "8 bodies",
+                "simulate " FILE_NAME " --method certified --steps 3 --film " FILM);
     assert_int_equal(mote_file_read(FILM, 1 << 24, &gif, &size), MOTE_OK);
     assert_memory_equal(gif, "GIF89a", 6);
     free(gif);
@@ -190,5 +180,6 @@ TEST(mote_simulate_films_several_bodies)
 TEST(mote_simulate_bodies_that_start_in_contact_are_refused)
 {
     write_file("\"count\": 40, \"near_pairs\": 5, " LETTERS);
-    check("simulate " FILE_NAME " --method certified --tolerance 0.05", 4, "start in contact");
+    mote_expect(4, "start in contact",
+                "simulate " FILE_NAME " --method certified --tolerance 0.05");
 }

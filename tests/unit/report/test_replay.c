@@ -5,7 +5,7 @@
 #include "harness/report/report_rows.h"
 #include "tests/support/folder.h"
 #include "tests/support/page_data.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -14,8 +14,6 @@
 
 #define FRAMES 5u
 
-static char base[] = "/tmp/mote-test-replay-XXXXXX";
-static char scenario_path[96], run_directory[96];
 static mote_report report;
 
 /* Tracks, in no order: the report sorts them by time. */
@@ -37,28 +35,17 @@ static int make_run(void)
     static const char scenario[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 149.75,\n"
         " \"warmup\": null, \"active\": null}\n";
-    char line[512], said[96];
-    if (!mkdtemp(base))
+    file_put("five.json", scenario);
+    if (mote("run five.json --out run --method certified --method "
+             "'particle-paper:n=3,refine=no|near' --method particle:n=3") != 0)
         return -1;
-    (void)snprintf(run_directory, sizeof run_directory, "%s/run", base);
-    (void)snprintf(scenario_path, sizeof scenario_path, "%s/five.json", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    if (mote_file_write(scenario_path, scenario, strlen(scenario)) != MOTE_OK)
-        return -1;
-    (void)snprintf(
-        line, sizeof line,
-        "run %s --out %s --method certified --method particle-paper:n=3,refine=no|near "
-        "--method particle:n=3",
-        scenario_path, run_directory);
-    if (program_wait(program_start(line, said)) != 0)
-        return -1;
-    return mote_report_gather(run_directory, &report) == MOTE_OK ? 0 : -1;
+    return mote_report_gather("run", &report) == MOTE_OK ? 0 : -1;
 }
 
 static int remove_base(void)
 {
     mote_report_free(&report);
-    return program_remove(base);
+    return 0;
 }
 
 TEST_GROUP(make_run, remove_base);
@@ -120,7 +107,7 @@ TEST(replay_json_holds_the_poses_and_weights_of_each_frame)
     const double length = number_of(first_scene(root), "length");
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
-    assert_int_equal(mote_scenario_load(scenario_path, &scenario), MOTE_OK);
+    assert_int_equal(mote_scenario_load("five.json", &scenario), MOTE_OK);
     assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
     for (size_t i = 0; i < 2; ++i) {
         const json_t *body = json_array_get(json_object_get(world, "bodies"), i);
@@ -234,17 +221,12 @@ TEST(replay_json_particles_are_stored_once)
 /* The replicate whose answers are worst is shown, so that its worst frame is that of all. */
 TEST(replay_shows_the_replicate_with_the_largest_error)
 {
-    char line[512], said[96], directory[96];
     mote_report several;
     mote_replay_scene scene;
-    (void)snprintf(directory, sizeof directory, "%s/several", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    (void)snprintf(line, sizeof line,
-                   "run tt --frames 1-40 --replicates 6 --out %s --method "
-                   "particle-paper:n=2,refine=no",
-                   directory);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
-    assert_int_equal(mote_report_gather(directory, &several), MOTE_OK);
+    mote_expect(0, "",
+                "run tt --frames 1-40 --replicates 6 --out several --method "
+                "particle-paper:n=2,refine=no");
+    assert_int_equal(mote_report_gather("several", &several), MOTE_OK);
     assert_int_equal(mote_replay_load(&several, 0, 1, &scene), MOTE_OK);
     const mote_summary_row *row = mote_report_cells(&several, 0);
     double largest[6], shown = 0;
@@ -354,12 +336,12 @@ TEST(replay_read_cell_of_a_changed_file_gives_none)
                                         "distance,ax,ay,az,bx,by,bz\n0.5,1,2,3,4,5,6\n7"};
     static const size_t known[] = {0, 0, 0, 1, 2};
     char path[128], id[] = "changed";
-    (void)snprintf(path, sizeof path, "%s/cells/changed.csv", run_directory);
+    (void)snprintf(path, sizeof path, "run/cells/changed.csv");
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; ++i) {
         const mote_stored_cell cell = {.id = id, .frames = 3};
         mote_replay_track track = {.cell = &cell};
         assert_int_equal(mote_file_write(path, texts[i], strlen(texts[i])), MOTE_OK);
-        assert_int_equal(mote_replay_read_cell(run_directory, &track), MOTE_OK);
+        assert_int_equal(mote_replay_read_cell("run", &track), MOTE_OK);
         assert_int_equal(track.rows, 3);
         size_t count = 0;
         for (size_t k = 0; k < track.rows; ++k)
@@ -445,7 +427,7 @@ TEST(replay_load_of_a_changed_scenario_is_refused)
     static const char other[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 100,\n"
         " \"warmup\": null, \"active\": null}\n";
-    file_put(scenario_path, other);
+    file_put("five.json", other);
     assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene),
                      MOTE_EUNSUPPORTED);
     assert_non_null(strstr(mote_error_text(), "moved or changed"));

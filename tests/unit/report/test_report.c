@@ -4,6 +4,7 @@
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
 #include "tests/support/page_data.h"
+#include "tests/support/mote.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -20,48 +21,12 @@
 #define EVIL_CLAIM "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\""
 #define EVIL_CLAIM_JSON "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\\\""
 
-static char base[] = "/tmp/mote-test-report-XXXXXX";
-static char run_directory[96], page[1 << 23], said[1 << 14];
+static char page[1 << 23];
 
-/* Runs the program with these arguments, which may hold blanks; its exit status. */
-static int program(const char *const arguments[])
+/* Reads a file into page. */
+static void read_page(const char *path)
 {
-    char output[96];
-    (void)snprintf(output, sizeof output, "%s/said", base);
-    pid_t pid = fork();
-    if (pid == 0) {
-        const char *argv[16] = {MOTE_PROGRAM};
-        for (int i = 0; arguments[i] && i < 14; ++i)
-            argv[i + 1] = arguments[i];
-        int out = open(output, O_WRONLY | O_CREAT | O_TRUNC, 0644);
-        if (out >= 0 && dup2(out, STDOUT_FILENO) >= 0 && dup2(out, STDERR_FILENO) >= 0)
-            (void)execv(argv[0], (char *const *)(uintptr_t)argv);
-        _exit(127);
-    }
-    int status = program_wait(pid);
-    program_read(output, said, sizeof said);
-    return status;
-}
-
-static int report(const char *directory)
-{
-    const char *const arguments[] = {"report", directory, NULL};
-    return program(arguments);
-}
-
-/* Reads a file of the run into page. */
-static void read_page(const char *name)
-{
-    char path[160];
-    (void)snprintf(path, sizeof path, "%s/%s", run_directory, name);
     program_read(path, page, sizeof page);
-}
-
-static void write_file(const char *directory, const char *name, const char *content)
-{
-    char path[512];
-    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    file_put(path, content);
 }
 
 /* A run of five frames of a scenario with that name, a figure, claims. */
@@ -70,51 +35,37 @@ static int make_run(void)
     static const char scenario[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 149.75,\n"
         " \"warmup\": null, \"active\": null}\n";
-    char path[160];
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(run_directory, sizeof run_directory, "%s/run", base);
-    (void)snprintf(path, sizeof path, "%s/" EVIL ".json", base);
-    write_file(base, EVIL ".json", scenario);
-    const char *const run[] = {"run",      path,        "--method", "particle-paper:n=2",
-                               "--method", "certified", "--out",    run_directory,
-                               "--frames", "1-5",       NULL};
-    const char *const figures[] = {"figures", run_directory, NULL};
-    if (program(run) != 0 || program(figures) != 0) {
+    file_put(EVIL ".json", scenario);
+    /* The shell is to take the name as it is. */
+    if (mote("run \"'; system(\\\"x\\\")<script>.json\" --method particle-paper:n=2 --method "
+             "certified --out run --frames 1-5") != 0 ||
+        mote("figures run") != 0) {
         (void)fprintf(stderr, "%s", said);
         return -1;
     }
-    write_file(run_directory, "claims.json",
-               "[{\"id\": \"<a>\", \"section\": \"5\", \"claim\": \""
-               "x < y | z"
-               "\", \"measured\": \"" EVIL_CLAIM_JSON
-               "\", \"verdict\": \"holds\", \"value\": 0.25,\n"
-               "  \"interval\": [0.2, 0.3], \"unit\": \"L\", \"threshold\": null,\n"
-               "  \"values\": [{\"name\": \"v\", \"value\": 0.25, \"interval\": null,"
-               " \"unit\": \"L\", \"threshold\": null}]}]\n");
-    return report(run_directory);
+    file_put("run/claims.json",
+             "[{\"id\": \"<a>\", \"section\": \"5\", \"claim\": \""
+             "x < y | z"
+             "\", \"measured\": \"" EVIL_CLAIM_JSON
+             "\", \"verdict\": \"holds\", \"value\": 0.25,\n"
+             "  \"interval\": [0.2, 0.3], \"unit\": \"L\", \"threshold\": null,\n"
+             "  \"values\": [{\"name\": \"v\", \"value\": 0.25, \"interval\": null,"
+             " \"unit\": \"L\", \"threshold\": null}]}]\n");
+    return mote("report run");
 }
 
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_run, remove_base);
+TEST_GROUP(make_run, NULL);
 
 TEST(report_prints_its_paths)
 {
-    char expected[256];
-    assert_int_equal(report(run_directory), 0);
-    (void)snprintf(expected, sizeof expected, "%s/report.md\n%s/report.html\n", run_directory,
-                   run_directory);
-    assert_string_equal(said, expected);
+    mote_expect(0, "", "report run");
+    assert_string_equal(said, "run/report.md\nrun/report.html\n");
 }
 
 /* The data of the run's page; the caller decrefs them. */
 static json_t *read_data(void)
 {
-    read_page("report.html");
+    read_page("run/report.html");
     json_t *data = page_data(page, "report-data");
     assert_non_null(data);
     return data;
@@ -151,20 +102,15 @@ TEST(report_html_of_hostile_texts_holds_them_as_data)
 
 TEST(report_html_of_a_hostile_folder_is_escaped)
 {
-    static const char name[] = "<script>&\"'";
-    char path[96], file[160];
-    (void)snprintf(path, sizeof path, "%s/%s", base, name);
-    assert_int_equal(mkdir(path, 0777), 0);
-    write_file(path, "claims.json", "[]\n");
-    assert_int_equal(report(path), 0);
-    (void)snprintf(file, sizeof file, "%s/report.html", path);
-    program_read(file, page, sizeof page);
+    file_put("<script>&\"'/claims.json", "[]\n");
+    mote_expect(0, "", "report \"<script>&\\\"'\"");
+    read_page("<script>&\"'/report.html");
     assert_int_equal(count_of("&lt;script&gt;&amp;&quot;&#39;"), 2); /* title and h1 */
 }
 
 TEST(report_markdown_of_hostile_name_is_escaped)
 {
-    read_page("report.md");
+    read_page("run/report.md");
     assert_non_null(strstr(page, "'; system(\"x\")&lt;script&gt;"));
     assert_null(strstr(page, "<script"));
     assert_non_null(strstr(page, "x &lt; y \\| z"));
@@ -183,7 +129,7 @@ TEST(report_html_names_files_that_are_there)
     {
         MOTE_EACH(k, cell, json_object_get(row, "cells"))
         {
-            (void)snprintf(path, sizeof path, "%s/cells/%s.csv", run_directory,
+            (void)snprintf(path, sizeof path, "run/cells/%s.csv",
                            json_string_value(json_array_get(cell, 1)));
             assert_int_equal(stat(path, &info), 0);
             ++files;
@@ -191,7 +137,7 @@ TEST(report_html_names_files_that_are_there)
     }
     MOTE_EACH(i, figure, json_object_get(data, "figures"))
     {
-        (void)snprintf(path, sizeof path, "%s/%s", run_directory, text_of(figure, "file"));
+        (void)snprintf(path, sizeof path, "run/%s", text_of(figure, "file"));
         assert_int_equal(stat(path, &info), 0);
         ++files;
     }
@@ -202,8 +148,7 @@ TEST(report_html_names_files_that_are_there)
 /* The median of the page is the one that the CSV of the summary gives. */
 TEST(report_html_has_the_numbers_of_the_summary)
 {
-    const char *const summarize[] = {"summarize", run_directory, "--format", "csv", NULL};
-    assert_int_equal(program(summarize), 0);
+    mote_expect(0, "", "summarize run --format csv");
     const char *csv = strstr(said, "\"particle-paper:n=2\"");
     assert_non_null(csv);
     for (int comma = 0; comma < 6; ++comma)
@@ -230,7 +175,9 @@ TEST(report_html_has_the_drawings_of_the_figures)
     json_t *data = read_data();
     const json_t *figure = json_array_get(json_object_get(data, "figures"), 0);
     char *drawing = page_unpack(figure, "drawing");
-    read_page(text_of(figure, "file"));
+    char path[256];
+    (void)snprintf(path, sizeof path, "run/%s", text_of(figure, "file"));
+    read_page(path);
     assert_true(strlen(drawing) > 1000);
     assert_string_equal(drawing, page);
     free(drawing);
@@ -278,14 +225,14 @@ TEST(report_names_other_commands_in_one_line)
     }
     assert_int_equal(named, 1);
     json_decref(data);
-    read_page("report.md");
+    read_page("run/report.md");
     assert_true(strstr(page, "\nNot in this report: ") > strstr(page, "\n## Known defects"));
     assert_int_equal(count_of("make sweep"), 1);
 }
 
 TEST(report_html_loads_nothing)
 {
-    read_page("report.html");
+    read_page("run/report.html");
     assert_null(strstr(page, "src=\"http"));
     assert_null(strstr(page, "@import"));
     assert_non_null(strstr(page, "default-src 'none'"));
@@ -294,15 +241,9 @@ TEST(report_html_loads_nothing)
 
 TEST(report_of_what_is_missing_names_it)
 {
-    char partial[96], saved[96];
-    (void)snprintf(saved, sizeof saved, "%s", run_directory);
-    (void)snprintf(partial, sizeof partial, "%s/partial", base);
-    assert_int_equal(mkdir(partial, 0777), 0);
-    write_file(partial, "claims.json", "[]\n");
-    assert_int_equal(report(partial), 0);
-    (void)snprintf(run_directory, sizeof run_directory, "%s", partial);
-    read_page("report.html");
-    (void)snprintf(run_directory, sizeof run_directory, "%s", saved);
+    file_put("partial/claims.json", "[]\n");
+    mote_expect(0, "", "report partial");
+    read_page("partial/report.html");
     static const char *const missing[] = {
         "manifest.json: not there", "cells: ", "summary.json: not there",
         "requirements.json: not there", "figures: no list of them"};
@@ -310,23 +251,23 @@ TEST(report_of_what_is_missing_names_it)
         assert_non_null(strstr(page, missing[i]));
 }
 
-/* Reports a folder of base with one file more, and reads the page of that name. */
+/* Reports a folder with one file more, and reads the page of that name. */
 static void report_with(const char *folder, const char *name, const char *content,
                         const char *page_name)
 {
     char path[256];
-    (void)snprintf(path, sizeof path, "%s/%s", base, folder);
-    (void)mkdir(path, 0777);
-    write_file(path, "claims.json", "[]\n");
-    write_file(path, name, content);
-    assert_int_equal(report(path), 0);
-    (void)snprintf(path, sizeof path, "%s/%s/%s", base, folder, page_name);
-    program_read(path, page, sizeof page);
+    (void)snprintf(path, sizeof path, "%s/claims.json", folder);
+    file_put(path, "[]\n");
+    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
+    file_put(path, content);
+    mote_expect(0, "", "report %s", folder);
+    (void)snprintf(path, sizeof path, "%s/%s", folder, page_name);
+    read_page(path);
 }
 
 TEST(report_markdown_has_the_known_defects_one_level_lower)
 {
-    read_page("report.md");
+    read_page("run/report.md");
     assert_non_null(strstr(page, "\n### 1. FCL: the sum of two rectangle swept spheres"));
     assert_null(strstr(page, "\n# Known"));
 }
@@ -359,47 +300,32 @@ TEST(report_of_an_interval_without_its_ends_shows_none)
 
 TEST(report_of_a_broken_cell_names_it)
 {
-    char broken[96], cells[128], path[256];
-    (void)snprintf(broken, sizeof broken, "%s/broken", base);
-    (void)snprintf(cells, sizeof cells, "%s/cells", broken);
-    assert_int_equal(mkdir(broken, 0777), 0);
-    assert_int_equal(mkdir(cells, 0777), 0);
-    write_file(cells, "a.json", "{\"id\": \n");
-    write_file(cells, "b\n\nc.json", "{\"id\": \n");
-    write_file(broken, "claims.json", "[]\n");
-    assert_int_equal(report(broken), 0);
-    (void)snprintf(path, sizeof path, "%s/report.md", broken);
-    program_read(path, page, sizeof page);
+    file_put("broken/cells/a.json", "{\"id\": \n");
+    file_put("broken/cells/b\n\nc.json", "{\"id\": \n");
+    file_put("broken/claims.json", "[]\n");
+    mote_expect(0, "", "report broken");
+    read_page("broken/report.md");
     assert_non_null(strstr(page, "cells/a.json:"));
     assert_non_null(strstr(page, "broken/cells/b\n- a cell: c.json:"));
 }
 
 TEST(report_of_a_run_with_a_broken_cell_shows_the_others)
 {
-    char cells[128], path[256];
-    (void)snprintf(cells, sizeof cells, "%s/cells", run_directory);
-    (void)snprintf(path, sizeof path, "%s/zz.json", cells);
-    write_file(cells, "zz.json", "{\"id\": \n");
-    int status = report(run_directory);
-    read_page("report.html");
-    (void)unlink(path);
-    assert_int_equal(status, 0);
+    file_put("run/cells/zz.json", "{\"id\": \n");
+    mote_expect(0, "", "report run");
+    read_page("run/report.html");
+    assert_int_equal(unlink("run/cells/zz.json"), 0);
     assert_non_null(strstr(page, "zz.json:"));
     assert_non_null(strstr(page, "\"label\":\"particle-paper:n=2\""));
 }
 
 TEST(report_of_nothing_fails_with_4)
 {
-    char empty[96], file[96];
-    (void)snprintf(empty, sizeof empty, "%s/empty", base);
-    (void)snprintf(file, sizeof file, "%s/said", base);
-    assert_int_equal(mkdir(empty, 0777), 0);
-    assert_int_equal(report(empty), 4);
-    assert_non_null(strstr(said, "nothing to report"));
-    assert_int_equal(report("/nowhere/at/all"), 4);
-    assert_int_equal(report(file), 4);
-    const char *const bare[] = {"report", NULL};
-    assert_int_equal(program(bare), 2);
+    assert_int_equal(mkdir("empty", 0777), 0);
+    mote_expect(4, "nothing to report", "report empty");
+    mote_expect(4, "", "report /nowhere/at/all");
+    mote_expect(4, "", "report run/claims.json");
+    mote_expect(2, "", "report");
 }
 
 TEST(escape_path_leaves_no_scheme_and_no_quote)

@@ -4,12 +4,11 @@
 #include "harness/figure/figure.h"
 #include "harness/base/file.h"
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
 #define FILE_NAME "b.json"
-#define SAID "said"
 
 #define FIELD                                                                                  \
     "\"field\": {\"count\": 6, \"support\": 0.5, \"displacement\": {\"random\": {\"seed\": "   \
@@ -248,23 +247,13 @@ TEST(mote_bodies_engine_step_contact_question_agrees)
     mote_bodies_destroy(b);
 }
 
-/* `mote LINE`, its exit status; what it says is in *said. */
-static int run(const char *line, char said[4096])
-{
-    const int code = program_wait(program_start(line, SAID));
-    program_read(SAID, said, 4096);
-    return code;
-}
-
 static char *whole_file(const char *pattern)
 {
-    char *command = mote_format("cat %s > found 2>/dev/null", pattern), *text = NULL;
-    size_t size;
-    assert_non_null(command);
+    char *command = mote_format("cat %s > found 2>/dev/null", pattern);
     assert_int_equal(system(command), 0);
     free(command);
-    assert_int_equal(mote_file_read("found", 1 << 24, &text, &size), MOTE_OK);
-    assert_true(size > 200);
+    char *text = file_text("found");
+    assert_true(strlen(text) > 200);
     return text;
 }
 
@@ -274,15 +263,12 @@ TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
     static const char *const ways[] = {"certified",         "certified:threads=2",
                                        "certified:ahead=1", "certified:threads=3,ahead=4",
                                        "particle:n=4",      "particle:threads=3,n=4,ahead=2"};
-    char *texts[6], said[4096];
+    char *texts[6];
     write_file("", "\"count\": 20, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     for (int k = 0; k < 6; ++k) {
-        char *line = mote_format("run " FILE_NAME " --frames 3-10 --replicates 1 --out ."
-                                 "/run%d --method %s",
-                                 k, ways[k]);
-        if (run(line, said) != 0)
-            fail_msg("%s: %s", ways[k], said);
-        free(line);
+        mote_expect(0, "",
+                    "run " FILE_NAME " --frames 3-10 --replicates 1 --out run%d --method %s", k,
+                    ways[k]);
         char *pattern = mote_format("run%d/cells/*.pairs.csv", k);
         texts[k] = whole_file(pattern);
         free(pattern);
@@ -302,15 +288,13 @@ static size_t count_lines(const char *text)
 }
 
 #define BOTH_METHODS                                                                           \
-    "run " FILE_NAME " --frames 1-6 --replicates 2 --out ."                                    \
-    "/both --method certified --method aabb-tree"
+    "run " FILE_NAME " --frames 1-6 --replicates 2 --out both"                                 \
+    " --method certified --method aabb-tree"
 
 TEST(mote_run_writes_a_row_a_frame_and_a_summary)
 {
-    char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    assert_int_equal(run(BOTH_METHODS, said), 0);
-    assert_non_null(strstr(said, "aabb-tree"));
+    mote_expect(0, "aabb-tree", BOTH_METHODS);
     assert_non_null(strstr(said, "b: 12 bodies of 400 triangles, 6 frames, 2 replicates"));
     char *text = whole_file("both/cells/*-r[12]-????????????????.csv");
     static const char begins[] =
@@ -332,90 +316,59 @@ TEST(mote_run_writes_a_row_a_frame_and_a_summary)
 /* What works for two bodies works for many: going on, replicates, shards, jobs, comparing. */
 TEST(mote_run_of_many_bodies_goes_the_road_of_two)
 {
-    char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    (void)program_remove("both");
-    assert_int_equal(run(BOTH_METHODS, said), 0);
-    assert_int_equal(run(BOTH_METHODS, said), 0);
-    assert_non_null(strstr(said, "4 cells, 4 of them done"));
+    if (file_exists("both"))
+        assert_int_equal(folder_remove("both"), 0);
+    mote_expect(0, "", BOTH_METHODS);
+    mote_expect(0, "4 cells, 4 of them done", BOTH_METHODS);
     assert_int_equal(system("rm "
                             "both/cells/*certified-r2-*.json"),
                      0);
-    assert_int_equal(run(BOTH_METHODS, said), 0);
-    assert_non_null(strstr(said, "4 cells, 3 of them done"));
-    assert_int_equal(run("compare "
-                         "both "
-                         "both",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "b/certified/hot"));
-    assert_int_equal(run("merge "
-                         "merged "
-                         "both",
-                         said),
-                     0);
-    assert_int_equal(run("summarize "
-                         "merged --format csv",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "certified"));
-    assert_int_equal(run("run " FILE_NAME " --frames 1-4 --shard 2/2 --method certified --out "
-                         "shard",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "0 cells"));
-    assert_int_equal(run("run " FILE_NAME " --frames 1-4 --replicates 2 --jobs 2 --cache evict "
-                         "--method certified --out "
-                         "jobs",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "2 cells at once"));
-    assert_int_equal(run("run " FILE_NAME
-                         " --frames 1-4 --replicates 2 --until-ci 100% --budget "
-                         "0.001 --method certified --out "
-                         "until",
-                         said),
-                     0);
-    assert_non_null(strstr(said, "after 2 replicates the widest interval is"));
+    mote_expect(0, "4 cells, 3 of them done", BOTH_METHODS);
+    mote_expect(0, "b/certified/hot", "compare both both");
+    mote_expect(0, "", "merge merged both");
+    mote_expect(0, "certified", "summarize merged --format csv");
+    mote_expect(0, "0 cells",
+                "run " FILE_NAME " --frames 1-4 --shard 2/2 --method certified --out shard");
+    mote_expect(
+        0, "2 cells at once",
+        "run " FILE_NAME
+        " --frames 1-4 --replicates 2 --jobs 2 --cache evict --method certified --out jobs");
+    mote_expect(0, "after 2 replicates the widest interval is",
+                "run " FILE_NAME " --frames 1-4 --replicates 2 --until-ci 100%% --budget 0.001 "
+                "--method certified --out until");
 }
 
 /* Two bodies and many in one run, each asked by what it has. */
 TEST(mote_run_two_bodies_beside_many)
 {
-    char said[4096];
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    assert_int_equal(run("run tt " FILE_NAME " --frames 1-4 --replicates 1 --method certified "
-                         "--method brute-force --out "
-                         "mixed",
-                         said),
-                     0);
+    mote_expect(
+        0, "",
+        "run tt " FILE_NAME
+        " --frames 1-4 --replicates 1 --method certified --method brute-force --out mixed");
     char *text = whole_file("mixed/summary.json");
     assert_non_null(strstr(text, "\"scenario\": \"tt\""));
     assert_non_null(strstr(text, "\"scenario\": \"b\""));
     assert_non_null(strstr(text, "no form for several bodies"));
     free(text);
-    assert_int_equal(run("run tt --frames 1-4 --method certified:threads=2 --out "
-                         "keys",
-                         said),
-                     4);
-    assert_non_null(strstr(said, "keys for more than two bodies"));
+    mote_expect(4, "keys for more than two bodies",
+                "run tt --frames 1-4 --method certified:threads=2 --out keys");
 }
 
 /* Of pairs that are apart no row is kept where only contacts are asked for. */
 TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
 {
     static const char *const wishes[] = {"all", "contacts"};
-    char said[4096];
     size_t lines[2], contacts[2] = {0, 0};
     write_file(", \"tolerance\": 0.02",
                "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
     for (int k = 0; k < 2; ++k) {
-        char *line = mote_format("run " FILE_NAME " --frames 1-20 --replicates 1 --pairs %s "
-                                 "--method certified --out "
-                                 "pairs-%s",
-                                 wishes[k], wishes[k]);
+        mote_expect(0, "",
+                    "run " FILE_NAME " --frames 1-20 --replicates 1 --pairs %s --method "
+                    "certified --out pairs-%s",
+                    wishes[k], wishes[k]);
         char *files = mote_format("pairs-%s/cells/*.pairs.csv", wishes[k]);
-        assert_int_equal(run(line, said), 0);
         char *text = whole_file(files);
         lines[k] = count_lines(text) - 1;
         for (const char *at = strchr(text, '\n') + 1; *at; at = strchr(at, '\n') + 1) {
@@ -426,7 +379,6 @@ TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
         }
         free(text);
         free(files);
-        free(line);
     }
     assert_true(contacts[0] > 0 && lines[0] > contacts[0]);
     assert_int_equal(lines[1], contacts[0]);
@@ -566,10 +518,7 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
     };
     write_file("", "\"count\": 6, \"near_pairs\": 1, " SHAPES);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        char said[4096];
-        const int code = run(cases[k].line, said);
-        if (code != cases[k].code || !strstr(said, cases[k].text))
-            fail_msg("%s: exit %d: %s", cases[k].line, code, said);
+        mote_expect(cases[k].code, cases[k].text, "%s", cases[k].line);
     }
 }
 

@@ -2,9 +2,12 @@
 #include "harness/study/claims.h"
 
 #include "harness/figure/figure.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <stddef.h>
 
@@ -106,10 +109,8 @@ TEST(estimate_of_ratios_is_their_geometric_mean)
 /* A small variant of a scene, and queries that allocate nothing once they are warm. */
 TEST(queries_from_frame_50_on_allocate_nothing)
 {
-    char folder[] = "/tmp/mote-claims-XXXXXX";
-    assert_non_null(mkdtemp(folder));
     mote_study study;
-    assert_int_equal(mote_study_open(folder, true, &study), MOTE_OK);
+    assert_int_equal(mote_study_open("study", true, &study), MOTE_OK);
     const mote_variant variant = {"ww", "small", 'V', 2000, false};
     const mote_subject *subject = NULL;
     if (mote_study_variant(&study, &variant, &subject) != MOTE_OK)
@@ -128,7 +129,6 @@ TEST(queries_from_frame_50_on_allocate_nothing)
         mote_cell_result_free(&result);
     }
     mote_study_close(&study);
-    assert_int_equal(program_remove(folder), 0);
 }
 
 /* The claims table of a file that is not quite what mote writes: nothing is made up. */
@@ -201,32 +201,25 @@ TEST(figures_without_a_study_name_what_measures_it)
 
 TEST(figure_of_extremes_is_their_data)
 {
-    char folder[] = "/tmp/mote-claims-XXXXXX", path[64], line[160];
-    assert_non_null(mkdtemp(folder));
-    (void)snprintf(path, sizeof path, "%s/figures", folder);
-    assert_int_equal(mote_directory_make(path), MOTE_OK);
-    (void)snprintf(path, sizeof path, "%s/figures/extremes.dat", folder);
-    assert_int_equal(mote_file_write(path, "1 2\n", 4), MOTE_OK);
-    const mote_figure_run run = {folder, NULL, NULL};
+    static const char path[] = "figures/extremes.dat";
+    file_put(path, "1 2\n");
+    const mote_figure_run run = {".", NULL, NULL};
     mote_figure figure = {{0}, {0}, {0}};
     assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_OK);
     assert_string_equal(figure.data.data, "1 2\n");
     free(figure.data.data);
     free(figure.caption.data);
     /* What is there and cannot be read is an error. */
-    (void)snprintf(line, sizeof line, "rm %s && mkdir %s", path, path);
-    assert_int_equal(system(line), 0);
+    assert_int_equal(unlink(path) || mkdir(path, 0777), 0);
     figure = (mote_figure){{0}, {0}, {0}};
     assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "extremes.dat"));
     free(figure.caption.data);
-    assert_int_equal(program_remove(folder), 0);
 }
 
 /* Cells are files: one may have fewer frames than the others, or none that count. */
 TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
 {
-    char folder[] = "/tmp/mote-test-claims-XXXXXX";
     const stored_cell cells[] = {
         {.scenario = "ww",
          .rows = "1,0,0,9e6,1,0,0,0,7\n2,0,0,3e6,1,0,0,0,7\n"
@@ -237,14 +230,13 @@ TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
         {.scenario = "tt", .id = "tt", .rows = "1,0,0,1,1,0,0,0,7\n4,0,0,1,1,0,0,0,7\n"}};
     mote_study study = {.summarised = true};
     mote_claim claim = {0};
-    assert_non_null(mkdtemp(folder));
     for (size_t i = 0; i < 3; ++i) {
         stored_cell cell = cells[i];
         cell.method = "particle-paper";
         cell.parameters = i < 2 ? "{\"n\": 5}" : "{\"n\": 3}";
-        stored_cell_put(folder, cell);
+        stored_cell_put("cut", cell);
     }
-    assert_int_equal(mote_summary_make(folder, &study.summary), MOTE_OK);
+    assert_int_equal(mote_summary_make("cut", &study.summary), MOTE_OK);
     assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);
     assert_int_equal(claim.count, 4);
     assert_true(claim.values[1].value == 5); /* of 3 and 7; then 4 alone */
@@ -252,12 +244,11 @@ TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
     assert_false(mote_claim_met(&claim.values[3], claim.values[3].limits));
     mote_claim_free(&claim);
     mote_summary_free(&study.summary);
-    assert_int_equal(program_remove(folder), 0);
 }
 
 TEST(command_with_an_unknown_word_is_a_usage_error)
 {
-    assert_int_equal(program_wait(program_start("claims something", "/dev/null")), 2);
-    assert_int_equal(program_wait(program_start("claims --fast", "/dev/null")), 2);
-    assert_int_equal(program_wait(program_start("claims --out /dev/null/x", "/dev/null")), 4);
+    mote_expect(2, "", "claims something");
+    mote_expect(2, "", "claims --fast");
+    mote_expect(4, "", "claims --out /dev/null/x");
 }

@@ -4,13 +4,15 @@
 
 #include "harness/base/file.h"
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <stddef.h>
 
-#define OUT "test_dynamics_files"
-#define SAID OUT "/said"
+#define OUT "."
 #define ROW OUT "/rows/tt-particle-paper-n-3-law-log.json"
 #define LINE "dynamics --quick --scene tt --approaches 2 --jobs 2 --out " OUT
 
@@ -157,7 +159,6 @@ TEST(approaches_read_of_impossible_counts_is_false)
 /* Rows without an approach: nothing is a share, and nothing is drawn of them. */
 TEST(row_without_approaches_has_no_share)
 {
-    char text[4096];
     const mote_dynamics_row row = {.scene = "tt", .method = "certified", .wanted = 3};
     json_t *object = mote_dynamics_row_json(&row);
     assert_true(json_is_null(json_object_get(object, "share")));
@@ -165,8 +166,9 @@ TEST(row_without_approaches_has_no_share)
     assert_true(json_is_null(json_object_get(object, "n")));
     json_decref(object);
     assert_int_equal(mote_dynamics_csv(&row, 1, OUT), MOTE_OK);
-    program_read(OUT "/dynamics.csv", text, sizeof text);
+    char *text = file_text(OUT "/dynamics.csv");
     assert_non_null(strstr(text, "\ntt,\"certified\",,,,,,0,0,"));
+    free(text);
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
     assert_int_equal(mote_dynamics_claim_add(&claim, &row), MOTE_OK);
@@ -178,7 +180,6 @@ TEST(row_without_approaches_has_no_share)
    paper's scenes. */
 TEST(figure_and_claim_take_rows_of_the_printed_law)
 {
-    char text[4096];
     const mote_approaches some = {.trials = 9, .approaches = 8, .passes_through = 2};
     const mote_dynamics_row rows[] = {
         {.scene = "ww", .method = "a", .n = 3, .law = "log", .paper = true, .sum = some},
@@ -187,11 +188,12 @@ TEST(figure_and_claim_take_rows_of_the_printed_law)
         {.scene = "ww", .method = "d", .paper = true, .sum = some},
         {.scene = "vv", .method = "e", .n = 6, .law = "log", .sum = some}};
     assert_int_equal(mote_dynamics_figure(rows, 5, OUT), MOTE_OK);
-    program_read(OUT "/figures/dynamics.dat", text, sizeof text);
+    char *text = file_text(OUT "/figures/dynamics.dat");
     assert_non_null(strstr(text, "\"ww\"\n3 0.25 "));
     assert_non_null(strstr(text, "\"vv\"\n6 0.25 "));
     assert_null(strstr(text, "\n4 "));
     assert_null(strstr(text, "\n5 "));
+    free(text);
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
     for (int k = 0; k < 5; ++k)
@@ -283,32 +285,32 @@ TEST(claim_follows_from_the_rows)
     }
 }
 
-static void run_study(char *said, size_t size)
+static void run_study(void)
 {
-    assert_int_equal(program_wait(program_start(LINE, SAID)), 0);
-    program_read(SAID, said, size);
+    mote_expect(0, "", LINE);
 }
 
 /* Rows that are there are taken; one of another build, and one that is damaged, are not. */
 TEST(command_dynamics_goes_on_where_it_stopped)
 {
-    static char said[32768], row[8192];
-    run_study(said, sizeof said);
+    char *row;
+    run_study();
     assert_non_null(strstr(said, "dynamics: tt, particle-paper:n=3,law=log:"));
     assert_non_null(strstr(said, "dynamics: tt, certified: 0 passes of 2"));
     assert_int_equal(access(OUT "/dynamics.json", R_OK), 0);
     assert_int_equal(access(OUT "/dynamics.csv", R_OK), 0);
     assert_int_equal(access(OUT "/figures/dynamics.svg", R_OK), 0);
-    run_study(said, sizeof said);
+    run_study();
     assert_null(strstr(said, "dynamics: tt,"));
     assert_non_null(strstr(said, "tt, n = 3"));
-    program_read(ROW, row, sizeof row);
+    row = file_text(ROW);
     char *program = strstr(row, "\"program\": \"");
     assert_non_null(program);
     program[12] = program[12] == '0' ? '1' : '0';
     file_put(ROW, row);
-    assert_int_equal(mote_file_write(OUT "/rows/tt-certified.json", "{", 1), MOTE_OK);
-    run_study(said, sizeof said);
+    free(row);
+    file_put(OUT "/rows/tt-certified.json", "{");
+    run_study();
     const char *first = strstr(said, "dynamics: tt,");
     assert_non_null(strstr(said, "dynamics: tt, particle-paper:n=3,law=log:"));
     assert_non_null(strstr(said, "dynamics: tt, certified:"));
@@ -321,25 +323,26 @@ TEST(command_dynamics_goes_on_where_it_stopped)
 TEST(command_dynamics_keeps_rows_of_other_builds_when_asked)
 {
     static const char changed[] = "0123456789abcdef0123456789abcdef01234567";
-    static char said[32768], row[8192], other[8300], table[32768];
-    program_read(ROW, row, sizeof row);
+    char *row = file_text(ROW);
     char *program = strstr(row, "\"program\": \""), *commit = strstr(row, "\"commit\": \"");
     assert_non_null(program);
     assert_non_null(commit);
     program[12] = program[12] == '0' ? '1' : '0';
     commit += strlen("\"commit\": \""); /* nothing follows where git does not answer */
-    (void)snprintf(other, sizeof other, "%.*s%s%s", (int)(commit - row), row, changed,
-                   strchr(commit, '"'));
+    char *other =
+        mote_format("%.*s%s%s", (int)(commit - row), row, changed, strchr(commit, '"'));
     file_put(ROW, other);
-    assert_int_equal(program_wait(program_start(LINE " --keep", SAID)), 0);
-    program_read(SAID, said, sizeof said);
+    free(other);
+    free(row);
+    mote_expect(0, "", LINE " --keep");
     assert_null(strstr(said, "dynamics: tt,"));
-    program_read(OUT "/dynamics.csv", table, sizeof table);
+    char *table = file_text(OUT "/dynamics.csv");
     char *line = strstr(table, "particle-paper:n=3,law=log");
     assert_non_null(line);
     const char *found = strstr(line, changed);
     assert_true(found && found < strchr(line, '\n'));
     assert_null(strstr(found + 1, changed));
+    free(table);
 }
 
 TEST(command_dynamics_bad_line_refused)
@@ -352,23 +355,6 @@ TEST(command_dynamics_bad_line_refused)
                {"dynamics --approaches 0", "--approaches 0", 2},
                {"dynamics --quick --scene vv --out " OUT, "vv", 4},
                {"dynamics --quick --out /proc/x", "/proc/x", 4}};
-    char said[4096];
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        const int status = program_wait(program_start(bad[i].line, SAID));
-        program_read(SAID, said, sizeof said);
-        if (status != bad[i].status || !strstr(said, bad[i].says))
-            fail_msg("mote %s: exit %d: %s", bad[i].line, status, said);
-    }
+    for (size_t i = 0; i < ROWS_OF(bad); ++i)
+        mote_expect(bad[i].status, bad[i].says, "%s", bad[i].line);
 }
-
-static int make_folder(void)
-{
-    return mote_directory_make(OUT) == MOTE_OK ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    return program_remove(OUT);
-}
-
-TEST_GROUP(make_folder, remove_folder);
