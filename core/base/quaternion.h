@@ -1,4 +1,5 @@
-/* Rotations as quaternions, double precision, by value. */
+/* Rotations as quaternions, double precision, by value. Nothing here fails or checks its
+   arguments. */
 #ifndef MOTE_CORE_QUATERNION_H
 #define MOTE_CORE_QUATERNION_H
 

@@ -1,4 +1,5 @@
-/* Vectors, rotations and poses in three dimensions, double precision, by value. */
+/* Vectors, rotations and poses in three dimensions, double precision, by value. The unit is
+   the caller's. Nothing here fails or checks its arguments. */
 #ifndef MOTE_CORE_VEC3_H
 #define MOTE_CORE_VEC3_H
 

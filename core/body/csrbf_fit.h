@@ -12,10 +12,11 @@ extern "C" {
 typedef struct mote_csrbf_fit mote_csrbf_fit;
 
 /* Factors the symmetric positive definite matrix phi_j(c_i) of a CSRBF field once (Cholesky,
-   GSL). MOTE_ENUMERIC when it is singular to working precision, that is, when the reciprocal
-   condition number is below J^2 * DBL_EPSILON (two equal centres, for example): the text names
-   it. *reciprocal_condition is an estimate, 0 .. 1; it may be NULL. Cost O(J^3). GSL's error
-   handler is switched off during the call, for all threads. */
+   GSL). MOTE_EINVAL for another kind of field, MOTE_ENOMEM, MOTE_ENUMERIC when it is
+   singular to working precision, that is, when the reciprocal condition number is below
+   J^2 DBL_EPSILON (two equal centres, for example): the text names it. *reciprocal_condition
+   is an estimate, 0 .. 1; it may be NULL. Cost O(J^3). GSL's error handler is switched off
+   during the call, for all threads. */
 mote_status mote_csrbf_fit_create(const mote_field *field, mote_csrbf_fit **fit,
                                   double *reciprocal_condition);
 

@@ -19,13 +19,13 @@ typedef struct mote_mass {
                        where moments are equal */
 } mote_mass;
 
-/* density: mass per volume, > 0 and finite. Faces must be wound consistently on each component.
-   A mesh whose faces all point inwards is accepted as if they pointed outwards; a component
-   inside another one and wound the other way is a cavity. MOTE_EINVAL with the reason: an open
-   mesh, inconsistent winding at an edge, no volume (flat, or components that cancel), a bad
-   density, a mesh so large or small that a result is not a positive finite number. Rounding
-   errors: about 1e-15 of the moments of the tetrahedra about the middle of the mesh's box. Cost
-   O(t log t). */
+/* density: mass per volume, > 0 and finite. Faces must be wound consistently on each
+   component. A mesh whose faces all point inwards is accepted as if they pointed outwards; a
+   component inside another one and wound the other way is a cavity. MOTE_EINVAL with the
+   reason: an open mesh, inconsistent winding at an edge, no volume (flat, or components that
+   cancel), a bad density, a mesh so large or small that a result is not a positive finite
+   number; MOTE_ENOMEM. Rounding errors: about 1e-15 of the moments of the tetrahedra about
+   the middle of the mesh's box. Cost O(t log t). */
 mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *mass);
 
 #ifdef __cplusplus

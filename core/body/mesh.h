@@ -43,10 +43,9 @@ typedef struct mote_mesh {
 /* Makes a mesh from xyz (3 * vertex_count doubles) and indices (3 * triangle_count), both
    copied. MOTE_EINVAL, with a text that names the vertex, face or edge: no triangle, 2^31
    vertices or more, a coordinate that is not finite, an index out of range, a face with two
-   equal indices, an edge with more than two faces, a vertex in no face, no extent (L = 0), an L
-   below the normal numbers or above the largest.
-   Faces of zero area are allowed, and so are faces wound differently. Cost O(v + t). The caller
-   destroys *mesh. */
+   equal indices, an edge with more than two faces, a vertex in no face, no extent (L = 0),
+   an L below the normal numbers or above the largest. MOTE_ENOMEM. Faces of zero area are
+   allowed, and so are faces wound differently. Cost O(v + t). The caller destroys *mesh. */
 mote_status mote_mesh_create(const double *xyz, size_t vertex_count, const uint32_t *indices,
                              size_t triangle_count, mote_mesh **mesh);
 
@@ -56,10 +55,12 @@ void mote_mesh_destroy(mote_mesh *mesh);
 /* Bytes of heap that the mesh holds. */
 size_t mote_mesh_bytes(const mote_mesh *mesh);
 
-/* vertices - edges + faces; 2 for each closed component without handles. */
+/* The Euler characteristic, vertices - edges + faces: 2 for each closed component without
+   handles. O(1). */
 int64_t mote_mesh_euler(const mote_mesh *mesh);
 
-/* The smallest angle of any triangle, in degrees; 0 for a degenerate face. */
+/* The smallest angle of any triangle at rest, in degrees; 0 where a face is degenerate.
+   O(t). */
 double mote_mesh_smallest_angle(const mote_mesh *mesh);
 
 #ifdef __cplusplus

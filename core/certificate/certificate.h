@@ -1,5 +1,6 @@
 /* Certified mode: the exact distance of two deforming bodies, and a proof of it, from two rest
-   trees that are deformed node by node (docs/architecture.md).
+   trees that are deformed node by node (docs/architecture.md; after the BD-Tree of James and
+   Pai, 2004).
 
    A query keeps an upper bound, the nearest pair of points found so far, and shows that nothing
    is nearer: first by a plane across the gap, since parts of the bodies on their own sides of
@@ -39,10 +40,14 @@ typedef struct mote_certificate_options {
     uint32_t restarts; /* the traversal starts again at most this often after an improvement */
 } mote_certificate_options;
 
+/* The defaults: a start from the last witnesses, no slack, no limit of box tests, nothing
+   switched off. length > 0: L of the pair. */
 mote_certificate_options mote_default_certificate_options(double length);
 
-/* Builds both trees: O(t log t), about 1 s a million triangles. The bodies are borrowed; a
-   change of their fields or rest meshes needs a new certificate. */
+/* Builds both trees: O(t log t), about 1 s a million triangles. MOTE_ENOMEM. options are not
+   checked; change the defaults only within their ranges. The bodies are borrowed; a change
+   of their fields or rest meshes needs a new certificate. The caller destroys *certificate;
+   one thread at a time may use it. */
 mote_status mote_certificate_create(const mote_body *const body[2],
                                     const mote_certificate_options *options,
                                     mote_certificate **certificate);

@@ -41,7 +41,7 @@ static inline int mote_pair_order(const uint32_t a[2], const uint32_t b[2])
     return a[1] < b[1] ? -1 : a[1] > b[1];
 }
 
-/* What is known of a near pair. */
+/* The answer for a near pair. */
 typedef struct mote_scene_pair {
     uint32_t body[2]; /* body[0] < body[1] */
     uint32_t steps;   /* for how many steps it has been near, up to and including this one */
@@ -52,9 +52,10 @@ typedef struct mote_scene_pair {
     mote_counters counters;
 } mote_scene_pair;
 
-/* Builds a tree for each of shape_count shapes (borrowed). shape_of[body_count]: the shape of
-   each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist, options out of
-   range; MOTE_ENOMEM. Cost: about 1 s a million triangles of shapes. */
+/* Builds a tree for each of shape_count shapes (borrowed). shape_of[body_count]: the shape
+   of each body, copied. MOTE_EINVAL: no shape or body, a shape that does not exist, options
+   out of range; MOTE_ENOMEM. The caller destroys *scene; one thread at a time may use it.
+   Cost: about 1 s a million triangles of shapes. */
 mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_count,
                               const uint32_t *shape_of, uint32_t body_count,
                               const mote_scene_options *options, mote_scene **scene);

@@ -28,7 +28,7 @@ typedef struct mote_setup {
     const double *values; /* one a parameter of the method, in its table's order */
 } mote_setup;
 
-/* Deterministic counts of one query, X(name): in this order in CSV and JSON. */
+/* Deterministic counts of one query, X(name), in their order in CSV and JSON. */
 #define MOTE_COUNTERS(X)                                                                       \
     X(steps)          /* sweeps over all particles */                                          \
     X(moves)          /* particles that moved, over all steps */                               \
@@ -53,7 +53,8 @@ typedef struct mote_counters {
 } mote_counters;
 #undef MOTE_COUNTER_FIELD
 
-/* An answer; zeroed by the caller before each query. What a method cannot say stays absent. */
+/* An answer; zeroed by the caller before each query. What a method does not give stays
+   absent (has_... is false). */
 typedef struct mote_answer {
     bool has_distance, has_lower, has_witness, has_contact;
     bool contact;         /* distance <= tolerance (+ the method's declared resolution) */
@@ -62,7 +63,8 @@ typedef struct mote_answer {
     mote_vec3 witness[2]; /* world points on body 0 and body 1, distance apart */
     mote_counters counters;
     bool has_penetration; /* only of methods on convex parts, in contact, when asked to */
-    double penetration;   /* least translation that separates the deepest pair of parts */
+    double penetration;   /* shortest translation that separates the deepest pair of parts,
+                             absolute */
 } mote_answer;
 
 /* What a parameterised method needs and keeps. */
@@ -118,7 +120,9 @@ typedef struct mote_method {
 /* All methods, ended by NULL; written by the build. */
 extern const mote_method *const mote_methods[];
 
-/* What the method's own functions do, or stands for them where it has none. */
+/* Call the method's own functions, or do the default where it has none: no traits, a state
+   that is a copy of the setup. Errors are the method's; MOTE_ENOMEM. A state is for one
+   thread at a time; the caller destroys it. */
 mote_traits mote_method_traits(const mote_method *method, const double *values);
 mote_status mote_method_create(const mote_method *method, const mote_setup *setup,
                                void **state);
