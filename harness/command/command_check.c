@@ -4,6 +4,7 @@
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/run/active.h"
+#include "harness/run/scene_check.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -129,10 +130,44 @@ static int check(const char *name, bool json, const char *directory)
     return mote_command_finish(code);
 }
 
+static int print_scene_json(const mote_bodies *bodies, const mote_scene_facts *facts)
+{
+    char fingerprint[32];
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, facts->fingerprint);
+    json_t *root = json_pack("{s:s, s:s, s:I, s:I, s:I, s:I, s:f}", "scenario", bodies->name,
+                             "fingerprint", fingerprint, "bodies", (json_int_t)bodies->count,
+                             "frames", (json_int_t)bodies->frames, "contacts",
+                             (json_int_t)facts->contacts, "pair_contacts",
+                             (json_int_t)facts->pair_contacts, "near_pairs", facts->near_pairs);
+    return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
+                                                                  : mote_command_fail();
+}
+
+/* Of more than two bodies: they have no truth but certified's, and no active interval. */
+static int check_scene(const char *name, bool json)
+{
+    mote_bodies *bodies = NULL;
+    mote_scene_facts facts;
+    mote_status status = mote_bodies_load(name, &bodies);
+    if (status == MOTE_OK)
+        status = mote_scene_check(bodies, &facts);
+    int code = status == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
+    if (status == MOTE_OK && json) {
+        code = print_scene_json(bodies, &facts);
+    } else if (status == MOTE_OK) {
+        (void)printf("%s: fingerprint %016" PRIx64 "\n", bodies->name, facts.fingerprint);
+        (void)printf("%u bodies, %u frames, %.4g near pairs a frame, contact in %u frames\n",
+                     bodies->count, bodies->frames, facts.near_pairs, facts.contacts);
+    }
+    mote_bodies_destroy(bodies);
+    return mote_command_finish(code);
+}
+
 const mote_option mote_options_check[] = {
     {"json", NULL, "as JSON (default: as text)"},
     {"out", "DIR",
-     "keep the exact distances in DIR/truth, or take them from there (default: neither)"},
+     "keep the exact distances of two bodies in DIR/truth, or take them from there (default: "
+     "neither)"},
     {NULL, NULL, NULL}};
 
 int mote_command_check(int argc, char **argv)
@@ -154,5 +189,5 @@ int mote_command_check(int argc, char **argv)
     }
     if (!name)
         return mote_command_usage("check", "no scenario; write `mote check SCENARIO`");
-    return check(name, json, directory);
+    return mote_bodies_is(name) ? check_scene(name, json) : check(name, json, directory);
 }

@@ -79,8 +79,8 @@ static double mean_of(const json_t *row)
     return number_of(json_object_get(row, "active_total_ns"), "mean");
 }
 
-/* A line: N, mean of a frame in us, MB of the process. */
-static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
+/* A line: N, mean of a frame in us, MB of the process. Returns how many points it has. */
+static size_t add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
 {
     size_t i, count = 0;
     const json_t *row;
@@ -95,6 +95,7 @@ static void add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
     }
     if (count == 0)
         mote_text_add(text, "NaN NaN NaN\n");
+    return count;
 }
 
 /* The time of the first control over that of certified, for 1,000 bodies. */
@@ -130,9 +131,18 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
     if (!read_rows(run, figure, &root))
         return MOTE_OK;
     const json_t *rows = json_object_get(root, "rows");
+    size_t points = 0;
     for (size_t d = 0; d < 3; ++d) {
         for (size_t m = 0; m < 6; ++m)
-            add_line(rows, d, m, &figure->data);
+            points += add_line(rows, d, m, &figure->data);
+    }
+    if (points == 0) {
+        mote_text_add(&figure->missing, "rows of more than two bodies with \"near_pairs\" of "
+                                        "0.1, 1 or 4; `make bodies` measures them");
+        free(figure->data.data);
+        figure->data = (mote_text){0};
+        json_decref(root);
+        return MOTE_OK;
     }
     mote_text_add(&figure->caption,
                   "Time of a frame over the number of bodies, all deforming, with 0.1, 1 and 4 "

@@ -505,7 +505,8 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
         {"run " FILE_NAME " --method nothing", "unknown method", 4},
         {"run " FILE_NAME " --frames 30-41 --method certified", "it has frames 1-40", 4},
         {"run " FILE_NAME " --pairs some", "expected all|contacts", 2},
-        {"check " FILE_NAME, "several bodies, where two are needed", 4},
+        {"check " FILE_NAME, "6 bodies, 40 frames, ", 0},
+        {"check " FILE_NAME " --json", "\"near_pairs\": ", 0},
         {"export " FILE_NAME " --frame 1 --out "
          "x",
          "several bodies", 4},
@@ -520,6 +521,26 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         mote_expect(cases[k].code, cases[k].text, "%s", cases[k].line);
     }
+}
+
+/* Runs with other densities than the three of the figure have no points in it. */
+static const char other_density[] =
+    "{\"schema\": 1, \"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
+    "\"bodies\": 20, \"near_pairs_wanted\": 1.5, \"active_total_ns\": {\"mean\": 2500000}, "
+    "\"rss_peak_bytes\": 9000000}]}\n";
+
+TEST(mote_figure_bodies_without_a_point_is_missing)
+{
+    const mote_figure_run run = {.directory = "other"};
+    mote_figure figure = {0};
+    assert_int_equal(mote_directory_make("other"), MOTE_OK);
+    assert_int_equal(
+        mote_file_write("other/summary.json", other_density, sizeof other_density - 1),
+        MOTE_OK);
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(figure.data.size, 0);
+    assert_non_null(strstr(figure.missing.data, "0.1, 1 or 4"));
+    free(figure.missing.data);
 }
 
 /* Rows of summary.json, one of them of a cell that failed, and one of two bodies. */
