@@ -302,8 +302,8 @@ test-stranger: deps
 test-cluster: build deps-cluster
 	@tests/scripts/cluster.sh $(MOTE)
 
-test-exports: program-mann_whitney deps-exports
-	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) $(BUILD)/tests/mann_whitney results/schema
+test-exports: build deps-exports
+	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) results/schema
 
 # Under either name.
 PREFIX ?= /usr/local

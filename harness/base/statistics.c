@@ -274,14 +274,6 @@ mote_confidence mote_statistics_process_interval(mote_process_figure figure, voi
     return interval;
 }
 
-double mote_statistics_mad(double *values, size_t count)
-{
-    double median = mote_statistics_median(values, count);
-    for (size_t i = 0; i < count; ++i)
-        values[i] = fabs(values[i] - median);
-    return 1.4826 * mote_statistics_median(values, count);
-}
-
 mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count)
 {
     mote_confidence interval = {MOTE_NONE, MOTE_NONE};
@@ -294,121 +286,6 @@ mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count
     interval.low = sorted[outside - 1];
     interval.high = sorted[count - outside];
     return interval;
-}
-
-#define EXACT_VALUES 50
-
-/* Ranks (mean ranks for ties) of sorted values; returns the sum of t^3 - t over ties. */
-static double rank_sorted(const double *sorted, size_t count, double *ranks)
-{
-    double ties = 0;
-    for (size_t i = 0; i < count;) {
-        size_t end = i + 1;
-        while (end < count && !(sorted[end] > sorted[i]))
-            ++end;
-        double tied = (double)(end - i);
-        ties += tied * tied * tied - tied;
-        for (size_t k = i; k < end; ++k)
-            ranks[k] = ((double)i + (double)end + 1) / 2;
-        i = end;
-    }
-    return ties;
-}
-
-static double find_rank(const double *sorted, const double *ranks, size_t count, double value)
-{
-    size_t low = 0, high = count;
-    while (low + 1 < high) {
-        size_t middle = (low + high) / 2;
-        if (sorted[middle] <= value)
-            low = middle;
-        else
-            high = middle;
-    }
-    return ranks[low];
-}
-
-/* Two-sided p from a statistic that is symmetric around its mean, its distribution given as
-   ways to get 0, 1, ..., most. */
-static double exact_p(const double *ways, size_t most, double statistic)
-{
-    double low = fmin(statistic, (double)most - statistic), tail = 0, all = 0;
-    for (size_t k = 0; k <= most; ++k) {
-        all += ways[k];
-        tail += (double)k <= low ? ways[k] : 0;
-    }
-    return fmin(1, 2 * tail / all);
-}
-
-static double normal_p(double statistic, double mean, double variance)
-{
-    double distance = fmax(0, fabs(statistic - mean) - 0.5);
-    return variance > 0 ? 2 * gsl_cdf_ugaussian_Q(distance / sqrt(variance)) : 1;
-}
-
-double mote_statistics_wilcoxon(const double *differences, size_t count, double *work)
-{
-    size_t left = 0;
-    for (size_t i = 0; i < count; ++i) {
-        if (differences[i] < 0 || differences[i] > 0)
-            work[left++] = fabs(differences[i]);
-    }
-    if (left == 0)
-        return MOTE_NONE;
-    double *ranks = work + count;
-    mote_statistics_sort(work, left);
-    double ties = rank_sorted(work, left, ranks), positive = 0, n = (double)left;
-    for (size_t i = 0; i < count; ++i) {
-        if (differences[i] > 0)
-            positive += find_rank(work, ranks, left, differences[i]);
-    }
-    if (left > EXACT_VALUES || ties > 0)
-        return normal_p(positive, n * (n + 1) / 4, n * (n + 1) * (2 * n + 1) / 24 - ties / 48);
-    /* Every set of ranks 1 .. left is equally likely to be the positive one. */
-    double ways[EXACT_VALUES * (EXACT_VALUES + 1) / 2 + 1] = {1};
-    size_t most = left * (left + 1) / 2;
-    for (size_t rank = 1; rank <= left; ++rank) {
-        for (size_t sum = most; sum >= rank; --sum)
-            ways[sum] += ways[sum - rank];
-    }
-    return exact_p(ways, most, positive);
-}
-
-/* Ways to get each value of Mann and Whitney's U: the coefficients of a Gaussian binomial. */
-static void count_u(size_t a_count, size_t b_count, double *ways)
-{
-    size_t most = a_count * b_count;
-    for (size_t k = 1; k <= most; ++k)
-        ways[k] = 0;
-    ways[0] = 1;
-    for (size_t i = 1; i <= a_count; ++i) {
-        for (size_t k = most; k >= b_count + i; --k)
-            ways[k] -= ways[k - b_count - i];
-        for (size_t k = i; k <= most; ++k)
-            ways[k] += ways[k - i];
-    }
-}
-
-double mote_statistics_mann_whitney(const double *a, size_t a_count, const double *b,
-                                    size_t b_count, double *work)
-{
-    size_t count = a_count + b_count;
-    if (a_count == 0 || b_count == 0)
-        return MOTE_NONE;
-    memcpy(work, a, a_count * sizeof *work);
-    memcpy(work + a_count, b, b_count * sizeof *work);
-    mote_statistics_sort(work, count);
-    double *ranks = work + count;
-    double ties = rank_sorted(work, count, ranks), sum = 0;
-    for (size_t i = 0; i < a_count; ++i)
-        sum += find_rank(work, ranks, count, a[i]);
-    double m = (double)a_count, n = (double)b_count, all = (double)count;
-    double u = sum - m * (m + 1) / 2;
-    if (count > EXACT_VALUES || ties > 0)
-        return normal_p(u, m * n / 2, m * n / 12 * (all + 1 - ties / (all * (all - 1))));
-    double ways[EXACT_VALUES * EXACT_VALUES / 4 + 1];
-    count_u(a_count, b_count, ways);
-    return exact_p(ways, a_count * b_count, u);
 }
 
 void mote_statistics_holm(double *p, size_t count, double *work)
@@ -425,17 +302,6 @@ void mote_statistics_holm(double *p, size_t count, double *work)
             corrected = fmax(corrected, fmin(1, (double)(known - k) * work[k]));
         p[i] = p[i] == p[i] ? corrected : p[i];
     }
-}
-
-size_t mote_statistics_outliers(const double *sorted, size_t count)
-{
-    double low = mote_statistics_quantile(sorted, count, 0.25);
-    double high = mote_statistics_quantile(sorted, count, 0.75);
-    double fence = 1.5 * (high - low);
-    size_t outside = 0;
-    for (size_t i = 0; i < count; ++i)
-        outside += sorted[i] < low - fence || sorted[i] > high + fence ? 1 : 0;
-    return outside;
 }
 
 mote_difference mote_statistics_welch(const double *a, size_t a_count, const double *b,

@@ -70,32 +70,13 @@ typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t
 mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
                                                  size_t processes, uint64_t seed);
 
-/* Median of the absolute distances to the median, times 1.4826: a standard deviation for normal
-   values. values are reordered. */
-double mote_statistics_mad(double *values, size_t count);
-
 /* Interval of the median without any assumption but independence: order statistics by the sign
    test, at least 95 %. sorted ascending; MOTE_NONE below six values. */
 mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count);
 
-/* Two-sided p of Wilcoxon's signed-rank test that differences have median 0. Zeros are left
-   out. Exact for at most 50 differences of different sizes, else by the normal approximation
-   with corrections for ties and continuity. MOTE_NONE when nothing is left; work holds 2 *
-   count doubles. */
-double mote_statistics_wilcoxon(const double *differences, size_t count, double *work);
-
-/* Two-sided p of Mann and Whitney's test that a and b have one distribution. Exact for at
-   most 50 values in all, all different, else by the normal approximation with corrections
-   for ties and continuity. work holds 2 * (a_count + b_count) doubles. */
-double mote_statistics_mann_whitney(const double *a, size_t a_count, const double *b,
-                                    size_t b_count, double *work);
-
 /* Corrects p-values of one table by Holm's method, in place; those that are MOTE_NONE stay and
    do not count. work holds count doubles. */
 void mote_statistics_holm(double *p, size_t count, double *work);
-
-/* How many values lie outside Tukey's fences: 1.5 quartile distances beyond the quartiles. */
-size_t mote_statistics_outliers(const double *sorted, size_t count);
 
 /* The difference of two means by Welch's unequal variances. Fewer than two values on a side:
    interval and p are MOTE_NONE. */

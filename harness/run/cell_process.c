@@ -35,7 +35,8 @@ int mote_process_core(void)
     return -1;
 }
 
-void mote_process_pin(int core)
+/* Pins this process to a core; -1 does nothing. */
+static void pin(int core)
 {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -135,7 +136,7 @@ static mote_status work(void *context, int output)
     message told;
     memset(&told, 0, sizeof told);
     if (!has_threads(t->cell))
-        mote_process_pin(t->options->core);
+        pin(t->options->core);
     mote_status status = MOTE_OK;
     if (t->probe)
         child_probe(t->cell, &told);
@@ -199,17 +200,6 @@ mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *
     end->status = told.cell;
     memcpy(end->reason, told.text, sizeof end->reason);
     return MOTE_OK;
-}
-
-mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
-                              mote_cell_end *end)
-{
-    mote_child child;
-    size_t index;
-    mote_status status = start(cell, options, false, &child);
-    if (status == MOTE_OK)
-        status = mote_child_wait(&child, 1, &index);
-    return status == MOTE_OK ? mote_cell_finish(cell, options, &child, end) : status;
 }
 
 mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *options,

@@ -37,10 +37,6 @@ mote_status mote_cell_start(const mote_cell *cell, const mote_process_options *o
 mote_status mote_cell_finish(const mote_cell *cell, const mote_process_options *options,
                              mote_child *child, mote_cell_end *end);
 
-/* Measures one cell from start to end. MOTE_EIO also when a signal asked to stop. */
-mote_status mote_cell_measure(const mote_cell *cell, const mote_process_options *options,
-                              mote_cell_end *end);
-
 /* Runs the first frames of a cell in a child and measures them; nothing is stored. All 0
    when it does not get that far. MOTE_EINVAL with the method's text when it refuses its
    input (n above the vertex count). */
@@ -49,8 +45,5 @@ mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *o
 
 /* A core to pin to: the last of those allowed; -1 when unknown. */
 int mote_process_core(void);
-
-/* Pins this process to a core; -1 does nothing. */
-void mote_process_pin(int core);
 
 #endif

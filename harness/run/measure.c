@@ -50,25 +50,6 @@ static int64_t vertices_bytes(const session *s)
     return (int64_t)bytes;
 }
 
-/* Everything that is charged to no method. */
-static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
-{
-    const mote_cell *cell = s->cell;
-    s->traits = mote_method_traits(cell->choice->method, cell->choice->values);
-    result->rows = mote_allocate(rows, sizeof *result->rows);
-    if (cell->cache == MOTE_CACHE_EVICT)
-        s->evict = mote_allocate(EVICT_BYTES, 1);
-    mote_status status = MOTE_OK;
-    if (!cell->subject->bodies)
-        status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
-    if (status == MOTE_OK && !cell->subject->bodies && s->traits.given_vertices)
-        status = make_vertices(s);
-    s->clock_ns = mote_clock_cost_ns();
-    result->clock_ns = s->clock_ns;
-    result->overhead_ns = mote_overhead_ns(s->clock_ns);
-    return status;
-}
-
 /* Keys of scenes have no effect on two bodies, so a result must not list them. */
 static mote_status check_keys(const mote_cell *cell)
 {
@@ -164,7 +145,9 @@ static mote_status answer_nothing(void *state, const mote_frame *frame, mote_ans
     return MOTE_OK;
 }
 
-double mote_overhead_ns(uint64_t clock_ns)
+/* The overhead of clock and bookkeeping that remains in a timed call after the clock's cost is
+   subtracted, measured with a method that does nothing. May be below 0. */
+static double overhead(uint64_t clock_ns)
 {
     const mote_method nothing = {.query = answer_nothing};
     const mote_method_choice choice = {.method = &nothing};
@@ -183,6 +166,25 @@ double mote_overhead_ns(uint64_t clock_ns)
         batches[i] = (double)sum / BATCH - (double)clock_ns;
     }
     return mote_statistics_median(batches, BATCHES);
+}
+
+/* Everything that is charged to no method. */
+static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
+{
+    const mote_cell *cell = s->cell;
+    s->traits = mote_method_traits(cell->choice->method, cell->choice->values);
+    result->rows = mote_allocate(rows, sizeof *result->rows);
+    if (cell->cache == MOTE_CACHE_EVICT)
+        s->evict = mote_allocate(EVICT_BYTES, 1);
+    mote_status status = MOTE_OK;
+    if (!cell->subject->bodies)
+        status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
+    if (status == MOTE_OK && !cell->subject->bodies && s->traits.given_vertices)
+        status = make_vertices(s);
+    s->clock_ns = mote_clock_cost_ns();
+    result->clock_ns = s->clock_ns;
+    result->overhead_ns = overhead(s->clock_ns);
+    return status;
 }
 
 static mote_status run_frame(session *s, uint32_t number, uint32_t previous, mote_cell_row *row)

@@ -6,11 +6,6 @@
 #include "harness/run/cell_pairs.h"
 #include "harness/run/clock.h"
 
-/* The overhead of clock and bookkeeping that remains in a timed call after
-   mote_clock_cost_ns (clock_ns) is subtracted, measured with a method that does nothing. May
-   be below 0. */
-double mote_overhead_ns(uint64_t clock_ns);
-
 /* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all).
    The method's own failure is returned with its text, the frame named. Nothing is allocated
    between frames of two bodies. Free the result with mote_cell_result_free; core, load and

@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const mote_claim_verdict_names[] = {"holds", "holds within limits",
-                                                "does not hold"};
+static const char *const verdict_names[] = {"holds", "holds within limits", "does not hold"};
 
 static const char *const bound_names[] = {NULL, "at most", "at least"};
 
@@ -94,7 +93,7 @@ json_t *mote_claim_json(const mote_claim *claim)
     json_t *object =
         json_pack("{s:s, s:s, s:s, s:s, s:s, s:s?}", "id", claim->id, "section", claim->section,
                   "claim", claim->claim, "measured", claim->measured, "verdict",
-                  mote_claim_verdict_names[mote_claim_judge(claim)], "curve", claim->curve);
+                  verdict_names[mote_claim_judge(claim)], "curve", claim->curve);
     json_t *values = json_array();
     for (size_t i = 0; i < claim->count; ++i)
         (void)json_array_append_new(values, value_json(&claim->values[i]));
@@ -133,8 +132,7 @@ static void print_value(const mote_claim_value *value)
 void mote_claim_print(const mote_claim *claim)
 {
     (void)printf("%-3s  paper %-8s %s: %s\n     measured: %s\n", claim->id, claim->section,
-                 mote_claim_verdict_names[mote_claim_judge(claim)], claim->claim,
-                 claim->measured);
+                 verdict_names[mote_claim_judge(claim)], claim->claim, claim->measured);
     for (size_t i = 0; i < claim->count; ++i)
         print_value(&claim->values[i]);
     if (claim->curve)

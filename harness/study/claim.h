@@ -40,9 +40,6 @@ typedef enum mote_claim_verdict {
     MOTE_CLAIM_DOES_NOT_HOLD /* anything else */
 } mote_claim_verdict;
 
-/* "holds", "holds within limits", "does not hold" */
-extern const char *const mote_claim_verdict_names[];
-
 /* Adds a figure, the first being the headline; name as printf. */
 mote_status mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
                            const char *unit, const char *format, ...) MOTE_PRINTF(5, 6);

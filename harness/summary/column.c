@@ -516,20 +516,6 @@ const mote_column mote_columns[] = {
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
 
-static bool same_name(const char *a, const char *b)
-{
-    return a == b || (a && b && strcmp(a, b) == 0);
-}
-
-const mote_column *mote_column_find(const char *object, const char *key)
-{
-    for (size_t i = 0; i < mote_column_count; ++i) {
-        if (same_name(mote_columns[i].object, object) && strcmp(mote_columns[i].key, key) == 0)
-            return &mote_columns[i];
-    }
-    return NULL;
-}
-
 double mote_column_number(const mote_column *column, const mote_summary_row *row)
 {
     if (column->number)

@@ -1,14 +1,13 @@
 #!/usr/bin/python3
-"""exports.py MOTE MANN_WHITNEY SCHEMAS: two runs, every export of them read by other tools.
+"""exports.py MOTE SCHEMAS: two runs, every export of them read by other tools.
 
 jq and json read every file; jsonschema checks those that have a schema; pandas computes the CSV's
-medians and quantiles again from the frames; scipy's Mann-Whitney test gives our p for samples of
-many sizes and for our Google Benchmark JSON, taken apart as that project's compare.py does.
+medians and quantiles again from the frames; our Google Benchmark JSON is taken apart as that
+project's compare.py does, and scipy's Mann-Whitney test, which that calls, takes its samples.
 """
 import json
 import math
 import pathlib
-import random
 import subprocess
 import sys
 import tempfile
@@ -20,7 +19,7 @@ from scipy.stats import mannwhitneyu
 
 warnings.simplefilter("ignore", RuntimeWarning)  # numpy: medians of rows without figures
 
-MOTE, MANN_WHITNEY, SCHEMAS = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+MOTE, SCHEMAS = sys.argv[1], pathlib.Path(sys.argv[2])
 RUN = ["run", "tt", "mv", "--frames", "401-460", "--replicates", "8", "--method", "fcl-aabb",
        "--method", "certified", "--method", "particle-paper", "--particles", "2,4",
        "--method", "fcl-kdop18"]  # which knows no distance: on mv a row without figures
@@ -147,37 +146,6 @@ def check_lists(directory, rows):
     assert not has_null(actions) and not has_null(bencher)
 
 
-def ours(samples):
-    """Our p of pairs of samples."""
-    text = "".join(" ".join(map(repr, a)) + " | " + " ".join(map(repr, b)) + "\n"
-                   for a, b in samples)
-    done = subprocess.run([MANN_WHITNEY], input=text, capture_output=True, text=True, check=True)
-    values = [float(line) for line in done.stdout.split()]
-    assert len(values) == len(samples), f"{len(values)} values of p for {len(samples)} pairs"
-    return values
-
-
-def theirs(a, b):
-    """scipy's p by the rule of ours: exact for at most 50 values, all different."""
-    exact = len(a) + len(b) <= 50 and len(set(a + b)) == len(a + b)
-    return mannwhitneyu(a, b, alternative="two-sided",
-                        method="exact" if exact else "asymptotic").pvalue
-
-
-def check_mann_whitney():
-    draw = random.Random(1)
-    samples = []
-    for k in range(600):
-        sizes = [draw.randint(1, 40 if k % 3 else 8) for _ in range(2)]
-        digits = k % 4 if k % 2 else 12  # few digits: ties
-        samples.append([[round(draw.gauss(shift, 1), digits) for _ in range(size)]
-                        for size, shift in zip(sizes, (0, draw.random()))])
-    samples = [s for s in samples if len(set(s[0] + s[1])) > 1]
-    for (a, b), p in zip(samples, ours(samples)):
-        assert near(p, theirs(a, b), 1e-9), (a, b, p, theirs(a, b))
-    return len(samples)
-
-
 def read_gbench(directory):
     value = read(mote("summarize", str(directory), "--format", "gbench"), "gbench")
     schema("gbench").validate(value)
@@ -199,9 +167,8 @@ def check_gbench(first, second):
             assert [b["repetition_index"] for b in part] == list(range(8))
             assert all(b["repetitions"] == 8 for b in part)
         samples.append([[b["real_time"] for b in part] for part in parts])
-    for (a, b), p in zip(samples, ours(samples)):
-        # As compare.py calls it. scipy takes the exact test, as we do, unless values are tied.
-        assert near(p, mannwhitneyu(a, b, alternative="two-sided").pvalue, 1e-9), (a, b, p)
+    for a, b in samples:  # as compare.py calls it
+        assert 0 <= mannwhitneyu(a, b, alternative="two-sided").pvalue <= 1, (a, b)
     return len(samples)
 
 
@@ -215,5 +182,4 @@ with tempfile.TemporaryDirectory() as work:
         check_lists(run, table)
         print(f"pandas: {figures} medians, quantiles, means and counts of {len(table)} rows")
     print("github-action-benchmark, Bencher: the same medians, rows without figures left out")
-    print(f"scipy: our Mann-Whitney p for {check_mann_whitney()} pairs of samples, and for "
-          f"{check_gbench(*runs)} rows of two Google Benchmark files")
+    print(f"scipy: a p for {check_gbench(*runs)} rows of two Google Benchmark files")

@@ -13,12 +13,6 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
 }
 
-TEST(mad_of_one_to_nine_is_two_scaled)
-{
-    double values[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
-    assert_near(mote_statistics_mad(values, COUNT(values)), 1.4826 * 2, 1e-12);
-}
-
 TEST(sign_interval_of_ten_values_is_second_to_ninth)
 {
     /* P(Bin(10, 1/2) <= 1) = 11 / 1024 <= 0.025 < P(<= 2): the table's 97.9 % interval. */
@@ -30,44 +24,6 @@ TEST(sign_interval_of_ten_values_is_second_to_ninth)
     assert_near(mote_statistics_sign_interval(sorted, 6).low, 1, 0);
 }
 
-TEST(wilcoxon_of_depression_scores_is_the_published_p)
-{
-    /* Hollander and Wolfe (1973), page 29: V = 40, one-sided exact p 0.01953. */
-    const double x[] = {1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
-    const double y[] = {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
-    double differences[COUNT(x)], work[2 * COUNT(x)];
-    for (size_t i = 0; i < COUNT(x); ++i)
-        differences[i] = x[i] - y[i];
-    assert_near(mote_statistics_wilcoxon(differences, COUNT(x), work), 2 * 10 / 512.0, 1e-12);
-}
-
-TEST(wilcoxon_of_ties_is_the_normal_approximation)
-{
-    /* Sizes 1, 1, 1, 1, all positive: W = 10, mean 5, variance 7.5 - 60 / 48 = 6.25. */
-    const double differences[] = {1, 1, 0, 1, 1};
-    double work[10];
-    assert_near(mote_statistics_wilcoxon(differences, 5, work), 0.07186063822585154, 1e-12);
-    assert_true(isnan(mote_statistics_wilcoxon(&differences[2], 1, work)));
-}
-
-TEST(mann_whitney_of_permeability_is_the_published_p)
-{
-    /* Hollander and Wolfe (1973), page 69: W = 35, one-sided exact p 0.1272. */
-    const double a[] = {0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46};
-    const double b[] = {1.15, 0.88, 0.90, 0.74, 1.21};
-    double work[2 * (COUNT(a) + COUNT(b))];
-    double p = mote_statistics_mann_whitney(a, COUNT(a), b, COUNT(b), work);
-    assert_near(p, 2 * 0.1272, 1e-4);
-    assert_near(mote_statistics_mann_whitney(b, COUNT(b), a, COUNT(a), work), p, 1e-12);
-}
-
-TEST(mann_whitney_of_three_below_three_is_one_tenth)
-{
-    const double a[] = {1, 2, 3}, b[] = {4, 5, 6};
-    double work[12];
-    assert_near(mote_statistics_mann_whitney(a, 3, b, 3, work), 0.1, 1e-12);
-}
-
 TEST(holm_of_four_values_is_the_textbook_one)
 {
     double p[] = {0.01, 0.04, 0.03, MOTE_NONE, 0.005}, work[5];
@@ -77,13 +33,6 @@ TEST(holm_of_four_values_is_the_textbook_one)
     assert_near(p[2], 0.06, 1e-12);
     assert_true(isnan(p[3]));
     assert_near(p[4], 0.02, 1e-12);
-}
-
-TEST(outliers_beyond_the_fences_are_counted)
-{
-    /* Quartiles 3 and 7: fences -3 and 13. */
-    const double sorted[] = {-4, 2, 3, 4, 5, 6, 7, 8, 14};
-    assert_int_equal(mote_statistics_outliers(sorted, COUNT(sorted)), 2);
 }
 
 TEST(welch_of_two_samples_is_the_closed_form)

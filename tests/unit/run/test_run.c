@@ -1,5 +1,6 @@
 #include "harness/run/cell_process.h"
 #include "harness/base/record.h"
+#include "tests/support/measured_cell.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -517,7 +518,7 @@ static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *,
     mote_cell_name(&cell, 1);
     mote_process_options options = {.directory = directory, .core = -1, .timeout = 60};
     mote_cell_end end;
-    assert_int_equal(mote_cell_measure(&cell, &options, &end), MOTE_OK);
+    assert_int_equal(measure_cell(&cell, &options, &end), MOTE_OK);
     (void)snprintf(reason, size, "%s", end.reason);
     mote_truth_destroy(subject.truth);
     mote_scenario_destroy(subject.scenario);

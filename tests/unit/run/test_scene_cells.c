@@ -4,6 +4,7 @@
 #include "harness/run/plan.h"
 
 #include "harness/base/file.h"
+#include "tests/support/measured_cell.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
 
@@ -42,7 +43,7 @@ static void expect_end(const char *method, double timeout, mote_cell_status stat
     const mote_cell cell = cell_of(&choice);
     const mote_process_options options = {.directory = ".", .timeout = timeout, .core = -1};
     mote_cell_end end = {.status = MOTE_CELL_OK};
-    if (mote_cell_measure(&cell, &options, &end) != MOTE_OK)
+    if (measure_cell(&cell, &options, &end) != MOTE_OK)
         fail_msg("%s: %s", method, mote_error_text());
     assert_int_equal(end.status, status);
     if (!strstr(end.reason, reason))
@@ -55,7 +56,7 @@ static void expect_end(const char *method, double timeout, mote_cell_status stat
     }
 }
 
-TEST(mote_cell_measure_ends_that_are_not_good_are_results)
+TEST(measure_cell_ends_that_are_not_good_are_results)
 {
     expect_end("certified", 0, MOTE_CELL_OK, "");
     expect_end("particle:n=2,positions=given", 0, MOTE_CELL_UNSUPPORTED,
