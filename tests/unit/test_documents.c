@@ -309,10 +309,12 @@ TEST(commands_that_documents_mention_exist_and_have_their_options)
     each_mention("(\\<mote )([a-z][a-z-]*)", true, check_command);
 }
 
-/* Of any command, of none (`mote --allow DIR COMMAND`), or of Slurm's sbatch. */
+/* Of any command, of all (--help), of none (`mote --allow DIR COMMAND`), or of Slurm's sbatch.
+ */
 static void check_option(const char *document, const char *option, const char *rest)
 {
-    static const char *const others[] = {"--allow", "--partition", "--time", "--constraint"};
+    static const char *const others[] = {"--allow", "--help", "--partition", "--time",
+                                         "--constraint"};
     bool known = has_option(NULL, option);
     (void)rest;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
