@@ -215,30 +215,12 @@ static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *ot
                         double first, double last, double *work)
 {
     size_t count = 0;
-    for (size_t i = 0, j = 0; i < ours->frames && j < other->frames;) {
-        if (ours->frame[i] != other->frame[j]) {
-            if (ours->frame[i] < other->frame[j])
-                ++i;
-            else
-                ++j;
-            continue;
-        }
+    for (size_t i = 0, k = 0; mote_stored_common(ours, &i, other, &k); ++i, ++k) {
         if (ours->frame[i] >= first && ours->frame[i] < last && ours->total_ns[i] > 0 &&
-            other->total_ns[j] > 0)
-            work[count++] = log(other->total_ns[j] / ours->total_ns[i]);
-        ++i;
-        ++j;
+            other->total_ns[k] > 0)
+            work[count++] = log(other->total_ns[k] / ours->total_ns[i]);
     }
     return count ? mote_statistics_median(work, count) : MOTE_NONE;
-}
-
-static const mote_stored_cell *find_replicate(const mote_summary_row *row, uint32_t replicate)
-{
-    for (size_t r = 0; r < row->replicates; ++r) {
-        if (row->cells[r].replicate == replicate)
-            return &row->cells[r];
-    }
-    return NULL;
 }
 
 /* One part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
@@ -249,7 +231,7 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *ours = &row->cells[r];
-        const mote_stored_cell *theirs = find_replicate(other, ours->replicate);
+        const mote_stored_cell *theirs = mote_summary_replicate(other, ours->replicate);
         const double value = theirs ? log_ratio(ours, theirs, first, last, work) : MOTE_NONE;
         if (value == value)
             values[count++] = value;

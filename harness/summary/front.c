@@ -161,7 +161,7 @@ static void fill_row(const workshop *w, size_t index, double *work)
         total[k] = given[k] = MOTE_NONE;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (cell->status != MOTE_CELL_OK || cell->frames == 0)
+        if (!mote_stored_ran(cell))
             continue;
         for (size_t k = 0; k < cell->frames; ++k)
             work[k] = cell->update_ns[k] + cell->query_ns[k];

@@ -8,6 +8,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -22,35 +23,47 @@ const char *const mote_stored_count_names[MOTE_STORED_COUNTS] = {
     MOTE_COUNTERS(NAME_TEXT) MOTE_COUNTERS_MORE(NAME_TEXT) "allocations"};
 #undef NAME_TEXT
 
-/* The columns that are read, by position in this list. */
-enum {
-    COLUMN_FRAME,
-    COLUMN_DEFORM,
-    COLUMN_UPDATE,
-    COLUMN_QUERY,
-    COLUMN_TRUTH,
-    COLUMN_ERROR,
-    COLUMN_CONTACT,
-    COLUMN_CONTACT_TRUTH,
-    COLUMN_COUNTS
+/* What a field of a frame is, and what an empty one means. */
+typedef enum field_kind {
+    FIELD_NUMBER, /* of the frame: uint32_t */
+    FIELD_TIME,   /* double; empty: 0 */
+    FIELD_FIGURE, /* double; empty: MOTE_NONE */
+    FIELD_ANSWER  /* signed char: 1, 0; empty: -1 */
+} field_kind;
+static const size_t field_sizes[] = {sizeof(uint32_t), sizeof(double), sizeof(double),
+                                     sizeof(signed char)};
+
+/* The columns that every cell has, and the arrays that they are read into. */
+static const struct frame_column {
+    const char *name;
+    size_t array; /* offset of the pointer in mote_stored_cell */
+    field_kind kind;
+} frame_columns[] = {
+    {"frame", offsetof(mote_stored_cell, frame), FIELD_NUMBER},
+    {"deform_ns", offsetof(mote_stored_cell, deform_ns), FIELD_TIME},
+    {"update_ns", offsetof(mote_stored_cell, update_ns), FIELD_TIME},
+    {"query_ns", offsetof(mote_stored_cell, query_ns), FIELD_TIME},
+    {"truth", offsetof(mote_stored_cell, truth), FIELD_FIGURE},
+    {"error", offsetof(mote_stored_cell, error), FIELD_FIGURE},
+    {"contact", offsetof(mote_stored_cell, contact), FIELD_ANSWER},
+    {"contact_truth", offsetof(mote_stored_cell, contact_truth), FIELD_ANSWER},
 };
-static const char *const column_names[COLUMN_COUNTS] = {"frame",    "deform_ns",    "update_ns",
-                                                        "query_ns", "truth",        "error",
-                                                        "contact",  "contact_truth"};
+enum { FRAME_COLUMNS = sizeof frame_columns / sizeof frame_columns[0] };
+
+static void *array_of(const mote_stored_cell *cell, int column)
+{
+    void *array;
+    memcpy(&array, (const char *)cell + frame_columns[column].array, sizeof array);
+    return array;
+}
 
 static void free_cell(mote_stored_cell *cell)
 {
     json_decref(cell->json);
     free(cell->group);
-    free(cell->frame);
-    free(cell->deform_ns);
-    free(cell->update_ns);
-    free(cell->query_ns);
+    for (int k = 0; k < FRAME_COLUMNS; ++k)
+        free(array_of(cell, k));
     free(cell->total_ns);
-    free(cell->error);
-    free(cell->truth);
-    free(cell->contact);
-    free(cell->contact_truth);
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k)
         free(cell->scene[k]);
 }
@@ -64,6 +77,23 @@ void mote_stored_free(mote_stored *stored)
     *stored = none;
 }
 
+bool mote_stored_ran(const mote_stored_cell *cell)
+{
+    return cell->status == MOTE_CELL_OK && cell->frames > 0;
+}
+
+bool mote_stored_common(const mote_stored_cell *a, size_t *i, const mote_stored_cell *b,
+                        size_t *k)
+{
+    while (*i < a->frames && *k < b->frames && a->frame[*i] != b->frame[*k]) {
+        if (a->frame[*i] < b->frame[*k])
+            ++*i;
+        else
+            ++*k;
+    }
+    return *i < a->frames && *k < b->frames;
+}
+
 double mote_stored_number(const mote_stored_cell *cell, const char *key)
 {
     const json_t *value = json_object_get(cell->json, key);
@@ -72,15 +102,11 @@ double mote_stored_number(const mote_stored_cell *cell, const char *key)
 
 static void make_arrays(mote_stored_cell *cell, size_t frames)
 {
-    cell->frame = mote_allocate(frames, sizeof *cell->frame);
-    cell->deform_ns = mote_allocate(frames, sizeof *cell->deform_ns);
-    cell->update_ns = mote_allocate(frames, sizeof *cell->update_ns);
-    cell->query_ns = mote_allocate(frames, sizeof *cell->query_ns);
+    for (int k = 0; k < FRAME_COLUMNS; ++k) {
+        void *array = mote_allocate(frames, field_sizes[frame_columns[k].kind]);
+        memcpy((char *)cell + frame_columns[k].array, &array, sizeof array);
+    }
     cell->total_ns = mote_allocate(frames, sizeof *cell->total_ns);
-    cell->error = mote_allocate(frames, sizeof *cell->error);
-    cell->truth = mote_allocate(frames, sizeof *cell->truth);
-    cell->contact = mote_allocate(frames, sizeof *cell->contact);
-    cell->contact_truth = mote_allocate(frames, sizeof *cell->contact_truth);
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT && cell->bodies > 0; ++k)
         cell->scene[k] = mote_allocate(frames, sizeof *cell->scene[k]);
 }
@@ -92,21 +118,24 @@ typedef struct column_map {
     size_t count;
 } column_map;
 
+static bool is_name(const char *name, const char *text, size_t length)
+{
+    return strlen(name) == length && memcmp(name, text, length) == 0;
+}
+
 static int find_column(const char *name, size_t length)
 {
-    for (int k = 0; k < COLUMN_COUNTS; ++k) {
-        if (strlen(column_names[k]) == length && memcmp(column_names[k], name, length) == 0)
+    for (int k = 0; k < FRAME_COLUMNS; ++k) {
+        if (is_name(frame_columns[k].name, name, length))
             return k;
     }
     for (int k = 0; k < MOTE_STORED_COUNTS; ++k) {
-        const char *count = mote_stored_count_names[k];
-        if (strlen(count) == length && memcmp(count, name, length) == 0)
-            return COLUMN_COUNTS + k;
+        if (is_name(mote_stored_count_names[k], name, length))
+            return FRAME_COLUMNS + k;
     }
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k) {
-        const char *column = mote_scene_column_names[k];
-        if (strlen(column) == length && memcmp(column, name, length) == 0)
-            return COLUMN_COUNTS + MOTE_STORED_COUNTS + k;
+        if (is_name(mote_scene_column_names[k], name, length))
+            return FRAME_COLUMNS + MOTE_STORED_COUNTS + k;
     }
     return -1;
 }
@@ -121,57 +150,44 @@ static bool map_columns(const char *header, column_map *map)
             return false;
         int index = find_column(name, length);
         map->column[map->count++] = index;
-        if (index >= 0 && index < COLUMN_COUNTS)
+        if (index >= 0 && index < FRAME_COLUMNS)
             found |= 1u << index;
         name += length;
         if (*name != ',')
             break;
     }
-    return found == (1u << COLUMN_COUNTS) - 1;
+    return found == (1u << FRAME_COLUMNS) - 1;
+}
+
+static void put_field(const mote_stored_cell *cell, size_t row, int column, double value)
+{
+    const bool none = value != value;
+    void *array = array_of(cell, column);
+    switch (frame_columns[column].kind) {
+    case FIELD_NUMBER:
+        ((uint32_t *)array)[row] = value >= 1 && value <= FRAME_LAST ? (uint32_t)value : 0;
+        break;
+    case FIELD_ANSWER:
+        ((signed char *)array)[row] = none ? -1 : value > 0;
+        break;
+    default:
+        ((double *)array)[row] = none && frame_columns[column].kind == FIELD_TIME ? 0 : value;
+        break;
+    }
 }
 
 /* Puts the value of one field, MOTE_NONE when empty, where it belongs. */
 static void put_value(mote_stored_cell *cell, size_t row, int index, double value)
 {
-    bool none = value != value;
-    switch (index) {
-    case COLUMN_FRAME:
-        cell->frame[row] = value >= 1 && value <= FRAME_LAST ? (uint32_t)value : 0;
-        return;
-    case COLUMN_DEFORM:
-        cell->deform_ns[row] = none ? 0 : value;
-        return;
-    case COLUMN_UPDATE:
-        cell->update_ns[row] = none ? 0 : value;
-        return;
-    case COLUMN_QUERY:
-        cell->query_ns[row] = none ? 0 : value;
-        return;
-    case COLUMN_TRUTH:
-        cell->truth[row] = value;
-        return;
-    case COLUMN_ERROR:
-        cell->error[row] = value;
-        return;
-    case COLUMN_CONTACT:
-        cell->contact[row] = none ? -1 : value > 0;
-        return;
-    case COLUMN_CONTACT_TRUTH:
-        cell->contact_truth[row] = none ? -1 : value > 0;
-        return;
-    default:
-        break;
-    }
-    if (index >= COLUMN_COUNTS + MOTE_STORED_COUNTS) {
-        double *column = cell->scene[index - COLUMN_COUNTS - MOTE_STORED_COUNTS];
-        if (column)
-            column[row] = none ? 0 : value;
-        return;
-    }
-    mote_stored_count *count = &cell->counts[index - COLUMN_COUNTS];
-    if (!none) {
-        count->sum += value;
-        count->max = value > count->max ? value : count->max;
+    const bool none = value != value;
+    const int count = index - FRAME_COLUMNS, scene = count - MOTE_STORED_COUNTS;
+    if (index < FRAME_COLUMNS) {
+        put_field(cell, row, index, value);
+    } else if (scene >= 0 && cell->scene[scene]) {
+        cell->scene[scene][row] = none ? 0 : value;
+    } else if (scene < 0 && !none) {
+        cell->counts[count].sum += value;
+        cell->counts[count].max = fmax(cell->counts[count].max, value);
     }
 }
 

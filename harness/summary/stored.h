@@ -69,6 +69,15 @@ int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b);
 /* Likewise by the frames asked for: what begins earlier first, of these the longer. */
 int mote_stored_by_frames(const mote_stored_cell *a, const mote_stored_cell *b);
 
+/* Whether a cell has frames: it ended well. */
+bool mote_stored_ran(const mote_stored_cell *cell);
+
+/* Moves *i in a and *k in b on to the next frame that both have, where they are or further;
+   false: there is none. for (size_t i = 0, k = 0; mote_stored_common(a, &i, b, &k); ++i, ++k)
+ */
+bool mote_stored_common(const mote_stored_cell *a, size_t *i, const mote_stored_cell *b,
+                        size_t *k);
+
 /* A number of a cell's file, or MOTE_NONE where it is null or missing. Bytes are whole, below
    2^62. */
 double mote_stored_number(const mote_stored_cell *cell, const char *key);

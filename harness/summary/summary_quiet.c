@@ -4,11 +4,6 @@
 
 #include <stdlib.h>
 
-static bool ran(const mote_stored_cell *cell)
-{
-    return cell->status == MOTE_CELL_OK && cell->frames > 0;
-}
-
 static uint32_t last_replicate(const mote_summary_row *row)
 {
     uint32_t last = 1;
@@ -33,7 +28,7 @@ static size_t fastest(const mote_summary_row *row, bool given, uint32_t last, ui
     size_t count = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (!ran(cell) || group_of(cell->replicate, last, groups) != group ||
+        if (!mote_stored_ran(cell) || group_of(cell->replicate, last, groups) != group ||
             cell->frames != row->frames)
             continue;
         for (size_t k = 0; k < row->frames; ++k) {
@@ -59,14 +54,11 @@ static void quiet_group(const mote_summary_row *row, const mote_summary_row *ref
     bool measured = fastest(row, row->given, last, groups, group, mine) > 0;
     if (measured && reference &&
         fastest(reference, row->given, last, groups, group, theirs) > 0) {
-        const uint32_t *a = row->first->frame, *b = reference->first->frame;
         size_t count = 0;
-        for (size_t i = 0, k = 0; i < frames && k < others;) {
-            if (a[i] == b[k] && mine[i] > 0)
+        for (size_t i = 0, k = 0; mote_stored_common(row->first, &i, reference->first, &k);
+             ++i, ++k) {
+            if (mine[i] > 0)
                 ratios[count++] = theirs[k] / mine[i];
-            bool step = a[i] <= b[k];
-            k += b[k] <= a[i] ? 1 : 0;
-            i += step ? 1 : 0;
         }
         *ratio = mote_statistics_median(ratios, count);
     }

@@ -38,23 +38,18 @@ DEFINE_VALUE(given_of, cell->update_ns[frame] + cell->query_ns[frame])
 DEFINE_VALUE(error_of, cell->error[frame])
 #undef DEFINE_VALUE
 
-static bool ran(const mote_stored_cell *cell)
-{
-    return cell->status == MOTE_CELL_OK && cell->frames > 0;
-}
-
 /* Gathers the values of a row's replicates over the frames first .. last. */
 static slice gather(const mote_summary_row *row, value_of value, uint32_t first, uint32_t last)
 {
     slice made = {0};
     size_t most = 0;
     for (size_t r = 0; r < row->replicates; ++r)
-        most += ran(&row->cells[r]) ? row->cells[r].frames : 0;
+        most += mote_stored_ran(&row->cells[r]) ? row->cells[r].frames : 0;
     made.all = mote_allocate(most, sizeof *made.all);
     made.replicas = mote_allocate(row->replicates, sizeof *made.replicas);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (!ran(cell))
+        if (!mote_stored_ran(cell))
             continue;
         mote_replicate *replicate = &made.replicas[made.count++];
         replicate->values = made.all + made.total;
@@ -322,7 +317,7 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     mote_summary_row made = {.cells = cells, .replicates = replicates, .first = &cells[0]};
     for (size_t r = 0; r < replicates; ++r) {
         const bool worse = badness(cells[r].status) > badness(made.first->status);
-        if (ran(&cells[r]))
+        if (mote_stored_ran(&cells[r]))
             made.first = made.finished++ > 0 ? made.first : &cells[r];
         else if (made.finished == 0 && worse)
             made.first = &cells[r];
@@ -353,24 +348,18 @@ static size_t pair_frames(const mote_stored_cell *row, const mote_stored_cell *o
                           value_of value, double *ratios)
 {
     size_t count = 0;
-    for (size_t i = 0, k = 0; i < row->frames && k < other->frames;) {
-        if (row->frame[i] < other->frame[k]) {
-            ++i;
-        } else if (row->frame[i] > other->frame[k]) {
-            ++k;
-        } else {
-            double mine = value(row, i++), theirs = value(other, k++);
-            if (mine > 0 && theirs > 0)
-                ratios[count++] = theirs / mine;
-        }
+    for (size_t i = 0, k = 0; mote_stored_common(row, &i, other, &k); ++i, ++k) {
+        const double mine = value(row, i), theirs = value(other, k);
+        if (mine > 0 && theirs > 0)
+            ratios[count++] = theirs / mine;
     }
     return count;
 }
 
-static const mote_stored_cell *find_replicate(const mote_summary_row *row, uint32_t replicate)
+const mote_stored_cell *mote_summary_replicate(const mote_summary_row *row, uint32_t number)
 {
     for (size_t r = 0; r < row->replicates; ++r) {
-        if (row->cells[r].replicate == replicate && ran(&row->cells[r]))
+        if (row->cells[r].replicate == number && mote_stored_ran(&row->cells[r]))
             return &row->cells[r];
     }
     return NULL;
@@ -387,8 +376,8 @@ void mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *oth
     s.replicas = mote_allocate(row->replicates, sizeof *s.replicas);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
-        const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
-        if (!ran(mine) || !theirs)
+        const mote_stored_cell *theirs = mote_summary_replicate(other, mine->replicate);
+        if (!mote_stored_ran(mine) || !theirs)
             continue;
         mote_replicate *replicate = &s.replicas[s.count];
         replicate->values = s.all + s.total;
@@ -409,8 +398,8 @@ void mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *
 {
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
-        const mote_stored_cell *theirs = find_replicate(other, mine->replicate);
-        if (!ran(mine) || !theirs)
+        const mote_stored_cell *theirs = mote_summary_replicate(other, mine->replicate);
+        if (!mote_stored_ran(mine) || !theirs)
             continue;
         double *ratios = mote_allocate(mine->frames, sizeof *ratios);
         size_t count = pair_frames(mine, theirs, value_of_part(part), ratios);

@@ -106,6 +106,9 @@ double mote_summary_median_within(const mote_summary_row *row, uint32_t first, u
 /* Why a row that is not ok has no figures; NULL where nobody says. */
 const char *mote_summary_row_reason(const mote_summary_row *row);
 
+/* The replicate of a number, with frames; NULL: none ended well. */
+const mote_stored_cell *mote_summary_replicate(const mote_summary_row *row, uint32_t number);
+
 /* Whether the row's method is one of FCL's. */
 bool mote_summary_is_fcl(const mote_summary_row *row);
 
