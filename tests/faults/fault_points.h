@@ -32,7 +32,7 @@ typedef struct fault_end {
     long call;            /* its number */
 } fault_end;
 
-/* From now on the program is this one, for what asks /proc/self/exe. The path lives on. */
+/* From now on /proc/self/exe names this program. The path must remain valid. */
 void fault_points_be(const char *program);
 
 typedef enum fault_kind { FAULT_CALLS, FAULT_MEMORY } fault_kind;

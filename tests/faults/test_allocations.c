@@ -1,7 +1,7 @@
-/* The library when there is no memory, no thread, or when a library under it fails: a status
-   with a text, nothing leaked (under AddressSanitizer), outputs untouched; and where a query
-   needs memory only to be fast, the same answer. The linker puts the functions below in the
-   place of GSL's, HACD's and libstdc++'s (--wrap). */
+/* The library when memory or threads run out, or a library that it uses fails: a status with a
+   text, nothing leaked (under AddressSanitizer), outputs untouched; and where a query needs
+   memory only to be fast, the same answer. The linker puts the functions below in the place of
+   GSL's, HACD's and libstdc++'s (--wrap). */
 #include "core/body/csrbf_fit.h"
 #include "core/base/frame_queue.h"
 #include "core/body/lazy.h"
@@ -388,8 +388,8 @@ TEST(linear_algebra_when_gsl_fails_says_so)
     assert_true(values.x == 1 && values.y == 2 && values.z == 3);
 }
 
-/* Tables of positions that cannot grow: each position is right, and none is remembered but
-   those that there is room for. */
+/* Tables of positions that cannot grow: each position is right, and only those are remembered
+   that there is room for. */
 TEST(lazy_without_memory_answers_the_same)
 {
     uint64_t seed = 4;
@@ -476,7 +476,7 @@ TEST(lazy_init_when_an_allocation_fails_says_so)
     test_body_free(&b);
 }
 
-/* The largest table is asked for whatever is expected, and is not had. */
+/* The largest table is requested whatever is expected, and the allocation fails. */
 TEST(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31)
 {
     const mote_mesh mesh = {.vertex_count = UINT32_MAX / 2};

@@ -135,7 +135,7 @@ static int write_claim(int argc, char **argv)
     return exit_code(status);
 }
 
-/* What the machine does and is: nothing of it is an error where the system does not tell. */
+/* The state and the kind of the machine: it is no error where the system does not say. */
 static int ask_machine(int argc, char **argv)
 {
     (void)argc;

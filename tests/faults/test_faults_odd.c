@@ -452,7 +452,7 @@ static int make_files(void)
 
 TEST_GROUP(make_files, fault_lines_close);
 
-/* gnuplot that fails: each figure is told, the others are tried. */
+/* gnuplot fails: each figure is reported, and the others are tried. */
 TEST(figures_that_gnuplot_does_not_draw_are_told)
 {
     static const fault_line figures[] = {LINE(figures, " odd", 4)};

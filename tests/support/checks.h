@@ -18,8 +18,8 @@ typedef struct checks_options {
     const char *checks; /* the file of checks; NULL: none */
 } checks_options;
 
-/* False, told on stderr, where something else than [--queries N] [--out FILE] [--checks FILE]
-   is given; options hold what is usual, and borrow from argv. */
+/* False, after a line on stderr, where anything but [--queries N] [--out FILE] [--checks FILE]
+   is given. options start with their defaults, and borrow from argv. */
 static inline bool checks_read(int argc, char **argv, const char *program,
                                checks_options *options)
 {
@@ -42,8 +42,8 @@ static inline bool checks_read(int argc, char **argv, const char *program,
     return true;
 }
 
-/* Appends "CHECK<tab>TRIED<tab>FAILED"; NULL path: nothing to do. False, told on stderr, when
-   the file cannot be written. */
+/* Appends "CHECK<tab>TRIED<tab>FAILED"; NULL path: nothing to do. False, after a line on
+   stderr, when the file cannot be written. */
 static inline bool checks_add(const char *path, const char *check, uint64_t tried,
                               uint64_t failed)
 {

@@ -1,5 +1,5 @@
 /* Preloaded (LD_PRELOAD) by test_clock: the wall clock is set at every reading, years back and
-   forth. What runs with a steady clock does not notice. */
+   forth. A program that uses a steady clock is not affected. */
 #define _DEFAULT_SOURCE /* syscall */
 #include <sys/syscall.h>
 #include <sys/time.h>

@@ -1,4 +1,4 @@
-/* Command lines that are wrong, and what each is told. */
+/* Command lines that are wrong, and the error expected of each. */
 #ifndef MOTE_TESTS_COMMAND_LINES_H
 #define MOTE_TESTS_COMMAND_LINES_H
 
@@ -14,8 +14,7 @@ typedef struct command_line {
     const char *says;
 } command_line;
 
-/* Each ends with its status and one line of an error that says what it must, and leaves no file
-   behind. */
+/* Each ends with its status and one line of the expected error, and leaves no file behind. */
 static inline void command_refuses(const command_line *lines, size_t count)
 {
     const int files = folder_count(".", "");

@@ -21,7 +21,7 @@ double mote_fcl_obb_distance(void);
 /* memUsage of a model of one triangle; a size in bytes is expected. */
 int mote_fcl_memory_usage(void);
 
-/* What beginReplaceModel says after an update by beginUpdateModel .. endUpdateModel; 0 is
+/* The status of beginReplaceModel after an update by beginUpdateModel .. endUpdateModel; 0 is
  * success.
  */
 int mote_fcl_replace_after_update(void);

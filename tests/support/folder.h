@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes the folder, named after the program, the working one; false, told on stderr, if not. */
+/* Makes the folder, named after the program, and enters it; false, after a line on stderr, on
+   failure. */
 bool folder_enter(const char *program);
 bool folder_leave(void);
 

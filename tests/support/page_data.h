@@ -1,4 +1,4 @@
-/* The data of a page, read back: its JSON elements, and what is packed in them. */
+/* Reads the data of a page back: its JSON elements, and what is packed in them. */
 #ifndef MOTE_TESTS_PAGE_DATA_H
 #define MOTE_TESTS_PAGE_DATA_H
 

@@ -181,7 +181,7 @@ PLANT(mote_measure_cell, const mote_cell *cell, size_t limit, mote_cell_result *
     if (status != MOTE_OK)
         return status;
     const double length = cell->subject->scenario->length;
-    /* Times waver by a few per cent from seed to seed and method to method. */
+    /* Times vary by a few per cent from seed to seed and method to method. */
     const uint64_t mixed = mote_hash_text(cell->choice->text) + cell->seed * 7919;
     const double waver = 1 + 0.03 * sin((double)(mixed % 1000));
     *result = (mote_cell_result){.rows = calloc(cell->last, sizeof *result->rows)};

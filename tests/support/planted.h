@@ -1,5 +1,5 @@
-/* Measurements that studies are given in the place of real ones (--wrap: see
-   tests/CMakeLists.txt): what they find must follow from these, and any call may fail. */
+/* Measurements that studies are given instead of real ones (--wrap: see tests/CMakeLists.txt):
+   their results must follow from these, and any call may be made to fail. */
 #ifndef MOTE_TESTS_PLANTED_H
 #define MOTE_TESTS_PLANTED_H
 
@@ -30,7 +30,7 @@ typedef struct plants {
 
 extern plants planted;
 
-/* What makes every study end well; planted.folder stays. */
+/* Sets values with which every study succeeds; planted.folder stays. */
 void plant_good(void);
 
 #endif

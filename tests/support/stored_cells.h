@@ -1,4 +1,4 @@
-/* The files of a run's cells, written by a test: what a user may find on a disk, or edit. */
+/* Writes the files of a run's cells, as a user may have them on a disk, or edit them. */
 #ifndef MOTE_TESTS_STORED_CELLS_H
 #define MOTE_TESTS_STORED_CELLS_H
 

@@ -58,7 +58,7 @@ static int set_up(void **state)
     return run_fixture(before_each);
 }
 
-/* The row is still there when the test did not come to its end. */
+/* The row is still set when the test did not reach its end. */
 static int tear_down(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The certified query with more basis functions than fit in a byte, told by the field which of
-   them reach a vertex, or not. */
+/* The certified query with more basis functions than fit in a byte, where the field names
+   those that reach a vertex, and where it does not. */
 #include <stddef.h>
 
 #include "core/body/field_kinds.h"
