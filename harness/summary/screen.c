@@ -12,12 +12,19 @@
 #define LABEL_WIDTH 39
 #define INDENT 2
 
+/* Whether a row is marked: it is on the front. Where times have no interval (one replicate)
+   none is surely faster than another, and a mark would say nothing. */
+static bool is_marked(const mote_summary_row *row)
+{
+    return mote_on_front(row) && row->total.low == row->total.low;
+}
+
 /* The rows of one block and one accounting. */
 typedef struct choice {
     const mote_summary_row **rows; /* the best, at most MOTE_SCREEN_ROWS */
     size_t count;
-    size_t others;   /* that are left out */
-    bool any_marked; /* a row is on the front */
+    size_t others; /* that are left out */
+    bool any_marked;
 } choice;
 
 /* Prints words, from the left, in lines that begin with two spaces from the second on. */
@@ -76,7 +83,7 @@ static choice choose(const mote_summary *summary, size_t start, size_t end, bool
     while (c.count > MOTE_SCREEN_ROWS && drop_worst(&c))
         continue;
     for (size_t i = 0; i < c.count; ++i)
-        c.any_marked = c.any_marked || mote_on_front(c.rows[i]);
+        c.any_marked = c.any_marked || is_marked(c.rows[i]);
     qsort(c.rows, c.count, sizeof(*c.rows), by_time);
     return c;
 }
@@ -84,7 +91,7 @@ static choice choose(const mote_summary *summary, size_t start, size_t end, bool
 /* A row on one line, or on two where its label is too long; its notes on one of their own. */
 static void print_row(const mote_summary_row *row, FILE *out)
 {
-    (void)fprintf(out, "%-*s%-*s", INDENT, mote_on_front(row) ? "*" : "", LABEL_WIDTH - INDENT,
+    (void)fprintf(out, "%-*s%-*s", INDENT, is_marked(row) ? "*" : "", LABEL_WIDTH - INDENT,
                   row->label);
     if (strlen(row->label) > LABEL_WIDTH - INDENT)
         (void)fprintf(out, "\n%*s", LABEL_WIDTH, "");

@@ -95,9 +95,9 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
     }
     char what[96];
     const bool several = mote_summary_machines_differ(summary);
-    return mote_format("%s: %s, %zu frames, %zu replicates, caches %s%s%s", row->scene,
+    return mote_format("%s: %s, %zu frames, %zu replicate%s, caches %s%s%s", row->scene,
                        describe_bodies(row->first, what, sizeof what), frames, replicates,
-                       row->first->cache, several ? ", on " : "",
+                       replicates == 1 ? "" : "s", row->first->cache, several ? ", on " : "",
                        several ? row->first->machine : "");
 }
 

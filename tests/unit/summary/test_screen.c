@@ -109,6 +109,17 @@ TEST(rows_with_positions_given_stand_apart)
              "\n* ours:positions=\"given\" ");
 }
 
+/* Of one replicate each, none is surely faster than another. */
+TEST(rows_without_intervals_are_not_marked)
+{
+    static const char *const methods[] = {"a", "b"};
+    for (int k = 0; k < 2; ++k)
+        write_cell((stored_cell){.method = methods[k], .rows = ROWS});
+    assert_int_equal(summarize_best(), 0);
+    IN_ORDER("8 triangles, 4 frames, 1 replicate, caches hot\n", "\n  a ", "\n  b ");
+    assert_null(strchr(said, '*'));
+}
+
 TEST(long_names_and_failures_keep_lines_short)
 {
     static const char name[] = "a-method-with-a-name-that-is-longer-than-its-column";
