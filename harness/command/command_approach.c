@@ -1,5 +1,6 @@
 /* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
 #include "harness/base/curve.h"
+#include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "harness/command/command.h"
@@ -94,8 +95,7 @@ static mote_status replace_positions(json_t *root, const mote_scenario *scenario
         (void)json_array_append_new(
             keys, json_pack("{s:i, s:[f,f,f]}", "frame", frames[k], "position", p.x, p.y, p.z));
     }
-    if (!keys || json_object_set_new(body, "motion", keys) != 0)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u key poses", count);
+    (void)json_object_set_new(body, "motion", keys);
     return MOTE_OK;
 }
 
@@ -128,25 +128,20 @@ static mote_status approach(const request *wish, const mote_scenario *scenario)
     if (status != MOTE_OK)
         return status;
     const size_t most = scenario->frames / wish->every + 2 + wished->count;
-    uint32_t *frames = malloc(most * sizeof *frames);
-    double *gaps = malloc(most * sizeof *gaps);
-    mote_vec3 *positions = malloc(most * sizeof *positions);
-    if (!frames || !gaps || !positions) {
-        status = mote_fail(MOTE_ENOMEM, "no memory for %zu frames", most);
-    } else {
-        const uint32_t count =
-            list_frames(scenario->frames, (uint32_t)wish->every, wished, frames);
-        for (uint32_t k = 0; k < count; ++k)
-            mote_curve_evaluate(wished, frames[k], &gaps[k]);
-        const double *u = wish->direction;
-        const mote_approach_plan plan = {.direction = mote_vec3_make(u[0], u[1], u[2]),
-                                         .frames = frames,
-                                         .gaps = gaps,
-                                         .count = count};
-        status = mote_approach_solve(scenario, &plan, positions);
-        if (status == MOTE_OK)
-            status = write_result(wish, scenario, wished, &plan, positions);
-    }
+    uint32_t *frames = mote_allocate(most, sizeof *frames);
+    double *gaps = mote_allocate(most, sizeof *gaps);
+    mote_vec3 *positions = mote_allocate(most, sizeof *positions);
+    const uint32_t count = list_frames(scenario->frames, (uint32_t)wish->every, wished, frames);
+    for (uint32_t k = 0; k < count; ++k)
+        mote_curve_evaluate(wished, frames[k], &gaps[k]);
+    const double *u = wish->direction;
+    const mote_approach_plan plan = {.direction = mote_vec3_make(u[0], u[1], u[2]),
+                                     .frames = frames,
+                                     .gaps = gaps,
+                                     .count = count};
+    status = mote_approach_solve(scenario, &plan, positions);
+    if (status == MOTE_OK)
+        status = write_result(wish, scenario, wished, &plan, positions);
     free(frames);
     free(gaps);
     free(positions);

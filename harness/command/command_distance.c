@@ -1,5 +1,6 @@
 /* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, as they
  * lie. */
+#include "harness/base/memory.h"
 #include "harness/command/answer_json.h"
 #include "harness/command/command.h"
 #include "harness/base/method_choice.h"
@@ -167,12 +168,7 @@ static int read_request(int argc, char **argv, request *wish)
 
 int mote_command_distance(int argc, char **argv)
 {
-    request wish = {0};
-    wish.choices = calloc(METHODS_MAX, sizeof *wish.choices);
-    if (!wish.choices) {
-        (void)mote_fail(MOTE_ENOMEM, "distance: no memory");
-        return mote_command_fail();
-    }
+    request wish = {.choices = mote_allocate(METHODS_MAX, sizeof *wish.choices)};
     int code = read_request(argc, argv, &wish);
     if (code == MOTE_EXIT_DONE)
         code = distance(&wish);

@@ -7,6 +7,7 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
+#include "harness/base/memory.h"
 #include "harness/scene/probe.h"
 #include "harness/scene/scenario.h"
 
@@ -30,10 +31,8 @@ static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe
                                 const mote_method_choice *choice, uint32_t last,
                                 mote_answer *answer)
 {
-    mote_frame_buffer *buffer;
-    mote_status status = mote_frame_buffer_create(scenario, &buffer);
-    if (status != MOTE_OK)
-        return status;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
+    mote_status status = MOTE_OK;
     const uint32_t first =
         mote_method_traits(choice->method, choice->values).keeps_state ? 1 : last;
     for (uint32_t k = first; k <= last && status == MOTE_OK; ++k) {
@@ -73,8 +72,7 @@ static mote_status add_answer(const mote_scenario *scenario, const mote_method_c
         row = json_pack("{s:s}", "unsupported", mote_error_text());
     else
         return mote_fail(status, "%s: %s", choice->text, mote_error_text());
-    if (json_object_set_new(answers, choice->text, row) != 0)
-        return mote_fail(MOTE_ENOMEM, "no memory for the answers");
+    (void)json_object_set_new(answers, choice->text, row);
     return MOTE_OK;
 }
 
@@ -87,8 +85,6 @@ static mote_status find_answers(const mote_scenario *scenario, const request *wi
         status = add_answer(scenario, &wish->choices[i], (uint32_t)wish->frame, answers);
     if (status == MOTE_OK)
         mote_json_print(answers, DIGITS, text);
-    if (text->failed)
-        status = mote_fail(MOTE_ENOMEM, "no memory for the answers");
     json_decref(answers);
     return status;
 }
@@ -98,9 +94,8 @@ static mote_status write_mesh(const mote_body *body, const mote_body_state *stat
 {
     mote_deform *deform = NULL;
     char *path = mote_format("%s/%c.obj", directory, name);
-    mote_vec3 *world = malloc(body->mesh->vertex_count * sizeof *world);
-    mote_status status = path && world ? mote_deform_create(body, &deform)
-                                       : mote_fail(MOTE_ENOMEM, "no memory for %c.obj", name);
+    mote_vec3 *world = mote_allocate(body->mesh->vertex_count, sizeof *world);
+    mote_status status = mote_deform_create(body, &deform);
     if (status == MOTE_OK) {
         mote_deform_all(deform, state, world);
         status = mote_obj_write(path, world, body->mesh);
@@ -116,15 +111,11 @@ static mote_status export_frame(const mote_scenario *scenario, const request *wi
     if (wish->frame > scenario->frames)
         return mote_fail(MOTE_EINVAL, "--frame %llu: %s has frames 1-%u; name one of them",
                          (unsigned long long)wish->frame, scenario->name, scenario->frames);
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     mote_text text = {0};
     char *path = mote_format("%s/answers.json", wish->directory);
     /* All answers are computed before the first file is written. */
     mote_status status = find_answers(scenario, wish, &text);
-    if (status == MOTE_OK && !path)
-        status = mote_fail(MOTE_ENOMEM, "no memory for a path");
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
     if (status == MOTE_OK)
         status = mote_directory_make(wish->directory);
     if (status == MOTE_OK) {
@@ -194,12 +185,7 @@ static int read_request(int argc, char **argv, request *wish)
 
 int mote_command_export(int argc, char **argv)
 {
-    request wish = {0};
-    wish.choices = calloc(METHODS_MAX, sizeof *wish.choices);
-    if (!wish.choices) {
-        (void)mote_fail(MOTE_ENOMEM, "export: no memory");
-        return mote_command_fail();
-    }
+    request wish = {.choices = mote_allocate(METHODS_MAX, sizeof *wish.choices)};
     int code = read_request(argc, argv, &wish);
     if (code == MOTE_EXIT_DONE)
         code = export_request(&wish);

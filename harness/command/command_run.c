@@ -2,6 +2,7 @@
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/run/run.h"
 #include "harness/summary/screen.h"
@@ -253,10 +254,6 @@ static int add_pair(request *q, const char *command)
                    ? mote_command_usage(command, "--direction is for --pair A.obj B.obj")
                    : MOTE_EXIT_DONE;
     q->pair = mote_scenario_pair_name(q->pair_files[0], q->pair_files[1], q->direction);
-    if (!q->pair) {
-        (void)mote_fail(MOTE_ENOMEM, "no memory for the name of a pair");
-        return mote_command_fail();
-    }
     add_scenario(q, q->pair);
     return MOTE_EXIT_DONE;
 }
@@ -303,7 +300,7 @@ static bool read_array_task(const char *command, request *q)
     if (q->shards > 0 || (!task && !count))
         return true;
     char *text = mote_format("%s/%s", task ? task : "", count ? count : "");
-    bool read = text && read_shard(text, q);
+    bool read = read_shard(text, q);
     free(text);
     if (read)
         (void)fprintf(stderr, "shard %u/%u, from SLURM_ARRAY_TASK_ID and _COUNT\n", q->shard,
@@ -410,22 +407,16 @@ int mote_command_run(int argc, char **argv)
                          .plan = {.replicates = DEFAULT_REPLICATES},
                          .argc = argc,
                          .argv = argv}};
-    q.scenarios = calloc((size_t)argc + 1, sizeof *q.scenarios);
-    q.methods = calloc((size_t)argc + 1, sizeof *q.methods);
+    q.scenarios = mote_allocate((size_t)argc + 1, sizeof *q.scenarios);
+    q.methods = mote_allocate((size_t)argc + 1, sizeof *q.methods);
     q.run.scenarios = q.scenarios;
     q.run.choices = &q.choices;
-    int code;
-    if (!q.scenarios || !q.methods) {
-        (void)mote_fail(MOTE_ENOMEM, "no memory for the command line");
-        code = mote_command_fail();
-    } else {
-        code = read_arguments(argc, argv, &q);
-        if (code == MOTE_EXIT_DONE && !read_array_task(argv[0], &q))
-            code = MOTE_EXIT_USAGE;
-        take_shard(&q);
-        if (code == MOTE_EXIT_DONE)
-            code = execute(&q);
-    }
+    int code = read_arguments(argc, argv, &q);
+    if (code == MOTE_EXIT_DONE && !read_array_task(argv[0], &q))
+        code = MOTE_EXIT_USAGE;
+    take_shard(&q);
+    if (code == MOTE_EXIT_DONE)
+        code = execute(&q);
     mote_choices_free(&q.choices);
     mote_choices_free(&q.scene_choices);
     free(q.scenarios);

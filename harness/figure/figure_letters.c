@@ -74,7 +74,7 @@ static mote_status open_film(film *f)
     uint32_t most = 1;
     mote_status status = read_film(f);
     if (status == MOTE_OK)
-        status = mote_bodies_frame_create(f->bodies, &f->frame);
+        f->frame = mote_bodies_frame_create(f->bodies);
     for (uint32_t s = 0; status == MOTE_OK && s < f->bodies->shape_count; ++s) {
         const mote_body *body = &f->bodies->shapes[s].body;
         most = body->mesh->vertex_count > most ? body->mesh->vertex_count : most;

@@ -37,7 +37,7 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
             status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", name);
     }
     if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scene->scenario, &scene->buffer);
+        scene->buffer = mote_frame_buffer_create(scene->scenario);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
         const mote_body *body = &scene->scenario->body[i];
         scene->world[i] = malloc(body->mesh->vertex_count * sizeof(mote_vec3));

@@ -46,8 +46,8 @@ static void close_up(mote_particle_places *places)
 static mote_status answer_again(const mote_scenario *scenario, const mote_stored_cell *cell,
                                 mote_probe *probe, mote_particle_places *places)
 {
-    mote_frame_buffer *buffer = NULL;
-    mote_status status = mote_frame_buffer_create(scenario, &buffer);
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
+    mote_status status = MOTE_OK;
     uint32_t previous = 0;
     for (size_t k = 0; k < places->rows && status == MOTE_OK && !places->why[0]; ++k) {
         mote_answer answer = {0};

@@ -79,9 +79,8 @@ mote_status mote_stage_pair_create(const mote_scenario *scenario,
     for (int i = 0; i < 2; ++i)
         measure_body(made, i);
     mote_method_choice exact;
-    mote_status status = mote_frame_buffer_create(scenario, &made->buffer);
-    if (status == MOTE_OK)
-        status = mote_method_choice_read(mote_simulation_exact_method(choice), &exact);
+    made->buffer = mote_frame_buffer_create(scenario);
+    mote_status status = mote_method_choice_read(mote_simulation_exact_method(choice), &exact);
     if (status == MOTE_OK)
         status = create_probe(made, &exact, 1, &made->truth);
     if (status == MOTE_OK)

@@ -49,9 +49,8 @@ mote_status mote_stage_scene_create(const mote_bodies *bodies, const mote_method
     made->choice = *choice;
     made->options = options;
     made->masses = masses;
-    mote_status status = create_truth(made);
-    if (status == MOTE_OK)
-        status = mote_bodies_frame_create(&made->bodies, &made->frame);
+    made->frame = mote_bodies_frame_create(&made->bodies);
+    const mote_status status = create_truth(made);
     if (status == MOTE_OK)
         *state = made;
     else

@@ -136,49 +136,44 @@ static void write_motion(mote_text *text, int32_t *poses, const double *weights,
     add_smooth(text, "weights", shares, width * frames, width);
 }
 
-static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, int i)
+static void add_motion(mote_text *text, const mote_replay_scene *scene, int i)
 {
     const size_t frames = scene->last - scene->first + 1;
     const size_t width = 3 * (size_t)scene->scenario->body[i].field->count;
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scene->scenario);
     int32_t *poses = mote_allocate(12 * frames, sizeof *poses);
     int32_t *shares = mote_allocate(width * frames, sizeof *shares);
     double *weights = mote_allocate(width * frames, sizeof *weights);
-    const mote_status status = mote_frame_buffer_create(scene->scenario, &buffer);
-    for (size_t k = 0; k < frames && status == MOTE_OK; ++k) {
+    for (size_t k = 0; k < frames; ++k) {
         const mote_frame *frame =
             mote_scenario_frame(scene->scenario, buffer, scene->first + (uint32_t)k, 0);
         pose_steps(&frame->body[i].pose, scene->scenario->length, poses + 12 * k);
         rest_weights(&frame->body[i], width / 3, weights + width * k);
     }
-    if (status == MOTE_OK)
-        write_motion(text, poses, weights, shares, frames, width);
+    write_motion(text, poses, weights, shares, frames, width);
     mote_frame_buffer_destroy(buffer);
     free(poses);
     free(weights);
     free(shares);
-    return status;
 }
 
 /* Both bodies with their motion, the truth and its points. */
-static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
-                              const mote_replay_grid *grid)
+static void add_bodies(mote_text *text, const mote_replay_scene *scene,
+                       const mote_replay_grid *grid)
 {
     const size_t frames = scene->last - scene->first + 1;
-    mote_status status = MOTE_OK;
     mote_text_add(text, "\"bodies\": [");
-    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+    for (int i = 0; i < 2; ++i) {
         mote_text_add(text, "%s{", i ? ", " : "");
         add_mesh(text, &scene->scenario->body[i]);
         mote_text_add(text, ", ");
-        status = add_motion(text, scene, i);
+        add_motion(text, scene, i);
         mote_text_add(text, "}");
     }
     mote_text_add(text, "], ");
     add_numbers(text, "truth", scene->truth, frames);
     mote_text_add(text, ", ");
     mote_replay_add_points(text, "pair", grid, scene->pair, 2 * frames, 2, NULL);
-    return status;
 }
 
 /* Errors over L with six digits, from which the page computes distances. */
@@ -328,40 +323,31 @@ static void add_particles(const mote_replay_scene *scene, const mote_replay_grid
 }
 
 /* The scene without its tracks. */
-static mote_status begin_scene(const mote_replay_scene *scene, const mote_replay_grid *grid,
-                               json_t **data)
+static json_t *begin_scene(const mote_replay_scene *scene, const mote_replay_grid *grid)
 {
     const mote_scenario *scenario = scene->scenario;
     mote_text bodies = {0};
-    mote_status status = add_bodies(&bodies, scene, grid);
+    add_bodies(&bodies, scene, grid);
     json_t *packed = packed_object(&bodies);
-    if (status != MOTE_OK) {
-        json_decref(packed);
-        return status;
-    }
-    *data =
-        json_pack("{s:s, s:f, s:f, s:i, s:i, s:[i, i], s:[f, f, f], s:f, s:o}", "name",
-                  scenario->name, "length", scenario->length, "tolerance", scenario->tolerance,
-                  "first", (int)scene->first, "last", (int)scene->last, "active",
-                  (int)scenario->active.first, (int)scenario->active.last, "low", grid->low.x,
-                  grid->low.y, grid->low.z, "step", grid->step, "world", packed);
-    return MOTE_OK;
+    return json_pack("{s:s, s:f, s:f, s:i, s:i, s:[i, i], s:[f, f, f], s:f, s:o}", "name",
+                     scenario->name, "length", scenario->length, "tolerance",
+                     scenario->tolerance, "first", (int)scene->first, "last", (int)scene->last,
+                     "active", (int)scenario->active.first, (int)scenario->active.last, "low",
+                     grid->low.x, grid->low.y, grid->low.z, "step", grid->step, "world",
+                     packed);
 }
 
 mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
                               size_t *used)
 {
     const mote_replay_grid grid = scene_grid(scene);
-    json_t *made = NULL, *notes = json_deep_copy(scene->notes);
+    json_t *made = begin_scene(scene, &grid), *notes = json_deep_copy(scene->notes);
     size_t room = budget;
-    mote_status status = begin_scene(scene, &grid, &made);
-    if (status == MOTE_OK && packed_size(made, "world") > room)
-        status =
-            mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page", scene->scenario->name);
-    if (status != MOTE_OK) {
+    if (packed_size(made, "world") > room) {
         json_decref(made);
         json_decref(notes);
-        return status;
+        return mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page",
+                         scene->scenario->name);
     }
     room -= packed_size(made, "world");
     add_tracks(scene, &grid, &room, made, notes);

@@ -178,8 +178,8 @@ static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
         s->evict = mote_allocate(EVICT_BYTES, 1);
     mote_status status = MOTE_OK;
     if (!cell->subject->bodies)
-        status = mote_frame_buffer_create(cell->subject->scenario, &s->buffer);
-    if (status == MOTE_OK && !cell->subject->bodies && s->traits.given_vertices)
+        s->buffer = mote_frame_buffer_create(cell->subject->scenario);
+    if (!cell->subject->bodies && s->traits.given_vertices)
         status = make_vertices(s);
     s->clock_ns = mote_clock_cost_ns();
     result->clock_ns = s->clock_ns;

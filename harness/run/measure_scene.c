@@ -35,11 +35,10 @@ mote_status mote_scene_session_create(const mote_cell *cell, mote_scene_session 
     made->bodies = cell->subject->bodies;
     made->ahead = (uint32_t)cell->choice->scene[MOTE_SCENE_AHEAD];
     const uint64_t seed = mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate);
-    mote_status status = MOTE_OK;
-    for (uint32_t i = 0; i < (made->ahead ? made->ahead : 1) && status == MOTE_OK; ++i)
-        status = mote_bodies_frame_create(made->bodies, &made->frames[i]);
-    if (status == MOTE_OK)
-        status = mote_bodies_engine_create(made->bodies, cell->choice, seed, &made->engine);
+    for (uint32_t i = 0; i < (made->ahead ? made->ahead : 1); ++i)
+        made->frames[i] = mote_bodies_frame_create(made->bodies);
+    const mote_status status =
+        mote_bodies_engine_create(made->bodies, cell->choice, seed, &made->engine);
     if (status == MOTE_OK)
         *session = made;
     else

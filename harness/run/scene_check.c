@@ -24,11 +24,8 @@ mote_status mote_scene_check(const mote_bodies *bodies, mote_scene_facts *facts)
     mote_scene_facts made = {0};
     mote_method_choice exact;
     mote_bodies_engine *engine = NULL;
-    mote_bodies_frame frame;
-    mote_status status = mote_bodies_frame_create(bodies, &frame);
-    if (status != MOTE_OK)
-        return status;
-    status = mote_bodies_fingerprint(bodies, &made.fingerprint);
+    mote_bodies_frame frame = mote_bodies_frame_create(bodies);
+    mote_status status = mote_bodies_fingerprint(bodies, &made.fingerprint);
     if (status == MOTE_OK)
         status = mote_scene_choice_read("certified", &exact);
     if (status == MOTE_OK)

@@ -236,13 +236,11 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
 static mote_status work(void *context, int output)
 {
     const mote_scenario *scenario = context;
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     uint32_t checked = 0;
     truth_row *rows = mote_allocate(scenario->frames, sizeof *rows);
     bool *marked = mote_allocate(scenario->frames, sizeof *marked);
-    mote_status status = mote_frame_buffer_create(scenario, &buffer);
-    if (status == MOTE_OK)
-        status = answer_all(scenario, buffer, rows);
+    mote_status status = answer_all(scenario, buffer, rows);
     if (status == MOTE_OK) {
         choose_frames(scenario, rows, marked);
         status = check_frames(scenario, buffer, rows, marked, &checked);

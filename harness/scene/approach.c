@@ -140,11 +140,9 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
     approach a = {.scenario = scenario,
                   .plan = plan,
                   .precision = fmax(PRECISION * smaller, ROUNDING * scenario->length)};
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     a.direction = mote_scale(plan->direction, 1 / mote_length(plan->direction));
     mote_status status = make_probe(scenario, SEARCH, &a.probe);
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
     for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k)
         status = solve(&a, buffer, k, &positions[k]);
     mote_frame_buffer_destroy(buffer);
@@ -173,10 +171,8 @@ mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *
                                  const double *gaps, uint32_t count)
 {
     mote_probe *probe = NULL;
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     mote_status status = make_probe(scenario, ORACLE, &probe);
-    if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
     for (uint32_t k = 0; k < count && status == MOTE_OK; ++k)
         status = verify_frame(scenario, probe,
                               mote_scenario_frame(scenario, buffer, frames[k], 0), gaps[k]);

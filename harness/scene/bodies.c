@@ -1,5 +1,6 @@
 #include "harness/scene/bodies.h"
 
+#include "harness/base/memory.h"
 #include "harness/scene/turn.h"
 
 #include <assert.h>
@@ -29,7 +30,7 @@ static const mote_bodies_shape *shape_of(const mote_bodies *bodies, uint32_t i)
     return &bodies->shapes[bodies->shape_of[i]];
 }
 
-mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_frame *frame)
+mote_bodies_frame mote_bodies_frame_create(const mote_bodies *bodies)
 {
     size_t numbers = 1, most = 1;
     for (uint32_t i = 0; i < bodies->count; ++i)
@@ -38,13 +39,10 @@ mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_fram
         const uint32_t padded = bodies->shapes[s].body.field->padded;
         most = padded > most ? padded : most;
     }
-    mote_bodies_frame made = {.states = calloc((size_t)bodies->count + 1, sizeof *made.states),
-                              .weights = calloc(numbers, sizeof *made.weights),
-                              .scratch = calloc(most, sizeof *made.scratch)};
-    if (!made.states || !made.weights || !made.scratch) {
-        mote_bodies_frame_free(&made);
-        return mote_fail(MOTE_ENOMEM, "no memory for a frame of %u bodies", bodies->count);
-    }
+    mote_bodies_frame made = {.states =
+                                  mote_allocate((size_t)bodies->count + 1, sizeof *made.states),
+                              .weights = mote_allocate(numbers, sizeof *made.weights),
+                              .scratch = mote_allocate(most, sizeof *made.scratch)};
     double *next = made.weights;
     for (uint32_t i = 0; i < bodies->count; ++i) {
         const mote_field *field = shape_of(bodies, i)->body.field;
@@ -56,8 +54,7 @@ mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_fram
                                                     field->count, field->padded};
         next += 3 * padded;
     }
-    *frame = made;
-    return MOTE_OK;
+    return made;
 }
 
 void mote_bodies_frame_free(mote_bodies_frame *frame)

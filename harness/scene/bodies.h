@@ -71,7 +71,7 @@ typedef struct mote_bodies_frame {
     mote_vec3 *scratch;
 } mote_bodies_frame;
 
-mote_status mote_bodies_frame_create(const mote_bodies *bodies, mote_bodies_frame *frame);
+mote_bodies_frame mote_bodies_frame_create(const mote_bodies *bodies);
 void mote_bodies_frame_free(mote_bodies_frame *frame);
 
 /* Poses and weights of all bodies at a frame (1 .. frames). One thread at a time, whatever the

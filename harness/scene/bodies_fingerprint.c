@@ -58,10 +58,8 @@ mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerp
 {
     const uint32_t numbers[] = {1, (bodies->frames + 1) / 2, bodies->frames};
     uint64_t hash = hash_paths(bodies);
-    mote_bodies_frame frame;
-    mote_status status = mote_bodies_frame_create(bodies, &frame);
-    if (status != MOTE_OK)
-        return status;
+    mote_bodies_frame frame = mote_bodies_frame_create(bodies);
+    mote_status status = MOTE_OK;
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0] && status == MOTE_OK; ++k) {
         mote_bodies_frame_set(bodies, numbers[k], &frame);
         status = hash_frame(bodies, &frame, &hash);

@@ -1,5 +1,7 @@
 #include "harness/scene/bodies_place.h"
 
+#include "harness/base/memory.h"
+
 #include "baselines/broad_phase.h"
 #include "core/base/random.h"
 
@@ -236,16 +238,13 @@ static mote_status prepare(placing *p)
         shapes[s] = &b->shapes[s].body;
     const mote_scene_options options = {
         .ask = MOTE_ASK_CONTACT, .tolerance = CLEARANCE * b->length, .threads = 1};
-    p->fractions = calloc(b->count, sizeof *p->fractions);
-    p->boxes = calloc(b->count, sizeof *p->boxes);
-    if (!p->fractions || !p->boxes)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", b->count);
+    p->fractions = mote_allocate(b->count, sizeof *p->fractions);
+    p->boxes = mote_allocate(b->count, sizeof *p->boxes);
+    p->frame = mote_bodies_frame_create(b);
     mote_status status =
         mote_scene_create(shapes, b->shape_count, b->shape_of, b->count, &options, &p->scene);
     if (status == MOTE_OK)
         status = mote_broad_phase_create(b->count, &p->broad);
-    if (status == MOTE_OK)
-        status = mote_bodies_frame_create(b, &p->frame);
     for (uint32_t i = 0; i < b->count && status == MOTE_OK; ++i)
         draw_path(p, i);
     return status;

@@ -1,6 +1,7 @@
 /* A scenario file of several bodies. */
 #include "harness/scene/bodies_place.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/scene/scenario_read.h"
 #include "harness/scene/spread.h"
 
@@ -38,9 +39,7 @@ static mote_status read_shapes(const mote_json *node, mote_bodies *bodies)
     mote_status status = mote_json_array(&key, 1, MOTE_BODIES_SHAPES_MAX, &count);
     if (status != MOTE_OK)
         return status;
-    bodies->shapes = calloc(count, sizeof *bodies->shapes);
-    if (!bodies->shapes)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu shapes", count);
+    bodies->shapes = mote_allocate(count, sizeof *bodies->shapes);
     bodies->shape_count = (uint32_t)count;
     for (uint32_t s = 0; s < count && status == MOTE_OK; ++s) {
         mote_json element = mote_json_element(&key, s);
@@ -59,10 +58,8 @@ static mote_status read_count(const mote_json *node, mote_bodies *bodies)
     if (status != MOTE_OK)
         return status;
     bodies->count = (uint32_t)count;
-    bodies->shape_of = calloc(bodies->count, sizeof *bodies->shape_of);
-    bodies->paths = calloc(bodies->count, sizeof *bodies->paths);
-    if (!bodies->shape_of || !bodies->paths)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u bodies", bodies->count);
+    bodies->shape_of = mote_allocate(bodies->count, sizeof *bodies->shape_of);
+    bodies->paths = mote_allocate(bodies->count, sizeof *bodies->paths);
     for (uint32_t i = 0; i < bodies->count; ++i)
         bodies->shape_of[i] = i % bodies->shape_count;
     return MOTE_OK;
@@ -80,9 +77,7 @@ static mote_status read_places(const mote_json *node, const mote_bodies *bodies,
         return status;
     if (wish->near_pairs > 0)
         return mote_json_fail(&key, "places go with a box, not with near_pairs");
-    wish->places = calloc(count, sizeof *wish->places);
-    if (!wish->places)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu places", count);
+    wish->places = mote_allocate(count, sizeof *wish->places);
     for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
         mote_json element = mote_json_element(&key, i);
         status = mote_json_vec3(&element, -FAR, FAR, &wish->places[i]);
@@ -147,9 +142,7 @@ static mote_status read_facts(const mote_json_file *file, mote_bodies *bodies)
 {
     mote_json root = mote_json_root(file);
     mote_status status = mote_json_object(&root, "purpose|bodies|frames|ask|tolerance");
-    mote_scenario facts = {.motion = calloc(1, sizeof *facts.motion)};
-    if (!facts.motion)
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    mote_scenario facts = {.motion = mote_allocate(1, sizeof *facts.motion)};
     if (status == MOTE_OK)
         status = mote_scenario_read_facts(&root, &facts);
     bodies->frames = facts.frames;
@@ -157,10 +150,8 @@ static mote_status read_facts(const mote_json_file *file, mote_bodies *bodies)
     bodies->tolerance = facts.tolerance;
     bodies->purpose = facts.purpose;
     free(facts.motion);
-    bodies->path = mote_format("%s", file->path);
+    bodies->path = mote_duplicate(file->path);
     bodies->name = mote_scenario_name_of(file->path);
-    if (status == MOTE_OK && (!bodies->path || !bodies->name))
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
     return status;
 }
 
@@ -203,9 +194,8 @@ mote_status mote_bodies_load(const char *path, mote_bodies **bodies)
     mote_status status = mote_scenario_open(path, &file);
     if (status != MOTE_OK)
         return status;
-    mote_bodies *made = calloc(1, sizeof *made);
-    status = made ? read_bodies(&file, made)
-                  : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", path);
+    mote_bodies *made = mote_allocate(1, sizeof *made);
+    status = read_bodies(&file, made);
     mote_json_close(&file);
     if (status == MOTE_OK)
         *bodies = made;

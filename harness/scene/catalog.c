@@ -3,6 +3,7 @@
 #include "harness/base/data.h"
 #include "harness/base/file.h"
 #include "harness/base/json_read.h"
+#include "harness/base/memory.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -24,18 +25,14 @@ static int is_scenario(const struct dirent *entry)
 static mote_status read_entry(const char *file, mote_catalog_entry *entry)
 {
     char *name = mote_format("%.*s", (int)(strlen(file) - 5), file);
-    char *path = name ? mote_catalog_path(name) : NULL;
-    if (!path) {
-        free(name);
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its name", file);
-    }
+    char *path = mote_catalog_path(name);
     mote_json_file read = {0};
     mote_status status = mote_json_open(path, &read);
     const char *purpose = json_string_value(json_object_get(read.root, "purpose"));
     if (status == MOTE_OK && !purpose)
         status = mote_fail(MOTE_EINVAL, "%s: no purpose; add a sentence", path);
-    if (status == MOTE_OK && !(entry->purpose = mote_format("%s", purpose)))
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its purpose", path);
+    if (status == MOTE_OK)
+        entry->purpose = mote_duplicate(purpose);
     entry->several = json_is_object(json_object_get(read.root, "bodies"));
     mote_json_close(&read);
     free(path);
@@ -50,18 +47,13 @@ mote_status mote_catalog_read(mote_catalog *catalog)
 {
     struct dirent **files;
     char *folder = mote_format("%s/%s", mote_data_directory(), FOLDER);
-    if (!folder)
-        return mote_fail(MOTE_ENOMEM, "no memory for a name");
     int count = scandir(folder, &files, is_scenario, alphasort);
     mote_status status =
         count < 0 ? mote_fail(MOTE_EIO, "%s: %s", folder, strerror(errno)) : MOTE_OK;
     free(folder);
     if (count < 0)
         return status;
-    mote_catalog read = {0};
-    read.entries = calloc((size_t)count + 1, sizeof *read.entries);
-    if (!read.entries)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %d scenarios", count);
+    mote_catalog read = {.entries = mote_allocate((size_t)count, sizeof *read.entries)};
     for (int i = 0; i < count; ++i) {
         if (status == MOTE_OK)
             status = read_entry(files[i]->d_name, &read.entries[read.count]);

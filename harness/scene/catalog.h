@@ -23,7 +23,7 @@ typedef struct mote_catalog {
 mote_status mote_catalog_read(mote_catalog *catalog);
 void mote_catalog_free(mote_catalog *catalog);
 
-/* The file of a built-in scenario's name; the caller frees it. NULL when memory ran out. */
+/* The file of a built-in scenario's name; the caller frees it. */
 char *mote_catalog_path(const char *name);
 
 #endif

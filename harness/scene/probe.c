@@ -1,5 +1,7 @@
 #include "harness/scene/probe.h"
 
+#include "harness/base/memory.h"
+
 #include "core/body/deform.h"
 
 #include <math.h>
@@ -27,9 +29,8 @@ static mote_status build(mote_probe *probe, mote_ask ask, double tolerance, uint
                         .values = probe->choice.values};
     probe->traits = mote_method_traits(method, probe->choice.values);
     for (int i = 0; i < 2; ++i) {
-        probe->world[i] = malloc(probe->body[i].mesh->vertex_count * sizeof(mote_vec3));
-        if (!probe->world[i])
-            return mote_fail(MOTE_ENOMEM, "no memory for a body's vertices");
+        probe->world[i] =
+            mote_allocate(probe->body[i].mesh->vertex_count, sizeof *probe->world[i]);
         mote_status status = mote_deform_create(&probe->body[i], &probe->deform[i]);
         if (status != MOTE_OK)
             return status;
@@ -41,9 +42,7 @@ mote_status mote_probe_create(const mote_body *a, const mote_body *b,
                               const mote_method_choice *choice, mote_ask ask, double tolerance,
                               uint64_t seed, mote_probe **probe)
 {
-    mote_probe *made = calloc(1, sizeof *made);
-    if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for method %s", choice->text);
+    mote_probe *made = mote_allocate(1, sizeof *made);
     made->body[0] = *a;
     made->body[1] = *b;
     made->choice = *choice;

@@ -2,6 +2,7 @@
 
 #include "core/body/deform.h"
 #include "harness/base/hash.h"
+#include "harness/base/memory.h"
 #include "harness/scene/motion.h"
 
 #include <assert.h>
@@ -35,27 +36,19 @@ void mote_scenario_destroy(mote_scenario *scenario)
     free(scenario);
 }
 
-mote_status mote_frame_buffer_create(const mote_scenario *scenario, mote_frame_buffer **buffer)
+mote_frame_buffer *mote_frame_buffer_create(const mote_scenario *scenario)
 {
-    mote_frame_buffer *made = calloc(1, sizeof *made);
-    bool whole = made != NULL;
-    for (int i = 0; i < 2 && whole; ++i) {
+    mote_frame_buffer *made = mote_allocate(1, sizeof *made);
+    for (int i = 0; i < 2; ++i) {
         const mote_field *field = scenario->body[i].field;
         if (field->count == 0)
             continue;
-        made->weights[i] = calloc((size_t)3 * field->padded, sizeof(double));
-        made->displacement[i] = calloc(field->count, sizeof(mote_vec3));
-        made->before[i] = calloc(field->count, sizeof(mote_vec3));
-        made->solution[i] = calloc(field->count, sizeof(mote_vec3));
-        whole =
-            made->weights[i] && made->displacement[i] && made->before[i] && made->solution[i];
+        made->weights[i] = mote_allocate((size_t)3 * field->padded, sizeof(double));
+        made->displacement[i] = mote_allocate(field->count, sizeof(mote_vec3));
+        made->before[i] = mote_allocate(field->count, sizeof(mote_vec3));
+        made->solution[i] = mote_allocate(field->count, sizeof(mote_vec3));
     }
-    if (!whole) {
-        mote_frame_buffer_destroy(made);
-        return mote_fail(MOTE_ENOMEM, "no memory for a frame of scenario %s", scenario->name);
-    }
-    *buffer = made;
-    return MOTE_OK;
+    return made;
 }
 
 void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
@@ -206,16 +199,14 @@ static uint64_t hash_frames(const mote_scenario *scenario, mote_frame_buffer *bu
 
 mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint)
 {
-    mote_frame_buffer *buffer = NULL;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     mote_deform *deform[2] = {NULL, NULL};
+    mote_status status = MOTE_OK;
     const uint32_t a = scenario->body[0].mesh->vertex_count;
     const uint32_t b = scenario->body[1].mesh->vertex_count;
-    mote_vec3 *world = malloc((a > b ? a : b) * sizeof *world);
-    mote_status status = mote_frame_buffer_create(scenario, &buffer);
+    mote_vec3 *world = mote_allocate(a > b ? a : b, sizeof *world);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i)
         status = mote_deform_create(&scenario->body[i], &deform[i]);
-    if (status == MOTE_OK && !world)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %u vertices", a > b ? a : b);
     if (status == MOTE_OK)
         *fingerprint = hash_frames(scenario, buffer, deform, world);
     mote_deform_destroy(deform[0]);

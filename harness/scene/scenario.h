@@ -27,7 +27,7 @@ typedef struct mote_scenario {
    that is searched for. */
 #define MOTE_PAIR_PREFIX "pair:"
 
-/* The name of that scenario; direction: "X,Y,Z" or NULL. NULL when memory ran out. The caller
+/* The name of that scenario; direction: "X,Y,Z" or NULL. The caller
    frees it. */
 char *mote_scenario_pair_name(const char *a, const char *b, const char *direction);
 
@@ -40,7 +40,7 @@ void mote_scenario_destroy(mote_scenario *scenario); /* NULL is allowed */
 
 /* A frame's state with the memory behind its weights. */
 typedef struct mote_frame_buffer mote_frame_buffer;
-mote_status mote_frame_buffer_create(const mote_scenario *scenario, mote_frame_buffer **buffer);
+mote_frame_buffer *mote_frame_buffer_create(const mote_scenario *scenario);
 void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
 
 /* Poses and weights of frame number (1 .. frames); vertices are NULL. shape_changed and

@@ -3,6 +3,7 @@
 
 #include "core/body/field_maker.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/scene/spread.h"
 
 #include <stdlib.h>
@@ -69,9 +70,7 @@ static mote_status read_sines(const mote_json *node, double length, mote_body_mo
     mote_status status = mote_json_array(node, 1, 64 * (size_t)MOTE_CONTROLS_MAX, &count);
     if (status != MOTE_OK)
         return status;
-    motion->waves = calloc(count, sizeof *motion->waves);
-    if (!motion->waves)
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu sines", count);
+    motion->waves = mote_allocate(count, sizeof *motion->waves);
     for (size_t i = 0; i < count && status == MOTE_OK; ++i) {
         mote_json element = mote_json_element(node, i);
         status = read_sine(&element, length, motion->control_count, &motion->waves[i]);
@@ -103,9 +102,7 @@ static mote_status read_random(const mote_json *node, double length, mote_body_m
     if (status != MOTE_OK)
         return status;
     const uint32_t count = motion->control_count * (uint32_t)terms;
-    motion->waves = calloc(count, sizeof *motion->waves);
-    if (!motion->waves)
-        return mote_fail(MOTE_ENOMEM, "no memory for %u sines", count);
+    motion->waves = mote_allocate(count, sizeof *motion->waves);
     motion->wave_count = count;
     mote_waves_draw((uint64_t)seed, motion->control_count, (uint32_t)terms, amplitude * length,
                     periods[0], periods[1], motion->waves);
@@ -142,10 +139,8 @@ static mote_status read_keyframes(const mote_json *node, double length,
     mote_status status = mote_json_array(node, 1, 100000, &count);
     if (status != MOTE_OK)
         return status;
-    uint32_t *frames = malloc(count * sizeof *frames);
-    double *values = malloc(count * width * sizeof *values);
-    if (!frames || !values)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %zu keyframes", count);
+    uint32_t *frames = mote_allocate(count, sizeof *frames);
+    double *values = mote_allocate(count * width, sizeof *values);
     for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         mote_json element = mote_json_element(node, k);
         status = read_keyframe(&element, length, motion->control_count, &frames[k],
@@ -221,9 +216,8 @@ static mote_status read_made(const mote_json *node, const mote_json *kind,
     mote_text text = {0};
     parameter_text(node, &text);
     mote_parameters_default(maker->parameters, maker->parameter_count, values);
-    status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for the keys of a field")
-                         : mote_parameters_parse(maker->parameters, maker->parameter_count,
-                                                 text.data ? text.data : "", values);
+    status = mote_parameters_parse(maker->parameters, maker->parameter_count,
+                                   text.data ? text.data : "", values);
     free(text.data);
     if (status == MOTE_OK)
         status = maker->create(mesh, values, field);

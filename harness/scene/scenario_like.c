@@ -61,7 +61,7 @@ static bool move_meshes(json_t *root, const char *path)
         if (!file)
             continue;
         char *moved_file = mote_path_beside(path, file);
-        moved = moved_file && json_object_set_new(body, "file", json_string(moved_file)) == 0;
+        moved = json_object_set_new(body, "file", json_string(moved_file)) == 0;
         free(moved_file);
     }
     return moved;
@@ -70,14 +70,13 @@ static bool move_meshes(json_t *root, const char *path)
 static mote_status open_base(const mote_json_file *file, const char *name, mote_json_file *base)
 {
     char *path = base_path(file->path, name);
-    mote_status status = path ? mote_fence_check(file->path, path)
-                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", name);
+    mote_status status = mote_fence_check(file->path, path);
     if (status == MOTE_OK)
         status = mote_json_open(path, base);
     if (status == MOTE_OK &&
         !move_meshes(base->root, mote_name_ends(name, ".json") ? name : path)) {
         mote_json_close(base);
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for its meshes' paths", name);
+        status = mote_fail(MOTE_EINVAL, "%s: its path is not UTF-8; rename the folder", path);
     }
     free(path);
     return status;

@@ -3,6 +3,7 @@
 
 #include "datasets/letter.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/scene/fence.h"
 
@@ -35,8 +36,6 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
         return status;
     const bool own = file->file->own;
     char *path = own ? mote_format("%s", name) : mote_path_beside(file->file->path, name);
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name);
     status = own ? MOTE_OK : mote_fence_check(file->file->path, path);
     mote_import import;
     if (status == MOTE_OK)
@@ -61,9 +60,7 @@ static mote_status scale_mesh(const mote_json *scale, mote_mesh **mesh)
     if (status != MOTE_OK)
         return status;
     const mote_mesh *old = *mesh;
-    double *xyz = malloc((size_t)3 * old->vertex_count * sizeof *xyz);
-    if (!xyz)
-        return mote_fail(MOTE_ENOMEM, "no memory to scale a mesh");
+    double *xyz = mote_allocate((size_t)3 * old->vertex_count, sizeof *xyz);
     for (uint32_t v = 0; v < old->vertex_count; ++v) {
         xyz[3 * (size_t)v] = old->positions[v].x * factor.x;
         xyz[3 * (size_t)v + 1] = old->positions[v].y * factor.y;

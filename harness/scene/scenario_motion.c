@@ -1,4 +1,5 @@
 /* The motion of a body: key poses, each giving a position, a rotation, or both. */
+#include "harness/base/memory.h"
 #include "harness/scene/scenario_read.h"
 
 #include "harness/scene/spread.h"
@@ -142,14 +143,12 @@ mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *me
     status = mote_json_array(&node, 1, MOTE_FRAMES_MAX, &count);
     if (status != MOTE_OK)
         return status;
-    key_list keys = {malloc(count * sizeof *keys.position_frames),
-                     malloc(count * sizeof *keys.rotation_frames),
-                     malloc(count * sizeof *keys.positions),
-                     malloc(count * sizeof *keys.rotations),
+    key_list keys = {mote_allocate(count, sizeof *keys.position_frames),
+                     mote_allocate(count, sizeof *keys.rotation_frames),
+                     mote_allocate(count, sizeof *keys.positions),
+                     mote_allocate(count, sizeof *keys.rotations),
                      0,
                      0};
-    if (!keys.position_frames || !keys.rotation_frames || !keys.positions || !keys.rotations)
-        status = mote_fail(MOTE_ENOMEM, "no memory for %zu key poses", count);
     for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         mote_json element = mote_json_element(&node, k);
         status = read_key(&element, length, &keys);

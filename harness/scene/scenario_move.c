@@ -15,8 +15,6 @@ static mote_status folder_of(const char *file, char **folder)
 {
     const char *slash = strrchr(file, '/');
     char *name = slash ? mote_format("%.*s/", (int)(slash - file), file) : mote_format(".");
-    if (!name)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its folder", file);
     *folder = realpath(name, NULL);
     mote_status status = MOTE_OK;
     if (!*folder)
@@ -41,8 +39,7 @@ static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body,
     const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
     mote_mesh *mesh = NULL;
     char *path = mote_format("%.*s-body%zu.obj", (int)(strlen(to) - ending), to, body);
-    mote_status status = path ? mote_mesh_import(mesh_path, &mesh, NULL)
-                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a path", to);
+    mote_status status = mote_mesh_import(mesh_path, &mesh, NULL);
     if (status == MOTE_OK)
         status = mote_obj_write(path, NULL, mesh);
     mote_mesh_destroy(mesh);
@@ -58,7 +55,7 @@ static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body,
 static mote_status new_name(const char *path, const char *to, size_t body, char **name)
 {
     char *folder = NULL, *datasets = mote_format("%s/datasets", mote_data_directory());
-    char *known = datasets ? realpath(datasets, NULL) : NULL;
+    char *known = realpath(datasets, NULL);
     char *whole = realpath(path, NULL);
     mote_status status = MOTE_OK;
     *name = NULL;
@@ -75,8 +72,6 @@ static mote_status new_name(const char *path, const char *to, size_t body, char 
         else
             status = copy_mesh(whole, to, body, name);
     }
-    if (status == MOTE_OK && !*name)
-        status = mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", path);
     free(folder);
     free(datasets);
     free(known);
@@ -103,8 +98,7 @@ static mote_status move_mesh(const mote_json_file *file, json_t *body, size_t nu
     const char *old = json_string_value(json_object_get(body, "file"));
     char *path = file->own ? mote_format("%s", old) : mote_path_beside(file->path, old);
     char *name = NULL;
-    mote_status status = path ? new_name(path, to, number, &name)
-                              : mote_fail(MOTE_ENOMEM, "%s: no memory for a mesh's path", old);
+    mote_status status = new_name(path, to, number, &name);
     if (status == MOTE_OK && json_object_set_new(body, "file", json_string(name)) != 0)
         status = mote_fail(MOTE_EINVAL, "%s: not UTF-8; rename it", name);
     free(path);

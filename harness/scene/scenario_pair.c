@@ -1,6 +1,7 @@
 /* The default scenario of two meshes: approach, touches, parting, both turning and deforming.
  */
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 #include "harness/scene/scenario_read.h"
 
 #include "harness/base/options.h"
@@ -65,9 +66,7 @@ static mote_status split_files(const char *name, const char *files, pair_name *p
         const bool none = !colon;
         const char *at = none ? first : colon;
         pair->file[0] = mote_format("%.*s", (int)(at - files), files);
-        pair->file[1] = mote_format("%s", at + 1);
-        if (!pair->file[0] || !pair->file[1])
-            return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
+        pair->file[1] = mote_duplicate(at + 1);
         if (none || (access(pair->file[0], F_OK) == 0 && access(pair->file[1], F_OK) == 0))
             return MOTE_OK;
         free_name(pair);
@@ -77,9 +76,7 @@ static mote_status split_files(const char *name, const char *files, pair_name *p
 
 static mote_status read_name(const char *name, pair_name *pair)
 {
-    char *files = mote_format("%s", name + strlen(MOTE_PAIR_PREFIX));
-    if (!files)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its names", name);
+    char *files = mote_duplicate(name + strlen(MOTE_PAIR_PREFIX));
     mote_status status = split_direction(name, files, &pair->direction);
     if (status == MOTE_OK)
         status = split_files(name, files, pair);
@@ -137,10 +134,9 @@ static mote_status make_file(const char *name, const pair_name *pair, mote_json_
     if (!file->root)
         return mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them",
                          pair->file[0], pair->file[1]);
-    file->path = mote_format("%s", name);
+    file->path = mote_duplicate(name);
     file->text = json_dumps(file->root, JSON_COMPACT);
-    return file->path && file->text ? MOTE_OK
-                                    : mote_fail(MOTE_ENOMEM, "no memory for a pair of meshes");
+    return MOTE_OK;
 }
 
 /* What stands between the last slash and the last dot of a path. */
@@ -154,18 +150,15 @@ static char *stem(const char *path)
 }
 
 /* "a-b" of "x/a.obj" and "y/b.obj". */
-static mote_status rename_scenario(const pair_name *pair, mote_scenario *scenario)
+static void rename_scenario(const pair_name *pair, mote_scenario *scenario)
 {
     char *stems[2] = {stem(pair->file[0]), stem(pair->file[1])};
-    char *name = stems[0] && stems[1] ? mote_format("%s-%s", stems[0], stems[1]) : NULL;
+    char *name = mote_format("%s-%s", stems[0], stems[1]);
     free(stems[0]);
     free(stems[1]);
-    if (!name)
-        return mote_fail(MOTE_ENOMEM, "no memory for the name of a pair");
     mote_scenario_clean_name(name);
     free(scenario->name);
     scenario->name = name;
-    return MOTE_OK;
 }
 
 /* Finds where body 1 goes, and sets it in the scenario and in its file. */
@@ -204,12 +197,12 @@ mote_status mote_scenario_make_pair(const char *name, mote_json_file *file,
         status = mote_scenario_read(&made_file, &made);
     if (status == MOTE_OK)
         status = set_motion(&pair, &made_file, made);
-    if (status == MOTE_OK)
-        status = rename_scenario(&pair, made);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        rename_scenario(&pair, made);
         *scenario = made;
-    else
+    } else {
         mote_scenario_destroy(made);
+    }
     if (status == MOTE_OK && file)
         *file = made_file;
     else

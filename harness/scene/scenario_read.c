@@ -3,6 +3,7 @@
 
 #include "harness/scene/catalog.h"
 #include "harness/base/file.h"
+#include "harness/base/memory.h"
 
 #include <assert.h>
 #include <math.h>
@@ -74,8 +75,8 @@ mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scena
     const char *purpose;
     if (status == MOTE_OK)
         status = mote_json_string(&key, &purpose);
-    if (status == MOTE_OK && !(scenario->purpose = mote_format("%s", purpose)))
-        status = mote_fail(MOTE_ENOMEM, "no memory for a scenario's purpose");
+    if (status == MOTE_OK)
+        scenario->purpose = mote_duplicate(purpose);
     return status;
 }
 
@@ -151,11 +152,9 @@ void mote_scenario_clean_name(char *name)
 static mote_status read_scenario(const mote_json_file *file, mote_scenario *scenario)
 {
     mote_json root = mote_json_root(file);
-    scenario->motion = calloc(1, sizeof *scenario->motion);
-    scenario->path = mote_format("%s", file->path);
+    scenario->motion = mote_allocate(1, sizeof *scenario->motion);
+    scenario->path = mote_duplicate(file->path);
     scenario->name = mote_scenario_name_of(file->path);
-    if (!scenario->motion || !scenario->path || !scenario->name)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
     mote_status status =
         mote_json_object(&root, "purpose|bodies|frames|start|pace|warmup|active|ask|tolerance");
     if (status == MOTE_OK)
@@ -183,7 +182,7 @@ static mote_status unknown_name(const char *name)
         mote_text_add(&known, "%s%s", i ? ", " : "", catalog.entries[i].name);
     mote_catalog_free(&catalog);
     status = mote_fail(MOTE_EIO, "%s: no such scenario; known are: %s; or name a .json file",
-                       name, known.data && !known.failed ? known.data : "none");
+                       name, known.data ? known.data : "none");
     free(known.data);
     return status;
 }
@@ -202,10 +201,8 @@ static bool is_listed(const char *name)
 
 mote_status mote_scenario_read(const mote_json_file *file, mote_scenario **scenario)
 {
-    mote_scenario *made = calloc(1, sizeof *made);
-    mote_status status =
-        made ? read_scenario(file, made)
-             : mote_fail(MOTE_ENOMEM, "%s: no memory for a scenario", file->path);
+    mote_scenario *made = mote_allocate(1, sizeof *made);
+    const mote_status status = read_scenario(file, made);
     if (status == MOTE_OK)
         *scenario = made;
     else
@@ -233,13 +230,11 @@ mote_status mote_scenario_open(const char *name_or_path, mote_json_file *file)
     if (mote_scenario_is_pair(name_or_path))
         return open_pair(name_or_path, file);
     if (is_path(name_or_path))
-        path = mote_format("%s", name_or_path);
+        path = mote_duplicate(name_or_path);
     else if (!is_listed(name_or_path))
         return unknown_name(name_or_path);
     else
         path = mote_catalog_path(name_or_path);
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "%s: no memory for its path", name_or_path);
     mote_json_file opened;
     mote_status status = mote_json_open(path, &opened);
     free(path);

@@ -1,5 +1,7 @@
 #include "harness/scene/spread.h"
 
+#include "harness/base/memory.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,9 +13,7 @@ mote_vec3 mote_mesh_centre(const mote_mesh *mesh)
 mote_status mote_spread_apart(const mote_mesh *mesh, uint32_t most, double apart,
                               mote_vec3 *points, uint32_t *count)
 {
-    double *nearest = malloc(mesh->vertex_count * sizeof *nearest);
-    if (!nearest)
-        return mote_fail(MOTE_ENOMEM, "no memory to spread %u points", most);
+    double *nearest = mote_allocate(mesh->vertex_count, sizeof *nearest);
     for (uint32_t i = 0; i < mesh->vertex_count; ++i)
         nearest[i] = HUGE_VAL;
     mote_vec3 last = mote_mesh_centre(mesh);

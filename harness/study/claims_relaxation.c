@@ -254,7 +254,7 @@ static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool 
     mote_frame_buffer *buffer = NULL;
     mote_status status = mote_particles_create(bodies, scenario->length, &options, &particles);
     if (status == MOTE_OK)
-        status = mote_frame_buffer_create(scenario, &buffer);
+        buffer = mote_frame_buffer_create(scenario);
     for (uint32_t number = 900; number <= 1300 && status == MOTE_OK; number += cold ? 8 : 1) {
         mote_particles_begin(particles, mote_scenario_frame(scenario, buffer, number, 0),
                              false);

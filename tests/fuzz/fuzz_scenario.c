@@ -31,13 +31,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const bool costly = is_costly(root);
     json_decref(root);
     mote_scenario *scenario = NULL;
-    mote_frame_buffer *buffer = NULL;
-    if (!costly && mote_scenario_load(fuzz_file(data, size), &scenario) == MOTE_OK &&
-        mote_frame_buffer_create(scenario, &buffer) == MOTE_OK) {
+    if (!costly && mote_scenario_load(fuzz_file(data, size), &scenario) == MOTE_OK) {
+        mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
         (void)mote_scenario_frame(scenario, buffer, 1, 0);
         (void)mote_scenario_frame(scenario, buffer, scenario->frames, 1);
+        mote_frame_buffer_destroy(buffer);
     }
-    mote_frame_buffer_destroy(buffer);
     mote_scenario_destroy(scenario);
     return 0;
 }

@@ -101,7 +101,7 @@ static void answer(job *j)
     mote_probe *probe = NULL;
     mote_status status = mote_method_choice_read(j->method, &choice);
     if (status == MOTE_OK)
-        status = mote_frame_buffer_create(j->scenario, &buffer);
+        buffer = mote_frame_buffer_create(j->scenario);
     if (status == MOTE_OK)
         status = mote_probe_create(&j->scenario->body[0], &j->scenario->body[1], &choice,
                                    j->scenario->ask, j->scenario->tolerance, 1, &probe);

@@ -32,7 +32,7 @@ static mote_status open_court(const char *scenario, court *c)
     *c = (court){.disputed = json_array()};
     mote_status status = mote_scenario_load(scenario, &c->scenario);
     if (status == MOTE_OK)
-        status = mote_frame_buffer_create(c->scenario, &c->buffer);
+        c->buffer = mote_frame_buffer_create(c->scenario);
     for (int j = 0; j < JUDGES && status == MOTE_OK; j++) {
         mote_method_choice choice;
         status = mote_method_choice_read(judges[j], &choice);

@@ -44,7 +44,7 @@ static mote_status open_bench(bench *b)
 {
     mote_status status = mote_scenario_load(b->path, &b->scenario);
     if (status == MOTE_OK)
-        status = mote_frame_buffer_create(b->scenario, &b->buffer);
+        b->buffer = mote_frame_buffer_create(b->scenario);
     for (int m = 0; m < SOAK_METHODS && status == MOTE_OK; ++m) {
         status = open_probe(b, m);
         /* Few particles are refused on meshes of many components. */

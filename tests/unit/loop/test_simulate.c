@@ -512,7 +512,7 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         assert_int_equal(mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
                                            scenario->ask, 0, 1, &probe),
                          MOTE_OK);
-        assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
+        buffer = mote_frame_buffer_create(scenario);
         mote_simulation_view view = {.said = &none, .said_count = 1, .method = probe};
         view.states = mote_scenario_frame(scenario, buffer, 1, 0)->body;
         for (view.step = 0; view.step < (p == 0 ? 500 : 3); ++view.step) {

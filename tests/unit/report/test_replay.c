@@ -108,7 +108,7 @@ TEST(replay_json_holds_the_poses_and_weights_of_each_frame)
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
     assert_int_equal(mote_scenario_load("five.json", &scenario), MOTE_OK);
-    assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
+    buffer = mote_frame_buffer_create(scenario);
     for (size_t i = 0; i < 2; ++i) {
         const json_t *body = json_array_get(json_object_get(world, "bodies"), i);
         const size_t width = 3 * (size_t)scenario->body[i].field->count;
@@ -385,7 +385,7 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
                 mote_probe_create(&scene.scenario->body[0], &scene.scenario->body[1], &choice,
                                   scene.scenario->ask, 0, track.cell->replicate_seed, &probe),
                 MOTE_OK);
-            assert_int_equal(mote_frame_buffer_create(scene.scenario, &buffer), MOTE_OK);
+            buffer = mote_frame_buffer_create(scene.scenario);
             assert_int_equal(
                 mote_probe_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),
                                   &answer),

@@ -118,7 +118,7 @@ TEST_GROUP(make_meshes, NULL);
 static void check_deformation(const mote_scenario *scenario)
 {
     mote_frame_buffer *buffer;
-    assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
+    buffer = mote_frame_buffer_create(scenario);
     for (uint32_t k = 2; k <= scenario->frames; ++k) {
         (void)mote_scenario_frame(scenario, buffer, k - 1, 0);
         const mote_frame *frame = mote_scenario_frame(scenario, buffer, k, k - 1);
@@ -210,7 +210,7 @@ TEST(pair_comes_along_the_given_direction)
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
     assert_int_equal(mote_scenario_load("pair:cube.obj:sphere.obj:0,0,-2", &scenario), MOTE_OK);
-    assert_int_equal(mote_frame_buffer_create(scenario, &buffer), MOTE_OK);
+    buffer = mote_frame_buffer_create(scenario);
     const mote_vec3 at =
         mote_scenario_frame(scenario, buffer, 1000, 0)->body[1].pose.translation;
     assert_true(fabs(at.x) < 1e-9 && fabs(at.y) < 1e-9 && at.z < 0);
