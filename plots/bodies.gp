@@ -1,4 +1,4 @@
-# Several bodies: time of a step over their number. Blocks of BASE.dat: six methods for each of three
+# Several bodies: time of a frame over their number. Blocks of BASE.dat: six methods for each of three
 # densities; N, mean in us, MB.
 wide = 760
 high = 430
@@ -25,7 +25,7 @@ set tmargin at screen 0.86
 do for [p=1:3] {
     set lmargin at screen 0.1 + 0.3 * (p - 1)
     set rmargin at screen 0.1 + 0.3 * (p - 1) + 0.27
-    set ylabel (p == 1 ? "mean time of a step, µs" : "")
+    set ylabel (p == 1 ? "mean time of a frame, µs" : "")
     set format y (p == 1 ? "10^{%L}" : "")
     set xlabel (p == 2 ? "bodies, N" : "")
     set label 2 panel(p)." near pairs a body" at graph 0.5,1.05 center font ",12"

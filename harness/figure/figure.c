@@ -1,5 +1,6 @@
 #include "harness/figure/figure.h"
 
+#include "harness/base/memory.h"
 #include "harness/summary/front.h"
 
 #include <stdlib.h>
@@ -107,12 +108,9 @@ static const double *times_of(const mote_stored_cell *cell, mote_figure_part par
     return times[part];
 }
 
-mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
-                               double *values)
+void mote_figure_frames(const mote_summary_row *row, mote_figure_part part, double *values)
 {
-    double *work = malloc((row->replicates + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    double *work = mote_allocate(row->replicates, sizeof *work);
     for (size_t k = 0; k < row->first->frames; ++k) {
         size_t count = 0;
         for (size_t r = 0; r < row->replicates; ++r) {
@@ -123,7 +121,14 @@ mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part par
         values[k] = mote_statistics_median(work, count);
     }
     free(work);
-    return MOTE_OK;
+}
+
+void mote_figure_time(const mote_time *time, double over, mote_text *text)
+{
+    const bool interval = time->low == time->low;
+    mote_text_add(text, "%.17g %.17g %.17g", time->median / over,
+                  (interval ? time->low : time->median) / over,
+                  (interval ? time->high : time->median) / over);
 }
 
 bool mote_figure_has_error(const mote_summary_row *row)

@@ -93,8 +93,11 @@ typedef enum mote_figure_part {
 
 /* Nanoseconds of each frame of row->first, the median over replicates, into values[frames of
    row->first]. */
-mote_status mote_figure_frames(const mote_summary_row *row, mote_figure_part part,
-                               double *values);
+void mote_figure_frames(const mote_summary_row *row, mote_figure_part part, double *values);
+
+/* Appends "median low high", a time and its 95 % interval over nanoseconds; without an
+   interval the median stands for its ends. */
+void mote_figure_time(const mote_time *time, double over, mote_text *text);
 
 /* Whether a row has distances, and so an error. */
 bool mote_figure_has_error(const mote_summary_row *row);
@@ -102,8 +105,8 @@ bool mote_figure_has_error(const mote_summary_row *row);
 /* Appends "value low high ": a quantile of the absolute error over all replicates, and its
    95 % t interval over replicates, widened to contain the value and cut off at 0; the value
    itself where there are too few replicates. */
-mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
-                                 mote_text *text);
+void mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
+                          mote_text *text);
 
 /* L of the pair of a stored cell; 1 where the file has none. */
 double mote_figure_length(const mote_summary_row *row);

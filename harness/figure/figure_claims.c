@@ -119,7 +119,6 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
         top += lines + 1;
     }
     mote_text_add(&figure->data, "\n\n%s", verdicts.data ? verdicts.data : "");
-    figure->data.failed |= verdicts.failed;
     free(verdicts.data);
     mote_text_add(&figure->caption,
                   "For each claim its first value with its 95 %% interval, and the verdict, "
@@ -135,8 +134,6 @@ mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenari
     char *text = NULL;
     size_t size = 0;
     mote_status status = MOTE_OK;
-    if (!path)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure's name");
     if (access(path, F_OK) != 0) {
         mote_text_add(&figure->missing,
                       "figures/extremes.dat; `make extremes OUT=%s` measures it",

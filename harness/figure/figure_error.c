@@ -1,5 +1,7 @@
 /* Figures of error: over n (5), over frames (12). */
 #include "harness/figure/figure.h"
+
+#include "harness/base/memory.h"
 #include "harness/summary/front.h"
 #include "harness/run/plan.h"
 
@@ -50,14 +52,12 @@ static mote_confidence interval_of(const double *values, size_t count, double va
     return found;
 }
 
-mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
-                                 mote_text *text)
+void mote_figure_quantile(const mote_summary_row *row, double fraction, double value,
+                          mote_text *text)
 {
     double values[MOTE_REPLICATES_MAX];
     size_t count = 0;
-    double *work = malloc((row->first->frames + 1) * sizeof *work);
-    if (!work)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    double *work = mote_allocate(row->first->frames, sizeof *work);
     for (size_t r = 0; r < row->replicates && count < MOTE_REPLICATES_MAX; ++r) {
         if (row->cells[r].frames <= row->first->frames)
             values[count] = cell_quantile(&row->cells[r], fraction, work);
@@ -68,7 +68,6 @@ mote_status mote_figure_quantile(const mote_summary_row *row, double fraction, d
     free(work);
     const mote_confidence interval = interval_of(values, count, value);
     mote_text_add(text, "%.17g %.17g %.17g ", value, interval.low, interval.high);
-    return MOTE_OK;
 }
 
 static void add_missed(const mote_summary_row *row, mote_text *text)
@@ -91,26 +90,22 @@ static void add_missed(const mote_summary_row *row, mote_text *text)
 
 /* One line of Figure 5: n, then median, 95th and 99th percentile and share missed, each with
    its interval. */
-static mote_status add_errors(const mote_summary_row *row, mote_text *text)
+static void add_errors(const mote_summary_row *row, mote_text *text)
 {
     mote_text_add(text, "%.0f ", row->n);
-    mote_status status = mote_figure_quantile(row, 0.5, row->error.median, text);
-    if (status == MOTE_OK)
-        status = mote_figure_quantile(row, 0.95, row->error.p95, text);
-    if (status == MOTE_OK)
-        status = mote_figure_quantile(row, 0.99, row->error.p99, text);
+    mote_figure_quantile(row, 0.5, row->error.median, text);
+    mote_figure_quantile(row, 0.95, row->error.p95, text);
+    mote_figure_quantile(row, 0.99, row->error.p99, text);
     add_missed(row, text);
     mote_text_add(text, "\n");
-    return status;
 }
 
 /* A family's block, where it has rows with distances; *points counts them. */
-static mote_status add_series(const mote_summary *summary, const char *scenario,
-                              const char *family, size_t *points, mote_text *text)
+static void add_series(const mote_summary *summary, const char *scenario, const char *family,
+                       size_t *points, mote_text *text)
 {
-    mote_status status = MOTE_OK;
     bool begun = false;
-    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char other[MOTE_FIGURE_FAMILY];
         mote_front_title(row, other, sizeof other);
@@ -120,10 +115,9 @@ static mote_status add_series(const mote_summary *summary, const char *scenario,
         if (!begun)
             mote_gnuplot_block(text, family);
         begun = true;
-        status = add_errors(row, text);
+        add_errors(row, text);
         ++*points;
     }
-    return status;
 }
 
 mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
@@ -131,10 +125,9 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
 {
     static const char *const families[] = {"particle-paper:refine=no", "particle-paper",
                                            "particle-paper:refine=always", "particle"};
-    mote_status status = MOTE_OK;
     size_t points = 0;
-    for (size_t s = 0; s < sizeof families / sizeof families[0] && status == MOTE_OK; ++s)
-        status = add_series(run->summary, scenario, families[s], &points, &figure->data);
+    for (size_t s = 0; s < sizeof families / sizeof families[0]; ++s)
+        add_series(run->summary, scenario, families[s], &points, &figure->data);
     if (points < 2) {
         figure->data.size = 0;
         mote_text_add(&figure->missing, "particles with several n on %s", scenario);
@@ -144,7 +137,7 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
         "Median, 95th and 99th percentile of the absolute error over frames, in L, and the "
         "share of contacts missed, with 95 %% intervals over processes, whose particles start "
         "in different places. Errors of at most 1e-6 L are drawn on the lowest line.");
-    return status;
+    return MOTE_OK;
 }
 
 /* A line a frame: frame, truth, distance, error (in L), 1 where a contact was missed. */

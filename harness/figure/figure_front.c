@@ -1,4 +1,5 @@
 /* Figure 4: speed against error, n beside the curves where there is room. */
+#include "harness/base/memory.h"
 #include "harness/figure/figure.h"
 #include "harness/figure/figure_room.h"
 #include "harness/summary/front.h"
@@ -59,13 +60,11 @@ static bool is_point(const mote_summary *summary, const mote_summary_row *row,
 
 /* Finds the axes and marks the places of all points as taken; the caller frees
    c->room.taken. */
-static mote_status open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
+static void open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
 {
     double low = HUGE_VAL, high = 0;
     memset(c, 0, sizeof *c);
-    c->room.taken = calloc(2 * summary->count + 1, sizeof *c->room.taken);
-    if (!c->room.taken)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    c->room.taken = mote_allocate(2 * summary->count, sizeof *c->room.taken);
     for (size_t i = 0; i < summary->count; ++i) {
         if (!is_point(summary, &summary->rows[i], scenario))
             continue;
@@ -79,38 +78,31 @@ static mote_status open_canvas(const mote_summary *summary, const char *scenario
         if (is_point(summary, &summary->rows[i], scenario))
             c->room.taken[c->room.count++] = place_of(c, &summary->rows[i]);
     }
-    return MOTE_OK;
 }
 
 /* One point: n or nothing, median total in us and its interval, 99th percentile and its
    interval, the place of n. */
-static mote_status add_point(canvas *c, const mote_summary_row *row, bool named,
-                             mote_text *text)
+static void add_point(canvas *c, const mote_summary_row *row, bool named, mote_text *text)
 {
-    const mote_time *time = &row->total;
-    const bool interval = time->low == time->low;
     mote_place at = place_of(c, row);
     if (named && row->n == row->n && mote_room_find(&c->room, at, row->n, &at))
         mote_text_add(text, "%.0f ", row->n);
     else
         mote_text_add(text, "\"\" ");
-    mote_text_add(text, "%.17g %.17g %.17g ", time->median * 1e-3,
-                  (interval ? time->low : time->median) * 1e-3,
-                  (interval ? time->high : time->median) * 1e-3);
-    const mote_status status = mote_figure_quantile(row, 0.99, row->error.p99, text);
+    mote_figure_time(&row->total, 1e3, text);
+    mote_text_add(text, " ");
+    mote_figure_quantile(row, 0.99, row->error.p99, text);
     mote_text_add(text, "%.6g %.6g\n", pow(10, c->low_x + at.x / c->per_x) * 1e-3,
                   LOWEST_Y * pow(10, at.y / c->per_y));
-    return status;
 }
 
 /* The block of a family, or, with family NULL, of all families without a name, which no line
    joins. */
-static mote_status add_family(canvas *c, const mote_summary *summary, const char *scenario,
-                              const char *family, mote_text *text)
+static void add_family(canvas *c, const mote_summary *summary, const char *scenario,
+                       const char *family, mote_text *text)
 {
-    mote_status status = MOTE_OK;
     bool begun = false;
-    for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char title[MOTE_FIGURE_FAMILY];
         mote_front_title(row, title, sizeof title);
@@ -120,22 +112,20 @@ static mote_status add_family(canvas *c, const mote_summary *summary, const char
         if (!begun)
             mote_gnuplot_block(text, family ? family : "others");
         begun = true;
-        status = add_point(c, row, family != NULL, text);
+        add_point(c, row, family != NULL, text);
         if (!family)
             mote_text_add(text, "\n");
     }
-    return status;
 }
 
 mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
                               mote_figure *figure)
 {
     canvas c;
-    mote_status status = open_canvas(run->summary, scenario, &c);
-    for (int i = 0; i < FRONT_FAMILIES && status == MOTE_OK; ++i)
-        status = add_family(&c, run->summary, scenario, front_families[i], &figure->data);
-    if (status == MOTE_OK)
-        status = add_family(&c, run->summary, scenario, NULL, &figure->data);
+    open_canvas(run->summary, scenario, &c);
+    for (int i = 0; i < FRONT_FAMILIES; ++i)
+        add_family(&c, run->summary, scenario, front_families[i], &figure->data);
+    add_family(&c, run->summary, scenario, NULL, &figure->data);
     free(c.room.taken);
     if (figure->data.size == 0)
         mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
@@ -147,5 +137,5 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
         "stands beside a point where there is room. Errors of at most %g L are drawn on the "
         "lowest line.",
         FLOOR);
-    return status;
+    return MOTE_OK;
 }

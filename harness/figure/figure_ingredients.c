@@ -86,15 +86,11 @@ static int add_scenario(const mote_summary *summary, const char *scenario, mote_
             continue;
         if (count++ == 0)
             mote_gnuplot_block(data, scenario);
-        const mote_time *time = &row->total;
-        const bool interval = time->low == time->low;
         mote_text_add(data, "%d ", v);
         add_number(data, percent_wrong(row));
         add_number(data, percent_missed(row));
-        add_number(data, time->median / whole->total.median);
-        add_number(data, (interval ? time->low : time->median) / whole->total.median);
-        add_number(data, (interval ? time->high : time->median) / whole->total.median);
-        mote_text_add(data, "\n");
+        mote_figure_time(&row->total, whole->total.median, data);
+        mote_text_add(data, " \n");
     }
     return count;
 }
@@ -228,8 +224,6 @@ static void add_series(front *f, int s, mote_text *data)
         const mote_summary_row *row = f->row[s][k];
         if (!row)
             continue;
-        const mote_time *time = &row->total;
-        const bool interval = time->low == time->low;
         const double value = value_of(row, series[s][0]);
         mote_place at = place_of(f, row);
         const bool whole = strcmp(series[s][k + 1], WHOLE) == 0;
@@ -237,9 +231,8 @@ static void add_series(front *f, int s, mote_text *data)
             mote_text_add(data, "%.0f ", value);
         else
             mote_text_add(data, "\"\" ");
-        mote_text_add(data, "%.17g %.17g %.17g %.6g %.6g %.6g\n", time->median * 1e-3,
-                      (interval ? time->low : time->median) * 1e-3,
-                      (interval ? time->high : time->median) * 1e-3, percent_wrong(row),
+        mote_figure_time(&row->total, 1e3, data);
+        mote_text_add(data, " %.6g %.6g %.6g\n", percent_wrong(row),
                       pow(10, f->low_x + at.x / f->per_x) * 1e-3,
                       LEAST_PERCENT / 3 * pow(10, at.y / f->per_y));
     }

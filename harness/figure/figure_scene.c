@@ -2,6 +2,7 @@
 
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
+#include "harness/base/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -40,9 +41,8 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
         scene->buffer = mote_frame_buffer_create(scene->scenario);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
         const mote_body *body = &scene->scenario->body[i];
-        scene->world[i] = malloc(body->mesh->vertex_count * sizeof(mote_vec3));
-        status = scene->world[i] ? mote_deform_create(body, &scene->deform[i])
-                                 : mote_fail(MOTE_ENOMEM, "no memory for a body's vertices");
+        scene->world[i] = mote_allocate(body->mesh->vertex_count, sizeof(mote_vec3));
+        status = mote_deform_create(body, &scene->deform[i]);
     }
     return status;
 }

@@ -120,12 +120,9 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
         status = fit_title(&series[s], title, sizeof title, &figure->caption);
         mote_gnuplot_block(&figure->data, title);
         for (size_t i = 0; i < series[s].count; ++i) {
-            const mote_time *time = &series[s].rows[i]->total;
-            const bool interval = time->low == time->low;
-            mote_text_add(&figure->data, "%.0f %.17g %.17g %.17g\n",
-                          mote_figure_triangles(series[s].rows[i]), time->median * 1e-3,
-                          (interval ? time->low : time->median) * 1e-3,
-                          (interval ? time->high : time->median) * 1e-3);
+            mote_text_add(&figure->data, "%.0f ", mote_figure_triangles(series[s].rows[i]));
+            mote_figure_time(&series[s].rows[i]->total, 1e3, &figure->data);
+            mote_text_add(&figure->data, "\n");
         }
     }
     return status;

@@ -1,5 +1,7 @@
 /* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
 #include "harness/figure/figure.h"
+
+#include "harness/base/memory.h"
 #include "harness/summary/front.h"
 
 #include <stdlib.h>
@@ -49,30 +51,23 @@ static void add_span(const span *s, const char *name, uint32_t first, uint32_t l
 #define ACTIVE_FIRST 950u
 #define ACTIVE_LAST 1984u
 
-static mote_status add_queries(const mote_summary_row *row, mote_figure *figure)
+static void add_queries(const mote_summary_row *row, mote_figure *figure)
 {
     const mote_stored_cell *first = row->first;
-    double *values = malloc((first->frames + 1) * sizeof *values);
-    if (!values)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    const mote_status status = mote_figure_frames(row, MOTE_FIGURE_TOTAL, values);
-    if (status == MOTE_OK) {
-        mote_gnuplot_block(&figure->data, row->label);
-        for (size_t k = 0; k < first->frames; ++k)
-            mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
-        const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
-        const span warm = over_frames(row, values, 1, WARM_LAST);
-        if (active.last > 0 || warm.last > 0) {
-            mote_text_add(&figure->caption, " %s:", row->label);
-            add_span(&active, "active interval", ACTIVE_FIRST, ACTIVE_LAST, "",
-                     &figure->caption);
-            add_span(&warm, "warm-up", 1, WARM_LAST, active.last > 0 ? ";" : "",
-                     &figure->caption);
-            mote_text_add(&figure->caption, ".");
-        }
-    }
+    double *values = mote_allocate(first->frames, sizeof *values);
+    mote_figure_frames(row, MOTE_FIGURE_TOTAL, values);
+    mote_gnuplot_block(&figure->data, row->label);
+    for (size_t k = 0; k < first->frames; ++k)
+        mote_text_add(&figure->data, "%u %.17g\n", first->frame[k], values[k] * 1e-6);
+    const span active = over_frames(row, values, ACTIVE_FIRST, ACTIVE_LAST);
+    const span warm = over_frames(row, values, 1, WARM_LAST);
     free(values);
-    return status;
+    if (active.last == 0 && warm.last == 0)
+        return;
+    mote_text_add(&figure->caption, " %s:", row->label);
+    add_span(&active, "active interval", ACTIVE_FIRST, ACTIVE_LAST, "", &figure->caption);
+    add_span(&warm, "warm-up", 1, WARM_LAST, active.last > 0 ? ";" : "", &figure->caption);
+    mote_text_add(&figure->caption, ".");
 }
 
 mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario,
@@ -101,12 +96,11 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
         "interval 12.67 ms on average, 47 ms at most; warm-up 12.06 ms on average, 47 ms at "
         "most.",
         rows[0]->finished, rows[0]->finished == 1 ? "" : "es");
-    mote_status status = MOTE_OK;
-    for (int i = 0; i < SERIES && status == MOTE_OK; ++i) {
+    for (int i = 0; i < SERIES; ++i) {
         if (rows[i])
-            status = add_queries(rows[i], figure);
+            add_queries(rows[i], figure);
     }
-    return status;
+    return MOTE_OK;
 }
 
 /* One configuration's mean times, each frame's the median over replicates. */
@@ -117,24 +111,20 @@ typedef struct share {
 
 #define SHARES_MAX 16
 
-static mote_status take_share(const mote_summary_row *row, share *made)
+static void take_share(const mote_summary_row *row, share *made)
 {
     static const mote_figure_part parts[3] = {MOTE_FIGURE_DEFORM, MOTE_FIGURE_UPDATE,
                                               MOTE_FIGURE_QUERY};
     const size_t frames = row->first->frames;
-    double *values = malloc((frames + 1) * sizeof *values);
-    if (!values)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
-    mote_status status = MOTE_OK;
+    double *values = mote_allocate(frames, sizeof *values);
     made->label = row->label;
     made->total = 0;
-    for (int p = 0; p < 3 && status == MOTE_OK; ++p) {
-        status = mote_figure_frames(row, parts[p], values);
-        made->part[p] = status == MOTE_OK ? mote_statistics_mean(values, frames) : 0;
+    for (int p = 0; p < 3; ++p) {
+        mote_figure_frames(row, parts[p], values);
+        made->part[p] = mote_statistics_mean(values, frames);
         made->total += made->part[p];
     }
     free(values);
-    return status;
 }
 
 static int by_total(const void *a, const void *b)
@@ -151,12 +141,11 @@ static double usual_n(const mote_summary_row *row)
     return strcmp(row->first->method, "particle-paper") == 0 ? 5 : 8;
 }
 
-static mote_status collect_shares(const mote_summary *summary, const char *scenario,
-                                  share *shares, size_t *count)
+static size_t collect_shares(const mote_summary *summary, const char *scenario,
+                             share shares[SHARES_MAX])
 {
-    mote_status status = MOTE_OK;
-    *count = 0;
-    for (size_t i = 0; i < summary->count && *count < SHARES_MAX && status == MOTE_OK; ++i) {
+    size_t count = 0;
+    for (size_t i = 0; i < summary->count && count < SHARES_MAX; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char family[MOTE_FIGURE_FAMILY];
         mote_front_title(row, family, sizeof family);
@@ -164,11 +153,10 @@ static mote_status collect_shares(const mote_summary *summary, const char *scena
             !mote_figure_first(summary, row, scenario))
             continue;
         row = mote_figure_near(summary, scenario, family, usual_n(row));
-        status = take_share(row, &shares[(*count)++]);
+        take_share(row, &shares[count++]);
     }
-    if (status == MOTE_OK)
-        qsort(shares, *count, sizeof *shares, by_total);
-    return status;
+    qsort(shares, count, sizeof *shares, by_total);
+    return count;
 }
 
 static void add_share(const share *s, size_t place, mote_text *text)
@@ -187,10 +175,7 @@ mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
     share shares[SHARES_MAX];
-    size_t count;
-    const mote_status status = collect_shares(run->summary, scenario, shares, &count);
-    if (status != MOTE_OK)
-        return status;
+    const size_t count = collect_shares(run->summary, scenario, shares);
     for (size_t i = 0; i < count; ++i) {
         if (shares[i].total > 0)
             add_share(&shares[i], i + 1, &figure->data);
@@ -247,16 +232,14 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
 }
 
 /* A block of parts; none where no process has a frame in common with its partner. */
-static mote_status add_ratios(const mote_summary_row *row, const mote_summary_row *other,
-                              mote_text *text)
+static void add_ratios(const mote_summary_row *row, const mote_summary_row *other,
+                       mote_text *text)
 {
     const mote_stored_cell *cell = row->first;
     size_t longest = 0;
     for (size_t r = 0; r < row->replicates; ++r)
         longest = row->cells[r].frames > longest ? row->cells[r].frames : longest;
-    double *values = malloc((row->replicates + longest + 1) * sizeof *values);
-    if (!values)
-        return mote_fail(MOTE_ENOMEM, "no memory for a figure");
+    double *values = mote_allocate(row->replicates + longest, sizeof *values);
     double *work = values + row->replicates;
     mote_text lines = {0};
     const double from = cell->frame[0];
@@ -267,10 +250,8 @@ static mote_status add_ratios(const mote_summary_row *row, const mote_summary_ro
         mote_gnuplot_block(text, row->label);
         mote_text_add(text, "%s", lines.data);
     }
-    text->failed |= lines.failed;
     free(lines.data);
     free(values);
-    return MOTE_OK;
 }
 
 mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
@@ -280,9 +261,8 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
         const char *family;
         double n;
     } series[] = {{"particle-paper:refine=no", 5}, {"particle", 8}, {"certified", 0}};
-    mote_status status = MOTE_OK;
     size_t least = SIZE_MAX;
-    for (size_t i = 0; i < sizeof series / sizeof series[0] && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < sizeof series / sizeof series[0]; ++i) {
         const mote_summary_row *row =
             mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
         if (!row || row->ratio_best.to == SIZE_MAX || row->first->frames == 0)
@@ -297,7 +277,7 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
                 "intervals over processes. Below the dashed line FCL is faster.",
                 best->label, scenario, PARTS);
         least = row->finished < least ? row->finished : least;
-        status = add_ratios(row, best, &figure->data);
+        add_ratios(row, best, &figure->data);
     }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
@@ -305,5 +285,5 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
     else if (least < 2)
         mote_text_add(&figure->missing, "intervals on %s, for which two replicates are needed",
                       scenario);
-    return status;
+    return MOTE_OK;
 }

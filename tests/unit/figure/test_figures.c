@@ -297,14 +297,41 @@ TEST(ratios_of_processes_without_a_pair_are_missing)
     mote_summary_free(&summary);
 }
 
+/* A scenario of 10,000 bodies may stand before one of 10 by its name; lines go from left to
+   right. */
+TEST(lines_over_bodies_ascend)
+{
+    static const int bodies[] = {10000, 10, 1000, 100};
+    mote_text rows = {0};
+    mote_figure figure = {0};
+    const mote_summary none = {0};
+    for (size_t i = 0; i < sizeof bodies / sizeof bodies[0]; ++i)
+        mote_text_add(&rows,
+                      "%s{\"label\": \"certified\", \"status\": \"ok\", \"near_pairs_wanted\": "
+                      "0.1, \"bodies\": %d, \"active_total_ns\": {\"mean\": 2000}, "
+                      "\"rss_peak_bytes\": 3e6}",
+                      i ? ", " : "", bodies[i]);
+    assert_int_equal(mkdir("over-bodies", 0777), 0);
+    const mote_figure_run run = {"over-bodies", &none, NULL};
+    char *summary = mote_format("{\"rows\": [%s]}", rows.data);
+    file_put("over-bodies/summary.json", summary);
+    assert_int_equal(mote_figure_bodies(&run, NULL, &figure), MOTE_OK);
+    assert_int_equal(strncmp(figure.data.data,
+                             "\"certified\"\n10 2 3\n100 2 3\n1000 2 3\n10000 2 3\n\n\n", 47),
+                     0);
+    free(figure.data.data);
+    free(figure.caption.data);
+    free(rows.data);
+    free(summary);
+}
+
 /* n alone, as `make bench` varies it: no line of the figure but one would have a point. */
 TEST(tracked_particles_of_one_parameter_are_no_figure_14)
 {
     static const int n[] = {2, 4, 8, 16, 32};
-    char folder[256], parameters[32], id[32];
+    char parameters[32], id[32];
     mote_summary summary;
     mote_figure figure = {0};
-    path_of("n-alone", folder);
     for (size_t i = 0; i < sizeof n / sizeof n[0]; ++i) {
         (void)snprintf(parameters, sizeof parameters, "{\"n\": %d}", n[i]);
         (void)snprintf(id, sizeof id, "particle-%d", n[i]);
@@ -312,11 +339,11 @@ TEST(tracked_particles_of_one_parameter_are_no_figure_14)
                                   .method = "particle",
                                   .parameters = parameters,
                                   .rows = "1,0,0,100,0.5,0,0,0,7\n2,0,0,100,0.5,0.1,0,0,7\n"};
-        stored_cell_put(folder, cell);
+        stored_cell_put("n-alone", cell);
     }
-    assert_int_equal(mote_summary_make(folder, &summary), MOTE_OK);
+    assert_int_equal(mote_summary_make("n-alone", &summary), MOTE_OK);
     assert_int_equal(summary.count, sizeof n / sizeof n[0]);
-    const mote_figure_run run = {folder, &summary, NULL};
+    const mote_figure_run run = {"n-alone", &summary, NULL};
     assert_int_equal(mote_figure_tracked(&run, "s", &figure), MOTE_OK);
     assert_int_equal(figure.data.size, 0);
     assert_string_equal(figure.missing.data, "the rows of `make ingredients`");
