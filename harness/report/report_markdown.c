@@ -210,16 +210,33 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
     mote_text_add(text, "\n");
 }
 
-/* A table of the block's rows: those that represent their method, or all. */
-static void add_table(const mote_report *report, size_t first, size_t end, bool all,
+/* A table of the block's rows of one accounting: of those that stand for their method, or of
+   all; nothing where there are none. */
+static void add_table(const mote_report *report, size_t first, size_t end, bool all, bool given,
                       mote_text *text)
 {
     const int width = label_width(report, first, end);
-    add_head(width, text);
+    bool begun = false;
     for (size_t i = first; i < end; ++i) {
-        if (all || mote_report_stands_for_method(mote_report_row(report, i)))
-            add_row(report, i, width, text);
+        const json_t *row = mote_report_row(report, i);
+        if (mote_report_is_given(row) != given || (!all && !mote_report_stands_for_method(row)))
+            continue;
+        if (!begun && given)
+            mote_text_add(text, "\nWith positions given, where no method is charged for "
+                                "deformation, FCL neither:\n\n");
+        if (!begun)
+            add_head(width, text);
+        begun = true;
+        add_row(report, i, width, text);
     }
+}
+
+/* Rows that pay for deformation, then those that are given the positions. */
+static void add_tables(const mote_report *report, size_t first, size_t end, bool all,
+                       mote_text *text)
+{
+    add_table(report, first, end, all, false, text);
+    add_table(report, first, end, all, true, text);
 }
 
 static bool all_stand(const mote_report *report, size_t first, size_t end)
@@ -246,11 +263,11 @@ static void add_block(const mote_report *report, size_t first, size_t end, mote_
     mote_text_add(text, ": %s and %s triangles\n\n",
                   mote_show_whole(json_number_value(json_array_get(triangles, 0)), shown[0]),
                   mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]));
-    add_table(report, first, end, false, text);
+    add_tables(report, first, end, false, text);
     if (all_stand(report, first, end))
         return;
     mote_text_add(text, "\nAll configurations:\n\n");
-    add_table(report, first, end, true, text);
+    add_tables(report, first, end, true, text);
 }
 
 static void add_results(const mote_report *report, mote_text *text)

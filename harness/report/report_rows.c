@@ -103,9 +103,7 @@ static double time_of(const json_t *row)
     return usable ? time : HUGE_VAL;
 }
 
-/* Whether a row was given all vertices at no charge; it is not compared with rows that are
-   charged. */
-static bool is_given(const json_t *row)
+bool mote_report_is_given(const json_t *row)
 {
     return strcmp(mote_report_text(row, "accounting"), "given") == 0;
 }
@@ -143,10 +141,10 @@ mote_report_glance mote_report_block_glance(const mote_report *report, size_t fi
     mote_report_glance glance = {SIZE_MAX, SIZE_MAX};
     bool only_given = true;
     for (size_t i = first; i < end; ++i)
-        only_given = only_given && is_given(mote_report_row(report, i));
+        only_given = only_given && mote_report_is_given(mote_report_row(report, i));
     for (size_t i = first; i < end && glance.right == SIZE_MAX; ++i) {
         const json_t *row = mote_report_row(report, i);
-        if (time_of(row) == HUGE_VAL || is_given(row) != only_given)
+        if (time_of(row) == HUGE_VAL || mote_report_is_given(row) != only_given)
             continue;
         if (glance.fastest == SIZE_MAX)
             glance.fastest = i;

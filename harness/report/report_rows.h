@@ -36,6 +36,10 @@ const char *mote_report_scene(const json_t *row);
 #define MOTE_REPORT_NOTE MOTE_ROW_NOTE
 bool mote_report_note(const json_t *row, size_t i, char text[MOTE_REPORT_NOTE]);
 
+/* Whether a row was given all vertices at no charge; it is not compared with rows that are
+   charged. */
+bool mote_report_is_given(const json_t *row);
+
 /* Whether two rows are in one table: same scenario, state of caches, machine, question and
    range of frames. */
 bool mote_report_same_block(const json_t *a, const json_t *b);

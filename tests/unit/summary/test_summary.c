@@ -412,6 +412,11 @@ TEST(report_begins_with_rows_that_pay_for_deformation)
     assert_non_null(
         strstr(after("report .", "report.html"),
                "\"blocks\":[{\"first\":0,\"end\":3,\"right\":1,\"fastest\":null}]"));
+    /* And in report.md it is in a table of its own, below. */
+    const char *apart = strstr(after("report .", "report.md"), "With positions given");
+    assert_non_null(apart);
+    assert_null(strstr(apart, "| certified"));
+    assert_non_null(strstr(apart, "| particle:positions"));
 }
 
 /* Times of cells that ran at once, and rows that lack replicates, must not look like others. */
