@@ -25,6 +25,66 @@ constexpr uint32_t NO_LABEL = UINT32_MAX;
 /* A component is not simplified to fewer triangles than this. */
 constexpr size_t COMPONENT_TRIANGLES = 100;
 
+/* Points that are no farther outside of a face's plane than this part of the size leave a
+   component convex: the simplification of a sphere to 800 triangles leaves dents of 2 %, and
+   what HACD calls concave is 10 %. */
+constexpr double CONVEX_TOLERANCE = 0.03;
+
+/* Whether every edge has two faces that go along it in opposite ways. */
+bool is_closed(const std::vector<Face> &faces)
+{
+    std::vector<std::pair<long, long>> edges;
+    for (const Face &face : faces) {
+        const long v[3] = {face.X(), face.Y(), face.Z()};
+        for (int k = 0; k < 3; ++k)
+            edges.emplace_back(v[k], v[(k + 1) % 3]);
+    }
+    std::sort(edges.begin(), edges.end());
+    if (std::adjacent_find(edges.begin(), edges.end()) != edges.end())
+        return false;
+    return std::all_of(edges.begin(), edges.end(), [&edges](const std::pair<long, long> &e) {
+        return std::binary_search(edges.begin(), edges.end(),
+                                  std::make_pair(e.second, e.first));
+    });
+}
+
+/* How far points lie on each side of a face's plane, {behind, in front}, both >= 0. */
+std::pair<double, double> sides_of(const std::vector<Point> &points, const Face &face)
+{
+    const Point &corner = points[static_cast<size_t>(face.X())];
+    Point normal = (points[static_cast<size_t>(face.Y())] - corner) ^
+                   (points[static_cast<size_t>(face.Z())] - corner);
+    std::pair<double, double> sides(0, 0);
+    if (!(normal.GetNorm() > 0))
+        return sides;
+    normal.Normalize();
+    for (const Point &point : points) {
+        const double height = normal * (point - corner);
+        sides.first = std::max(sides.first, -height);
+        sides.second = std::max(sides.second, height);
+    }
+    return sides;
+}
+
+/* Whether a component is the whole surface of a convex solid that is not flat: of spheres and
+   the like HACD makes three parts, and takes seconds. False says nothing. */
+bool is_convex_solid(const std::vector<Point> &points, const std::vector<Face> &faces)
+{
+    double size = 0;
+    for (const Point &point : points)
+        size = std::max(size, (point - points[0]).GetNorm());
+    const double near = CONVEX_TOLERANCE * size;
+    double outside[2] = {0, 0};
+    for (const Face &face : faces) {
+        const std::pair<double, double> sides = sides_of(points, face);
+        outside[0] = std::max(outside[0], sides.first);
+        outside[1] = std::max(outside[1], sides.second);
+        if (std::min(outside[0], outside[1]) > near || sides.first + sides.second < 2 * near)
+            return false;
+    }
+    return is_closed(faces);
+}
+
 /* The decomposition of a mesh, one connected component after another. */
 class Decomposition
 {
@@ -122,7 +182,14 @@ bool Decomposition::decompose(const Corners &corners)
         faces.emplace_back(number[corners[i]], number[corners[i + 1]], number[corners[i + 2]]);
     for (uint32_t v : corners)
         number[v] = -1;
-    return faces.empty() || cluster(points, faces, corners);
+    if (faces.empty())
+        return true;
+    if (!is_convex_solid(points, faces))
+        return cluster(points, faces, corners);
+    for (uint32_t v : corners)
+        label[v] = count;
+    ++count;
+    return true;
 }
 
 bool Decomposition::cluster(std::vector<Point> &points, std::vector<Face> &faces,

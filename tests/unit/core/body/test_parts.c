@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* Up to 64 x 64 cells of size 1 in the plane. */
 typedef struct cells {
@@ -221,6 +222,25 @@ TEST(parts_create_of_the_smallest_meshes_is_one_part)
         mote_parts_destroy(parts);
         mote_mesh_destroy(mesh);
     }
+}
+
+/* HACD makes three parts of some spheres, and takes seconds. */
+TEST(parts_create_of_a_convex_solid_is_one_part_at_once)
+{
+    for (int level = 2; level < 5; ++level) {
+        mote_mesh *mesh = solid_to_mesh(solid_icosphere(level));
+        const clock_t start = clock();
+        mote_parts *parts = checked_parts(mesh, NULL);
+        assert_true(clock() - start < CLOCKS_PER_SEC);
+        assert_int_equal(parts->count, 1);
+        mote_parts_destroy(parts);
+        mote_mesh_destroy(mesh);
+    }
+    mote_mesh *mesh = solid_to_mesh(solid_torus(12, 12));
+    mote_parts *parts = checked_parts(mesh, NULL);
+    assert_in_range(parts->count, 2, 12);
+    mote_parts_destroy(parts);
+    mote_mesh_destroy(mesh);
 }
 
 TEST(parts_create_again_or_scaled_gives_the_same_labels)
