@@ -87,7 +87,7 @@ static void note_property(ply_element *e, const char *property)
     e->bytes += type_bytes(list ? list : property);
 }
 
-/* Reads up to the line end_header, without which assimp would read for ever; *body is what
+/* Reads up to the line end_header, without which assimp would never end; *body is what
    follows. */
 static mote_status read_header(const char *path, const char *text, size_t size, ply_header *h,
                                const char **body)
@@ -216,7 +216,7 @@ static bool has_three_numbers(const char *at)
     return true;
 }
 
-/* ASCII STL: facets of three vertices of three numbers, up to a line endsolid. assimp makes up
+/* ASCII STL: facets of three vertices of three numbers, up to a line endsolid. assimp invents
    what is missing. */
 static mote_status check_stl_text(const char *path, const char *text)
 {

@@ -26,13 +26,13 @@ mote_status mote_import_refuse_split(const char *path, const mote_import *import
 void mote_import_tell_split(const char *path, const mote_import *import);
 
 /* Reads a mesh: OBJ and OFF in double precision by ourselves; PLY, STL, glTF and others by
-   assimp, welding vertices of equal position. In a child process with a time-out and a memory
-   limit (4 seconds and 128 MB for a small file, more in proportion for large ones): whatever is
-   in the file, the caller goes on. MOTE_EINVAL with a text that names the file and the place:
-   not finite, an index out of range, a face that is not simple, no face. An edge of more than
-   two faces is cut apart (mesh_split.h): the surface stays the same bit for bit. MOTE_EIO: not
-   readable, or the child crashed or took too long. *import may be NULL. The caller destroys
-   *mesh. */
+   assimp, merging vertices at the same place. It works in a child process with limits of time
+   and memory (4 seconds and 128 MB for a small file, more in proportion for large ones), so
+   that no file can end or stop the caller. An edge of more than two faces is cut apart
+   (mesh_split.h): the surface stays the same bit for bit. MOTE_EINVAL with a text that names
+   the file and the place: a coordinate that is not finite, an index out of range, a face that
+   is not simple, no face. MOTE_EIO: the file cannot be read, or the child crashed or took too
+   long. *import may be NULL. The caller destroys *mesh. */
 mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import);
 
 #endif

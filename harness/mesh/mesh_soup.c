@@ -46,7 +46,9 @@ static mote_status check_corners(const uint32_t *corners, size_t count, uint32_t
     qsort(sorted, count, sizeof *sorted, compare_corners);
     for (size_t i = 1; i < count; ++i) {
         if (sorted[i - 1] == sorted[i])
-            return mote_fail(MOTE_EINVAL, "a face with a vertex twice; give different ones");
+            return mote_fail(MOTE_EINVAL,
+                             "a face with a vertex twice; give different ones, or triangles "
+                             "where a face has a hole");
     }
     return MOTE_OK;
 }

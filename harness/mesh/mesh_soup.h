@@ -26,12 +26,12 @@ mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
 void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
 
 /* Adds a polygon as triangles, convex or not. corners: count >= 3 vertices of the soup, in
-   order around it. MOTE_EINVAL: a corner that stands twice, or what mote_polygon_triangulate
-   refuses; the text says what is wrong and what would be right, but not where. */
+   order around it. MOTE_EINVAL: a vertex is named twice, or mote_polygon_triangulate refuses
+   the polygon; the text says what is wrong and what would be right, but not where. */
 mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count);
 void mote_soup_free(mote_soup *soup);
 
-/* Makes one vertex of all that have equal coordinates, and leaves out the faces that collapse.
+/* Merges vertices with equal coordinates, and leaves out the faces that collapse.
    Expected cost O(v + t). */
 void mote_soup_weld(mote_soup *soup);
 
@@ -44,22 +44,23 @@ void mote_soup_compact(mote_soup *soup);
    messages: MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *soup);
 
-/* Reads an ASCII OFF text (ended by a 0 byte; OFF, COFF, NOFF, STOFF and their combinations,
-   what follows a vertex's place or a face's corners being passed over) in double precision:
-   assimp would round the coordinates to 32 bits, and put another vertex for an index out of
-   range. Any simple polygon. MOTE_EINVAL with "FILE:LINE: what". */
+/* Reads an ASCII OFF text (ended by a 0 byte) in double precision: OFF, COFF, NOFF, STOFF and
+   their combinations, any simple polygon. What follows a vertex's coordinates or a face's
+   corners is passed over. assimp would round the coordinates to 32 bits, leave out faces of
+   more than nine corners, and replace an index that is out of range by another one. MOTE_EINVAL
+   with "FILE:LINE: what". */
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
                                mote_soup *soup);
 
-/* What assimp would get wrong without a word (text ends with a 0 byte): a PLY header without an
-   end, or that declares more elements than the size can hold; in ASCII PLY, fewer lines than
-   declared, an index out of range, a comma; in ASCII STL, a vertex or facet that is not whole,
-   or no end. MOTE_EINVAL with file and
-   line. Other formats, by the path's ending, pass. */
+/* Finds what assimp would get wrong without a word (text ends with a 0 byte). PLY: a header
+   that has no end, or declares more than the file can hold; in ASCII, fewer lines than
+   declared, an index out of range, a comma. ASCII STL: an incomplete vertex or facet, or no
+   end. MOTE_EINVAL with the file, and the line where there is one. Other formats, by the path's
+   ending, pass. */
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size);
 
-/* Reads any format that assimp knows; coordinates go through 32-bit floats. To be called in a
-   child process with limits: assimp may crash, hang or ask for any amount of memory. */
+/* Reads any format that assimp knows; coordinates go through 32-bit floats. Call it in a child
+   process with limits: assimp may crash, hang or ask for any amount of memory. */
 mote_status mote_soup_read_assimp(const char *path, mote_soup *soup);
 
 #endif

@@ -100,7 +100,8 @@ static bool is_spike(const outline *o, uint32_t i)
     return before[k] == at[k] || after[k] == at[k] || (before[k] < at[k]) == (after[k] < at[k]);
 }
 
-/* Cuts off what has no area; a corner of the rest. Fewer than three corners may be left. */
+/* Cuts off what has no area, and returns a corner of the rest, of which fewer than three may be
+   left. */
 static uint32_t cut_spikes(outline *o)
 {
     uint32_t at = 1, checked = 0;
@@ -158,7 +159,7 @@ static int compare_spans(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Whether edges meet that do not follow one another: two of them. */
+/* Whether two edges meet that are not neighbours; clash: where they start. */
 static bool find_clash(outline *o, uint32_t start, uint32_t clash[2])
 {
     uint32_t corner = start;
@@ -179,8 +180,8 @@ static bool find_clash(outline *o, uint32_t start, uint32_t clash[2])
     return false;
 }
 
-/* Makes a simple outline counterclockwise, by a mirror if need be: at its lowest corner of the
-   leftmost it turns as a whole does. Notes the obstacles. */
+/* Makes a simple outline counterclockwise, mirrored if need be: at its leftmost corner, the
+   lowest of these, it turns the way it does as a whole. Lists the obstacles. */
 static void orient(outline *o, uint32_t start)
 {
     uint32_t lowest = start, corner = start;
@@ -201,7 +202,8 @@ static void orient(outline *o, uint32_t start)
 }
 
 /* Whether the triangle at corner i is inside, and the diagonal opposite to i meets nothing.
-   Corners that turn left cannot be in its way, for then another corner would be, too. */
+   Obstacles are enough: a corner that turns left is only in the way where one of them is, too.
+ */
 static bool is_ear(const outline *o, uint32_t i)
 {
     const uint32_t before = o->previous[i], after = o->next[i];
@@ -326,8 +328,8 @@ static void fan(size_t count, uint32_t (*triangles)[3])
     }
 }
 
-/* The power of two that brings all coordinates into -2 .. 2, so that their products are in
-   range. */
+/* The power of two that brings all coordinates into -2 .. 2, where their products neither
+   overflow nor vanish. */
 static double unit_of(const double *xyz, size_t count)
 {
     double largest = 0;

@@ -16,7 +16,7 @@
    another axis if only there the polygon is simple; all decisions are exact. Corners on a
    straight edge, corners at the place of their neighbour and edges that go back along
    themselves are allowed; where these have no area, neither have the triangles. A polygon
-   thinner than a millionth of its length is taken as lying on a line.
+   thinner than a millionth of its length counts as a line.
 
    MOTE_EINVAL: in every projection the polygon crosses or touches itself; the text names two
    edges, and what would be right. Cost O(n log n + n r) as a rule, r being the

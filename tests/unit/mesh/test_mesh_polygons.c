@@ -8,7 +8,6 @@
 #include "tests/support/test.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -16,25 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define TEXT_MAX 8192
-
-typedef struct text {
-    char at[TEXT_MAX];
-    size_t length;
-} text;
-
-static void add(text *out, const char *format, ...) MOTE_PRINTF(2, 3);
-static void add(text *out, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const int length =
-        vsnprintf(out->at + out->length, sizeof out->at - out->length, format, arguments);
-    va_end(arguments);
-    assert_true(length >= 0 && out->length + (size_t)length < sizeof out->at);
-    out->length += (size_t)length;
-}
 
 /* How a format writes a prism of n corners below and above. */
 typedef struct format {
@@ -55,26 +35,26 @@ static const format formats[] = {
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wformat-nonliteral"
-static void add_face(text *out, const format *f, size_t count, const size_t *corners)
+static void add_face(mote_text *out, const format *f, size_t count, const size_t *corners)
 {
-    add(out, "%s", f->face);
+    mote_text_add(out, "%s", f->face);
     if (f->has_count)
-        add(out, "%zu", count);
+        mote_text_add(out, "%zu", count);
     for (size_t i = 0; i < count; ++i)
-        add(out, f->corner, corners[i] + f->first);
-    add(out, "\n");
+        mote_text_add(out, f->corner, corners[i] + f->first);
+    mote_text_add(out, "\n");
 }
 
 /* From height 0 to 1; the outline as written from corner `start` on. */
-static void write_prism(text *out, const format *f, const polygon_shape *shape, size_t start)
+static void write_prism(mote_text *out, const format *f, const polygon_shape *shape,
+                        size_t start)
 {
     const size_t n = shape->count;
     size_t below[POLYGON_CORNERS_MAX], above[POLYGON_CORNERS_MAX];
-    out->length = 0;
-    add(out, f->head, 2 * n, n + 2);
+    mote_text_add(out, f->head, 2 * n, n + 2);
     for (size_t i = 0; i < 2 * n; ++i) {
         const double *at = polygon_corner(shape, start, i % n);
-        add(out, f->vertex, at[0], at[1], i < n ? 0.0 : 1.0);
+        mote_text_add(out, f->vertex, at[0], at[1], i < n ? 0.0 : 1.0);
     }
     for (size_t i = 0; i < n; ++i) {
         below[i] = n - 1 - i;
@@ -109,10 +89,11 @@ static measures measure(const mote_mesh *mesh, mote_vec3 dot)
 
 static void check_prism(const format *f, const polygon_shape *shape, size_t start)
 {
-    static text out;
+    mote_text out = {0};
     mote_mesh *mesh = NULL;
     write_prism(&out, f, shape, start);
-    file_write(f->name, out.at, out.length);
+    file_write(f->name, out.data, out.size);
+    free(out.data);
     if (mote_mesh_import(f->name, &mesh, NULL) != MOTE_OK)
         fail_msg("%s from corner %zu: %s", shape->name, start, mote_error_text());
     const measures m = measure(mesh, mote_vec3_make(shape->dot[0], shape->dot[1], 1));
