@@ -91,6 +91,15 @@ static FILE *result_stream(const request *wish)
     return taken ? stderr : stdout;
 }
 
+static mote_status write_trace(const request *wish, const subject *s,
+                               const mote_simulation_options *options, const mote_mass *masses,
+                               const mote_rigid_state *trace, uint32_t count)
+{
+    return s->scene
+               ? mote_trace_write_scene(s->scene, masses, trace, count, options, wish->trace)
+               : mote_trace_write(s->pair, masses, trace, count, options, wish->trace);
+}
+
 static mote_status simulate(const request *wish, const subject *s)
 {
     mote_simulation_options options;
@@ -109,8 +118,8 @@ static mote_status simulate(const request *wish, const subject *s)
         trace = mote_allocate(((size_t)start.steps + 1) * bodies, sizeof *trace);
     status = run(wish, simulator, trace, &start, &result);
     if (status == MOTE_OK && trace)
-        status = mote_trace_write(s->pair, mote_simulator_masses(simulator), trace,
-                                  result.steps + 1, &options, wish->trace);
+        status = write_trace(wish, s, &options, mote_simulator_masses(simulator), trace,
+                             result.steps + 1);
     FILE *out = result_stream(wish);
     if (status == MOTE_OK && wish->json)
         status = mote_simulation_json(wish->scenario, bodies, &wish->choice, &result, out);
@@ -141,8 +150,7 @@ const mote_option mote_options_simulate[] = {
      "distance of a contact, in L (default: the scenario's, or 0.005 where that is 0)"},
     {"gravity", "X,Y,Z", "in L a frame squared (default: 0,0,0)"},
     {"time-step", "H", "frames a step (default: 1)"},
-    {"trace", "FILE.json",
-     "write the motion as a scenario, for two bodies (default: not written)"},
+    {"trace", "FILE.json", "write the motion as a scenario (default: not written)"},
     {"film", "FILE.gif", "draw the motion (default: not drawn)"},
     {NULL, NULL, NULL}};
 
@@ -223,8 +231,6 @@ int mote_command_simulate(int argc, char **argv)
     if (!wish.scenario || !wish.method)
         return mote_command_usage("simulate", "something is missing; write `mote simulate "
                                               "SCENARIO --method NAME`");
-    if (wish.trace && mote_bodies_is(wish.scenario))
-        return mote_command_usage("simulate", "--trace is for two bodies; leave it out");
     subject s = {NULL, NULL};
     mote_status status = load(&wish, &s);
     if (status == MOTE_OK)

@@ -85,10 +85,8 @@ static void start_scene(mote_simulator *s, const mote_bodies *bodies)
         const mote_bodies_path *path = &bodies->paths[i];
         const mote_pose pose = mote_bodies_pose(bodies, i, 1);
         const mote_vec3 spin = mote_scale(path->axis, path->spin * 0.017453292519943295);
-        const mote_quaternion turn =
-            mote_quaternion_normalise(mote_quaternion_about(path->axis, path->degrees));
-        s->start[i] = state_of(&s->masses[s->shape_of[i]], &pose, turn, path->place,
-                               path->velocity, spin);
+        s->start[i] = state_of(&s->masses[s->shape_of[i]], &pose, mote_bodies_turn(bodies, i),
+                               path->place, path->velocity, spin);
     }
 }
 

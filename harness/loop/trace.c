@@ -1,11 +1,16 @@
 #include "harness/loop/trace.h"
 
 #include "harness/base/file.h"
+#include "harness/base/json_print.h"
+#include "harness/base/memory.h"
 #include "harness/run/scenario_save.h"
+#include "harness/scene/bodies_poses.h"
 #include "harness/scene/motion.h"
+#include "harness/scene/scenario_move.h"
 #include "harness/scene/scenario_read.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* The key poses of body i. */
 static json_t *motion_json(const mote_scenario *scenario, const mote_mass *mass,
@@ -78,6 +83,81 @@ mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass
     status = rewrite(file.root, scenario, mass, states, count);
     if (status == MOTE_OK)
         status = mote_scenario_save(&file, 17, NULL, NULL, path);
+    mote_json_close(&file);
+    return status;
+}
+
+/* What was simulated, as records of all bodies and frames. */
+static mote_bodies_record *make_records(const mote_bodies *bodies, const mote_mass *masses,
+                                        const mote_rigid_state *states, uint32_t count,
+                                        double time_step)
+{
+    mote_bodies_record *records = mote_allocate((size_t)count * bodies->count, sizeof *records);
+    for (uint32_t k = 0; k < count; ++k) {
+        for (uint32_t i = 0; i < bodies->count; ++i) {
+            const uint32_t shape = bodies->shape_of[i];
+            const size_t r = (size_t)k * bodies->count + i;
+            const mote_pose pose = mote_rigid_pose(&masses[shape], &states[r]);
+            records[r] = (mote_bodies_record){
+                .middle = mote_pose_apply(&pose, bodies->shapes[shape].motion.centre),
+                .turn = states[r].turn,
+                .deformation = mote_bodies_deformation(bodies, i, 1 + k * time_step)};
+        }
+    }
+    return records;
+}
+
+static void rewrite_scene(json_t *root, const mote_bodies *bodies, uint32_t count,
+                          double tolerance, const char *poses)
+{
+    static const char *const replaced[] = {"near_pairs", "places", "seed", "speed", "spin"};
+    const mote_vec3 box = mote_scale(bodies->box, 2 / bodies->length);
+    json_t *node = json_object_get(root, "bodies");
+    char *purpose = mote_format("A simulated run of %s, recorded.", bodies->name);
+    (void)json_object_set_new(root, "purpose", json_string(purpose));
+    (void)json_object_set_new(root, "frames", json_integer(count));
+    (void)json_object_set_new(root, "ask", json_string("distance"));
+    (void)json_object_set_new(root, "tolerance", json_real(tolerance));
+    for (size_t k = 0; k < sizeof replaced / sizeof replaced[0]; ++k)
+        (void)json_object_del(node, replaced[k]);
+    (void)json_object_set_new(node, "box", json_pack("[f,f,f]", box.x, box.y, box.z));
+    (void)json_object_set_new(node, "poses", json_string(poses));
+    free(purpose);
+}
+
+static mote_status write_json(const json_t *root, const char *path)
+{
+    mote_text text = {0};
+    mote_json_print(root, 17, &text);
+    const mote_status status = mote_file_write(path, text.data, text.size);
+    free(text.data);
+    return status;
+}
+
+mote_status mote_trace_write_scene(const mote_bodies *bodies, const mote_mass *masses,
+                                   const mote_rigid_state *states, uint32_t count,
+                                   const mote_simulation_options *options, const char *path)
+{
+    mote_json_file file;
+    if (mote_path_is_stream(path))
+        return mote_fail(MOTE_EINVAL, "%s: poses are written beside the scenario; name a file",
+                         path);
+    mote_status status = mote_scenario_open(bodies->path, &file);
+    if (status != MOTE_OK)
+        return status;
+    const size_t ending = mote_name_ends(path, ".json") ? strlen(".json") : 0;
+    char *poses = mote_format("%.*s.poses.csv", (int)(strlen(path) - ending), path);
+    const char *slash = strrchr(poses, '/');
+    mote_bodies_record *records =
+        make_records(bodies, masses, states, count, options->time_step);
+    rewrite_scene(file.root, bodies, count, options->tolerance, slash ? slash + 1 : poses);
+    status = mote_bodies_poses_write(poses, bodies, records, count);
+    if (status == MOTE_OK)
+        status = mote_scenario_move(&file, path);
+    if (status == MOTE_OK)
+        status = write_json(file.root, path);
+    free(records);
+    free(poses);
     mote_json_close(&file);
     return status;
 }

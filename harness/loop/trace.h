@@ -13,4 +13,11 @@ mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass
                              const mote_rigid_state *states, uint32_t count,
                              const mote_simulation_options *options, const char *path);
 
+/* The same for many bodies, states[count][bodies]: the poses, with the deformation of each, are
+   in a CSV beside the scenario (harness/scene/bodies_poses.h). MOTE_EIO; MOTE_EINVAL where path
+   is a stream, which has no place beside it. */
+mote_status mote_trace_write_scene(const mote_bodies *bodies, const mote_mass *masses,
+                                   const mote_rigid_state *states, uint32_t count,
+                                   const mote_simulation_options *options, const char *path);
+
 #endif

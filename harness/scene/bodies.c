@@ -19,6 +19,7 @@ void mote_bodies_destroy(mote_bodies *bodies)
     free(bodies->shapes);
     free(bodies->shape_of);
     free(bodies->paths);
+    free(bodies->recorded);
     free(bodies->name);
     free(bodies->purpose);
     free(bodies->path);
@@ -76,8 +77,45 @@ static double between_walls(double start, double way, double room)
     return phase <= 2 * room ? phase - room : 3 * room - phase;
 }
 
+/* The place among the recorded frames of what is shown at a frame. */
+static const mote_bodies_record *record_at(const mote_bodies *bodies, uint32_t i, double number,
+                                           double *frame)
+{
+    *frame = fmin(fmax(floor(number + 0.5), 1), bodies->frames);
+    return &bodies->recorded[(size_t)(*frame - 1) * bodies->count + i];
+}
+
+mote_quaternion mote_bodies_turn(const mote_bodies *bodies, uint32_t i)
+{
+    const mote_bodies_path *path = &bodies->paths[i];
+    return bodies->recorded
+               ? bodies->recorded[i].turn
+               : mote_quaternion_normalise(mote_quaternion_about(path->axis, path->degrees));
+}
+
+double mote_bodies_deformation(const mote_bodies *bodies, uint32_t i, double number)
+{
+    double frame;
+    if (!bodies->recorded)
+        return bodies->paths[i].time + number;
+    const mote_bodies_record *record = record_at(bodies, i, number, &frame);
+    return record->deformation + (number - frame);
+}
+
+static mote_pose recorded_pose(const mote_bodies *bodies, uint32_t i, double number)
+{
+    double frame;
+    const mote_bodies_record *record = record_at(bodies, i, number, &frame);
+    mote_pose pose = {.rotation = mote_quaternion_matrix(record->turn)};
+    pose.translation = mote_sub(
+        record->middle, mote_rotate(&pose.rotation, shape_of(bodies, i)->motion.centre));
+    return pose;
+}
+
 mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number)
 {
+    if (bodies->recorded)
+        return recorded_pose(bodies, i, number);
     const mote_bodies_path *path = &bodies->paths[i];
     const double passed = number - 1;
     const mote_vec3 place = {
@@ -102,7 +140,7 @@ void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
     if (count == 0)
         return;
     mote_vec3 *w = frame->scratch;
-    mote_motion_displacements(&shape->motion, bodies->paths[i].time + number, w);
+    mote_motion_displacements(&shape->motion, mote_bodies_deformation(bodies, i, number), w);
     if (shape->motion.fit) {
         mote_status status = mote_csrbf_fit_solve(shape->motion.fit, w, w);
         assert(status == MOTE_OK); /* every number of a scenario was range-checked */

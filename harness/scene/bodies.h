@@ -31,6 +31,13 @@ typedef struct mote_bodies_path {
     double time;        /* time offset: the frame of the deformation that is shown at frame 1 */
 } mote_bodies_path;
 
+/* A body at a frame of a motion that was recorded (harness/scene/bodies_poses.h). */
+typedef struct mote_bodies_record {
+    mote_vec3 middle;     /* of the body's box, absolute */
+    mote_quaternion turn; /* of length 1 */
+    double deformation;   /* the frame of its shape's deformation that it shows */
+} mote_bodies_record;
+
 typedef struct mote_bodies {
     char *name, *purpose, *path;
     uint32_t frames;
@@ -41,10 +48,11 @@ typedef struct mote_bodies {
     mote_bodies_shape *shapes;
     uint32_t shape_count;
     uint32_t count;
-    uint32_t *shape_of;      /* [count] */
-    mote_bodies_path *paths; /* [count] */
-    mote_vec3 room;          /* half the edges of the box in which middles stay */
-    mote_vec3 box;           /* half the edges of the box */
+    uint32_t *shape_of;           /* [count] */
+    mote_bodies_path *paths;      /* [count] */
+    mote_bodies_record *recorded; /* [frames][count], or NULL: bodies follow their paths */
+    mote_vec3 room;               /* half the edges of the box in which middles stay */
+    mote_vec3 box;                /* half the edges of the box */
     double near_pairs; /* a body and frame, as found when the box was made; 0: not asked for */
     double near_pairs_wanted; /* 0: the box is given */
 } mote_bodies;
@@ -82,7 +90,14 @@ void mote_bodies_frame_set(const mote_bodies *bodies, double number, mote_bodies
 void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
                         const mote_pose *pose, mote_bodies_frame *frame);
 
-/* The pose of a body on its path. */
+/* The pose of a body on its path, or as it was recorded at the nearest frame. */
 mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number);
+
+/* The turn of a body at frame 1, from rest. */
+mote_quaternion mote_bodies_turn(const mote_bodies *bodies, uint32_t i);
+
+/* The frame of its shape's deformation that a body shows at a frame. After the last frame that
+   was recorded it goes on by a frame a frame. */
+double mote_bodies_deformation(const mote_bodies *bodies, uint32_t i, double number);
 
 #endif

@@ -23,6 +23,13 @@ static uint64_t hash_paths(const mote_bodies *bodies)
         hash = mote_hash_double(mote_hash_double(hash, path->degrees), path->spin);
         hash = mote_hash_double(hash, path->time);
     }
+    const size_t records = bodies->recorded ? (size_t)bodies->frames * bodies->count : 0;
+    for (size_t r = 0; r < records; ++r) {
+        const mote_bodies_record *record = &bodies->recorded[r];
+        hash = mote_hash_double(hash_vec3(hash, record->middle), record->deformation);
+        hash = mote_hash_double(mote_hash_double(hash, record->turn.w), record->turn.x);
+        hash = mote_hash_double(mote_hash_double(hash, record->turn.y), record->turn.z);
+    }
     return hash;
 }
 

@@ -58,14 +58,19 @@ static void place_body(placing *p, uint32_t i)
 }
 
 /* The box of these half edges, and what is left of it for the bodies' middles. */
-static void set_box(placing *p, mote_vec3 half)
+static void set_room(mote_bodies *b, mote_vec3 half)
 {
-    mote_bodies *b = p->bodies;
     double radius = 0;
     for (uint32_t s = 0; s < b->shape_count; ++s)
         radius = fmax(radius, b->shapes[s].radius);
     b->box = half;
     b->room = mote_sub(half, mote_vec3_make(radius, radius, radius));
+}
+
+static void set_box(placing *p, mote_vec3 half)
+{
+    const mote_bodies *b = p->bodies;
+    set_room(p->bodies, half);
     for (uint32_t i = 0; i < b->count; ++i)
         place_body(p, i);
 }
@@ -252,6 +257,10 @@ static mote_status prepare(placing *p)
 
 mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish)
 {
+    if (bodies->recorded) { /* as they were when they were recorded */
+        set_room(bodies, mote_scale(wish->box, bodies->length / 2));
+        return MOTE_OK;
+    }
     placing p = {.bodies = bodies, .wish = wish, .random = {wish->seed}};
     mote_status status = prepare(&p);
     if (status == MOTE_OK && wish->near_pairs > 0)

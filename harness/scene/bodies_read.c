@@ -1,7 +1,9 @@
 /* A scenario file of several bodies. */
 #include "harness/scene/bodies_place.h"
+#include "harness/scene/bodies_poses.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/scene/fence.h"
 #include "harness/scene/scenario_read.h"
 #include "harness/scene/spread.h"
 
@@ -109,6 +111,27 @@ static mote_status read_optional(const mote_json *node, const char *name, double
     return key.value ? mote_json_real(&key, 0, maximum, value) : MOTE_OK;
 }
 
+/* "poses": the file of a recorded motion. */
+static mote_status read_poses(const mote_json_file *file, const mote_json *node,
+                              mote_bodies *bodies)
+{
+    mote_json key = mote_json_member(node, "poses");
+    const char *name;
+    if (!key.value)
+        return MOTE_OK;
+    if (!mote_json_member(node, "box").value)
+        return mote_json_fail(&key, "poses go with a box, not with near_pairs");
+    mote_status status = mote_json_string(&key, &name);
+    if (status != MOTE_OK)
+        return status;
+    char *path = mote_path_beside(file->path, name);
+    status = mote_fence_check(file->path, path);
+    if (status == MOTE_OK)
+        status = mote_bodies_poses_read(path, bodies);
+    free(path);
+    return mote_json_blame(&key, status);
+}
+
 static mote_status read_wish(const mote_json *node, mote_bodies *bodies, mote_bodies_wish *wish)
 {
     int64_t seed = 1;
@@ -162,8 +185,8 @@ static mote_status read_bodies(const mote_json_file *file, mote_bodies *bodies)
     mote_bodies_wish wish = {0};
     mote_status status = read_facts(file, bodies);
     if (status == MOTE_OK)
-        status =
-            mote_json_object(&node, "count|seed|shapes|near|near_pairs|box|places|speed|spin");
+        status = mote_json_object(
+            &node, "count|seed|shapes|near|near_pairs|box|places|speed|spin|poses");
     if (status == MOTE_OK)
         status = read_shapes(&node, bodies);
     bodies->tolerance *= bodies->length;
@@ -171,6 +194,8 @@ static mote_status read_bodies(const mote_json_file *file, mote_bodies *bodies)
         status = read_count(&node, bodies);
     if (status == MOTE_OK)
         status = read_wish(&node, bodies, &wish);
+    if (status == MOTE_OK)
+        status = read_poses(file, &node, bodies);
     if (status == MOTE_OK)
         status = mote_json_blame(&node, mote_bodies_place(bodies, &wish));
     free(wish.places);

@@ -48,22 +48,28 @@ static char *base_path(const char *path, const char *name)
                                          : mote_catalog_path(name);
 }
 
-/* Meshes are named from the folder of the file that names them. path: of the other scenario,
-   absolute or as seen from this one's folder. */
-static bool move_meshes(json_t *root, const char *path)
+/* Makes a name that is seen from the folder of the file at path one that includes path. False
+   for a path that is not UTF-8. */
+static bool move_name(json_t *object, const char *key, const char *path)
+{
+    const char *name = json_string_value(json_object_get(object, key));
+    if (!name)
+        return true;
+    char *moved = mote_path_beside(path, name);
+    const bool set = json_object_set_new(object, key, json_string(moved)) == 0;
+    free(moved);
+    return set;
+}
+
+/* Meshes and poses are named from the folder of the file that names them. path: of the other
+   scenario, absolute or as seen from this one's folder. */
+static bool move_files(json_t *root, const char *path)
 {
     json_t *bodies = json_object_get(root, "bodies");
     json_t *list = json_is_object(bodies) ? json_object_get(bodies, "shapes") : bodies;
-    bool moved = true;
-    for (size_t i = 0; i < json_array_size(list) && moved; ++i) {
-        json_t *body = json_array_get(list, i);
-        const char *file = json_string_value(json_object_get(body, "file"));
-        if (!file)
-            continue;
-        char *moved_file = mote_path_beside(path, file);
-        moved = json_object_set_new(body, "file", json_string(moved_file)) == 0;
-        free(moved_file);
-    }
+    bool moved = move_name(bodies, "poses", path);
+    for (size_t i = 0; i < json_array_size(list) && moved; ++i)
+        moved = move_name(json_array_get(list, i), "file", path);
     return moved;
 }
 
@@ -74,7 +80,7 @@ static mote_status open_base(const mote_json_file *file, const char *name, mote_
     if (status == MOTE_OK)
         status = mote_json_open(path, base);
     if (status == MOTE_OK &&
-        !move_meshes(base->root, mote_name_ends(name, ".json") ? name : path)) {
+        !move_files(base->root, mote_name_ends(name, ".json") ? name : path)) {
         mote_json_close(base);
         status = mote_fail(MOTE_EINVAL, "%s: its path is not UTF-8; rename the folder", path);
     }

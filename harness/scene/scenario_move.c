@@ -109,6 +109,8 @@ static mote_status move_mesh(const mote_json_file *file, json_t *body, size_t nu
 mote_status mote_scenario_move(mote_json_file *file, const char *to)
 {
     json_t *bodies = json_object_get(file->root, "bodies");
+    if (json_is_object(bodies)) /* more than two: their shapes have the meshes */
+        bodies = json_object_get(bodies, "shapes");
     if (same_folder(file, to))
         return MOTE_OK;
     json_t *first = json_array_get(bodies, 0);

@@ -138,7 +138,7 @@ static const command_line bad_lines[] = {
     {"simulate s.json --method certified --tolerance 0.1.2", 2, "--tolerance 0.1.2: give"},
     {"simulate s.json --method certified --restitution -0.5", 4, "restitution -0.5"},
     {"simulate s.json --method certified --gravity 1e200,0,0", 2, "--gravity 1e200,0,0"},
-    {"simulate b.json --method certified --trace x.json", 2, "is for two bodies"},
+    {"simulate b.json --method certified --steps 2 --trace /dev/null", 4, "name a file"},
 };
 
 TEST(commands_with_a_bad_line_say_so_in_one_line_and_leave_nothing)

@@ -12,6 +12,8 @@
 
 #define FILE_NAME "b.json"
 #define FILM "film.gif"
+#define TRACE "trace.json"
+#define HEAD "frame,body,deformation,x,y,z,qw,qx,qy,qz\n"
 
 static void write_file(const char *bodies)
 {
@@ -149,8 +151,6 @@ TEST(mote_simulate_several_bodies_on_the_command_line)
     mote_expect(0, "8 bodies, 3 steps", "simulate " FILE_NAME " --method certified --steps 3");
     mote_expect(4, "no form for several bodies", "simulate " FILE_NAME " --method brute-force");
     mote_expect(4, "give n=", "simulate " FILE_NAME " --method particle");
-    mote_expect(2, "for two bodies",
-                "simulate " FILE_NAME " --method certified --trace x.json");
     mote_expect(4, "contact tolerance",
                 "simulate " FILE_NAME " --method certified --tolerance 0.2");
     mote_expect(4, "time step", "simulate " FILE_NAME " --method certified --time-step 0");
@@ -159,6 +159,66 @@ TEST(mote_simulate_several_bodies_on_the_command_line)
     write_file("\"count\": 2, \"box\": 4, \"shapes\": [{\"file\": \"" MOTE_SOURCE_DIR
                "/datasets/meshes/teapot.obj\"}]");
     mote_expect(4, "shape 1 cannot respond", "simulate " FILE_NAME " --method certified");
+}
+
+/* The number after a key in what was said. */
+static double number_of(const char *key)
+{
+    const char *found = strstr(said, key);
+    assert_non_null(found);
+    return strtod(found + strlen(key), NULL);
+}
+
+/* Replayed as a scenario, certified finds the contacts that the simulation counted. */
+TEST(mote_simulate_traces_of_several_bodies_are_scenarios)
+{
+    write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
+    mote_expect(0, "",
+                "simulate " FILE_NAME " --method certified --steps 50 --time-step 1.5 "
+                "--json --trace " TRACE);
+    const double contacts = number_of("\"contact_steps\": "),
+                 near = number_of("near_pairs\": ");
+    assert_true(contacts > 0);
+    mote_expect(0, "\"bodies\": 10", "check " TRACE " --json");
+    assert_close(number_of("\"frames\": "), 51, 0);
+    assert_close(number_of("\"pair_contacts\": "), contacts, 0);
+    assert_close(number_of("\"near_pairs\": "), near, 1e-12 * near);
+    mote_expect(0, "10 bodies", "run " TRACE " --method certified --replicates 1 --out traced");
+    /* Another one, elsewhere, may be like it: the poses are still found. */
+    static const char like[] = "{\"purpose\": \"a test\", \"like\": \"../" TRACE "\"}\n";
+    assert_int_equal(mote_directory_make("other"), MOTE_OK);
+    assert_int_equal(mote_file_write("other/like.json", like, strlen(like)), MOTE_OK);
+    mote_expect(0, "10 bodies, 51 frames", "--allow . check other/like.json");
+    /* It goes on from there as it began. */
+    mote_expect(0, "10 bodies, 3 steps", "simulate " TRACE " --method certified --steps 3");
+}
+
+/* A file of poses that is not whole, or is another's, is refused with its line. */
+TEST(mote_bodies_load_poses_that_are_wrong_are_refused)
+{
+    static const char *const cases[][2] = {
+        {"", "p.csv:1: not the columns"},
+        {HEAD "1,1,1,0,0,0,1,0,0,0\n", "p.csv:3: not a pose; expected frame 1, body 2"},
+        {HEAD "1,1,1,0,0,0,0,0,0,0\n", "p.csv:2: not a pose"},
+        {HEAD "1,1,1,0,0,1e9,1,0,0,0\n", "p.csv:2: not a pose"},
+        {HEAD "1,1,1,0,0,0,1,0,0,0\n1,2,1,3,0,0,1,0,0,0\n1,3,1,0,0,0,1,0,0,0\n",
+         "p.csv:4: more rows than 1 frames of 2 bodies"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        char *text = mote_format("{\"purpose\": \"a test\", \"frames\": 1, \"ask\": "
+                                 "\"distance\", \"bodies\": {\"count\": 2, \"box\": 9, "
+                                 "\"poses\": \"p.csv\", %s}}\n",
+                                 LETTERS);
+        assert_int_equal(mote_file_write(FILE_NAME, text, strlen(text)), MOTE_OK);
+        assert_int_equal(mote_file_write("p.csv", cases[k][0], strlen(cases[k][0])), MOTE_OK);
+        mote_expect(4, cases[k][1], "check " FILE_NAME);
+        free(text);
+    }
+    write_file("\"count\": 2, \"near_pairs\": 1, \"poses\": \"p.csv\", " LETTERS);
+    mote_expect(4, "poses go with a box", "check " FILE_NAME);
+    /* Somebody else's scenario reads no other file. */
+    write_file("\"count\": 2, \"box\": 9, \"poses\": \"/etc/passwd\", " LETTERS);
+    mote_expect(4, "--allow", "check " FILE_NAME);
 }
 
 /* Pictures of eight bodies, also where a contact is reported. */
