@@ -6,6 +6,7 @@
 #include "harness/base/json_memory.h"
 #include "harness/base/options.h"
 #include "tests/support/diamond.h"
+#include "tests/support/folder.h"
 #include "tests/faults/fault_points.h"
 
 #include <setjmp.h>
@@ -20,8 +21,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-static char base[] = "/tmp/mote-faults-XXXXXX";
 
 #define FIELD                                                                                  \
     "\"field\": {\"count\": 3, \"support\": 0.7, \"displacement\": {\"random\": {\"seed\": "   \
@@ -62,19 +61,6 @@ static int run_line(void *context)
         argv[argc++] = word;
     argv[argc] = NULL;
     return l->run(argc, argv);
-}
-
-static int remove_one(const char *path, const struct stat *info, int type, struct FTW *place)
-{
-    (void)info;
-    (void)type;
-    (void)place;
-    return remove(path);
-}
-
-static void remove_tree(const char *path)
-{
-    (void)nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
 /* What is wrong with the files that were left, or "". A process that ended at once may leave a
@@ -165,7 +151,7 @@ static int faults, lines;
 
 static void clean(void)
 {
-    remove_tree("out");
+    (void)folder_remove("out");
 }
 
 /* Runs the line with its k-th call failing. */
@@ -257,10 +243,10 @@ bool fault_lines_write(const char *name, const char *text)
 
 bool fault_lines_open(void)
 {
-    char path[64];
+    char path[160];
     mote_json_use_memory();
-    if (!mkdtemp(base) || chdir(base) != 0 || mkdir("bin", 0700) != 0 ||
-        snprintf(path, sizeof path, "%s/bin", base) < 0 || setenv("PATH", path, 1) != 0)
+    if (mkdir("bin", 0700) != 0 || snprintf(path, sizeof path, "%s/bin", folder_path()) < 0 ||
+        setenv("PATH", path, 1) != 0)
         return false;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; ++i) {
         if (mote_file_write(files[i].name, files[i].text, strlen(files[i].text)) != MOTE_OK ||
@@ -272,8 +258,8 @@ bool fault_lines_open(void)
 
 bool fault_lines_install(void)
 {
-    static char program[sizeof base + 16];
-    (void)snprintf(program, sizeof program, "%s/bin/mote", base);
+    static char program[160];
+    (void)snprintf(program, sizeof program, "%s/bin/mote", folder_path());
     fault_points_be(program);
     return mkdir("share", 0700) == 0 && mkdir("share/mote", 0700) == 0 &&
            mkdir("share/mote/page", 0700) == 0 && mkdir("share/mote/datasets", 0700) == 0 &&
@@ -284,7 +270,6 @@ bool fault_lines_install(void)
 
 int fault_lines_close(void)
 {
-    remove_tree(base);
     printf("%d calls of %d command lines failed, were interrupted or did a part\n", faults,
            lines);
     return 0;

@@ -21,8 +21,8 @@ typedef struct fault_line {
 #command rest, mote_command_##command, status                                          \
     }
 
-/* Makes a new directory the working one, with meshes (a.obj), scenarios (s.json, b.json) and
-   programs that stand for gnuplot, valgrind and git. */
+/* Fills the working directory with meshes (a.obj), scenarios (s.json, b.json) and programs that
+ * stand for gnuplot, valgrind and git. */
 bool fault_lines_open(void);
 int fault_lines_close(void); /* a test group's end */
 

@@ -5,6 +5,7 @@
 #include "harness/base/file.h"
 #include "harness/base/method_choice.h"
 #include "tests/faults/failing.h"
+#include "tests/support/folder.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -120,19 +121,11 @@ TEST(mesh_create_when_an_allocation_fails_says_so)
     mote_mesh_destroy(like);
 }
 
-static char folder[] = "/tmp/mote-faults-XXXXXX";
-
-static bool exists(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0;
-}
-
 TEST(file_read_of_more_than_the_limit_says_both)
 {
-    char path[128], *text = NULL;
+    static const char path[] = "./file";
+    char *text = NULL;
     size_t size = 77;
-    (void)snprintf(path, sizeof path, "%s/file", folder);
     assert_int_equal(mote_file_write(path, "12345", 5), MOTE_OK);
     assert_int_equal(mote_file_read(path, 4, &text, &size), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), path));
@@ -148,22 +141,18 @@ TEST(file_read_of_more_than_the_limit_says_both)
 
 TEST(directory_make_of_what_cannot_be_one_says_so)
 {
-    char path[128];
     assert_int_equal(mote_directory_make(""), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "name a directory that can be written to"));
-    (void)snprintf(path, sizeof path, "%s/file", folder);
-    assert_int_equal(mote_file_write(path, "12345", 5), MOTE_OK);
-    (void)snprintf(path, sizeof path, "%s/file/a/b/c", folder);
-    assert_int_equal(mote_directory_make(path), MOTE_EIO);
+    assert_int_equal(mote_file_write("file", "12345", 5), MOTE_OK);
+    assert_int_equal(mote_directory_make("./file/a/b/c"), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "/file: cannot be made: Not a directory"));
-    (void)snprintf(path, sizeof path, "%s/file", folder);
-    assert_int_equal(remove(path), 0);
+    assert_int_equal(remove("file"), 0);
 }
 
 TEST(file_write_when_a_step_fails_leaves_the_file_whole)
 {
-    char path[128], beside[160];
-    (void)snprintf(path, sizeof path, "%s/file", folder);
+    static const char path[] = "file";
+    char beside[32];
     (void)snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid());
     assert_int_equal(mote_file_write(path, "old", 3), MOTE_OK);
     for (long n = 0;; ++n) {
@@ -171,7 +160,7 @@ TEST(file_write_when_a_step_fails_leaves_the_file_whole)
         const mote_status status = mote_file_write(path, "new!", 4);
         const bool failed = writes_left < 0;
         writes_left = never;
-        assert_false(exists(beside));
+        assert_false(file_exists(beside));
         char *text = NULL;
         size_t size;
         assert_int_equal(mote_file_read(path, 100, &text, &size), MOTE_OK);
@@ -196,19 +185,18 @@ static void plant_leak(void)
         lost[0] = 1;
 }
 
-static int make_folder(void)
+static int plant(void)
 {
     if (getenv("MOTE_PLANT_LEAK"))
         plant_leak();
-    return mkdtemp(folder) ? 0 : -1;
+    return 0;
 }
 
-static int remove_folder(void)
+static int tell_calls(void)
 {
-    (void)rmdir(folder);
     printf("%ld calls failed\n", calls_failed);
     (void)fflush(stdout); /* LeakSanitizer ends without */
     return 0;
 }
 
-TEST_GROUP(make_folder, remove_folder);
+TEST_GROUP(plant, tell_calls);

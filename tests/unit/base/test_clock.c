@@ -1,9 +1,9 @@
 /* The wall clock is set back and forth by years while a run measures
    (tests/support/clock_steps.c): its times come from a steady clock, its records are valid, and
    it is not led to measure again. */
-#define _DEFAULT_SOURCE /* mkdtemp, setenv */
+#define _DEFAULT_SOURCE /* setenv */
 #include "harness/base/record.h"
-#include "tests/support/program.h"
+#include "tests/support/mote.h"
 #include "tests/support/run_files.h"
 #include "tests/support/test.h"
 
@@ -17,25 +17,6 @@ enum { FRAMES = 40, CELLS = 6, TIMES = 3 /* columns: deform, update, query */ };
     "run tt --frames 1-40 --stride 1 --replicates 3 --method aabb-tree "                       \
     "--method particle-paper:n=2 --out"
 
-static char base[] = "/tmp/mote-test-clock-XXXXXX";
-static char directory[64], said[64], text[1 << 14];
-
-static int make_base(void)
-{
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(directory, sizeof directory, "%s/run", base);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    return 0;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
-
 static double steady_seconds(void)
 {
     struct timespec now;
@@ -43,19 +24,16 @@ static double steady_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* mote WHAT DIRECTORY under the unsteady clock; *seconds: how long it took. */
+/* mote WHAT run under the unsteady clock; *seconds: how long it took. */
 static int run(const char *what, double *seconds)
 {
-    char line[512];
-    (void)snprintf(line, sizeof line, "%s %s", what, directory);
     assert_int_equal(setenv("LD_PRELOAD", MOTE_CLOCK_STEPS, 1), 0);
     /* It comes before AddressSanitizer, which minds. */
     assert_int_equal(setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1), 0);
     const double from = steady_seconds();
-    const int status = program_wait(program_start(line, said));
+    const int status = mote("%s run", what);
     *seconds = steady_seconds() - from;
     assert_int_equal(unsetenv("LD_PRELOAD"), 0);
-    program_read(said, text, sizeof text);
     return status;
 }
 
@@ -89,7 +67,7 @@ TEST(run_while_the_clock_is_set_has_steady_times)
     double seconds, sum = 0;
     assert_int_equal(run(SWEEP, &seconds), 0);
     run_files finished = {0};
-    const char *wrong = run_files_check(directory, FRAMES, &finished);
+    const char *wrong = run_files_check("run", FRAMES, &finished);
     if (wrong)
         fail_msg("%s", wrong);
     assert_int_equal(finished.count, CELLS);
@@ -105,7 +83,7 @@ TEST(run_while_the_clock_is_set_has_steady_times)
     assert_true(sum > 0 && sum <= seconds * 1e9);
     /* Going on: nothing is measured again, whatever the dates say. */
     assert_int_equal(run(SWEEP, &seconds), 0);
-    assert_null(run_files_check(directory, FRAMES, &finished));
+    assert_null(run_files_check("run", FRAMES, &finished));
     assert_int_equal(finished.count, CELLS);
     run_files_free(&finished);
     assert_int_equal(run("summarize", &seconds), 0);
@@ -116,7 +94,7 @@ TEST(run_while_the_clock_is_set_has_steady_times)
 TEST(run_while_the_clock_is_set_writes_the_dates_it_reads)
 {
     json_t *manifest = NULL;
-    assert_int_equal(mote_record_read_json(directory, "manifest.json", &manifest), MOTE_OK);
+    assert_int_equal(mote_record_read_json("run", "manifest.json", &manifest), MOTE_OK);
     const json_t *sessions = json_object_get(manifest, "sessions");
     assert_int_equal(json_array_size(sessions), 2);
     const time_t now = time(NULL);

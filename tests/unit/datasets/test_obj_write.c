@@ -1,5 +1,6 @@
 #include "datasets/letter.h"
 #include "datasets/obj_write.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <math.h>
@@ -12,24 +13,20 @@
 #include <unistd.h>
 
 /* Made for each test. */
-static char folder[64], path[96], partial[128];
+static const char path[] = "v.obj";
+static char partial[32];
 static mote_mesh *mesh;
 
 static int set_up(void)
 {
-    (void)snprintf(folder, sizeof folder, "/tmp/mote-obj-XXXXXX");
-    if (!mkdtemp(folder) || mote_letter_create('V', 400, &mesh) != MOTE_OK)
-        return -1;
-    (void)snprintf(path, sizeof path, "%s/v.obj", folder);
     (void)snprintf(partial, sizeof partial, "%s.%ld.partial", path, (long)getpid());
-    return 0;
+    return folder_next() || mote_letter_create('V', 400, &mesh) != MOTE_OK;
 }
 
 static int tear_down(void)
 {
     mote_mesh_destroy(mesh);
-    (void)remove(path);
-    return rmdir(folder); /* fails when a partial file is left behind */
+    return folder_count(".", "") > 1; /* a partial file is left behind */
 }
 
 TEST_EACH(set_up, tear_down);

@@ -1,11 +1,12 @@
 /* Children that crash, hang, say rubbish or too much; that are confined; and files that a
    scenario may not name. */
-#define _DEFAULT_SOURCE /* mkdtemp, symlink */
+#define _DEFAULT_SOURCE /* symlink */
 #include "harness/process/child.h"
 #include "harness/process/confine.h"
 #include "harness/base/file.h"
 #include "harness/process/spawn.h"
 #include "harness/scene/fence.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <fcntl.h>
@@ -18,8 +19,6 @@
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-static char folder[] = "/tmp/mote-child-XXXXXX";
 
 static const mote_child_limits limits = {.seconds = 20, .output_bytes = 1 << 16};
 
@@ -264,9 +263,9 @@ static mote_status attempt(void *context, int output)
 
 TEST(run_of_a_confined_child_changes_no_file)
 {
-    char path[64];
-    (void)snprintf(path, sizeof path, "%s/kept", folder);
-    assert_int_equal(mote_file_write(path, "kept", 4), MOTE_OK);
+    char path[160];
+    (void)snprintf(path, sizeof path, "%s/kept", folder_path());
+    file_put(path, "kept");
     mote_child_limits confined = limits;
     confined.confined = true;
     char *output = NULL;
@@ -281,37 +280,28 @@ TEST(run_of_a_confined_child_changes_no_file)
     assert_false(a.wrote);
     if (a.landlock)
         assert_false(a.made || a.opened || a.removed || a.renamed);
-    char *text = NULL;
-    assert_int_equal(mote_file_read(path, 100, &text, &size), MOTE_OK);
+    char *text = file_text(path);
     assert_string_equal(text, "kept");
     free(text);
 }
 
-static void make_file(const char *name)
-{
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-    assert_int_equal(mote_file_write(path, "v 0 0 0\n", 8), MOTE_OK);
-}
-
 static mote_status check(const char *scenario, const char *file)
 {
-    char from[128], to[128];
-    (void)snprintf(from, sizeof from, "%s/%s", folder, scenario);
-    (void)snprintf(to, sizeof to, "%s/%s", folder, file);
+    char from[256], to[256];
+    (void)snprintf(from, sizeof from, "%s/%s", folder_path(), scenario);
+    (void)snprintf(to, sizeof to, "%s/%s", folder_path(), file);
     return mote_fence_check(from, to);
 }
 
 TEST(reach_check_of_files_outside_is_an_error_until_allowed)
 {
-    char inner[64], outside[64], link[64];
-    (void)snprintf(inner, sizeof inner, "%s/inner", folder);
-    (void)snprintf(outside, sizeof outside, "%s/outside.obj", folder);
-    (void)snprintf(link, sizeof link, "%s/inner/link.obj", folder);
-    assert_int_equal(mkdir(inner, 0700), 0);
-    make_file("inner/a.json");
-    make_file("inner/mesh.obj");
-    make_file("outside.obj");
+    char inner[160], outside[160], link[160];
+    (void)snprintf(inner, sizeof inner, "%s/inner", folder_path());
+    (void)snprintf(outside, sizeof outside, "%s/outside.obj", folder_path());
+    (void)snprintf(link, sizeof link, "%s/inner/link.obj", folder_path());
+    file_put("inner/a.json", "v 0 0 0\n");
+    file_put("inner/mesh.obj", "v 0 0 0\n");
+    file_put("outside.obj", "v 0 0 0\n");
     assert_int_equal(symlink(outside, link), 0);
     assert_int_equal(check("inner/a.json", "inner/mesh.obj"), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/../inner/mesh.obj"), MOTE_OK);
@@ -327,7 +317,7 @@ TEST(reach_check_of_files_outside_is_an_error_until_allowed)
     assert_int_equal(mote_fence_check(inner, MOTE_SOURCE_DIR "/datasets/meshes/box.obj"),
                      MOTE_OK);
     assert_int_equal(mote_fence_allow("/nowhere/at/all"), MOTE_EIO);
-    assert_int_equal(mote_fence_allow(folder), MOTE_OK);
+    assert_int_equal(mote_fence_allow(folder_path()), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/../outside.obj"), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_OK);
     assert_int_equal(mote_fence_check(inner, "/etc/passwd"), MOTE_EINVAL);
@@ -339,23 +329,3 @@ TEST(reach_check_of_files_outside_is_an_error_until_allowed)
     assert_non_null(strstr(mote_error_text(), "16 folders are allowed at most"));
     assert_int_equal(mote_fence_check("/a.json", "/etc/passwd"), MOTE_OK);
 }
-
-static int make_folder(void)
-{
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void)
-{
-    char path[128];
-    static const char *const names[] = {
-        "kept",           "kept-other", "inner/a.json", "inner/mesh.obj",
-        "inner/link.obj", "inner",      "outside.obj",  ""};
-    for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
-        (void)snprintf(path, sizeof path, "%s/%s", folder, names[k]);
-        (void)remove(path);
-    }
-    return 0;
-}
-
-TEST_GROUP(make_folder, remove_folder);

@@ -1,6 +1,8 @@
 #include "harness/run/cell_process.h"
 #include "harness/base/record.h"
+#include "tests/support/folder.h"
 #include "tests/support/measured_cell.h"
+#include "tests/support/mote.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
@@ -16,74 +18,32 @@
     "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error,contact,contact_truth,"     \
     "ax,ay,az,bx,by,bz,steps,moves,positions,box_tests,triangle_tests,allocations"
 
-/* A new directory for each test. */
-static char base[] = "/tmp/mote-test-run-XXXXXX";
-static int directories;
-static char directory[64], said[64], text[1 << 16];
-
-static int make_base(void)
-{
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-/* Names a directory that is not there. */
-static int bare_directory(void)
-{
-    (void)snprintf(directory, sizeof directory, "%s/%d", base, directories);
-    (void)snprintf(said, sizeof said, "%s/said-%d", base, directories);
-    ++directories;
-    return 0;
-}
-
-/* Makes a directory that shares the truth with all others: it is computed once. */
+/* Each test's own folder shares the truth with all others: it is computed once. */
 static int next_directory(void)
 {
-    char truth[64], link[96];
-    (void)bare_directory();
-    (void)snprintf(truth, sizeof truth, "%s/truth", base);
-    (void)snprintf(link, sizeof link, "%s/truth", directory);
+    char truth[160];
+    (void)snprintf(truth, sizeof truth, "%s/truth", folder_path());
     (void)mkdir(truth, 0777);
-    return mkdir(directory, 0777) || symlink(truth, link);
+    return folder_next() || symlink(truth, "truth");
 }
 
-TEST_GROUP(make_base, remove_base);
 TEST_EACH(next_directory, NULL);
 
-/* mote run ARGUMENTS --out directory */
+/* mote run ARGUMENTS into the test's folder. */
 static int run(const char *arguments)
 {
-    char line[1024];
-    (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
-    int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
+    return mote("run %s --out .", arguments);
 }
 
 static int count_cells(const char *ending)
 {
-    char path[96];
-    (void)snprintf(path, sizeof path, "%s/cells", directory);
-    DIR *folder = opendir(path);
-    int count = 0;
-    for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry;
-         entry = readdir(folder)) {
-        size_t length = strlen(entry->d_name), end = strlen(ending);
-        count += length > end && strcmp(entry->d_name + length - end, ending) == 0;
-    }
-    if (folder)
-        (void)closedir(folder);
-    return count;
+    return folder_count("cells", ending);
 }
 
 static json_t *read_json(const char *name)
 {
     json_t *object = NULL;
-    assert_int_equal(mote_record_read_json(directory, name, &object), MOTE_OK);
+    assert_int_equal(mote_record_read_json(".", name, &object), MOTE_OK);
     return object;
 }
 
@@ -107,14 +67,12 @@ TEST(run_of_two_methods_leaves_a_cell_each_replicate)
 /* The path of some CSV file of the run. */
 static void find_csv(char *path, size_t size)
 {
-    char folder_path[96];
-    (void)snprintf(folder_path, sizeof folder_path, "%s/cells", directory);
-    DIR *folder = opendir(folder_path);
+    DIR *folder = opendir("cells");
     assert_non_null(folder);
     path[0] = '\0';
     for (const struct dirent *entry = readdir(folder); entry; entry = readdir(folder)) {
         if (strstr(entry->d_name, ".csv"))
-            (void)snprintf(path, size, "%s/%s", folder_path, entry->d_name);
+            (void)snprintf(path, size, "cells/%s", entry->d_name);
     }
     (void)closedir(folder);
     assert_true(path[0] != '\0');
@@ -133,7 +91,7 @@ TEST(run_writes_rows_with_the_columns_of_the_contract)
     assert_int_equal(run("mv --frames 3-12 --replicates 1 --stride 1 --method fcl-aabb"), 0);
     char path[512];
     find_csv(path, sizeof path);
-    program_read(path, text, sizeof text);
+    char *text = file_text(path);
     assert_memory_equal(text, COLUMNS, strlen(COLUMNS));
     int fields = count_fields(text), rows = 0;
     for (const char *line = strchr(text, '\n') + 1; *line; line = strchr(line, '\n') + 1) {
@@ -142,8 +100,9 @@ TEST(run_writes_rows_with_the_columns_of_the_contract)
         ++rows;
     }
     assert_int_equal(rows, 10);
-    assert_null(strstr(text, "nan"));
-    assert_null(strstr(text, "inf"));
+    assert_null(strstr(said, "nan"));
+    assert_null(strstr(said, "inf"));
+    free(text);
 }
 
 TEST(run_summary_has_a_row_a_configuration)
@@ -187,7 +146,7 @@ TEST(run_again_measures_nothing_again)
     struct timespec pause = {1, 100000000};
     (void)nanosleep(&pause, NULL);
     assert_int_equal(run("tt --frames 1-4 --replicates 1 --method fcl-aabb"), 0);
-    assert_non_null(strstr(text, "1 of them done"));
+    assert_non_null(strstr(said, "1 of them done"));
     assert_int_equal(newest_cell(), before);
     assert_int_equal(run("tt --frames 1-5 --replicates 1 --method fcl-aabb"), 0);
     assert_int_equal(count_cells(".json"), 2);
@@ -196,7 +155,7 @@ TEST(run_again_measures_nothing_again)
 TEST(run_with_a_sweep_makes_every_combination)
 {
     assert_int_equal(run("tt --frames 1-4 --replicates 1 --particles 1,3-4 --method "
-                         "particle-paper:law=log|inverse,start=random|fps"),
+                         "'particle-paper:law=log|inverse,start=random|fps'"),
                      0);
     assert_int_equal(count_cells(".json"), 12);
 }
@@ -205,7 +164,7 @@ TEST(run_with_jobs_marks_times_as_not_comparable)
 {
     assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 --jobs 3 " TWO_METHODS),
                      0);
-    assert_non_null(strstr(text, "times not comparable: 3 cells at once"));
+    assert_non_null(strstr(said, "times not comparable: 3 cells at once"));
     assert_int_equal(count_cells(".json"), 6);
     json_t *summary = read_json("summary.json");
     assert_true(json_is_null(json_object_get(summary, "noise_floor")));
@@ -260,26 +219,22 @@ TEST(run_until_an_interval_is_narrow_adds_replicates)
     assert_int_equal(run(UNTIL "--until-ci 100% --budget 60"), 0);
     double widest = widest_interval(&replicates);
     assert_true(replicates >= 2 && widest <= 1);
-    assert_non_null(strstr(text, "the widest interval is"));
+    assert_non_null(strstr(said, "the widest interval is"));
     /* Nothing is narrow enough: one more round or none, for a budget of 0. */
     assert_int_equal(run(UNTIL "--until-ci 0.001% --budget 0"), 0);
-    assert_non_null(strstr(text, "the budget ends"));
+    assert_non_null(strstr(said, "the budget ends"));
 }
 
 static void refused(const char *arguments, int status, const char *part)
 {
-    assert_int_equal(run(arguments), status);
-    assert_memory_equal(text + (strstr(text, "mote: ") ? strstr(text, "mote: ") - text : 0),
-                        "mote: ", 6);
-    if (!strstr(text, part))
-        fail_msg("%s: %s does not name %s", arguments, text, part);
-    struct stat info;
-    assert_int_not_equal(stat(directory, &info), 0);
+    mote_expect(status, part, "run %s --out none", arguments);
+    const char *error = strstr(said, "mote: ");
+    assert_memory_equal(error ? error : said, "mote: ", 6);
+    assert_false(file_exists("none"));
 }
 
 TEST(run_with_bad_input_says_what_and_writes_nothing)
 {
-    assert_int_equal(bare_directory(), 0);
     refused("no-such-scenario", 4, "no-such-scenario");
     refused("/no/such/file.json", 4, "/no/such/file.json");
     refused("tt --method no-such-method", 4, "no-such-method");
@@ -294,7 +249,6 @@ TEST(run_with_bad_input_says_what_and_writes_nothing)
 
 TEST(run_with_bad_usage_says_what_is_expected)
 {
-    assert_int_equal(bare_directory(), 0);
     refused("", 2, "no scenario");
     refused("tt --no-such-option", 2, "--no-such-option");
     refused("tt --replicates 0", 2, "--replicates 0");
@@ -309,24 +263,17 @@ TEST(run_with_bad_usage_says_what_is_expected)
 
 TEST(run_into_an_impossible_directory_is_bad_input)
 {
-    assert_int_equal(bare_directory(), 0);
-    int status = program_wait(
-        program_start("run tt --frames 1-2 --method fcl-aabb --out /dev/null/run", said));
-    program_read(said, text, sizeof text);
-    assert_int_equal(status, 4);
-    assert_non_null(strstr(text, "/dev/null"));
+    mote_expect(4, "/dev/null", "run tt --frames 1-2 --method fcl-aabb --out /dev/null/run");
 }
 
 TEST(run_into_a_locked_directory_is_refused)
 {
-    char path[96];
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
-    (void)snprintf(path, sizeof path, "%s/.lock", directory);
-    int lock = open(path, O_RDWR);
+    int lock = open(".lock", O_RDWR);
     assert_true(lock >= 0);
     assert_int_equal(flock(lock, LOCK_EX | LOCK_NB), 0);
     assert_int_equal(run("tt --frames 1-3 --replicates 1 --method fcl-aabb"), 4);
-    assert_non_null(strstr(text, "another run"));
+    assert_non_null(strstr(said, "another run"));
     (void)close(lock);
     assert_int_equal(count_cells(".json"), 1);
 }
@@ -345,9 +292,9 @@ TEST(run_killed_at_any_time_goes_on_without_loss)
 {
     const char *arguments = "tt --frames 1-200 --replicates 4 " TWO_METHODS;
     char line[512];
-    (void)snprintf(line, sizeof line, "run %s --out %s", arguments, directory);
+    (void)snprintf(line, sizeof line, "run %s --out .", arguments);
     for (long k = 1; k <= 8; ++k) {
-        pid_t pid = program_start(line, said);
+        pid_t pid = program_start(line, "said");
         assert_true(pid > 0); /* kill would take -1 for every process */
         struct timespec pause = {0, k * 61000000};
         (void)nanosleep(&pause, NULL);
@@ -377,7 +324,7 @@ static void change_cell(const char *members)
     assert_non_null(change);
     assert_int_equal(json_object_update(cell, change), 0);
     json_decref(change);
-    assert_int_equal(mote_record_json(directory, name, cell), MOTE_OK);
+    assert_int_equal(mote_record_json(".", name, cell), MOTE_OK);
 }
 
 /* What a stored cell says of itself decides whether it is measured again. */
@@ -398,44 +345,31 @@ TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
     assert_int_equal(run(line), 0);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         change_cell(cases[i].members);
-        const int status = run(line);
-        if (status != cases[i].status || !strstr(text, cases[i].says))
-            fail_msg("%s: exit %d, not %d, or not \"%s\":\n%s", cases[i].members, status,
-                     cases[i].status, cases[i].says, text);
+        test_row("%s", cases[i].members);
+        mote_expect(cases[i].status, cases[i].says, "run %s --out .", line);
     }
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb --force"), 0);
-    assert_non_null(strstr(text, "0 of them done"));
+    assert_non_null(strstr(said, "0 of them done"));
 }
 
 TEST(run_sweeps_what_an_interrupted_write_left)
 {
     static const char *const names[] = {"summary.json.part", "cells/a.json.part",
                                         "truth/b.csv.part"};
-    char line[512], path[128];
-    (void)snprintf(line, sizeof line, "mkdir -p %s/cells", directory);
-    assert_int_equal(system(line), 0);
-    for (int i = 0; i < 3; ++i) {
-        (void)snprintf(line, sizeof line, "echo part > %s/%s; echo kept > %s/cells/notes",
-                       directory, names[i], directory);
-        assert_int_equal(system(line), 0);
-    }
+    file_put("cells/notes", "kept\n");
+    for (int i = 0; i < 3; ++i)
+        file_put(names[i], "part\n");
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 0);
-    struct stat info;
-    for (int i = 0; i < 3; ++i) {
-        (void)snprintf(path, sizeof path, "%s/%s", directory, names[i]);
-        assert_int_not_equal(stat(path, &info), 0);
-    }
-    (void)snprintf(path, sizeof path, "%s/cells/notes", directory);
-    assert_int_equal(stat(path, &info), 0);
+    for (int i = 0; i < 3; ++i)
+        assert_false(file_exists(names[i]));
+    assert_true(file_exists("cells/notes"));
 }
 
 TEST(run_whose_lock_cannot_be_opened_says_so)
 {
-    char line[128];
-    (void)snprintf(line, sizeof line, "mkdir %s/.lock", directory);
-    assert_int_equal(system(line), 0);
+    assert_int_equal(mkdir(".lock", 0777), 0);
     assert_int_equal(run("tt --frames 1-2 --replicates 1 --method fcl-aabb"), 5);
-    assert_non_null(strstr(text, ".lock: Is a directory; name a directory that can be writ"));
+    assert_non_null(strstr(said, ".lock: Is a directory; name a directory that can be writ"));
 }
 
 /* Replicates are added to the reference whatever its interval, and to nothing that failed. */
@@ -443,16 +377,13 @@ TEST(run_until_an_interval_is_narrow_needs_cells_that_end)
 {
     assert_int_equal(
         run("tt --replicates 1 --timeout 0.001 --method brute-force --until-ci 50%"), 5);
-    assert_non_null(strstr(text, "after 1 replicates the widest interval is +-0 %"));
+    assert_non_null(strstr(said, "after 1 replicates the widest interval is +-0 %"));
     static const char line[] = "tt --frames 1-6 --stride 1 --replicates 2 --method fcl-aabb "
                                "--method certified --until-ci 0.001% --budget 0";
     assert_int_equal(run(line), 0);
-    assert_non_null(strstr(text, "after 2 replicates the widest interval is"));
-    assert_non_null(strstr(text, "wider than asked for: the budget ends"));
-    char forced[256];
-    (void)snprintf(forced, sizeof forced, "%s --force", line);
-    assert_int_equal(run(forced), 0);
-    assert_non_null(strstr(text, "plan: 4 cells, 0 of them done"));
+    assert_non_null(strstr(said, "after 2 replicates the widest interval is"));
+    assert_non_null(strstr(said, "wider than asked for: the budget ends"));
+    mote_expect(0, "plan: 4 cells, 0 of them done", "run %s --force --out .", line);
 }
 
 static mote_traits no_traits(const double *values)
@@ -503,11 +434,9 @@ static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *,
                                 .query = query};
     mote_method_choice choice = {.method = &method, .text = "of-a-test"};
     mote_subject subject = {0};
-    char cells[96];
-    (void)snprintf(cells, sizeof cells, "%s/cells", directory);
-    assert_int_equal(mote_directory_make(cells), MOTE_OK);
+    assert_int_equal(mote_directory_make("cells"), MOTE_OK);
     assert_int_equal(mote_scenario_load("tt", &subject.scenario), MOTE_OK);
-    assert_int_equal(mote_truth_load_or_compute(subject.scenario, directory, &subject.truth),
+    assert_int_equal(mote_truth_load_or_compute(subject.scenario, ".", &subject.truth),
                      MOTE_OK);
     mote_cell cell = {.subject = &subject,
                       .choice = &choice,
@@ -516,7 +445,7 @@ static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *,
                       .last = 2,
                       .stride = 1};
     mote_cell_name(&cell, 1);
-    mote_process_options options = {.directory = directory, .core = -1, .timeout = 60};
+    mote_process_options options = {.directory = ".", .core = -1, .timeout = 60};
     mote_cell_end end;
     assert_int_equal(measure_cell(&cell, &options, &end), MOTE_OK);
     (void)snprintf(reason, size, "%s", end.reason);

@@ -1,6 +1,7 @@
 /* Shards of a run, and runs merged. */
 #include "harness/base/record.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -14,32 +15,19 @@
 #define SCENARIOS 3
 #define CELLS (SCENARIOS * CONFIGURATIONS * 2)
 
-static char base[] = "/tmp/mote-test-shard-XXXXXX";
-static char names[SCENARIOS][96], said[64], text[1 << 16];
-
 /* Three scenarios of a few frames, so that the truth takes no time. */
-static int make_base(void)
+static int put_scenarios(void)
 {
-    if (!mkdtemp(base))
-        return -1;
-    (void)snprintf(said, sizeof said, "%s/said", base);
     for (int i = 0; i < SCENARIOS; ++i) {
-        (void)snprintf(names[i], sizeof names[i], "%s/scenario-%d.json", base, i);
-        FILE *out = fopen(names[i], "w");
-        if (!out)
-            return -1;
-        (void)fprintf(out,
-                      "{\"purpose\": \"a test\", \"like\": \"tt\", \"frames\": %d,"
-                      " \"warmup\": null, \"active\": null}\n",
-                      4 + i);
-        (void)fclose(out);
+        char name[32], text[128];
+        (void)snprintf(name, sizeof name, "scenario-%d.json", i);
+        (void)snprintf(text, sizeof text,
+                       "{\"purpose\": \"a test\", \"like\": \"tt\", \"frames\": %d,"
+                       " \"warmup\": null, \"active\": null}\n",
+                       4 + i);
+        file_put(name, text);
     }
     return 0;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
 }
 
 static int set_task(const char *task, const char *count)
@@ -54,31 +42,21 @@ static int clear_task(void)
     return set_task(NULL, NULL);
 }
 
-TEST_GROUP(make_base, remove_base);
+TEST_GROUP(put_scenarios, NULL);
 TEST_EACH(NULL, clear_task);
 
-static int program(const char *line)
-{
-    int status = program_wait(program_start(line, said));
-    program_read(said, text, sizeof text);
-    return status;
-}
-
-/* mote run of all scenarios into base/NAME */
+/* mote run of all scenarios into a folder */
 static int run(const char *options, const char *name)
 {
-    char line[1024];
-    (void)snprintf(line, sizeof line, "run %s %s %s %s " METHODS " --out %s/%s", names[0],
-                   names[1], names[2], options, base, name);
-    return program(line);
+    return mote("run scenario-[012].json %s " METHODS " --out %s", options, name);
 }
 
-/* A cell's file in base/NAME; index from 0 in no order; NULL behind the last. */
+/* A cell's file in a run; index from 0 in no order; NULL behind the last. */
 static json_t *read_cell(const char *name, int index)
 {
     char path[512];
     json_t *cell = NULL;
-    (void)snprintf(path, sizeof path, "%s/%s/cells", base, name);
+    (void)snprintf(path, sizeof path, "%s/cells", name);
     DIR *folder = opendir(path);
     for (const struct dirent *entry = folder ? readdir(folder) : NULL; entry && !cell;
          entry = readdir(folder)) {
@@ -132,14 +110,14 @@ TEST(shard_of_an_array_task_is_its_default)
 {
     assert_int_equal(set_task("3", "3"), 0);
     assert_int_equal(run("", "task"), 0);
-    assert_non_null(strstr(text, "shard 3/3"));
+    assert_non_null(strstr(said, "shard 3/3"));
     assert_int_equal(count_cells("task"), CELLS / SCENARIOS);
     json_t *cell = read_cell("task", 0);
     assert_string_equal(member(cell, "scenario"), "scenario-2");
     json_decref(cell);
     assert_int_equal(run("--shard 1/3 --dry-run", "task"), 0);
-    assert_non_null(strstr(text, "scenario-0"));
-    assert_null(strstr(text, "scenario-2"));
+    assert_non_null(strstr(said, "scenario-0"));
+    assert_null(strstr(said, "scenario-2"));
 }
 
 TEST(array_task_that_is_no_shard_is_refused)
@@ -150,8 +128,8 @@ TEST(array_task_that_is_no_shard_is_refused)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         assert_int_equal(set_task(bad[i][0], bad[i][1]), 0);
         assert_int_equal(run("", "refused"), 2);
-        assert_non_null(strstr(text, "SLURM_ARRAY_TASK_ID"));
-        assert_non_null(strstr(text, "--array=1-N"));
+        assert_non_null(strstr(said, "SLURM_ARRAY_TASK_ID"));
+        assert_non_null(strstr(said, "--array=1-N"));
         assert_int_equal(count_cells("refused"), 0);
     }
     assert_int_equal(run("--shard 1/1 --dry-run", "refused"), 0);
@@ -159,10 +137,8 @@ TEST(array_task_that_is_no_shard_is_refused)
 
 static json_t *read_rows(const char *name)
 {
-    char path[512];
     json_t *summary = NULL;
-    (void)snprintf(path, sizeof path, "%s/%s", base, name);
-    assert_int_equal(mote_record_read_json(path, "summary.json", &summary), MOTE_OK);
+    assert_int_equal(mote_record_read_json(name, "summary.json", &summary), MOTE_OK);
     json_t *rows = json_incref(json_object_get(summary, "rows"));
     json_decref(summary);
     return rows;
@@ -170,11 +146,8 @@ static json_t *read_rows(const char *name)
 
 TEST(merge_of_shards_is_the_whole_run)
 {
-    char line[512];
     assert_int_equal(run("", "whole"), 0);
-    (void)snprintf(line, sizeof line, "merge %s/merged %s/first %s/second %s/first", base, base,
-                   base, base);
-    assert_int_equal(program(line), 0);
+    mote_expect(0, "", "merge merged first second first");
     assert_int_equal(count_cells("whole"), CELLS);
     assert_int_equal(count_cells("merged"), CELLS);
     json_t *whole = read_rows("whole"), *merged = read_rows("merged");
@@ -191,20 +164,17 @@ TEST(merge_of_shards_is_the_whole_run)
     json_decref(whole);
     json_decref(merged);
     json_t *manifest = NULL; /* a session each shard, though one was merged twice */
-    (void)snprintf(line, sizeof line, "%s/merged", base);
-    assert_int_equal(mote_record_read_json(line, "manifest.json", &manifest), MOTE_OK);
+    assert_int_equal(mote_record_read_json("merged", "manifest.json", &manifest), MOTE_OK);
     assert_int_equal(json_array_size(json_object_get(manifest, "sessions")), 2);
     json_decref(manifest);
-    (void)snprintf(line, sizeof line, "merge %s/merged %s/no-such-run", base, base);
-    assert_int_equal(program(line), 4);
+    mote_expect(4, "", "merge merged no-such-run");
 }
 
-/* Rewrites the machine of those cells of base/NAME whose replicate and method are these; method
+/* Rewrites the machine of those cells of a run whose replicate and method are these; method
    "": of all. */
 static void move_cells(const char *name, const char *method, int replicate, const char *machine)
 {
-    char path[512], file[256];
-    (void)snprintf(path, sizeof path, "%s/%s", base, name);
+    char file[256];
     for (int i = 0, count = count_cells(name); i < count; ++i) {
         json_t *cell = read_cell(name, i);
         bool wanted = json_integer_value(json_object_get(cell, "replicate")) == replicate &&
@@ -212,7 +182,7 @@ static void move_cells(const char *name, const char *method, int replicate, cons
         (void)snprintf(file, sizeof file, "cells/%s.json", member(cell, "id"));
         (void)json_object_set_new(cell, "machine", json_string(machine));
         if (wanted)
-            assert_int_equal(mote_record_json(path, file, json_incref(cell)), MOTE_OK);
+            assert_int_equal(mote_record_json(name, file, json_incref(cell)), MOTE_OK);
         json_decref(cell);
     }
 }
@@ -220,13 +190,10 @@ static void move_cells(const char *name, const char *method, int replicate, cons
 /* Replicate 2 was measured elsewhere, and of it the reference on a third machine. */
 TEST(merge_compares_only_within_one_machine)
 {
-    char line[512];
     assert_int_equal(run("--shard 3/3", "here"), 0);
     move_cells("here", "", 2, "there, slow");
     move_cells("here", "fcl-aabb", 2, "elsewhere, slower");
-    (void)snprintf(line, sizeof line, "merge %s/machines %s/here", base, base);
-    assert_int_equal(program(line), 0);
-    assert_non_null(strstr(text, ", on there, slow"));
+    mote_expect(0, ", on there, slow", "merge machines here");
     json_t *rows = read_rows("machines");
     assert_int_equal(json_array_size(rows), 2 * CONFIGURATIONS);
     int compared = 0;

@@ -185,7 +185,7 @@ static void check_refused(const char *a, const char *b, const char *why)
 {
     char name[256];
     mote_scenario *scenario;
-    (void)snprintf(name, sizeof name, "pair:" FOLDER "/%s.obj:" FOLDER "/%s.obj", a, b);
+    (void)snprintf(name, sizeof name, "pair:%s.obj:%s.obj", a, b);
     assert_int_equal(mote_scenario_load(name, &scenario), MOTE_EINVAL);
     if (!strstr(mote_error_text(), why))
         fail_msg("%s", mote_error_text());
