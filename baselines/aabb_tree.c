@@ -106,7 +106,7 @@ static mote_status create(const mote_setup *setup, void **state)
     s->wide = setup->values[ARITHMETIC] > 0;
     s->scale = ldexp(1, -ilogb(setup->length));
     for (int b = 0; b < 2 && status == MOTE_OK; b++)
-        status = mote_box_tree_init(&s->tree[b], setup->body[b]->mesh);
+        status = mote_box_tree_init(&s->tree[b], setup->body[b]);
     if (status != MOTE_OK) {
         destroy(s);
         return status;

@@ -4,7 +4,7 @@
 #ifndef MOTE_BASELINES_BOX_TREE_H
 #define MOTE_BASELINES_BOX_TREE_H
 
-#include "core/body/mesh.h"
+#include "core/body/body.h"
 
 /* Children of a node. */
 #define MOTE_BOX_WIDTH 8
@@ -42,9 +42,9 @@ typedef struct mote_box_tree {
     mote_box root;
 } mote_box_tree;
 
-/* Builds the tree over the rest pose: MOTE_ENOMEM. Cost O(t log t). Boxes are unset until the
-   first refit. Free with mote_box_tree_free, also after a failure. */
-mote_status mote_box_tree_init(mote_box_tree *tree, const mote_mesh *mesh);
+/* Builds the tree over the rest pose and the body's sample poses: MOTE_ENOMEM. Cost O(t log t).
+   Boxes are unset until the first refit. Free with mote_box_tree_free, also after a failure. */
+mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body);
 
 void mote_box_tree_free(mote_box_tree *tree);
 

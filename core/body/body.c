@@ -9,3 +9,12 @@ mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state
     return mote_add(rigid,
                     mote_field_displacement(body->field, body->mesh, vertex, &state->weights));
 }
+
+mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex)
+{
+    const mote_vec3 rest = body->mesh->positions[vertex];
+    if (pose == 0)
+        return rest;
+    return mote_add(rest, mote_field_displacement(body->field, body->mesh, vertex,
+                                                  &body->samples[pose - 1]));
+}

@@ -12,6 +12,12 @@ extern "C" {
 typedef struct mote_body {
     const mote_mesh *mesh;   /* borrowed */
     const mote_field *field; /* borrowed; never NULL: static when nothing deforms */
+    /* Weights of some poses that the body is likely to take, for an identity rotation (as if in
+       the body's axes); borrowed, may be NULL when sample_count is 0. A tree is split where
+       triangles are far apart at rest or in one of these: a rest pose puts limbs side by side
+       that part later. They change times only, never an answer. Eight are plenty. */
+    const mote_weights *samples; /* [sample_count] */
+    uint32_t sample_count;
 } mote_body;
 
 /* World vertex i = rotation * x_i + translation + sum_j phi_j(x_i) w_j. */
@@ -27,6 +33,9 @@ typedef struct mote_frame {
     uint64_t number; /* 1, 2, ... */
     mote_body_state body[2];
 } mote_frame;
+
+/* A vertex in pose 0, at rest, or in pose 1 .. sample_count, in a sample pose. */
+mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex);
 
 /* World position of one vertex, evaluated from the field (never from state->vertices). Full
    deformation and lazy positions give these same bits. */

@@ -40,6 +40,7 @@ typedef struct mote_weights_single {
 /* At most this many basis functions: with the padding, their numbers fit in 16 bits. A sparse
    kind that brings bounds of its own may have more. */
 #define MOTE_FIELD_MAX 65528
+#define MOTE_FIELD_MAX_BOUNDED (1u << 20)
 
 /* What is summed over basis() or sparse() for a kind that does not sum by itself has at most
    this many functions at a vertex, since the values are kept on the stack. */

@@ -6,7 +6,9 @@
 static mote_status check_count(const mote_field_kind *kind, uint32_t count)
 {
     const bool sums = kind->sparse || (kind->displacement && kind->displacement_single);
-    const uint32_t most = sums ? MOTE_FIELD_MAX : MOTE_FIELD_SUMMED;
+    const uint32_t most = !sums          ? MOTE_FIELD_SUMMED
+                          : kind->bounds ? MOTE_FIELD_MAX_BOUNDED
+                                         : MOTE_FIELD_MAX;
     if (count <= most)
         return MOTE_OK;
     return mote_fail(MOTE_EINVAL, "a field of kind %s has at most %u basis functions, not %u",

@@ -247,3 +247,29 @@ mote_cert_box mote_cert_box_of(mote_cert_tree *tree, const uint32_t *vertices, s
     measure_leak(tree, vertices, count, &box);
     return box;
 }
+
+void mote_cert_factor(double a[4][4])
+{
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            double s = a[i][j];
+            for (int k = 0; k < j; ++k)
+                s -= a[i][k] * a[j][k];
+            a[i][j] = i == j ? sqrt(s) : s / a[j][j];
+        }
+    }
+}
+
+void mote_cert_solve(const double a[4][4], double b[4])
+{
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < i; ++k)
+            b[i] -= a[i][k] * b[k];
+        b[i] /= a[i][i];
+    }
+    for (int i = 3; i >= 0; --i) {
+        for (int k = i + 1; k < 4; ++k)
+            b[i] -= a[k][i] * b[k];
+        b[i] /= a[i][i];
+    }
+}

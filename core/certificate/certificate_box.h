@@ -25,6 +25,12 @@ void mote_cert_box_coordinates(const mote_cert_box *box, mote_vec3 x, double z[3
 void mote_cert_cut_corners(const mote_cert_tree *tree, const uint32_t *vertices, size_t count,
                            const mote_cert_box *box, int32_t cut[3]);
 
+/* Least squares over a box, with z = (1, z_1, z_2, z_3): replaces the lower half of the normal
+   equations' matrix a by its Cholesky factor, and solves for one right side with that factor.
+ */
+void mote_cert_factor(double a[4][4]);
+void mote_cert_solve(const double a[4][4], double b[4]);
+
 /* Where there are more vertices, axes and slopes are found from a sample of about this many. */
 #define MOTE_CERT_FIT_CHUNK 512
 

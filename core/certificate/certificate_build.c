@@ -15,7 +15,8 @@ typedef struct builder {
     mote_cert_tree *tree;
     mote_cert_tree_options options;
     item *items;         /* [triangle_count], in the order of the tree */
-    float (*centres)[3]; /* [triangle_count] */
+    float (*centres)[3]; /* [poses][triangle_count] */
+    uint32_t poses;      /* rest and the body's samples */
     uint32_t *seen;      /* [vertex_count] stamp of the last list that a vertex was put in */
     uint32_t *place;     /* [vertex_count] its index in that list */
     uint32_t *list;      /* [vertex_count] the vertices of one range */
@@ -75,14 +76,15 @@ static void select_least(item *items, size_t count, size_t k)
     }
 }
 
-/* The main axis of the centres of a range of triangles. */
-static mote_vec3 main_axis(const builder *b, range r)
+/* The main axis of the centres of a range of triangles in one pose, and their variance along
+   it, times their number. */
+static mote_vec3 main_axis(const builder *b, range r, float (*centres)[3], double *variance)
 {
     double mean[3] = {0};
     double m[6] = {0};
-    const float *base = b->centres[b->items[r.begin].triangle];
+    const float *base = centres[b->items[r.begin].triangle];
     for (uint32_t i = r.begin; i < r.end; ++i) {
-        const float *c = b->centres[b->items[i].triangle];
+        const float *c = centres[b->items[i].triangle];
         const double x = (double)(c[0] - base[0]);
         const double y = (double)(c[1] - base[1]);
         const double z = (double)(c[2] - base[2]);
@@ -106,18 +108,32 @@ static mote_vec3 main_axis(const builder *b, range r)
     a[2][2] = m[5] - mean[2] * mean[2] * n;
     mote_vec3 axes[3];
     mote_cert_principal_axes(a, axes);
+    *variance = fmax(a[0][0], fmax(a[1][1], a[2][2])); /* diagonal by now */
     return axes[0];
 }
 
-/* Splits a range at the median along its main axis; returns where the second half begins. */
+/* Splits a range at the median along its main axis in the pose in which it is spread most;
+   returns where the second half begins. */
 static uint32_t split(builder *b, range r)
 {
-    const mote_vec3 axis = main_axis(b, r);
+    const size_t triangles = b->tree->body->mesh->triangle_count;
+    float(*centres)[3] = b->centres;
+    double most;
+    mote_vec3 axis = main_axis(b, r, centres, &most);
+    for (uint32_t pose = 1; pose < b->poses; ++pose) {
+        double variance;
+        const mote_vec3 other = main_axis(b, r, b->centres + pose * triangles, &variance);
+        if (variance > most) {
+            most = variance;
+            axis = other;
+            centres = b->centres + pose * triangles;
+        }
+    }
     const float x = (float)axis.x;
     const float y = (float)axis.y;
     const float z = (float)axis.z;
     for (uint32_t i = r.begin; i < r.end; ++i) {
-        const float *c = b->centres[b->items[i].triangle];
+        const float *c = centres[b->items[i].triangle];
         b->items[i].key = c[0] * x + c[1] * y + c[2] * z;
     }
     const uint32_t half = (r.end - r.begin) / 2;
@@ -366,7 +382,8 @@ static mote_status allocate(builder *b)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
     b->items = malloc(mesh->triangle_count * sizeof *b->items);
-    b->centres = malloc(mesh->triangle_count * sizeof *b->centres);
+    b->poses = 1 + b->tree->body->sample_count;
+    b->centres = malloc((size_t)b->poses * mesh->triangle_count * sizeof *b->centres);
     b->seen = calloc(mesh->vertex_count, sizeof *b->seen);
     b->place = malloc(mesh->vertex_count * sizeof *b->place);
     b->list = malloc(mesh->vertex_count * sizeof *b->list);
@@ -377,18 +394,26 @@ static mote_status allocate(builder *b)
     return MOTE_OK;
 }
 
-static void place_triangles(builder *b)
+/* A vertex in a pose, in the tree's units. */
+static mote_vec3 posed(const mote_cert_tree *tree, uint32_t pose, uint32_t vertex)
+{
+    return mote_scale(mote_sub(mote_body_sample(tree->body, pose, vertex), tree->origin),
+                      tree->scale);
+}
+
+static void place_triangles(builder *b, uint32_t pose)
 {
     const mote_mesh *mesh = b->tree->body->mesh;
+    float(*centres)[3] = b->centres + (size_t)pose * mesh->triangle_count;
     for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
         const uint32_t *v = mesh->triangles[t];
-        const mote_vec3 sum = mote_add(mote_add(mote_cert_tree_position(b->tree, v[0]),
-                                                mote_cert_tree_position(b->tree, v[1])),
-                                       mote_cert_tree_position(b->tree, v[2]));
+        const mote_vec3 sum =
+            mote_add(mote_add(posed(b->tree, pose, v[0]), posed(b->tree, pose, v[1])),
+                     posed(b->tree, pose, v[2]));
         b->items[t].triangle = t;
-        b->centres[t][0] = (float)(sum.x / 3);
-        b->centres[t][1] = (float)(sum.y / 3);
-        b->centres[t][2] = (float)(sum.z / 3);
+        centres[t][0] = (float)(sum.x / 3);
+        centres[t][1] = (float)(sum.y / 3);
+        centres[t][2] = (float)(sum.z / 3);
     }
 }
 
@@ -427,7 +452,8 @@ static mote_status build(builder *b)
     b->status = b->tree->bounds->start(b->tree, b->options.linear_fits, &b->fitter);
     if (b->status != MOTE_OK)
         return b->status;
-    place_triangles(b);
+    for (uint32_t pose = 0; pose < b->poses; ++pose)
+        place_triangles(b, pose);
     build_block(b, (range){0, mesh->triangle_count, levels_of(mesh->triangle_count)}, 1);
     b->tree->bounds->stop(b->fitter);
     if (b->status == MOTE_OK)

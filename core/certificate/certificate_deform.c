@@ -63,6 +63,7 @@ static mote_cert_node *new_node(mote_certificate *c, int s, const mote_cert_bloc
 {
     node->block = block;
     node->boxes = false;
+    node->wide = 0;
     for (size_t l = 0; l < WIDTH; ++l)
         node->child[l] = -1;
     ++c->counters.blocks;

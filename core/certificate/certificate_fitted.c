@@ -184,7 +184,7 @@ static void project_block(const mote_cert_side *restrict side,
         node->loose[l] = width[l] + margin;
     }
     node->leaf_margin = side->leaf_margin;
-    mote_cert_finish_projection(side, block, node);
+    mote_cert_finish_projection(side, block, node, true);
 }
 
 /* The rigid motion of a block's boxes. */

@@ -167,33 +167,6 @@ static void scaled_basis(const fitter *f, const mote_cert_tree *tree, uint32_t v
     }
 }
 
-/* Cholesky factor of the symmetric a in its lower half. */
-static void factor(double a[4][4])
-{
-    for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j <= i; ++j) {
-            double s = a[i][j];
-            for (int k = 0; k < j; ++k)
-                s -= a[i][k] * a[j][k];
-            a[i][j] = i == j ? sqrt(s) : s / a[j][j];
-        }
-    }
-}
-
-static void solve(double a[4][4], double b[4])
-{
-    for (int i = 0; i < 4; ++i) {
-        for (int k = 0; k < i; ++k)
-            b[i] -= a[i][k] * b[k];
-        b[i] /= a[i][i];
-    }
-    for (int i = 3; i >= 0; --i) {
-        for (int k = i + 1; k < 4; ++k)
-            b[i] -= a[k][i] * b[k];
-        b[i] /= a[i][i];
-    }
-}
-
 /* The slopes of the listed functions. They only decide how tight the boxes are, since residuals
    are measured at all vertices: where there are many, a sample of them is fitted. */
 static void fit_slopes(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
@@ -217,9 +190,9 @@ static void fit_slopes(fitter *f, const mote_cert_tree *tree, const mote_cert_pa
     }
     for (int i = 0; i < 4; ++i)
         a[i][i] += 1e-6 * (double)used; /* directions in which the vertices do not spread */
-    factor(a);
+    mote_cert_factor(a);
     for (uint32_t j = 0; j < f->count; ++j) {
-        solve(a, f->fits[j].right);
+        mote_cert_solve((const double(*)[4])a, f->fits[j].right);
         for (int k = 0; k < 3; ++k)
             f->fits[j].slope[k] = mote_as_float(f->fits[j].right[k + 1]);
     }

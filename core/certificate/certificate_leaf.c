@@ -145,6 +145,36 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
     return NULL;
 }
 
+/* Margins. A vertex is within near->width of its evaluated position; where the box places it is
+   computed to 5 u B, and what tests of boxes round is at most 40 u B (certificate_fitted.c).
+   Twice leaf_margin is 64 u B. */
+bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
+{
+    mote_cert_hull placed;
+    node->wide &= ~(1u << lane);
+    const mote_cert_hull *near = mote_cert_leaf_near_hull(side, node, lane);
+    if (!near)
+        return false;
+    mote_cert_leaf_hull(side, node, lane, &placed);
+    bool narrowed = false;
+    for (size_t r = 0; r < 3; ++r) {
+        float least = near->x[r][0] - placed.x[r][0];
+        float most = least;
+        for (size_t i = 1; i < near->groups * WIDTH; ++i) {
+            const float d = near->x[r][i] - placed.x[r][i];
+            least = d < least ? d : least;
+            most = d > most ? d : most;
+        }
+        const float width = 0.5F * (most - least) + near->width[r] + 2 * node->leaf_margin;
+        if (width < node->width[r][lane]) {
+            node->centre[r][lane] += 0.5F * (most + least);
+            node->width[r][lane] = width;
+            narrowed = true;
+        }
+    }
+    return narrowed;
+}
+
 /* The exact coordinate of a vertex towards the other body. */
 static double exact_reach(mote_certificate *c, int s, uint32_t vertex)
 {

@@ -21,10 +21,13 @@ MOTE_INLINE uint32_t mote_cert_bits_at_most(const float x[MOTE_CERT_WIDTH], floa
     return bits;
 }
 
-/* From middle, slant and loose of a node: reach, extent, clear and crossing. */
+/* From middle, slant and loose of a node: reach, extent, clear and crossing. tight: what is
+   loose is small, and counts as crossing the plane like the rest of the box. Else it does not:
+   a box that is much larger than what it holds often crosses a plane that nothing inside it
+   reaches. */
 MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side,
                                              const mote_cert_block *restrict block,
-                                             mote_cert_node *restrict node)
+                                             mote_cert_node *restrict node, bool tight)
 {
     MOTE_LANE_LOOP
     for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
@@ -49,10 +52,13 @@ MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side
     const float threshold = side->threshold_f;
     float excess[MOTE_CERT_WIDTH];
     MOTE_LANE_LOOP
-    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l)
-        excess[l] = node->reach[l] -
-                    (block->child[l] < 0 ? MOTE_CERT_CROSSING_LEAF : MOTE_CERT_CROSSING) *
-                        node->extent[l];
+    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
+        const float loose = tight ? 0 : 2 * node->loose[l];
+        const float part =
+            block->child[l] >= 0 && tight ? MOTE_CERT_CROSSING : MOTE_CERT_CROSSING_LEAF;
+        excess[l] = tight ? node->reach[l] - part * node->extent[l]
+                          : (node->reach[l] - loose) - part * (node->extent[l] - loose);
+    }
     node->clear = mote_cert_bits_at_most(node->reach, threshold) & block->mask;
     node->crossing = mote_cert_bits_at_most(excess, threshold) & block->mask & ~node->clear;
 }

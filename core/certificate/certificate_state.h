@@ -26,6 +26,7 @@ typedef struct mote_cert_node {
     int32_t child[MOTE_CERT_WIDTH]; /* index of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
     bool boxes;          /* centre .. size have been computed */
+    uint32_t wide;       /* bit l: leaf l's width is worth measuring (mote_cert_narrow) */
     uint32_t clear;      /* bit l: child l is wholly on its own side of the plane */
     uint32_t crossing;   /* bit l: child l crosses the plane by so little that it is worth
                             opening */
@@ -155,6 +156,10 @@ void mote_cert_leaf_hull(const mote_cert_side *side, const mote_cert_node *node,
    result is kept; stamp identifies the direction. */
 float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, size_t lane,
                            const float direction[3], uint32_t stamp);
+
+/* Measures how far the vertices of leaf `lane` are from where its box places them, and narrows
+   the box to that; false where nothing changed. For a bit of node->wide, which it clears. */
+bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane);
 
 /* The hull with the field evaluated in single precision; NULL where the kind of field does not
    offer that. Valid until another leaf of the side is asked for. */

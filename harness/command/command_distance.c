@@ -96,7 +96,7 @@ static mote_status read_pair(const request *wish, pair *bodies)
         status = mote_mesh_import(wish->path[i], &bodies->mesh[i], &bodies->import[i]);
         if (status == MOTE_OK)
             mote_import_tell_split(wish->path[i], &bodies->import[i]);
-        bodies->body[i] = (mote_body){bodies->mesh[i], bodies->still};
+        bodies->body[i] = (mote_body){.mesh = bodies->mesh[i], .field = bodies->still};
     }
     return status;
 }

@@ -49,7 +49,7 @@ static mote_status clay_make(char letter, clay *c)
             mote_field_create_csrbf(centres, CONTROLS, SUPPORT * c->mesh->diagonal, &c->field);
     if (status == MOTE_OK)
         status = mote_csrbf_fit_create(c->field, &c->fit, NULL);
-    c->body = (mote_body){c->mesh, c->field};
+    c->body = (mote_body){.mesh = c->mesh, .field = c->field};
     if (status == MOTE_OK)
         status = mote_deform_create(&c->body, &c->deform);
     if (status == MOTE_OK)

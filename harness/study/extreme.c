@@ -73,7 +73,7 @@ static mote_status make_body(const mote_extreme_recipe *r, mote_extreme *e, int 
                                  : mote_field_create_static(&e->field[b]);
     if (status != MOTE_OK)
         return status;
-    e->body[b] = (mote_body){e->mesh[b], e->field[b]};
+    e->body[b] = (mote_body){.mesh = e->mesh[b], .field = e->field[b]};
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES; ++f) {
         mote_body_state *state = &e->frame[f].body[b];
         *state = (mote_body_state){.shape_changed = true, .pose_changed = true};

@@ -6,7 +6,8 @@ set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     BEGIN {
         wanted = split("mote_potential project_block deform_block mote_cert_row_boxes move_group " \
-            "project_hull mote_cert_near_pairs csrbf_estimate", loops, " ")
+            "project_hull mote_cert_near_pairs csrbf_estimate skin_convex_boxes skin_convex_project " \
+            "skin_leaf_boxes skin_leaf_project", loops, " ")
         for (k in loops)
             missing[loops[k]] = 1
     }

@@ -141,7 +141,7 @@ void twin_init(const scene *base, const twin_change *change, scene *twin)
         const int from = change->swap ? 1 - b : b;
         twin->mesh[b] = changed_mesh(base->mesh[from], change, twin);
         twin->field[b] = changed_field(base->field[from], scale);
-        twin->body[b] = (mote_body){twin->mesh[b], twin->field[b]};
+        twin->body[b] = (mote_body){.mesh = twin->mesh[b], .field = twin->field[b]};
         need(mote_deform_create(&twin->body[b], &twin->deform[b]) == MOTE_OK);
         twin->world[b] = malloc(twin->mesh[b]->vertex_count * sizeof *twin->world[b]);
         need(twin->world[b] != NULL);

@@ -41,7 +41,7 @@ static inline void test_body_init(test_body *b, mote_mesh *mesh, int count, uint
     }
     if (status != MOTE_OK)
         fail_msg("%s", mote_error_text());
-    b->body = (mote_body){b->mesh, b->field};
+    b->body = (mote_body){.mesh = b->mesh, .field = b->field};
 }
 
 static inline void test_body_free(test_body *b)

@@ -80,7 +80,7 @@ static inline void scene_init_meshes(scene *s, mote_mesh *first, mote_mesh *seco
                                  ? mote_field_create_csrbf(centre, 6, 0.9 * size, &s->field[b])
                                  : mote_field_create_static(&s->field[b]);
         need(status == MOTE_OK);
-        s->body[b] = (mote_body){s->mesh[b], s->field[b]};
+        s->body[b] = (mote_body){.mesh = s->mesh[b], .field = s->field[b]};
         need(mote_deform_create(&s->body[b], &s->deform[b]) == MOTE_OK);
         s->world[b] = malloc(s->mesh[b]->vertex_count * sizeof *s->world[b]);
         need(s->world[b]);

@@ -186,7 +186,7 @@ TEST(create_and_update_refuse_bad_input)
     mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, values);
     mote_mesh empty = *s.mesh[0];
     empty.triangle_count = 0;
-    mote_body body = {&empty, s.field[0]};
+    mote_body body = {.mesh = &empty, .field = s.field[0]};
     setup.body[0] = &body;
     void *state = NULL;
     assert_int_equal(m->create(&setup, &state), MOTE_EINVAL);

@@ -331,7 +331,7 @@ TEST(create_with_a_bad_mesh_is_refused)
         variant v = {(*m)->name, ""};
         for (int fault = 0; fault < 8; ++fault) {
             mote_mesh mesh = *s.mesh[1];
-            mote_body body = {&mesh, s.field[1]};
+            mote_body body = {.mesh = &mesh, .field = s.field[1]};
             mote_setup setup = scene_setup(&s, MOTE_ASK_CONTACT, 0, NULL);
             setup.body[1] = &body;
             mote_vec3 saved = mesh.positions[5];

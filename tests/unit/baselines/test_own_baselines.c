@@ -152,7 +152,7 @@ TEST(create_bad_mesh_invalid)
     for (int i = 0; i < VARIANTS; i++) {
         for (int fault = 0; fault < 4; fault++) {
             mote_mesh mesh = *s.mesh[1];
-            mote_body body = {&mesh, s.field[1]};
+            mote_body body = {.mesh = &mesh, .field = s.field[1]};
             mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);
             uint32_t kept = mesh.triangles[3][1];
             mote_vec3 kept_position = mesh.positions[4];

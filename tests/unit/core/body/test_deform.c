@@ -94,7 +94,7 @@ TEST(all_adds_weights_in_world_axes)
     mote_mesh *mesh = solid_to_mesh(solid_triangle());
     mote_field *field = NULL;
     assert_int_equal(mote_field_create_modes(mode, 1, 3, &field), MOTE_OK);
-    const mote_body body = {mesh, field};
+    const mote_body body = {.mesh = mesh, .field = field};
     double x[8] = {5};
     double y[8] = {0, 6};
     double z[8] = {0, 0, 7};

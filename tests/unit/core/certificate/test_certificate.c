@@ -139,7 +139,7 @@ TEST(query_cubes_of_whole_numbers_equals_the_closed_form)
     mote_mesh *mesh = make_cube();
     mote_field *field = NULL;
     need(mote_field_create_static(&field) == MOTE_OK);
-    const mote_body body = {mesh, field};
+    const mote_body body = {.mesh = mesh, .field = field};
     const mote_body *const bodies[2] = {&body, &body};
     const mote_certificate_options options = mote_default_certificate_options(mesh->diagonal);
     mote_certificate *c[2] = {NULL, NULL};

@@ -214,7 +214,7 @@ TEST(sparse_and_dense_displacements_are_the_same_bits)
             single[c][j] = (float)w.at[0][c][j];
     }
     const mote_weights_single rounded = {single[0], single[1], single[2], PADDED};
-    const mote_body other = {s.mesh[0], dense};
+    const mote_body other = {.mesh = s.mesh[0], .field = dense};
     for (uint32_t v = 0; v < s.mesh[0]->vertex_count; ++v) {
         const mote_vec3 p = mote_body_position(&s.body[0], state, v);
         const mote_vec3 q = mote_body_position(&other, state, v);

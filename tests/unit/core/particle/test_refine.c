@@ -130,7 +130,7 @@ static scene *scene_of(mote_mesh *mesh0, mote_mesh *mesh1, uint64_t seed)
         assert_int_equal(
             mote_field_create_csrbf(centre, CENTRES, 0.4 * mesh->diagonal, &s->field[side]),
             MOTE_OK);
-        s->body[side] = (mote_body){mesh, s->field[side]};
+        s->body[side] = (mote_body){.mesh = mesh, .field = s->field[side]};
         s->world[side] = malloc(mesh->vertex_count * sizeof *s->world[side]);
         assert_non_null(s->world[side]);
         assert_int_equal(mote_lazy_init(&s->lazy[side], &s->body[side], 64), MOTE_OK);

@@ -1,0 +1,61 @@
+/* What becomes of a box of the rest tree under linear blend skinning.
+
+   Leaves, relative to a reference bone. Over a box x = c + sum_k z_k h_k, |z_k| <= 1, and for
+   any of its bones r, p = M_r x + sum over b != r of w_b (M_b - M_r) x, since weights add up to
+   1: what one bone moves alone stays as tight as at rest. With e the image of c under M_b -
+   M_r, d_k that of h_k without translation, and over the vertices of the box w_b = f + sum_k
+   g_k z_k + q,  |q| <= m,    (w_b - f) z_k = s_k + q_k,  |q_k| <= m_k, it is w_b (M_b - M_r) x
+   = f e + sum_k s_k d_k  +  sum_k z_k (g_k e + f d_k)  +  q e + sum_k q_k d_k, which adds to
+   the centre, to the three half axes, and m |e| + sum_k m_k |d_k| to the half width.
+
+   Above the leaves, convexity. Weights are not negative and add up to 1, so p lies between the
+   M_b x of its bones: in a box around the images under M_b of those boxes, one a bone, that
+   hold the vertices that b moves. These are boxes in z, with a middle and a half size along
+   each axis. A sum of the kind above would be wide here, where one bone moves little of what is
+   in the box.
+
+   Both hold for any matrices: nothing is assumed of them. */
+#ifndef MOTE_CORE_SKIN_BOUNDS_H
+#define MOTE_CORE_SKIN_BOUNDS_H
+
+#include "core/certificate/certificate_bounds.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A block's strips: a head, then a row for each of its bones, in the order of its active
+   numbers. The active numbers of a block of leaves begin with the reference bone of each child.
+ */
+typedef struct mote_skin_head {
+    float convex; /* 1: rows are mote_skin_convex_row, 0: mote_skin_leaf_row */
+    float reach;  /* leaves: the largest sum of abs(f), m, abs(g_k), abs(s_k), m_k of a child */
+    float unused[MOTE_CERT_WIDTH - 2];
+} mote_skin_head;
+
+typedef struct mote_skin_leaf_row {
+    mote_cert_strip offset;    /* f */
+    mote_cert_strip slope[3];  /* g_k */
+    mote_cert_strip rest;      /* m */
+    mote_cert_strip shift[3];  /* s_k */
+    mote_cert_strip spread[3]; /* m_k */
+} mote_skin_leaf_row;
+
+typedef struct mote_skin_convex_row {
+    mote_cert_strip middle[3];
+    mote_cert_strip half[3];
+    mote_cert_strip present; /* 1 where the bone moves any of the child's vertices, else 0 */
+} mote_skin_convex_row;
+
+extern const mote_cert_bounds mote_skin_bounds;
+
+/* mote_cert_bounds.start, fit, store and stop of these. */
+mote_status mote_skin_fit_start(mote_cert_tree *tree, bool linear_fits, void **fitter);
+void mote_skin_fit(void *fitter, mote_cert_tree *tree, const mote_cert_part *part);
+mote_status mote_skin_fit_store(void *fitter, mote_cert_tree *tree, mote_cert_block *block);
+void mote_skin_fit_stop(void *fitter);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,318 @@
+/* Bounds of a skin, while a tree is built. */
+#include "core/skin/skin_bounds.h"
+#include "core/skin/skin_data.h"
+
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define WIDTH MOTE_CERT_WIDTH
+
+/* One bone over the children of the block at hand. */
+typedef struct bone_rows {
+    union {
+        mote_skin_leaf_row leaf;
+        mote_skin_convex_row convex;
+    } row;
+    /* over the child at hand: */
+    double total;    /* of its weights */
+    double right[4]; /* of the normal equations; then the solution */
+    float least[3], most[3];
+} bone_rows;
+
+typedef struct fitter {
+    const mote_skin *skin;
+    bool linear;
+    bone_rows *rows; /* [bones] */
+    uint32_t *block_stamp,
+        *child_stamp; /* [bones] the last block and child that had the bone */
+    uint32_t block, child;
+    uint16_t *of_block, *of_child; /* [bones] */
+    uint32_t block_count, child_count;
+    uint16_t reference[WIDTH];
+    bool convex;
+    float reach;
+} fitter;
+
+void mote_skin_fit_stop(void *state)
+{
+    fitter *f = state;
+    free(f->rows);
+    free(f->block_stamp);
+    free(f->child_stamp);
+    free(f->of_block);
+    free(f->of_child);
+    free(f);
+}
+
+mote_status mote_skin_fit_start(mote_cert_tree *tree, bool linear_fits, void **made)
+{
+    const mote_skin *skin = mote_skin_of(tree->body->field);
+    const size_t bones = skin->bones;
+    fitter *f = calloc(1, sizeof *f);
+    if (f) {
+        f->skin = skin;
+        f->linear = linear_fits;
+        f->block = 1;
+        f->rows = malloc(bones * sizeof *f->rows);
+        f->block_stamp = calloc(bones, sizeof *f->block_stamp);
+        f->child_stamp = calloc(bones, sizeof *f->child_stamp);
+        f->of_block = malloc(bones * sizeof *f->of_block);
+        f->of_child = malloc(bones * sizeof *f->of_child);
+        if (f->rows && f->block_stamp && f->child_stamp && f->of_block && f->of_child) {
+            *made = f;
+            return MOTE_OK;
+        }
+        mote_skin_fit_stop(f);
+    }
+    return mote_fail(MOTE_ENOMEM, "no memory to bound a skin of %u bones", skin->bones);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    return (int)*(const uint16_t *)a - (int)*(const uint16_t *)b;
+}
+
+/* Lists the bones of the child's vertices, in ascending order, and zeroes the rows of those
+   that are new to the block. */
+static void list_bones(fitter *f, const mote_cert_part *part)
+{
+    const mote_skin *skin = f->skin;
+    ++f->child;
+    f->child_count = 0;
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
+            const uint16_t b = skin->bone[i];
+            if (f->child_stamp[b] == f->child)
+                continue;
+            f->child_stamp[b] = f->child;
+            f->of_child[f->child_count++] = b;
+            if (f->block_stamp[b] == f->block)
+                continue;
+            f->block_stamp[b] = f->block;
+            f->of_block[f->block_count++] = b;
+            memset(&f->rows[b], 0, sizeof f->rows[b]);
+        }
+    }
+    qsort(f->of_child, f->child_count, sizeof *f->of_child, ascending);
+}
+
+/* --- above the leaves -----------------------------------------------------------------------
+ */
+
+static void fit_convex(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
+{
+    const mote_skin *skin = f->skin;
+    for (uint32_t i = 0; i < f->child_count; ++i) {
+        bone_rows *own = &f->rows[f->of_child[i]];
+        for (int k = 0; k < 3; ++k) {
+            own->least[k] = FLT_MAX;
+            own->most[k] = -FLT_MAX;
+        }
+    }
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        double z[3];
+        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
+        for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
+            bone_rows *own = &f->rows[skin->bone[i]];
+            for (int k = 0; k < 3; ++k) {
+                const float at = (float)z[k];
+                own->least[k] = at < own->least[k] ? at : own->least[k];
+                own->most[k] = at > own->most[k] ? at : own->most[k];
+            }
+        }
+    }
+    /* z is at most 1: rounded by 2^-25, and so are the sum and the difference, twice that. */
+    for (uint32_t i = 0; i < f->child_count; ++i) {
+        bone_rows *own = &f->rows[f->of_child[i]];
+        mote_skin_convex_row *row = &own->row.convex;
+        row->present[part->lane] = 1;
+        for (int k = 0; k < 3; ++k) {
+            row->middle[k][part->lane] = 0.5F * (own->least[k] + own->most[k]);
+            row->half[k][part->lane] = 0.5F * (own->most[k] - own->least[k]) + 0x1p-22F;
+        }
+    }
+}
+
+/* --- leaves ---------------------------------------------------------------------------------
+ */
+
+static float rounded_up(double x)
+{
+    return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
+}
+
+static double weight_of(const mote_skin *skin, uint32_t vertex, uint32_t bone)
+{
+    for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
+        if (skin->bone[i] == bone)
+            return (double)skin->weight[i];
+    }
+    return 0;
+}
+
+/* Sums of the normal equations over the child's vertices, and the total weight of each bone. */
+static void add_up(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part,
+                   double a[4][4])
+{
+    const mote_skin *skin = f->skin;
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        double z[4] = {1};
+        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z + 1);
+        for (int r = 0; r < 4; ++r) {
+            for (int c = 0; c <= r; ++c)
+                a[r][c] += z[r] * z[c];
+        }
+        for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
+            bone_rows *own = &f->rows[skin->bone[i]];
+            const double w = (double)skin->weight[i];
+            own->total += w;
+            for (int r = 0; r < 4; ++r)
+                own->right[r] += w * z[r];
+        }
+    }
+    for (int r = 0; r < 4; ++r)
+        a[r][r] += 1e-6 * (double)part->count; /* where the vertices do not spread */
+}
+
+/* The middle and the half size of a range of numbers, rounded so that it holds them. */
+typedef struct interval {
+    double low, high;
+} interval;
+
+static void widen(interval *i, double x)
+{
+    i->low = x < i->low ? x : i->low;
+    i->high = x > i->high ? x : i->high;
+}
+
+static double settle(const interval *i, float *middle, float *half)
+{
+    const double m = mote_as_float(0.5 * (i->low + i->high));
+    *middle = (float)m;
+    *half = rounded_up(i->high - m > m - i->low ? i->high - m : m - i->low);
+    return fabs(m) + (double)*half;
+}
+
+/* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. Slopes only
+   decide how wide the rest is: beyond 4 they would cost more in margins than they save. */
+static double write_lane(const fitter *f, const mote_cert_tree *tree,
+                         const mote_cert_part *part, uint32_t bone)
+{
+    mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
+    const size_t lane = part->lane;
+    double g[3], reach = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double slope = f->linear ? f->rows[bone].right[k + 1] : 0;
+        g[k] = mote_as_float(fabs(slope) <= 4 ? slope : 0);
+        row->slope[k][lane] = (float)g[k];
+        reach += fabs(g[k]);
+    }
+    interval rest = {DBL_MAX, -DBL_MAX};
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        double z[3];
+        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
+        widen(&rest,
+              weight_of(f->skin, vertex, bone) - g[0] * z[0] - g[1] * z[1] - g[2] * z[2]);
+    }
+    reach += settle(&rest, &row->offset[lane], &row->rest[lane]);
+    const double offset = (double)row->offset[lane];
+    interval product[3] = {{DBL_MAX, -DBL_MAX}, {DBL_MAX, -DBL_MAX}, {DBL_MAX, -DBL_MAX}};
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        double z[3];
+        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
+        for (int k = 0; k < 3; ++k)
+            widen(&product[k], (weight_of(f->skin, vertex, bone) - offset) * z[k]);
+    }
+    for (int k = 0; k < 3; ++k)
+        reach += settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
+    return reach;
+}
+
+static void fit_leaf(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
+{
+    double a[4][4] = {{0}};
+    for (uint32_t i = 0; i < f->child_count; ++i) {
+        bone_rows *own = &f->rows[f->of_child[i]];
+        own->total = 0;
+        memset(own->right, 0, sizeof own->right);
+    }
+    add_up(f, tree, part, a);
+    mote_cert_factor(a);
+    uint16_t reference = f->of_child[0];
+    for (uint32_t i = 0; i < f->child_count; ++i) {
+        const uint16_t b = f->of_child[i];
+        mote_cert_solve((const double(*)[4])a, f->rows[b].right);
+        reference = f->rows[b].total > f->rows[reference].total ? b : reference;
+    }
+    f->reference[part->lane] = reference;
+    double reach = 0;
+    for (uint32_t i = 0; i < f->child_count; ++i) {
+        if (f->of_child[i] != reference)
+            reach += write_lane(f, tree, part, f->of_child[i]);
+    }
+    f->reach = rounded_up(reach) > f->reach ? rounded_up(reach) : f->reach;
+}
+
+/* --- blocks ---------------------------------------------------------------------------------
+ */
+
+void mote_skin_fit(void *state, mote_cert_tree *tree, const mote_cert_part *part)
+{
+    fitter *f = state;
+    f->convex = part->leaves == 0;
+    list_bones(f, part);
+    if (f->convex)
+        fit_convex(f, tree, part);
+    else
+        fit_leaf(f, tree, part);
+}
+
+/* A bone that is the reference of all of its children needs no row. */
+static bool has_row(const fitter *f, uint16_t bone)
+{
+    if (f->convex)
+        return true;
+    const mote_skin_leaf_row *row = &f->rows[bone].row.leaf;
+    float most = 0;
+    for (size_t l = 0; l < WIDTH; ++l)
+        most =
+            row->rest[l] > most ? row->rest[l] : most; /* more than 0 wherever it is written */
+    return most > 0;
+}
+
+mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_block *block)
+{
+    fitter *f = state;
+    const size_t bytes = f->convex ? sizeof(mote_skin_convex_row) : sizeof(mote_skin_leaf_row);
+    const size_t strips = bytes / sizeof(mote_cert_strip);
+    const size_t first = f->convex ? 0 : WIDTH;
+    uint32_t count = 0;
+    qsort(f->of_block, f->block_count, sizeof *f->of_block, ascending);
+    for (uint32_t i = 0; i < f->block_count; ++i) {
+        if (has_row(f, f->of_block[i]))
+            f->of_block[count++] = f->of_block[i];
+    }
+    mote_status status = mote_cert_tree_keep(tree, block, 1 + strips * count, first + count);
+    if (status != MOTE_OK)
+        return status;
+    mote_cert_strip *strip = tree->strips + block->first_strip;
+    uint16_t *active = tree->active + block->first_active;
+    const mote_skin_head head = {.convex = f->convex ? 1 : 0, .reach = f->reach};
+    memcpy(strip, &head, sizeof head);
+    for (size_t l = 0; l < first; ++l)
+        active[l] = l < block->children ? f->reference[l] : f->reference[0];
+    for (uint32_t i = 0; i < count; ++i) {
+        active[first + i] = f->of_block[i];
+        memcpy(strip + 1 + strips * i, &f->rows[f->of_block[i]].row, bytes);
+    }
+    f->block_count = 0;
+    f->reach = 0;
+    ++f->block;
+    return MOTE_OK;
+}
