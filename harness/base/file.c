@@ -179,6 +179,13 @@ static bool replace_file(const char *target, const char *beside, const void *dat
     return whole;
 }
 
+static const char *write_advice(int error)
+{
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+        return "make room, or name a file elsewhere";
+    return "name a file in a folder that exists and can be written to";
+}
+
 mote_status mote_file_write(const char *path, const void *data, size_t size)
 {
     if (mote_path_is_stream(path))
@@ -189,10 +196,8 @@ mote_status mote_file_write(const char *path, const void *data, size_t size)
     char *beside = mote_format("%s.%ld.part", target, (long)getpid());
     mote_status status = MOTE_OK;
     if (!replace_file(target, beside, data, size))
-        status = mote_fail(MOTE_EIO,
-                           "%s: cannot be written: %s; name a file in a folder that exists "
-                           "and can be written to",
-                           path, strerror(errno));
+        status = mote_fail(MOTE_EIO, "%s: cannot be written: %s; %s", path, strerror(errno),
+                           write_advice(errno));
     free(target);
     free(beside);
     return status;

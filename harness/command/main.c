@@ -144,6 +144,8 @@ int main(int argc, char **argv)
 {
     /* When the reader of our output closes it, writing fails instead of ending the program. */
     (void)signal(SIGPIPE, SIG_IGN);
+    /* Likewise where a file becomes larger than is allowed. */
+    (void)signal(SIGXFSZ, SIG_IGN);
     mote_json_use_memory();
     while (argc > 1) {
         const int is_strict = strcmp(argv[1], "--strict") == 0;

@@ -266,6 +266,12 @@ refuses 4 letter T --triangles 500 -o /dev/full
 tells "/dev/full: cannot be written: No space left on device"
 refuses 4 letter T --triangles 500 -o nowhere/t.obj
 tells "mote: nowhere/t.obj: cannot be created: No such file or directory"
+step="a file that becomes larger than is allowed"
+status=0
+(ulimit -f 8; "$mote" letter T --triangles 5000 -o large.obj) > "$work/out" 2> "$work/err" || status=$?
+[ "$status" -eq 4 ] || fail "status $status"
+tells "large.obj: cannot be written: File too large"
+[ -z "$(find . -name 'large*')" ] || fail "a part of it is left"
 step="mote list methods > /dev/full"
 status=0
 "$mote" list methods > /dev/full 2> "$work/err" || status=$?
