@@ -2,6 +2,7 @@
 #include "harness/report/replay.h"
 
 #include "harness/base/memory.h"
+#include "harness/run/cell_table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,50 +12,35 @@
 enum { FIELD_DISTANCE, FIELD_PAIR, FIELD_COUNT = FIELD_PAIR + 6 };
 static const char *const names[FIELD_COUNT] = {"distance", "ax", "ay", "az", "bx", "by", "bz"};
 
-#define COLUMNS_MAX 64
-
-/* Identifies each column of the file: an index into names, or -1. Returns how many there
-   are. */
-static size_t read_header(const char *line, int columns[COLUMNS_MAX])
+static int find_field(const char *name, size_t length)
 {
-    size_t count = 0;
-    while (*line && *line != '\n' && count < COLUMNS_MAX) {
-        size_t length = strcspn(line, ",\n");
-        columns[count] = -1;
-        for (int k = 0; k < FIELD_COUNT; ++k) {
-            if (strlen(names[k]) == length && strncmp(names[k], line, length) == 0)
-                columns[count] = k;
-        }
-        ++count;
-        line += length + (line[length] == ',' ? 1 : 0);
+    for (int k = 0; k < FIELD_COUNT; ++k) {
+        if (mote_cell_is_name(names[k], name, length))
+            return k;
     }
-    return count;
+    return -1;
 }
 
-/* Reads the fields of one line; returns where the next begins. */
-static const char *read_line(const char *line, const int *columns, size_t count,
-                             double fields[FIELD_COUNT])
+/* context: double[FIELD_COUNT] */
+static void put_field(void *context, int field, double value)
 {
-    for (size_t k = 0; k < count; ++k) {
-        size_t length = strcspn(line, ",\n");
-        if (columns[k] >= 0)
-            fields[columns[k]] = length > 0 ? strtod(line, NULL) : MOTE_NONE;
-        line += length + (line[length] ? 1 : 0);
-    }
-    return line;
+    ((double *)context)[field] = value;
 }
 
+/* MOTE_NONE where the text has ended, or is no longer that of a cell. */
 static void read_rows(const char *text, mote_replay_track *track)
 {
-    int columns[COLUMNS_MAX];
-    size_t count = read_header(text, columns);
-    const char *line = text + strcspn(text, "\n");
-    line += *line ? 1 : 0;
-    for (size_t k = 0; k < track->rows; ++k) { /* MOTE_NONE where the text has ended */
+    mote_cell_columns columns;
+    const char *line = strchr(text, '\n');
+    if (line && !mote_cell_read_header(text, find_field, &columns))
+        line = NULL;
+    line = line ? line + 1 : NULL;
+    for (size_t k = 0; k < track->rows; ++k) {
         double f[FIELD_COUNT];
         for (int i = 0; i < FIELD_COUNT; ++i)
             f[i] = MOTE_NONE;
-        line = read_line(line, columns, count, f);
+        if (line)
+            line = mote_cell_read_line(line, &columns, put_field, f);
         track->distance[k] = f[FIELD_DISTANCE];
         track->pair[2 * k] =
             mote_vec3_make(f[FIELD_PAIR], f[FIELD_PAIR + 1], f[FIELD_PAIR + 2]);

@@ -1,5 +1,6 @@
 #include "harness/summary/stored.h"
 
+#include "harness/run/cell_table.h"
 #include "harness/run/plan.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
@@ -15,7 +16,6 @@
 
 #define FILE_LIMIT ((size_t)1 << 30)
 #define BYTES_MAX (((json_int_t)1 << 62) - 1)
-#define COLUMNS_MAX 64
 #define FRAME_LAST 4294967295.0
 
 #define NAME_TEXT(name) #name,
@@ -111,50 +111,32 @@ static void make_arrays(mote_stored_cell *cell, size_t frames)
         cell->scene[k] = mote_allocate(frames, sizeof *cell->scene[k]);
 }
 
-/* Which column of the file holds each column and count that is read; false when one is missing.
- */
-typedef struct column_map {
-    int column[COLUMNS_MAX]; /* file column -> our index, -1: not read */
-    size_t count;
-} column_map;
-
-static bool is_name(const char *name, const char *text, size_t length)
-{
-    return strlen(name) == length && memcmp(name, text, length) == 0;
-}
-
 static int find_column(const char *name, size_t length)
 {
     for (int k = 0; k < FRAME_COLUMNS; ++k) {
-        if (is_name(frame_columns[k].name, name, length))
+        if (mote_cell_is_name(frame_columns[k].name, name, length))
             return k;
     }
     for (int k = 0; k < MOTE_STORED_COUNTS; ++k) {
-        if (is_name(mote_stored_count_names[k], name, length))
+        if (mote_cell_is_name(mote_stored_count_names[k], name, length))
             return FRAME_COLUMNS + k;
     }
     for (int k = 0; k < MOTE_SCENE_COLUMN_COUNT; ++k) {
-        if (is_name(mote_scene_column_names[k], name, length))
+        if (mote_cell_is_name(mote_scene_column_names[k], name, length))
             return FRAME_COLUMNS + MOTE_STORED_COUNTS + k;
     }
     return -1;
 }
 
-static bool map_columns(const char *header, column_map *map)
+/* False where a column that every cell has is missing. */
+static bool map_columns(const char *header, mote_cell_columns *columns)
 {
     unsigned found = 0;
-    map->count = 0;
-    for (const char *name = header;; ++name) {
-        size_t length = strcspn(name, ",\n");
-        if (map->count == COLUMNS_MAX)
-            return false;
-        int index = find_column(name, length);
-        map->column[map->count++] = index;
-        if (index >= 0 && index < FRAME_COLUMNS)
-            found |= 1u << index;
-        name += length;
-        if (*name != ',')
-            break;
+    if (!mote_cell_read_header(header, find_column, columns))
+        return false;
+    for (size_t k = 0; k < columns->count; ++k) {
+        if (columns->index[k] >= 0 && columns->index[k] < FRAME_COLUMNS)
+            found |= 1u << columns->index[k];
     }
     return found == (1u << FRAME_COLUMNS) - 1;
 }
@@ -176,15 +158,23 @@ static void put_field(const mote_stored_cell *cell, size_t row, int column, doub
     }
 }
 
+/* A row of a cell's arrays. */
+typedef struct frame_row {
+    mote_stored_cell *cell;
+    size_t row;
+} frame_row;
+
 /* Puts the value of one field, MOTE_NONE when empty, where it belongs. */
-static void put_value(mote_stored_cell *cell, size_t row, int index, double value)
+static void put_value(void *context, int index, double value)
 {
+    const frame_row *to = context;
+    mote_stored_cell *cell = to->cell;
     const bool none = value != value;
     const int count = index - FRAME_COLUMNS, scene = count - MOTE_STORED_COUNTS;
     if (index < FRAME_COLUMNS) {
-        put_field(cell, row, index, value);
+        put_field(cell, to->row, index, value);
     } else if (scene >= 0 && cell->scene[scene]) {
-        cell->scene[scene][row] = none ? 0 : value;
+        cell->scene[scene][to->row] = none ? 0 : value;
     } else if (scene < 0 && !none) {
         cell->counts[count].sum += value;
         cell->counts[count].max = fmax(cell->counts[count].max, value);
@@ -192,43 +182,30 @@ static void put_value(mote_stored_cell *cell, size_t row, int index, double valu
 }
 
 /* Reads one line into a row; NULL when it is not one. */
-static const char *read_row(const char *line, const column_map *map, mote_stored_cell *cell,
-                            size_t row)
+static const char *read_row(const char *line, const mote_cell_columns *columns,
+                            mote_stored_cell *cell, size_t row)
 {
-    for (size_t k = 0; k < map->count; ++k) {
-        char *end;
-        double value = MOTE_NONE;
-        if (*line != ',' && *line != '\n') {
-            value = strtod(line, &end);
-            if (end == line || value - value != 0)
-                return NULL;
-            line = end;
-        }
-        if (*line != (k + 1 < map->count ? ',' : '\n'))
-            return NULL;
-        ++line;
-        if (map->column[k] >= 0)
-            put_value(cell, row, map->column[k], value);
-    }
+    frame_row to = {cell, row};
+    line = mote_cell_read_line(line, columns, put_value, &to);
     cell->total_ns[row] = cell->deform_ns[row] + cell->update_ns[row] + cell->query_ns[row];
     return line;
 }
 
 static mote_status read_frames(const char *path, const char *text, mote_stored_cell *cell)
 {
-    column_map map;
+    mote_cell_columns columns;
     size_t lines = 0;
     for (const char *p = text; *p; ++p)
         lines += *p == '\n' ? 1 : 0;
-    if (lines == 0 || !map_columns(text, &map))
+    if (lines == 0 || !map_columns(text, &columns))
         return mote_fail(MOTE_EINVAL, "%s:1: not the header of a cell that mote wrote", path);
     make_arrays(cell, lines - 1);
     const char *line = strchr(text, '\n') + 1;
     for (size_t row = 0; row + 1 < lines; ++row) {
-        line = read_row(line, &map, cell, row);
+        line = read_row(line, &columns, cell, row);
         if (!line || cell->frame[row] <= (row > 0 ? cell->frame[row - 1] : 0))
             return mote_fail(MOTE_EINVAL, "%s:%zu: not a frame's row; expected %zu fields",
-                             path, row + 2, map.count);
+                             path, row + 2, columns.count);
         cell->frames = row + 1;
     }
     return MOTE_OK;

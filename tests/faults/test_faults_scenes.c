@@ -55,6 +55,7 @@ TEST(several_bodies_when_a_call_fails_say_so)
              0),
         LINE(simulate, " b.json --method aabb-tree --json --steps 3 --gravity 0,0.001,0", 0),
         LINE(simulate, " b.json --method particle:n=2,threads=2 --steps 2", 0),
+        LINE(simulate, " b.json --method certified --steps 2 --trace t.json", 0),
     };
     FAIL_EACH(list);
 }
