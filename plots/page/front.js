@@ -37,7 +37,7 @@ class Front {
         this.tip = el("div", { class: "tip", role: "status", hidden: true });
         this.canvas = el("div", { class: "front" });
         this.element = el("figure", { class: "front-figure" }, this.canvas, this.tip,
-            el("figcaption", {}, "Median time of a query against the error that 99 % of the frames do not " +
+            el("figcaption", {}, `Median time of a query against the error that 99${NARROW}% of the frames do not ` +
                 "exceed. The line joins the rows that no other row beats in both. Hollow points are given all vertices, " +
                 "do not pay for deformation, and are not compared with the others. Point at one for its figures."));
         if (this.rows.length > 1)

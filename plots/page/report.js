@@ -10,11 +10,14 @@ const pairsList = (pairs) =>
 
 function askedSection(data) {
     const commands = data.commands.map(([when, command]) => `# ${when}\n${command}\n`).join("");
+    const others = data.scenarios.filter(([, purpose]) => !purpose).map(([name]) => name);
     return section("asked", "What was asked",
         el("p", {}, "How much accuracy does a collision query by a few particles give up, and how much time and memory " +
             "does it save, against bounding volume hierarchies, on deforming triangle meshes? Every method gets the " +
             "same frames; its answers are compared with the exact distance."),
-        pairsList(data.scenarios),
+        pairsList(data.scenarios.filter(([, purpose]) => purpose)),
+        others.length > 0 && el("p", {}, `Scenarios of ${data.scenarios.length > others.length ? "other " : ""}files: `,
+            `${others.join(", ")}.`),
         commands && el("details", {}, el("summary", {}, "Commands that measured it"),
             el("pre", {}, el("code", {}, commands))));
 }

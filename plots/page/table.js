@@ -43,8 +43,10 @@ class Block {
     caption() {
         const row = this.rows[0];
         const most = (key) => Math.max(...this.rows.map((other) => other[key] ?? 0));
-        const [a, b] = listOf(row.triangles);
-        const parts = [`${wholeText(a)} and ${wholeText(b)} triangles`, `${wholeText(most("frames"))} frames`,
+        const [a, b] = listOf(row.triangles).map(wholeText);
+        const shapes = row.shapes === 1 ? `${b} triangles each` : `${wholeText(row.shapes)} shapes, ${a} to ${b} triangles`;
+        const bodies = row.bodies ? `${wholeText(row.bodies)} bodies: ${shapes}` : `${a} and ${b} triangles`;
+        const parts = [bodies, `${wholeText(most("frames"))} frames`,
             `${most("replicates")} replicate${most("replicates") === 1 ? "" : "s"}`, `caches ${textOf(row.cache)}`];
         if (this.data.machines_differ) parts.push(`on ${row.machine}`);
         return el("h3", {}, textOf(row.scene), " ", el("span", { class: "aside" }, parts.join(", ")));
@@ -57,7 +59,7 @@ class Block {
         const fastest = this.data.rows[block.fastest];
         if (right) {
             parts.push("Fastest without a wrong answer in any frame: ", el("code", {}, right.label),
-                `, ${show("time", right.total_ns.median)} a query`);
+                `, ${show("time", right.total_ns.median)} a ${right.bodies ? "frame" : "query"}`);
             const best = right.ratio_best;
             if (best?.to && best.to !== right.label)
                 parts.push("; the best FCL, ", el("code", {}, best.to),

@@ -71,6 +71,8 @@ function measure() {
     program("run", "ww-1k", "--out", `${work}/several`, "--replicates", "4", "--frames", "1-200", "--method",
         "particle-paper:n=2,refine=no");
     program("report", `${work}/several`);
+    program("run", "letters", "--out", `${work}/letters`, "--replicates", "1", "--frames", "1-2", "--method", "certified");
+    program("report", `${work}/letters`);
     writeFileSync(`${work}/${HOSTILE}.json`, JSON.stringify({
         purpose: HOSTILE, like: "mv", frames: 5, pace: 149.75, warmup: null, active: null,
     }));
@@ -334,6 +336,14 @@ async function testOthers(browser) {
         const error = Math.abs(Number(await shown(page, "error")));
         truth(Math.abs(error / row.error.max - 1) < 0.0051, `${error}, not ${row.error.max}`);
         truth((await page.locator("#replay-origin").textContent()).includes("that of all 4"), "not said");
+        await page.close();
+    });
+    await check("many bodies are told by their number and shapes, their times are of a frame", async () => {
+        const page = await open(browser, `${work}/letters`);
+        const text = await page.locator(".block").textContent();
+        truth(text.includes("100 bodies: 4 shapes, 1,380 to 11,920 triangles"), `the head of ${text}`);
+        truth(/certified, [0-9.]+.ms a frame/.test(text), `the time in ${text}`);
+        equal(page.troubles.join("; "), "", "messages");
         await page.close();
     });
     await check("a page with ww stays below 5 MB", async () => {
