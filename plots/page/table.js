@@ -116,8 +116,14 @@ class Block {
         this.heads.concat(this.method)[focus]?.querySelector("button").focus();
     }
 
-    // Rows without a value come last, whichever way.
+    // Rows with positions given come after those that pay for deformation: their times leave it out.
     order(rows) {
+        const given = (row) => row.accounting === "given";
+        return [...this.orderAlike(rows.filter((row) => !given(row))), ...this.orderAlike(rows.filter(given))];
+    }
+
+    // Rows without a value come last, whichever way.
+    orderAlike(rows) {
         const { column, down } = this.sorted;
         const path = column < 0 ? ["label"] : this.data.columns[column].path;
         const key = (row) => (row.status === "ok" || column < 0 ? valueAt(row, path) : undefined);

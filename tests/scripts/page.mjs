@@ -65,7 +65,7 @@ function measure() {
     program("run", "ww", "--out", run, "--replicates", "1", "--method", "certified", "--method", "fcl-aabb",
         "--method", "particle-paper", "--particles", "1,5");
     program("run", "tt", "--out", run, "--replicates", "1", "--frames", "1-100", "--method", "certified",
-        "--method", "fcl-aabb");
+        "--method", "fcl-aabb", "--method", "particle:n=8,positions=given");
     program("figures", run);
     program("report", run);
     program("run", "ww-1k", "--out", `${work}/several`, "--replicates", "4", "--frames", "1-200", "--method",

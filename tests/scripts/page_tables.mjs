@@ -33,6 +33,12 @@ async function testSorting(page, { check, equal, truth }, run) {
         const order = [...ww].sort((a, b) => a.total_ns.median - b.total_ns.median).map((row) => row.label);
         equal(shown.join(" "), order.join(" "), "order");
     });
+    await check("rows with positions given come after those that pay for deformation", async () => {
+        const shown = await labels(page, 0);
+        const times = await cells(page, 0, 1);
+        equal(shown.at(-1), "particle:n=8,positions=given", "last");
+        truth(nanoseconds(times.at(-1)) < nanoseconds(times.at(-2)), "it is not the slowest");
+    });
     await check("a table shows the summary's medians to three digits", async () => {
         const shown = await labels(page, block);
         const times = await cells(page, block, 1);
