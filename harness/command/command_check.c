@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-typedef struct findings {
+typedef struct scenario_facts {
     uint64_t fingerprint;
     uint32_t contacts;        /* frames */
     uint32_t active_frames;   /* 0: none named */
@@ -21,64 +21,65 @@ typedef struct findings {
     uint32_t checked;
     double smallest, largest; /* distance, of L */
     mote_interval longest;    /* the longest run of frames that may be called active */
-} findings;
+} scenario_facts;
 
-static void look(const mote_scenario *scenario, const mote_truth *truth, findings *found)
+static void gather_facts(const mote_scenario *scenario, const mote_truth *truth,
+                         scenario_facts *facts)
 {
-    found->checked = truth->checked;
-    found->smallest = found->largest = truth->distance[0] / scenario->length;
+    facts->checked = truth->checked;
+    facts->smallest = facts->largest = truth->distance[0] / scenario->length;
     for (uint32_t k = 0; k < truth->frames; ++k) {
         const double distance = truth->distance[k] / scenario->length;
-        found->smallest = distance < found->smallest ? distance : found->smallest;
-        found->largest = distance > found->largest ? distance : found->largest;
-        found->contacts += truth->contact[k];
+        facts->smallest = distance < facts->smallest ? distance : facts->smallest;
+        facts->largest = distance > facts->largest ? distance : facts->largest;
+        facts->contacts += truth->contact[k];
         if (k + 1 < scenario->active.first || k + 1 > scenario->active.last)
             continue;
-        ++found->active_frames;
-        found->active_contacts += truth->contact[k];
+        ++facts->active_frames;
+        facts->active_contacts += truth->contact[k];
     }
-    found->active_near = mote_active_near(scenario, truth, scenario->active);
-    found->active_holds = mote_active_holds(scenario, truth, scenario->active);
-    found->longest = mote_active_longest(scenario, truth);
+    facts->active_near = mote_active_near(scenario, truth, scenario->active);
+    facts->active_holds = mote_active_holds(scenario, truth, scenario->active);
+    facts->longest = mote_active_longest(scenario, truth);
 }
 
-static int print_json(const mote_scenario *scenario, const findings *found)
+static int print_json(const mote_scenario *scenario, const scenario_facts *facts)
 {
     char fingerprint[32];
-    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, found->fingerprint);
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, facts->fingerprint);
     json_t *root = json_pack(
         "{s:s, s:s, s:i, s:i, s:i, s:f, s:f, s:[i,i], s:[i,i]}", "scenario", scenario->name,
-        "fingerprint", fingerprint, "frames", scenario->frames, "checked", found->checked,
-        "contacts", found->contacts, "smallest", found->smallest, "largest", found->largest,
+        "fingerprint", fingerprint, "frames", scenario->frames, "checked", facts->checked,
+        "contacts", facts->contacts, "smallest", facts->smallest, "largest", facts->largest,
         "active", scenario->active.first, scenario->active.last, "longest_active",
-        found->longest.first, found->longest.last);
-    if (root && found->active_frames > 0) {
+        facts->longest.first, facts->longest.last);
+    if (root && facts->active_frames > 0) {
         (void)json_object_set_new(root, "active_contacts",
-                                  json_integer(found->active_contacts));
-        (void)json_object_set_new(root, "active_near", json_integer(found->active_near));
-        (void)json_object_set_new(root, "active_holds", json_boolean(found->active_holds));
+                                  json_integer(facts->active_contacts));
+        (void)json_object_set_new(root, "active_near", json_integer(facts->active_near));
+        (void)json_object_set_new(root, "active_holds", json_boolean(facts->active_holds));
     }
     return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
                                                                   : mote_command_fail();
 }
 
-static void print_lines(const mote_scenario *scenario, const findings *found)
+static void print_lines(const mote_scenario *scenario, const scenario_facts *facts)
 {
-    (void)printf("%s: fingerprint %016" PRIx64 "\n", scenario->name, found->fingerprint);
+    (void)printf("%s: fingerprint %016" PRIx64 "\n", scenario->name, facts->fingerprint);
     (void)printf("%u frames, truth from %.4g to %.4g L, contact in %u (%.1f %%)\n",
-                 scenario->frames, found->smallest, found->largest, found->contacts,
-                 100.0 * found->contacts / scenario->frames);
-    (void)printf("%u frames checked by brute force\n", found->checked);
-    if (found->active_frames > 0)
+                 scenario->frames, facts->smallest, facts->largest, facts->contacts,
+                 100.0 * facts->contacts / scenario->frames);
+    (void)printf("%u frames checked by brute force\n", facts->checked);
+    if (facts->active_frames > 0)
         (void)printf(
             "active %u-%u: truth <= %g L in %.1f %% of frames (needed: %g %%), contact "
             "in %.1f %%\n",
             scenario->active.first, scenario->active.last, MOTE_ACTIVE_NEAR,
-            100.0 * found->active_near / found->active_frames, 100 * MOTE_ACTIVE_SHARE,
-            100.0 * found->active_contacts / found->active_frames);
-    if (found->longest.first > 0)
-        (void)printf("longest interval that is active: %u-%u\n", found->longest.first,
-                     found->longest.last);
+            100.0 * facts->active_near / facts->active_frames, 100 * MOTE_ACTIVE_SHARE,
+            100.0 * facts->active_contacts / facts->active_frames);
+    if (facts->longest.first > 0)
+        (void)printf("longest interval that is active: %u-%u\n", facts->longest.first,
+                     facts->longest.last);
 }
 
 /* With a directory, the truth is read from there, or written there. */
@@ -100,23 +101,23 @@ static int check(const char *name, bool json, const char *directory)
     mote_scenario *scenario;
     if (mote_scenario_load(name, &scenario) != MOTE_OK)
         return mote_command_fail();
-    findings found = {0};
+    scenario_facts facts = {0};
     mote_truth *truth = NULL;
-    mote_status status = find_truth(scenario, directory, &found.fingerprint, &truth);
+    mote_status status = find_truth(scenario, directory, &facts.fingerprint, &truth);
     int code;
     if (status == MOTE_OK) {
-        look(scenario, truth, &found);
+        gather_facts(scenario, truth, &facts);
         code = MOTE_EXIT_DONE;
         if (json)
-            code = print_json(scenario, &found);
+            code = print_json(scenario, &facts);
         else
-            print_lines(scenario, &found);
-        if (code == MOTE_EXIT_DONE && !found.active_holds) {
+            print_lines(scenario, &facts);
+        if (code == MOTE_EXIT_DONE && !facts.active_holds) {
             (void)fprintf(stderr,
                           "mote: %s: active %u-%u: only %u of %u frames have truth <= %g L; "
                           "name an interval in which at least %g %% have\n",
                           scenario->path, scenario->active.first, scenario->active.last,
-                          found.active_near, found.active_frames, MOTE_ACTIVE_NEAR,
+                          facts.active_near, facts.active_frames, MOTE_ACTIVE_NEAR,
                           100 * MOTE_ACTIVE_SHARE);
             code = MOTE_EXIT_CHECK_FAILED;
         }

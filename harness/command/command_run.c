@@ -159,7 +159,7 @@ static bool read_direction(const char *text, const char **direction)
 }
 
 /* False where the value is wrong; expected then says what would be right. */
-static bool take_option(request *q, int option, const char *value, const char **expected)
+static bool set_option(request *q, int option, const char *value, const char **expected)
 {
     mote_plan_options *plan = &q->run.plan;
     *expected = mote_options_run[option].value;
@@ -275,7 +275,7 @@ static int read_arguments(int argc, char **argv, request *q)
             if (!read_pair(q, &reader, value))
                 return mote_command_usage(argv[0], "--pair %s: expected two mesh files, once",
                                           value);
-        } else if (!take_option(q, option, value, &expected)) {
+        } else if (!set_option(q, option, value, &expected)) {
             return mote_command_usage(argv[0], "--%s %s: expected %s",
                                       mote_options_run[option].name, value, expected);
         }
@@ -316,7 +316,7 @@ static bool read_array_task(const char *command, request *q)
 
 /* Keeps the scenarios of the shard: every shards-th. Shards are whole scenarios, so that
    methods that are compared are measured on one machine. */
-static void take_shard(request *q)
+static void keep_shard(request *q)
 {
     size_t kept = 0;
     for (size_t i = 0; i < q->run.scenario_count && q->shards > 0; ++i) {
@@ -414,7 +414,7 @@ int mote_command_run(int argc, char **argv)
     int code = read_arguments(argc, argv, &q);
     if (code == MOTE_EXIT_DONE && !read_array_task(argv[0], &q))
         code = MOTE_EXIT_USAGE;
-    take_shard(&q);
+    keep_shard(&q);
     if (code == MOTE_EXIT_DONE)
         code = execute(&q);
     mote_choices_free(&q.choices);

@@ -21,7 +21,7 @@ typedef struct request {
 } request;
 
 /* Options of the command line that replace the defaults. */
-static void take_wishes(const request *wish, mote_simulation_options *options)
+static void set_options(const request *wish, mote_simulation_options *options)
 {
     if (!isnan(wish->density))
         options->density = wish->density;
@@ -56,7 +56,7 @@ static mote_status create(const request *wish, const subject *s,
 {
     *options = s->scene ? mote_default_simulation_options_of_scene(s->scene)
                         : mote_default_simulation_options(s->pair);
-    take_wishes(wish, options);
+    set_options(wish, options);
     return s->scene
                ? mote_simulator_create_of_scene(s->scene, &wish->choice, options, simulator)
                : mote_simulator_create(s->pair, &wish->choice, options, simulator);
@@ -86,9 +86,9 @@ static mote_status run(const request *wish, mote_simulator *simulator, mote_rigi
 /* The result must not stand in a trace or a film that goes to standard output. */
 static FILE *result_stream(const request *wish)
 {
-    const bool taken = (wish->trace && mote_path_is_output(wish->trace)) ||
-                       (wish->film && mote_path_is_output(wish->film));
-    return taken ? stderr : stdout;
+    const bool in_use = (wish->trace && mote_path_is_output(wish->trace)) ||
+                        (wish->film && mote_path_is_output(wish->film));
+    return in_use ? stderr : stdout;
 }
 
 static mote_status write_trace(const request *wish, const subject *s,

@@ -56,14 +56,13 @@ static int print_help(void)
         "\nmote COMMAND --help explains the options of a command.\n\n"
         "Exit status: 0 done, 1 a check failed, 2 usage, 3 undecided, 4 bad input,\n"
         "5 a cell failed, 6 out of memory; 130 and 143 after Ctrl-C and SIGTERM.\n\n"
-        "SCENARIO is a name of `mote list scenarios`, a scenario file (NAME.json), or two\n"
-        "meshes that approach, touch and part: pair:A.obj:B.obj, or pair:A.obj:B.obj:X,Y,Z\n"
-        "with the direction in which B lies. Meshes are OBJ, PLY, STL, OFF or glTF.\n\n"
+        "SCENARIO is a name of `mote list scenarios`, a scenario file (NAME.json), or\n"
+        "two meshes that approach, touch and part: pair:A.obj:B.obj, with the direction\n"
+        "in which B lies pair:A.obj:B.obj:X,Y,Z. Meshes are OBJ, PLY, STL, OFF or glTF.\n\n"
         "Before the command:\n"
-        "  --allow DIR  a scenario file may name files below DIR as well (default: of its own\n"
-        "               folder only); as often as needed\n"
-        "  --strict     edges of more than two faces are refused (default: they are cut "
-        "apart)\n"
+        "  --allow DIR  scenario files may name files below DIR as well (default: those\n"
+        "               of their own folder only); may be repeated\n"
+        "  --strict     refuse edges of more than two faces (default: cut them apart)\n"
         "-- ends the options: what follows are names, even if they begin with a dash.\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
@@ -174,10 +173,10 @@ int main(int argc, char **argv)
         return mote_command_finish(MOTE_EXIT_DONE);
     }
     const char *name = argv[asks_help ? 2 : 1];
-    const command *found = find_command(name);
-    if (!found)
+    const command *wanted = find_command(name);
+    if (!wanted)
         return unknown_command(name);
     if (asks_help || has_help(argc - 2, argv + 2))
-        return print_command_help(found);
-    return stopped_code(found->run(argc - 1, argv + 1));
+        return print_command_help(wanted);
+    return stopped_code(wanted->run(argc - 1, argv + 1));
 }

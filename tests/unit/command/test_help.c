@@ -75,6 +75,16 @@ TEST(help_of_each_command_explains_each_option_with_its_default)
     assert_true(commands >= 20 && options >= 60);
 }
 
+TEST(help_fits_into_80_columns)
+{
+    char help[1 << 14];
+    ask("--help", help, sizeof help);
+    for (char *line = strtok(help, "\n"); line; line = strtok(NULL, "\n")) {
+        if (strlen(line) > 80)
+            fail_msg("%s", line);
+    }
+}
+
 TEST(help_tells_of_pairs_and_anywhere_in_a_line)
 {
     char help[1 << 14];
