@@ -134,21 +134,27 @@ static char *file_name(const figure_kind *kind, const char *scenario)
                        (uint32_t)mote_hash_text(scenario));
 }
 
-/* "ww, 11,920 triangles", "mv, 2,968 and 1,764 triangles"; the title of a figure of the run. */
+/* "ww, 11,920 triangles each", "mv, 2,968 and 1,764 triangles", "letters, 100 bodies"; the
+ * title of a figure of the run. */
 static void make_heading(const drawing *d, const figure_kind *kind, const char *scenario,
                          char *heading, size_t size)
 {
     const json_t *triangles = NULL;
     const mote_summary *summary = d->run.summary;
+    uint32_t bodies = 0;
     for (size_t i = 0; scenario && i < summary->count && !triangles; ++i) {
-        if (strcmp(summary->rows[i].first->scenario, scenario) == 0)
-            triangles = json_object_get(summary->rows[i].first->json, "triangles");
+        if (strcmp(summary->rows[i].first->scenario, scenario) != 0)
+            continue;
+        triangles = json_object_get(summary->rows[i].first->json, "triangles");
+        bodies = summary->rows[i].first->bodies;
     }
     char a[MOTE_FIGURE_NUMBER], b[MOTE_FIGURE_NUMBER];
     (void)mote_figure_number(json_number_value(json_array_get(triangles, 0)), a);
     (void)mote_figure_number(json_number_value(json_array_get(triangles, 1)), b);
     if (!triangles)
         (void)snprintf(heading, size, "%s", scenario ? scenario : kind->title);
+    else if (bodies > 0)
+        (void)snprintf(heading, size, "%s, %s bodies", scenario, mote_figure_number(bodies, a));
     else if (strcmp(a, b) == 0)
         (void)snprintf(heading, size, "%s, %s triangles each", scenario, a);
     else

@@ -297,6 +297,17 @@ TEST(ratios_of_processes_without_a_pair_are_missing)
     mote_summary_free(&summary);
 }
 
+TEST(figures_of_many_bodies_say_how_many)
+{
+    assert_int_equal(
+        mote("run letters --frames 1-2 --replicates 1 --method certified --out many"), 0);
+    assert_int_equal(mote("figures many"), 0);
+    char *drawing = file_text("many/figures/shares-letters.svg");
+    assert_non_null(strstr(drawing, "letters, 100 bodies"));
+    assert_null(strstr(drawing, "triangles"));
+    free(drawing);
+}
+
 /* A scenario of 10,000 bodies may stand before one of 10 by its name; lines go from left to
    right. */
 TEST(lines_over_bodies_ascend)
