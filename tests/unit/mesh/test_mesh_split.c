@@ -1,4 +1,5 @@
 /* Edges of more than two faces are cut apart, and nothing else changes. */
+#include "core/base/random.h"
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_split.h"
 #include "tests/support/folder.h"
@@ -10,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define FACES_MAX 64
 
@@ -123,10 +123,9 @@ TEST(split_leaves_a_mesh_of_edges_with_two_faces_as_it_is)
     mote_soup_free(&soup);
 }
 
-static uint32_t draw(uint32_t *seed, uint32_t below)
+static uint32_t draw(mote_random *random, uint32_t below)
 {
-    *seed = *seed * 1664525u + 1013904223u;
-    return (uint32_t)(((uint64_t)*seed * below) >> 32);
+    return (uint32_t)mote_random_below(random, below);
 }
 
 static bool has(const uint32_t face[3], uint32_t v)
@@ -185,18 +184,18 @@ static size_t check_split(const mote_soup *soup, const mote_split *split, uint32
 
 TEST(split_random_faces_make_a_mesh_of_the_same_places)
 {
-    uint32_t seed = 3;
+    mote_random random = {3};
     size_t heavy = 0;
     for (int round = 0; round < 20000; ++round) {
-        const uint32_t vertices = 4 + draw(&seed, 6), count = 3 + draw(&seed, 30);
+        const uint32_t vertices = 4 + draw(&random, 6), count = 3 + draw(&random, 30);
         uint32_t before[FACES_MAX][3];
         mote_soup soup = {0};
         for (uint32_t v = 0; v < vertices; ++v)
-            assert_int_equal(mote_soup_add_vertex(&soup, draw(&seed, 4), draw(&seed, 4), v),
+            assert_int_equal(mote_soup_add_vertex(&soup, draw(&random, 4), draw(&random, 4), v),
                              MOTE_OK);
         for (uint32_t f = 0; f < count;) {
-            const uint32_t a = draw(&seed, vertices), b = draw(&seed, vertices),
-                           c = draw(&seed, vertices);
+            const uint32_t a = draw(&random, vertices), b = draw(&random, vertices),
+                           c = draw(&random, vertices);
             if (a == b || b == c || c == a)
                 continue;
             mote_soup_add_triangle(&soup, a, b, c);
@@ -267,5 +266,20 @@ TEST(split_is_told_once_and_refused_by_strict)
             ++notes;
         if (code != cases[i].code || !strstr(said, cases[i].says) || notes != cases[i].notes)
             fail_msg("%s: %d, %s", cases[i].line, code, said);
+    }
+}
+
+/* A page ends at x = 1, and the wall is at x = 3. */
+TEST(split_edges_give_every_method_the_same_distance)
+{
+    static const char *const methods[] = {"certified",   "particle", "aabb-tree",
+                                          "brute-force", "fcl-aabb", "fcl-obbrss"};
+    file_put("split_book.obj", book);
+    file_put("split_wall.obj", "v 3 -9 -9\nv 3 9 -9\nv 3 0 9\nf 1 2 3\n");
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; ++i) {
+        char answer[64];
+        (void)snprintf(answer, sizeof answer, "%s: distance 2,", methods[i]);
+        mote_expect(0, answer, "distance split_book.obj split_wall.obj --method %s",
+                    methods[i]);
     }
 }

@@ -1,3 +1,4 @@
+#include "core/base/random.h"
 #include "harness/mesh/orientation.h"
 #include "harness/mesh/polygon.h"
 #include "tests/support/polygons.h"
@@ -152,12 +153,6 @@ TEST(polygon_is_covered_once_from_every_corner_and_in_both_windings)
     }
 }
 
-static double draw(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return (double)(*seed >> 8) / (1 << 24);
-}
-
 static int turn(const flat_polygon *p, size_t a, size_t b, size_t c)
 {
     return mote_orientation(p->at[a], p->at[b], p->at[c]);
@@ -188,12 +183,13 @@ static void untangle(flat_polygon *p)
 
 TEST(polygon_of_random_corners_is_covered_once)
 {
-    uint32_t seed = 7;
+    mote_random random = {7};
     for (int round = 0; round < 3000; ++round) {
-        flat_polygon p = {.count = 4 + (size_t)(draw(&seed) * (round % 50 ? 12 : 50))};
+        flat_polygon p = {.count =
+                              4 + (size_t)(mote_random_unit(&random) * (round % 50 ? 12 : 50))};
         for (size_t i = 0; i < p.count; ++i) {
-            p.at[i][0] = 6 * draw(&seed) - 2;
-            p.at[i][1] = 6 * draw(&seed) - 2;
+            p.at[i][0] = 6 * mote_random_unit(&random) - 2;
+            p.at[i][1] = 6 * mote_random_unit(&random) - 2;
         }
         untangle(&p);
         uint32_t triangles[CORNERS_MAX][3];
@@ -207,13 +203,13 @@ TEST(polygon_of_random_corners_is_covered_once)
    is then refused. */
 TEST(polygon_on_a_grid_is_covered_once_or_refused)
 {
-    uint32_t seed = 11;
+    mote_random random = {11};
     int covered = 0, refused = 0;
     for (int round = 0; round < 5000; ++round) {
-        flat_polygon p = {.count = 5 + (size_t)(draw(&seed) * 5)};
+        flat_polygon p = {.count = 5 + (size_t)(mote_random_unit(&random) * 5)};
         for (size_t i = 0; i < p.count; ++i) {
-            p.at[i][0] = floor(5 * draw(&seed));
-            p.at[i][1] = floor(5 * draw(&seed));
+            p.at[i][0] = floor(5 * mote_random_unit(&random));
+            p.at[i][1] = floor(5 * mote_random_unit(&random));
         }
         uint32_t triangles[CORNERS_MAX][3];
         const mote_status status = triangulate(&p, 3, triangles);
