@@ -154,7 +154,9 @@ static mote_status check_ply_body(const char *path, const ply_header *h, const c
             for (++number; *line && mote_is_end(*mote_skip_blanks(line)); ++number)
                 line = next_line(line);
             if (!*line)
-                return mote_fail(MOTE_EINVAL, "%s:%zu: ends after %llu of %llu elements %s",
+                return mote_fail(MOTE_EINVAL,
+                                 "%s:%zu: ends after %llu of %llu elements %s; give all, or "
+                                 "declare fewer",
                                  path, number, i, h->element[e].count, h->element[e].name);
             const char *next = next_line(line);
             mote_status status = MOTE_OK;

@@ -214,6 +214,7 @@ static const bad_text bad_texts[] = {
     {"b.xyz", "what is this?", "b.xyz: no mesh format that is known by this name or content"},
     {"b.ac", "AC3Db\nOBJECT", "b.ac: assimp cannot read it ("},
     {"b.ply", "", "b.ply: an empty file"},
+    {"b.ply", PLY_HEAD "0 0 0\n", ":11: ends after 1 of 4 elements vertex; give all"},
     {"b.obj", "", "b.obj: an empty file"},
     {"b.obj", "\xff\xfev", "a text in UTF-16; save it as UTF-8"},
     {"b.ply",
