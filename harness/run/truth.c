@@ -67,17 +67,6 @@ void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth)
         truth->contact[i] = truth->distance[i] <= scenario->tolerance;
 }
 
-static mote_status make_probe(const mote_scenario *scenario, const char *method,
-                              mote_probe **probe)
-{
-    mote_method_choice choice;
-    mote_status status = mote_method_choice_read(method, &choice);
-    if (status == MOTE_OK)
-        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
-                                   MOTE_ASK_DISTANCE, 0, 0, probe);
-    return status;
-}
-
 /* The sources of the truth of one scenario. */
 typedef struct sources {
     const mote_scenario *scenario;
@@ -131,11 +120,11 @@ static mote_status answer_all(const mote_scenario *scenario, mote_frame_buffer *
                               truth_row *rows)
 {
     sources s = {.scenario = scenario};
-    mote_status status = make_probe(scenario, ORACLE, &s.oracle);
+    mote_status status = mote_probe_create_distance(scenario->body, ORACLE, &s.oracle);
     if (status == MOTE_OK)
-        status = make_probe(scenario, SECOND, &s.second);
+        status = mote_probe_create_distance(scenario->body, SECOND, &s.second);
     if (status == MOTE_OK)
-        status = make_probe(scenario, JUDGE, &s.judge);
+        status = mote_probe_create_distance(scenario->body, JUDGE, &s.judge);
     for (uint32_t k = 0; k < scenario->frames && status == MOTE_OK; ++k)
         status = answer_frame(&s, mote_scenario_frame(scenario, buffer, k + 1, k), &rows[k]);
     mote_probe_destroy(s.oracle);
@@ -209,7 +198,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
                                 const truth_row *rows, const bool *marked, uint32_t *checked)
 {
     mote_probe *probe;
-    mote_status status = make_probe(scenario, REFEREE, &probe);
+    mote_status status = mote_probe_create_distance(scenario->body, REFEREE, &probe);
     if (status != MOTE_OK)
         return status;
     *checked = 0;

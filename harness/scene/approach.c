@@ -23,17 +23,6 @@ typedef struct approach {
     double precision;          /* absolute */
 } approach;
 
-static mote_status make_probe(const mote_scenario *scenario, const char *method,
-                              mote_probe **probe)
-{
-    mote_method_choice choice;
-    mote_status status = mote_method_choice_read(method, &choice);
-    if (status == MOTE_OK)
-        status = mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
-                                   MOTE_ASK_DISTANCE, 0, 0, probe);
-    return status;
-}
-
 static mote_status distance_at(approach *a, double offset, double *distance)
 {
     mote_answer answer;
@@ -142,7 +131,7 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
                   .precision = fmax(PRECISION * smaller, ROUNDING * scenario->length)};
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     a.direction = mote_scale(plan->direction, 1 / mote_length(plan->direction));
-    mote_status status = make_probe(scenario, SEARCH, &a.probe);
+    mote_status status = mote_probe_create_distance(scenario->body, SEARCH, &a.probe);
     for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k)
         status = solve(&a, buffer, k, &positions[k]);
     mote_frame_buffer_destroy(buffer);
@@ -172,7 +161,7 @@ mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *
 {
     mote_probe *probe = NULL;
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
-    mote_status status = make_probe(scenario, ORACLE, &probe);
+    mote_status status = mote_probe_create_distance(scenario->body, ORACLE, &probe);
     for (uint32_t k = 0; k < count && status == MOTE_OK; ++k)
         status = verify_frame(scenario, probe,
                               mote_scenario_frame(scenario, buffer, frames[k], 0), gaps[k]);

@@ -54,6 +54,17 @@ mote_status mote_probe_create(const mote_body *a, const mote_body *b,
     return status;
 }
 
+mote_status mote_probe_create_distance(const mote_body *bodies, const char *method,
+                                       mote_probe **probe)
+{
+    mote_method_choice choice;
+    mote_status status = mote_method_choice_read(method, &choice);
+    if (status == MOTE_OK)
+        status =
+            mote_probe_create(&bodies[0], &bodies[1], &choice, MOTE_ASK_DISTANCE, 0, 0, probe);
+    return status;
+}
+
 void mote_probe_destroy(mote_probe *probe)
 {
     if (!probe)

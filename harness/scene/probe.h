@@ -13,6 +13,10 @@ typedef struct mote_probe mote_probe;
 mote_status mote_probe_create(const mote_body *a, const mote_body *b,
                               const mote_method_choice *choice, mote_ask ask, double tolerance,
                               uint64_t seed, mote_probe **probe);
+
+/* Builds a method, given by its text, that is asked for the distance of bodies[2]. */
+mote_status mote_probe_create_distance(const mote_body *bodies, const char *method,
+                                       mote_probe **probe);
 void mote_probe_destroy(mote_probe *probe); /* NULL is allowed */
 
 /* Deforms what the method needs, updates it and asks it. The frame's vertices may be NULL. */
