@@ -63,6 +63,29 @@ do_ 0 mesh meshes/ring.obj
 says "Euler               0"
 do_ 0 distance "meshes/cube é.obj" meshes/away.obj --method certified --method fcl-aabb --method brute-force
 [ "$(grep -c 'distance 3, \|distance 3\.0*, ' "$work/out")" -eq 3 ] || fail "not 3 apart"
+# The same cube in other formats, as other programs write them.
+corners='0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n'
+faces='4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n'
+printf "OFF\n8 6 0\n$corners$faces" > meshes/cube.off
+{
+    printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\n'
+    printf "property float z\nelement face 6\nproperty list uchar int vertex_indices\nend_header\n$corners$faces"
+} > meshes/cube.ply
+printf "$corners" | awk '{ x[NR - 1] = $0 } END {
+    count = split("0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7", at, " ")
+    print "solid cube"
+    for (i = 1; i <= count; i += 3)
+        printf "facet normal 0 0 0\nouter loop\nvertex %s\nvertex %s\nvertex %s\nendloop\nendfacet\n",
+               x[at[i]], x[at[i + 1]], x[at[i + 2]]
+    print "endsolid cube" }' > meshes/cube.stl
+for file in cube.off cube.ply cube.stl; do
+    do_ 0 mesh "meshes/$file"
+    says "open edges          0"
+    do_ 0 distance "meshes/$file" meshes/away.obj --method certified
+    number "$(awk '{ print $3 + 0 }' "$work/out")" 3 1e-15
+done
+do_ 0 check pair:meshes/cube.ply:meshes/cube.stl
+says "1000 frames, truth from 0 to 0.4"
 step="a name that begins with a dash"
 (cd meshes; "$mote" distance -- -brick.obj away.obj) > "$work/out" || fail "is not read"
 says "distance 2"
