@@ -38,7 +38,8 @@ typedef struct mote_frame {
 mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex);
 
 /* World position of one vertex, evaluated from the field (never from state->vertices). Full
-   deformation and lazy positions give these same bits. */
+   deformation and lazy positions give these same bits. vertex < vertex_count. No allocation;
+   any thread. Cost O(J) for J basis functions. */
 mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
                              uint32_t vertex);
 

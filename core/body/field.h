@@ -115,24 +115,27 @@ struct mote_field {
     size_t bytes;         /* heap held, this struct included */
 };
 
-/* A field that never deforms. Free with mote_field_destroy. */
+/* A field that never deforms. MOTE_ENOMEM. The caller destroys *field, as of all fields below.
+ */
 mote_status mote_field_create_static(mote_field **field);
 
 /* Compactly supported radial basis functions, Wendland C2: (1-r)^4 (4r+1) for r < 1, else 0.
    centres: count (1 .. MOTE_FIELD_MAX) positions in rest space, copied; support > 0.
-   MOTE_EINVAL for anything else or not finite. */
+   MOTE_EINVAL for anything else or not finite; MOTE_ENOMEM. Source: paper section 4. */
 mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, double support,
                                     mote_field **field);
 
 /* Linear modes: modes[m * vertex_count + i] is the displacement of vertex i per unit of weight
-   m, copied. count * 3 is at most MOTE_FIELD_MAX. */
+   m, copied. MOTE_EINVAL where count is 0, count * 3 is above MOTE_FIELD_MAX, or a number is
+   not finite; MOTE_ENOMEM. */
 mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
                                     uint32_t vertex_count, mote_field **field);
 
 /* NULL is allowed. */
 void mote_field_destroy(mote_field *field);
 
-/* sum_j phi_j w_j at a rest vertex; zero for a static field. */
+/* sum_j phi_j w_j at a rest vertex, in world axes; zero for a static field. No allocation; any
+   thread. Cost O(J); of a sparse field, O(functions at the vertex). */
 mote_vec3 mote_field_displacement(const mote_field *field, const mote_mesh *mesh,
                                   uint32_t vertex, const mote_weights *weights);
 

@@ -21,7 +21,9 @@
 /* Far more rounds than any search needs on a mesh of millions; a limit in case of rounding. */
 #define ROUNDS_MAX 10000
 
-/* A search from two vertices may gain this many times what their rings alone can. */
+/* A search from two vertices may gain this many times what their rings alone can. With n = 8
+   on ww and comb, 1 and 4 give as many exact frames, with 6 % fewer and 4 % more positions on
+   comb. */
 #define SLIDE_MAX 2
 
 #define NONE UINT32_MAX

@@ -5,7 +5,8 @@
 
 /* Seeds are nodes of the finest level with at most this many nodes, or with at most five times
    as many nodes as seeds. Descents from coarse levels take fewer steps and end at least as
-   near. */
+   near. Measured with n = 8: with half as many nodes 62 instead of 72 % of the frames of comb
+   are exact, with twice as many it is 72 %, and on ww 99.95 instead of 99.75 %. */
 #define SEED_NODES_MAX 200
 
 /* Vertices that a query is likely to visit on one body. */

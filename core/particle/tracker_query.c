@@ -5,14 +5,18 @@
 #include <string.h>
 
 /* Relative motion since the last query, in units of L, from which on only the minima of that
-   query are used. */
+   query are used. With n = 8 on ww, comb and fast-25, half and twice of this gave as many
+   exact frames. */
 #define COLD_MOTION 0.1
 
-/* n seeds of each body are launched for every such relative motion, in units of L. */
+/* n seeds of each body are launched for every such relative motion, in units of L. Measured
+   with n = 8: half of this evaluates 13 % more positions on ww for no more exact frames; twice
+   of this loses 0.6 % of the exact frames on ww and 10 % on comb. */
 #define ROUND_MOTION 0.2
 
 /* All nodes around the nearest pair are leapt to for every such relative motion, in units of
-   the mean distance of neighbouring nodes. */
+   the mean distance of neighbouring nodes. Measured with n = 8 on ww and comb: half and twice
+   of this change the share of exact frames by 0.014 at most, and positions by 5 %. */
 #define LEAP_MOTION 0.75
 
 /* Adds the motion since the last query to the total and to the launches and leaps that are due.

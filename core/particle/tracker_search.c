@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-/* Motion is an estimate. Bodies may have come nearer by this many times the estimate. */
+/* Motion is an estimate. Bodies may have come nearer by this many times the estimate. With n =
+   8 on ww and comb, 1 and 4 give as many exact frames for 4 % fewer and more positions. */
 #define MOTION_MARGIN 2
 
 /* The square of the longest edge at a vertex, in the shape. */
