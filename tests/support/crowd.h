@@ -73,6 +73,20 @@ static inline mote_scene *crowd_scene(const crowd *c, const mote_scene_options *
     return scene;
 }
 
+/* A crowd as of crowd_init in a scene with the usual options. */
+static inline mote_scene *crowd_open(crowd *c, uint32_t count, size_t triangles, double side)
+{
+    const mote_scene_options options = mote_default_scene_options();
+    crowd_init(c, count, triangles, side);
+    return crowd_scene(c, &options);
+}
+
+static inline void crowd_close(crowd *c, mote_scene *scene)
+{
+    mote_scene_destroy(scene);
+    crowd_free(c);
+}
+
 /* All pairs of bodies, ascending; returns how many. */
 static inline size_t crowd_pairs(const crowd *c, uint32_t (*pairs)[2])
 {

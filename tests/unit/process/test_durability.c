@@ -1,6 +1,7 @@
 /* What a run leaves behind when it is stopped, its parent killed, or the disk taken away. */
 #define _GNU_SOURCE /* unshare */
 #include "harness/base/record.h"
+#include "tests/support/folder.h"
 #include "tests/support/plain_file.h"
 #include "tests/support/program.h"
 #include "tests/support/run_files.h"
@@ -20,7 +21,6 @@
 #define SWEEP_CELLS 20
 #define SLOW "run tt --frames 1-600 --stride 1 --method brute-force --replicates 5"
 
-static char base[] = "/tmp/mote-test-durable-XXXXXX";
 static int directories;
 static char directory[64], said[64], line[512], text[1 << 14];
 
@@ -33,9 +33,9 @@ static void pause_ms(long ms)
 /* A directory of its own, the truth shared by all. */
 static int use_directory(const char *name)
 {
-    char truth[64], link[96];
-    (void)snprintf(directory, sizeof directory, "%s/%s", base, name);
-    (void)snprintf(truth, sizeof truth, "%s/truth", base);
+    char truth[160], link[96];
+    (void)snprintf(directory, sizeof directory, "%s", name);
+    (void)snprintf(truth, sizeof truth, "%s/truth", folder_path());
     (void)snprintf(link, sizeof link, "%s/truth", directory);
     (void)mkdir(truth, 0777);
     (void)mkdir(directory, 0777);
@@ -46,16 +46,14 @@ static int next_directory(void)
 {
     char name[16];
     (void)snprintf(name, sizeof name, "%d", directories);
-    (void)snprintf(said, sizeof said, "%s/said-%d", base, directories++);
+    (void)snprintf(said, sizeof said, "said-%d", directories++);
     return use_directory(name);
 }
 
-static int remove_base(void)
+static int unmount(void)
 {
-    char disk[64];
-    (void)snprintf(disk, sizeof disk, "%s/disk", base);
-    (void)umount(disk); /* if it was mounted */
-    return program_remove(base);
+    (void)umount("disk"); /* if it was mounted */
+    return 0;
 }
 
 static pid_t start(const char *what)
@@ -72,14 +70,14 @@ static int run(const char *what)
 }
 
 /* The truth is there: from now on a run measures at once. */
-static int make_base(void)
+static int make_truth(void)
 {
-    if (!mkdtemp(base) || next_directory() != 0)
+    if (next_directory() != 0)
         return -1;
     return run("run tt --frames 1-2 --replicates 1 --method aabb-tree");
 }
 
-TEST_GROUP(make_base, remove_base);
+TEST_GROUP(make_truth, unmount);
 TEST_EACH(next_directory, NULL);
 
 /* Waits until some cells are finished. */
@@ -95,9 +93,8 @@ static void wait_for_cells(int count)
 static void wait_for_file(const char *name)
 {
     char path[96];
-    struct stat info;
     (void)snprintf(path, sizeof path, "%s/%s", directory, name);
-    for (int tries = 0; stat(path, &info) != 0; ++tries) {
+    for (int tries = 0; !file_exists(path); ++tries) {
         assert_true(tries < 3000);
         pause_ms(10);
     }
@@ -207,10 +204,9 @@ TEST(child_of_a_killed_run_dies_with_it)
 
 TEST(run_beside_another_in_one_directory_is_refused)
 {
-    char other[64];
+    static const char other[] = "said-other";
     pid_t pid = start(SLOW);
     wait_for_file("manifest.json");
-    (void)snprintf(other, sizeof other, "%s/said-other", base);
     assert_int_equal(program_wait(program_start(line, other)), 4);
     program_read(other, text, sizeof text);
     assert_non_null(strstr(text, "another run is measuring into it"));
@@ -221,8 +217,7 @@ TEST(run_beside_another_in_one_directory_is_refused)
 /* Started at the same moment: one measures, and the other says why it does not. */
 TEST(runs_started_together_in_one_directory_are_as_one)
 {
-    char other[64];
-    (void)snprintf(other, sizeof other, "%s/said-together", base);
+    static const char other[] = "said-together";
     const pid_t first = start(SWEEP), second = program_start(line, other);
     const int status[2] = {program_wait(first), program_wait(second)};
     assert_true(status[0] == 0 || status[1] == 0);
@@ -274,18 +269,14 @@ static bool may_mount(void)
 /* A file system of 256 kB; false where that is not permitted. */
 static bool mount_small_disk(void)
 {
-    char disk[64];
-    (void)snprintf(disk, sizeof disk, "%s/disk", base);
-    (void)mkdir(disk, 0777);
-    return may_mount() && mount("none", disk, "tmpfs", 0, "size=256k") == 0 &&
+    (void)mkdir("disk", 0777);
+    return may_mount() && mount("none", "disk", "tmpfs", 0, "size=256k") == 0 &&
            use_directory("disk/run") == 0;
 }
 
 static void remount(unsigned long flags, const char *options)
 {
-    char disk[64];
-    (void)snprintf(disk, sizeof disk, "%s/disk", base);
-    assert_int_equal(mount("none", disk, "tmpfs", MS_REMOUNT | flags, options), 0);
+    assert_int_equal(mount("none", "disk", "tmpfs", MS_REMOUNT | flags, options), 0);
 }
 
 TEST(run_on_a_full_then_read_only_disk_keeps_its_cells)

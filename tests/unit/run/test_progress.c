@@ -1,52 +1,31 @@
 #define _DEFAULT_SOURCE /* forkpty */
 /* What a person sees while a run goes on: one line that moves on a terminal, lines elsewhere.
  */
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
 #include "tests/support/program.h"
 #include "tests/support/test.h"
 
 #include <pty.h>
 #include <stdbool.h>
 
-static char base[] = "/tmp/mote-test-progress-XXXXXX";
-static char said[64], text[1 << 16];
-static int directories;
-
-static int make_base(void)
-{
-    return mkdtemp(base) ? 0 : -1;
-}
-
-static int remove_base(void)
-{
-    return program_remove(base);
-}
-
-TEST_GROUP(make_base, remove_base);
-
 /* Two configurations in two replicates: four cells. */
-static void run_line(char *line, size_t size, const char *more)
-{
-    (void)snprintf(line, size,
-                   "run tt --frames 1-20 --method certified --method particle-paper:n=3 "
-                   "--replicates 2 --out %s/run-%d %s",
-                   base, ++directories, more);
-}
+#define LINE                                                                                   \
+    "run tt --frames 1-20 --method certified --method particle-paper:n=3 --replicates 2 "      \
+    "--out ."
 
 static void run_into_file(const char *more)
 {
-    char line[512];
-    run_line(line, sizeof line, more);
-    (void)snprintf(said, sizeof said, "%s/said", base);
-    assert_int_equal(program_wait(program_start(line, said)), 0);
-    program_read(said, text, sizeof text);
+    assert_int_equal(folder_next(), 0);
+    mote_expect(0, "", LINE " %s", more);
 }
 
 static void run_on_terminal(unsigned short columns)
 {
-    char line[512], *argv[PROGRAM_ARGUMENTS];
+    char line[] = LINE, *argv[PROGRAM_ARGUMENTS];
     const struct winsize size = {.ws_row = 24, .ws_col = columns};
     int terminal;
-    run_line(line, sizeof line, "");
+    assert_int_equal(folder_next(), 0);
     const pid_t pid = forkpty(&terminal, NULL, NULL, &size);
     assert_true(pid >= 0);
     if (pid == 0) {
@@ -55,12 +34,12 @@ static void run_on_terminal(unsigned short columns)
         _exit(127);
     }
     size_t used = 0;
-    for (ssize_t got; used + 1 < sizeof text; used += (size_t)got) {
-        got = read(terminal, text + used, sizeof text - 1 - used);
+    for (ssize_t got; used + 1 < sizeof said; used += (size_t)got) {
+        got = read(terminal, said + used, sizeof said - 1 - used);
         if (got <= 0) /* EIO: the program has ended */
             break;
     }
-    text[used] = '\0';
+    said[used] = '\0';
     (void)close(terminal);
     assert_int_equal(program_wait(pid), 0);
 }
@@ -68,7 +47,7 @@ static void run_on_terminal(unsigned short columns)
 static size_t count(const char *what)
 {
     size_t times = 0;
-    for (const char *at = text; (at = strstr(at, what)) != NULL; ++at)
+    for (const char *at = said; (at = strstr(at, what)) != NULL; ++at)
         ++times;
     return times;
 }
@@ -97,7 +76,7 @@ TEST(progress_on_a_terminal_is_one_line_that_moves)
     static const char begin[] = "\r\033[K";
     run_on_terminal(30);
     size_t moved = 0;
-    for (const char *at = text; (at = strstr(at, begin)) != NULL; ++moved) {
+    for (const char *at = said; (at = strstr(at, begin)) != NULL; ++moved) {
         at += strlen(begin);
         const char *next = strstr(at, begin), *feed = strchr(at, '\n');
         if (next && (!feed || next < feed) && next - at > 29)
@@ -114,12 +93,12 @@ TEST(a_run_on_a_terminal_ends_with_the_best_rows)
     run_on_terminal(100);
     assert_int_equal(count("* certified"), 1);
     assert_int_equal(count("mote summarize "), 1);
-    for (const char *line = strstr(text, "tt: 1380"); line && *line;) {
+    for (const char *line = strstr(said, "tt: 1380"); line && *line;) {
         const size_t length = strcspn(line, "\r\n");
         assert_true(length <= 100);
         line += length + strspn(line + length, "\r\n");
     }
     run_into_file("--progress 1000");
-    assert_null(strstr(text, "* certified"));
-    assert_non_null(strstr(text, "p95"));
+    assert_null(strstr(said, "* certified"));
+    assert_non_null(strstr(said, "p95"));
 }

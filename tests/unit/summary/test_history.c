@@ -1,6 +1,5 @@
 /* The history of accepted references: what is added to it, drawn of it, and refused. */
 #include "tests/support/folder.h"
-#include "tests/support/plain_file.h"
 #include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/test.h"

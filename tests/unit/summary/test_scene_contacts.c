@@ -3,7 +3,6 @@
 
 #include "harness/base/file.h"
 #include "tests/support/folder.h"
-#include "tests/support/program.h"
 #include "tests/support/test.h"
 
 #include <math.h>

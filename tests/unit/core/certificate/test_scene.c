@@ -43,9 +43,7 @@ TEST(mote_scene_bounds_large_and_tiny_weights_contain_every_vertex)
 {
     static const double factors[] = {0, 1e-12, 1e-3, 10, 1e4};
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 30, 800, 3);
-    mote_scene *scene = crowd_scene(&c, &options);
+    mote_scene *scene = crowd_open(&c, 30, 800, 3);
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; ++k) {
         for (uint32_t i = 0; i < c.count; ++i) {
             for (uint32_t j = 0; j < c.states[i].weights.count; ++j) {
@@ -57,17 +55,14 @@ TEST(mote_scene_bounds_large_and_tiny_weights_contain_every_vertex)
         assert_int_equal(mote_scene_bounds(scene, c.states, boxes), MOTE_OK);
         check_contained(&c, boxes);
     }
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 /* Bounds that were infinite would contain everything, too. */
 TEST(mote_scene_bounds_gentle_deformation_are_tight)
 {
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 30, 2000, 3);
-    mote_scene *scene = crowd_scene(&c, &options);
+    mote_scene *scene = crowd_open(&c, 30, 2000, 3);
     mote_scene_box boxes[CROWD_MAX];
     assert_int_equal(mote_scene_bounds(scene, c.states, boxes), MOTE_OK);
     double sum = 0;
@@ -84,16 +79,13 @@ TEST(mote_scene_bounds_gentle_deformation_are_tight)
         free(world);
     }
     assert_true(sum < 1.25);
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 TEST(mote_scene_bounds_not_finite_names_the_body)
 {
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 6, 400, 3);
-    mote_scene *scene = crowd_scene(&c, &options);
+    mote_scene *scene = crowd_open(&c, 6, 400, 3);
     mote_scene_box boxes[CROWD_MAX];
     c.weights[3][1][2] = NAN;
     assert_int_equal(mote_scene_bounds(scene, c.states, boxes), MOTE_EINVAL);
@@ -102,8 +94,7 @@ TEST(mote_scene_bounds_not_finite_names_the_body)
     c.states[5].pose.rotation.m[1][2] = INFINITY;
     assert_int_equal(mote_scene_bounds(scene, c.states, boxes), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "body 5"));
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 TEST(mote_scene_query_all_pairs_equals_brute_force)
@@ -137,8 +128,7 @@ TEST(mote_scene_query_all_pairs_equals_brute_force)
         crowd_move(&c, 0.02);
     }
     assert_true(contacts > 0 && contacts < 2 * count);
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 TEST(mote_scene_query_contact_question_says_the_same)
@@ -324,9 +314,7 @@ TEST(mote_cert_workspace_query_any_order_and_workspace_same_bits)
 TEST(mote_scene_query_pair_state_lives_while_near)
 {
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 4, 400, 3);
-    mote_scene *scene = crowd_scene(&c, &options);
+    mote_scene *scene = crowd_open(&c, 4, 400, 3);
     static const uint32_t both[][2] = {{0, 1}, {2, 3}}, last[][2] = {{2, 3}};
     static const uint32_t expected[][2] = {{1, 1}, {2, 2}, {3, 0}, {4, 1}};
     for (int step = 0; step < 4; ++step) {
@@ -343,16 +331,13 @@ TEST(mote_scene_query_pair_state_lives_while_near)
     size_t count = 1;
     (void)mote_scene_pairs(scene, &count);
     assert_int_equal(count, 0);
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 TEST(mote_scene_query_bad_pairs_are_refused)
 {
     static crowd c;
-    const mote_scene_options options = mote_default_scene_options();
-    crowd_init(&c, 4, 400, 3);
-    mote_scene *scene = crowd_scene(&c, &options);
+    mote_scene *scene = crowd_open(&c, 4, 400, 3);
     static const uint32_t same[][2] = {{1, 1}}, turned[][2] = {{2, 1}}, beyond[][2] = {{1, 4}};
     static const uint32_t twice[][2] = {{0, 1}, {0, 1}}, falling[][2] = {{1, 2}, {0, 3}};
     assert_int_equal(mote_scene_query(scene, c.states, same, 1), MOTE_EINVAL);
@@ -362,8 +347,7 @@ TEST(mote_scene_query_bad_pairs_are_refused)
     assert_int_equal(mote_scene_query(scene, c.states, twice, 2), MOTE_EINVAL);
     assert_int_equal(mote_scene_query(scene, c.states, falling, 2), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "ascending"));
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 static void check_refused(const crowd *c, uint32_t shapes, uint32_t bodies,
@@ -448,8 +432,7 @@ TEST(mote_scene_query_steady_state_allocates_nothing)
         crowd_move(&c, 0.02);
     }
     assert_int_equal(mote_heap_read().allocations, before.allocations);
-    mote_scene_destroy(scene);
-    crowd_free(&c);
+    crowd_close(&c, scene);
 }
 
 /* Each body costs its shape's number, each pair its state; nothing grows with triangles. */
