@@ -58,12 +58,4 @@ static inline void program_read(const char *path, char *text, size_t size)
         (void)fclose(in);
 }
 
-/* Removes a folder with what is in it; 0 when it was there and is gone. */
-static inline int program_remove(const char *folder)
-{
-    char command[512];
-    (void)snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command);
-}
-
 #endif

@@ -201,7 +201,7 @@ TEST(pair_is_read_from_wherever_its_user_names_it)
         "simulate pair:own/diamond.obj:own/diamond.obj --method certified --steps 2",
         "approach pair:own/diamond.obj:own/diamond.obj --gaps 1:0.1 --every 500 -o p.json",
         "check pair:own/diamond.obj:own/diamond.obj:0,1,0", "check p.json"};
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; ++i)
+    for (size_t i = 0; i < ROWS_OF(lines); ++i)
         mote_expect(0, "", "%s", lines[i]);
 }
 

@@ -36,7 +36,7 @@ TEST(mote_manifest_write_adds_its_session_to_those_before)
                  {"{\"sessions\": \"two\"}\n", 1},
                  {"[1, 2]\n", 1},
                  {"{\"sessions\": [", 1}};
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    for (size_t k = 0; k < ROWS_OF(cases); ++k) {
         json_t *object = write_again(cases[k].before);
         const json_t *sessions = json_object_get(object, "sessions");
         const size_t count = json_array_size(sessions);

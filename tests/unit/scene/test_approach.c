@@ -58,7 +58,7 @@ static mote_status come(double distance, mote_vec3 *place)
 TEST(approach_stops_at_the_first_place_with_the_wished_distance)
 {
     static const double distances[] = {0.15, 0.3, 0.5};
-    for (size_t i = 0; i < sizeof distances / sizeof distances[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(distances); ++i) {
         mote_vec3 place;
         assert_int_equal(come(distances[i], &place), MOTE_OK);
         const double expected = sqrt(2) * distances[i] + 1.9;
@@ -75,7 +75,7 @@ TEST(approach_that_slides_by_or_passes_is_refused_with_the_frame)
         const char *says;
     } cases[] = {{1.5e-4, "frame 1: the bodies slide along each other"},
                  {3e-2, "frame 1: the bodies pass each other"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         mote_vec3 place;
         assert_int_equal(come(0.1 - cases[i].below * scenario->length, &place), MOTE_EINVAL);
         if (!strstr(mote_error_text(), cases[i].says))

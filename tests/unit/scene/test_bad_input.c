@@ -189,7 +189,7 @@ TEST_GROUP(put_mesh, NULL);
 
 TEST(program_bad_files_exit_4_in_time_and_memory)
 {
-    for (size_t i = 0; i < sizeof inputs / sizeof inputs[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(inputs); ++i) {
         file_put(inputs[i].file, inputs[i].text);
         expect_file(inputs[i].file, inputs[i].status, inputs[i].says);
     }
@@ -258,7 +258,7 @@ TEST(mote_mesh_import_truncated_anywhere_is_read_or_refused)
                 {"t.ply", PLY PLY_VERTICES PLY_FACES "3 1 2 3\n", 1},
                 {"t.stl", STL("1"), 3},
                 {"t.gltf", GLTF("", "4", "12", "72", GLTF_DATA), 0}};
-    for (size_t i = 0; i < sizeof good / sizeof good[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(good); ++i) {
         const size_t whole = strlen(good[i].text);
         for (size_t size = 0; size < whole; ++size) {
             mote_mesh *mesh = NULL;

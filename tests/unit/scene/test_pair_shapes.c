@@ -168,7 +168,7 @@ TEST(pair_of_meshes_that_people_have_touches_as_promised)
                                            {"bowl", "bowl"},     {"bowl", "tetrahedron"},
                                            {"u", "rod"},         {"tetrahedron", "tetrahedron"},
                                            {"triangle", "cube"}, {"triangle", "triangle"}};
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i)
+    for (size_t i = 0; i < ROWS_OF(pairs); ++i)
         check_pair(pairs[i][0], pairs[i][1], "");
 }
 

@@ -304,7 +304,7 @@ static const bad_case bad_cases[] = {
 
 TEST(mote_scenario_load_bad_file_names_line_and_path)
 {
-    for (size_t i = 0; i < sizeof bad_cases / sizeof bad_cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(bad_cases); ++i) {
         const bad_case *bad = &bad_cases[i];
         write_changed(bad->from, bad->to);
         mote_scenario *scenario = NULL;
@@ -462,7 +462,7 @@ TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
                  {"\"bodies\": null", "bodies: is missing"}};
     mote_scenario *scenario = NULL;
     mote_scenario_destroy(load_good());
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    for (size_t k = 0; k < ROWS_OF(cases); ++k) {
         char *text = mote_format("{\"like\": \"s.json\", %s}\n", cases[k].more);
         write_like(text);
         free(text);

@@ -8,7 +8,7 @@
 #include "harness/study/study_dynamics.h"
 #include "harness/study/study_extremes.h"
 #include "tests/support/planted.h"
-#include "tests/support/program.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -243,7 +243,7 @@ TEST(dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass)
     assert_true(dynamics_met(true)); /* the rows that are there */
     char rows[96];
     (void)snprintf(rows, sizeof rows, "%s/rows", base);
-    assert_int_equal(program_remove(rows), 0);
+    assert_int_equal(folder_remove(rows), 0);
     assert_false(dynamics_met(false));
     assert_true(size_of("dynamics.json", "failures") > 0);
 }

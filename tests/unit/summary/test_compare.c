@@ -205,7 +205,7 @@ TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
         {QUIET(10, 10.1, 10, 10.1, 10),
          "{'heap_live_bytes': 2e6, 'quiet': {'ratio': [5, 5.05, 5, 5.05, 5]}}", 1,
          "heap 1e+06 to 2e+06 (+1e+02 %); cost per count changed"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         write_run("old", &usual, 1);
         write_run("new", &usual, -1);
         change_row("old", "summary.json", cases[i].old_members);
@@ -241,7 +241,7 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
     /* Rows of instructions that are of nothing that is compared, or know nothing. */
     static const char *const members[] = {"{'scenario': 'tt'}", "{'method': 'certified'}",
                                           "{'parameters': {'n': 6}}", "{'per_frame': null}"};
-    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(members); ++i) {
         write_beside("old", "one", 1000);
         write_beside("new", "one", 1100);
         change_row(i % 2 ? "old" : "new", "instructions.json", members[i]);
@@ -308,7 +308,7 @@ TEST(compare_of_two_rows_is_worse_when_the_first_is)
 TEST(compare_of_what_has_no_rows_is_bad_input)
 {
     static const char *const summaries[] = {"{\"schema\": 1}\n", "{\"rows\": 5}\n", "[]\n"};
-    for (size_t i = 0; i < sizeof summaries / sizeof summaries[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(summaries); ++i) {
         for (int which = 0; which < 2; ++which) {
             write_run("old", &usual, 1);
             write_run("new", &usual, -1);

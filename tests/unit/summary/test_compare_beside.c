@@ -100,7 +100,7 @@ TEST(compare_of_instructions_of_other_frames_is_undecided)
                  {"{}", "{'frames': [2, 9]}", 3, "not counted over the same"},
                  {"{}", "{'per_frame': null}", 3, "not counted over the same"},
                  {"{'per_frame': null}", "{}", 0, "same or better"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         write_run("old", &usual, 1);
         write_run("new", &usual, -1);
         write_beside("old", "one", 1000);

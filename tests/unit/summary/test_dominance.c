@@ -97,7 +97,7 @@ TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
         {"missed contacts", {0, 1000, 0, 0, 3, 3}, {0, 10, 0, 0, 4, 3}, false},
         {"false contacts", {0, 1000, 0, 0, 3, 3}, {0, 10, 0, 0, 3, 4}, false},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         assert_int_equal(folder_next(), 0);
         write_row((stored_cell){.method = "slow"}, cases[i].slow);
         write_row((stored_cell){.method = "fast"}, cases[i].fast);
@@ -277,7 +277,7 @@ TEST(the_row_that_stands_for_a_method_is_its_fastest_good_one)
         {"b3", "poor", "{\"n\": 3}", {0, 30, 0.4, 50, 1, 1}, true},
         {"c1", "ours", "{\"positions\": \"given\"}", {0, 99, 0, 0, 0, 0}, true},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
+    for (size_t i = 0; i < ROWS_OF(rows); ++i)
         write_answers((stored_cell){.id = rows[i].id,
                                     .method = rows[i].method,
                                     .parameters = rows[i].parameters},

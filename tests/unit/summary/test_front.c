@@ -60,7 +60,7 @@ TEST(front_title_leaves_out_n_wherever_it_stands)
                                             {"p:law=log,n=5", "p:law=log"},
                                             {"p:law=log,n=5,refine=no", "p:law=log,refine=no"},
                                             {"p:law=log", "p:law=log"}};
-    for (size_t i = 0; i < sizeof labels / sizeof labels[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(labels); ++i) {
         char label[64], title[64];
         (void)snprintf(label, sizeof label, "%s", labels[i][0]);
         const mote_summary_row row = {.label = label};

@@ -44,7 +44,7 @@ TEST(history_of_what_is_none_is_refused_by_line)
         {HEADER "d,c,w,r,100,nan,,,,,\n", "h.csv:2: nan: not a number"},
         {HEADER "d,c,w,r,100,2,,,,,1,\n", "h.csv:2: not a line of a history"},
         {HEADER "d,c,w,r,100,2,,,,,?\n", "h.csv:2: ?: not a number"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         file_put("h.csv", cases[i].text);
         mote_expect(4, cases[i].says, "history h.csv");
     }
@@ -105,7 +105,7 @@ TEST(history_add_of_odd_names_can_be_drawn)
         {.rows = "1,0,0,5,0.5,0,0,0,7\n", .scenario = "a,b", .more = ", \"x\": 1"},
         {.method = "certified", .rows = "1,,,,,,,,\n", .parameters = "{\"slack\": \"1,2\"}"},
         {.method = "aabb-tree", .status = "crashed"}};
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i)
+    for (size_t i = 0; i < ROWS_OF(cells); ++i)
         stored_cell_put("run", cells[i]);
     static const char add[] = "history n.csv --add run --why 'a\"b,c'";
     mote_expect(4, "run/manifest.json: No such file", "%s", add);

@@ -27,7 +27,7 @@ TEST(mote_scene_contacts_lacking_counts_by_frame_and_pair)
         {{{1, {0, 1}}, {2, {0, 1}}, {3, {0, 1}}}, {{2, {0, 1}}, {3, {0, 2}}}, 3, 2, 0, 1},
         {{{1, {0, 1}}, {2, {0, 3}}}, {{1, {0, 1}}, {1, {0, 2}}, {2, {0, 3}}}, 2, 3, 1, 0},
     };
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    for (size_t k = 0; k < ROWS_OF(cases); ++k) {
         mote_scene_contact a[3], b[3];
         memcpy(a, cases[k].mine, sizeof a);
         memcpy(b, cases[k].theirs, sizeof b);
@@ -149,7 +149,7 @@ TEST(mote_scene_contacts_count_names_the_line_that_is_no_pair)
                  {"1,1,2\n", "c.pairs.csv:2"},
                  {"1,1,2,1,0,0,1", "c.pairs.csv:2"}};
     mote_stored_cell cell = cell_of("certified", "near", "c", numbers);
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+    for (size_t k = 0; k < ROWS_OF(cases); ++k) {
         mote_summary_row row = row_of(&cell);
         write_pairs("c", cases[k].lines);
         assert_int_equal(mote_scene_contacts_count(".", &row, 1), MOTE_EINVAL);

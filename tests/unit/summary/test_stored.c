@@ -45,7 +45,7 @@ TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
                    {"heap_peak_bytes", "-1"},
                    {"rss_peak_bytes", "5.4e128"},
                    {"deform_bytes", "4611686018427387904"}};
-    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(changes); ++i) {
         json_t *cell = NULL;
         write_cell((stored_cell){.rows = ROWS});
         assert_int_equal(mote_record_read_json(".", "cells/fcl-aabb-1.json", &cell), MOTE_OK);
@@ -134,7 +134,7 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
         {STORED_COLUMNS "2,1,2,3,0,0,0,0,7\n2,1,2,3,0,0,0,0,7\n",
          "fcl-aabb-1.csv:3: not a frame's row"}};
     write_cell((stored_cell){.rows = ROWS});
-    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(changes); ++i) {
         file_put("cells/fcl-aabb-1.csv", changes[i].csv);
         refused(changes[i].csv, changes[i].says);
     }
@@ -146,7 +146,7 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
                 {", \"rows\": 4", 0},
                 {", \"rows\": 5", (int)sizeof rows - 1},
                 {", \"rows\": \"4\"", (int)sizeof rows - 1}};
-    for (size_t i = 0; i < sizeof cuts / sizeof cuts[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cuts); ++i) {
         char left[sizeof rows];
         (void)snprintf(left, sizeof left, "%.*s", cuts[i].bytes, rows);
         write_cell((stored_cell){.rows = left, .more = cuts[i].more});
@@ -194,7 +194,7 @@ TEST(summary_clock_of_a_core_is_told_where_it_can_be_one)
                  {", \"clock_mhz\": [1e300, 1e300]", NULL},
                  {", \"clock_mhz\": [-1, -1]", NULL},
                  {", \"clock_mhz\": \"fast\"", NULL}};
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cells); ++i) {
         write_cell((stored_cell){.rows = ROWS, .more = cells[i].more});
         assert_int_equal(mote("summarize --format gbench ."), 0);
         assert_non_null(strstr(said, cells[i].says ? cells[i].says : "\"context\""));
@@ -216,7 +216,7 @@ TEST(stored_read_keeps_the_cells_of_the_manifests_program)
     write_cell((stored_cell){.rows = ROWS, .more = ", \"program\": \"one\""});
     write_cell((stored_cell){.rows = ROWS, .replicate = 2, .more = ", \"program\": \"two\""});
     write_cell((stored_cell){.rows = ROWS, .replicate = 3});
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         mote_stored stored;
         file_put("manifest.json", cases[i].manifest);
         assert_int_equal(mote_stored_read(".", NULL, &stored), MOTE_OK);
@@ -360,7 +360,7 @@ TEST(summary_reference_is_of_the_same_frames_and_caches)
          .id = "k",
          .cache = "evict",
          .parameters = "{\"queue\": \"64\"}"}};
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cells); ++i) {
         stored_cell cell = cells[i];
         cell.rows = ROWS;
         write_cell(cell);

@@ -30,7 +30,7 @@ TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
     write_cell(cells[0]);
     mote_expect(0, "", "tune ."); /* nothing ended well: no row */
     assert_string_equal(said, "");
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; ++i)
+    for (size_t i = 0; i < ROWS_OF(cells); ++i)
         write_cell(cells[i]);
     mote_expect(0, "", "tune .");
     static const struct {

@@ -281,7 +281,7 @@ TEST(figure_bodies_caption_is_of_what_is_drawn)
               {"aabb-tree", 4, 150000}};
     mote_text text = {0};
     mote_text_add(&text, "{\"rows\": [");
-    for (size_t k = 0; k < sizeof of / sizeof of[0]; ++k)
+    for (size_t k = 0; k < ROWS_OF(of); ++k)
         mote_text_add(&text,
                       "%s{\"label\": \"%s\", \"status\": \"ok\", \"bodies\": 1000, "
                       "\"near_pairs_wanted\": %d, \"active_total_ns\": {\"mean\": %d, "
@@ -379,7 +379,7 @@ TEST(scenes_of_one_name_are_told_apart_wherever_rows_are_shown)
                    {"tune .", NULL},
                    {"report .", "report.html"},
                    {"report .", "report.md"}};
-    for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(outputs); ++i) {
         const char *text = after(outputs[i].command, outputs[i].file);
         for (int k = 0; k < 2; ++k) {
             if (!strstr(text, names[k]) &&

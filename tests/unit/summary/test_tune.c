@@ -111,7 +111,7 @@ TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
     static const char row[] =
         "{\"scenario\": \"ww\", \"cache\": \"hot\", \"method\": \"fcl-aabb\","
         " \"right\": true, \"configuration\":";
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
         mote_text file = {0};
         const char *rest = cases[i].text;
         for (const char *hole; (hole = strstr(rest, "%s,")) != NULL; rest = hole + 3)
