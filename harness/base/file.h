@@ -55,7 +55,6 @@ bool mote_name_ends(const char *name, const char *ending);
 typedef struct mote_text {
     char *data;
     size_t size, capacity;
-    int failed; /* always 0 */
 } mote_text;
 
 void mote_text_add(mote_text *text, const char *format, ...) MOTE_PRINTF(2, 3);

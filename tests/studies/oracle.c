@@ -390,8 +390,7 @@ static int store(const json_t *study, const char *path)
 {
     mote_text text = {0};
     mote_json_print(study, 16, &text);
-    mote_status status = text.failed ? mote_fail(MOTE_ENOMEM, "no memory for %s", path)
-                                     : mote_file_write(path, text.data, text.size);
+    const mote_status status = mote_file_write(path, text.data, text.size);
     free(text.data);
     if (status != MOTE_OK)
         fprintf(stderr, "oracle: %s\n", mote_error_text());
