@@ -1,0 +1,53 @@
+#!/bin/bash
+# compile.sh ROOT: cmake/compile.sh says what a person wants to know of a build, on a program of two
+# sources: warnings and errors as they are, how far it is, and nothing of CMake's or make's.
+set -eu
+compile=$1/cmake/compile.sh
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+    echo "compile.sh: $1" >&2
+    cat said >&2
+    exit 1
+}
+has() { grep -q -- "$1" said || fail "no '$1' in"; }
+has_not() { ! grep -q -- "$1" said || fail "'$1' in"; }
+
+cat >CMakeLists.txt <<'END'
+cmake_minimum_required(VERSION 3.20)
+project(two C)
+add_compile_options(-Wall)
+add_executable(two one.c two.c)
+add_executable(other other.c)
+END
+echo 'int two(void); int main(void) { return two(); }' >one.c
+printf 'int two(void)\n{\n    int unused;\n    return 0;\n}\n' >two.c
+echo 'this is no C' >other.c
+cmake -S . -B build -G 'Unix Makefiles' >said 2>&1 || fail 'cannot be configured'
+
+# Of a target, and not of the others; called by a make that names its folders.
+printf 'all:\n\t@%s build 2 two\n' "$compile" >Makefile
+make -w >said 2>&1 || fail 'a program with a warning is not built'
+[ -x build/two ] || fail 'no program'
+has 'unused variable'
+has_not 'Built target'
+has_not 'Building C object'
+[ "$(grep -c 'Entering directory' said)" -eq 1 ] || fail 'folders that make entered'
+
+# An error ends it with its status.
+status=0
+"$compile" build 2 other >said 2>&1 || status=$?
+[ "$status" -ne 0 ] || fail 'an error is no failure'
+has 'error'
+
+# On a terminal one line moves, cut to its width, and is gone at the end.
+touch one.c two.c
+TERM=xterm script -qec "stty cols 24; $compile build 1 two" /dev/null </dev/null >said 2>&1 ||
+    fail 'it fails on a terminal'
+has 'compiling, [0-9]* %: '
+tr '\r' '\n' <said | grep 'compiling' | sed 's/\x1b\[K//' | while IFS= read -r line; do
+    [ ${#line} -le 23 ] || fail "a line of ${#line} characters"
+done
+has_not 'Built target'
