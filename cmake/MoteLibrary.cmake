@@ -6,7 +6,7 @@ set(MOTE_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # 0.x: eac
 
 # Headers of the installed library; everything else in core/ is not for users.
 set(public_headers status vec3 clones mesh field body triangle parameter method certificate scene mass
-    quaternion rigid_motion response)
+    skin skin_data quaternion rigid_motion response)
 if(NOT MOTE_CORE_ONLY)
   list(APPEND public_headers csrbf_fit parts)
 endif()

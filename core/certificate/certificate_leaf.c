@@ -175,6 +175,17 @@ bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
     return narrowed;
 }
 
+uint32_t mote_cert_narrow_row(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                              mote_cert_node *other, uint32_t undecided, float bound[WIDTH])
+{
+    bool narrowed = node->wide >> lane & 1 && mote_cert_narrow(&c->side[s], node, lane);
+    for (uint32_t left = undecided & other->wide; left; left &= left - 1)
+        narrowed = mote_cert_narrow(&c->side[1 - s], other, mote_lowest_bit(left)) || narrowed;
+    if (!narrowed)
+        return undecided;
+    return mote_cert_row_boxes(node, lane, other, c->need, undecided, bound);
+}
+
 /* The exact coordinate of a vertex towards the other body. */
 static double exact_reach(mote_certificate *c, int s, uint32_t vertex)
 {

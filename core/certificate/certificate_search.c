@@ -99,11 +99,6 @@ static void visit_pair(mote_certificate *c, row r, size_t k, uint32_t depth)
 {
     const bool leaf = r.node->block->child[r.lane] < 0;
     const bool other_leaf = r.other->block->child[k] < 0;
-    if (r.other->wide >> k & 1 && mote_cert_narrow(&c->side[1 - r.s], r.other, k)) {
-        float bound[WIDTH] = {0};
-        if (!mote_cert_row_boxes(r.node, r.lane, r.other, c->need, 1u << k, bound))
-            return;
-    }
     if (leaf && other_leaf) {
         const mote_cert_node *nodes[2];
         size_t lanes[2];
@@ -138,9 +133,9 @@ static void visit_row(mote_certificate *c, row r, uint32_t depth)
     if (undecided) {
         mote_cert_make_boxes(c, r.s, r.node);
         mote_cert_make_boxes(c, 1 - r.s, r.other);
-        if (r.node->wide >> r.lane & 1)
-            (void)mote_cert_narrow(&c->side[r.s], r.node, r.lane);
         undecided = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, undecided, bound);
+        if (undecided && (r.node->wide | r.other->wide))
+            undecided = mote_cert_narrow_row(c, r.s, r.node, r.lane, r.other, undecided, bound);
     }
     ++c->counters.rows;
     c->counters.box_tests += r.other->block->children;

@@ -161,6 +161,12 @@ float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, siz
    the box to that; false where nothing changed. For a bit of node->wide, which it clears. */
 bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane);
 
+/* Narrows child `lane` of a node of side s, and the children `undecided` of one of the other
+   side, where these are wide leaves; then as mote_cert_row_boxes. */
+uint32_t mote_cert_narrow_row(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
+                              mote_cert_node *other, uint32_t undecided,
+                              float bound[MOTE_CERT_WIDTH]);
+
 /* The hull with the field evaluated in single precision; NULL where the kind of field does not
    offer that. Valid until another leaf of the side is asked for. */
 const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_cert_node *node,

@@ -9,6 +9,8 @@
 #include "core/base/linear_algebra.h"
 #include "core/body/mass.h"
 #include "core/method/method.h"
+#include "core/certificate/certificate_tree.h"
+#include "core/skin/skin.h"
 #include "core/body/parts.h"
 #include "core/base/pool.h"
 #include "core/particle/start.h"
@@ -147,6 +149,42 @@ static mote_status make_places(void *context)
     if (status == MOTE_OK)
         status = mote_start_vertices(mesh, 9, MOTE_START_FARTHEST, 3, farthest);
     return status;
+}
+
+/* A skin of three bones, and the tree of its bounds. */
+static mote_status make_skin(void *context)
+{
+    const mote_mesh *mesh = context;
+    const uint32_t n = mesh->vertex_count;
+    static uint32_t start[1000];
+    static uint16_t bone[2000];
+    static double weight[2000];
+    for (uint32_t v = 0; v < n; ++v) {
+        start[v + 1] = 2 * v + 2;
+        bone[2 * v] = (uint16_t)(v % 3);
+        bone[2 * v + 1] = (uint16_t)((v + 1) % 3);
+        weight[2 * v] = 0.25;
+        weight[2 * v + 1] = 0.75;
+    }
+    mote_field *field = NULL;
+    mote_status status = mote_field_create_skin(mesh, 3, start, bone, weight, &field);
+    const mote_body body = {.mesh = mesh, .field = field};
+    const mote_cert_tree_options options = {
+        .length = mesh->diagonal, .width = 8, .linear_fits = true};
+    mote_cert_tree *tree = NULL;
+    if (status == MOTE_OK)
+        status = mote_cert_tree_create(&body, &options, &tree);
+    mote_cert_tree_destroy(tree);
+    mote_field_destroy(field);
+    return status;
+}
+
+TEST(skin_when_an_allocation_fails_says_so)
+{
+    mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
+    assert_true(mesh->vertex_count < 1000);
+    fail_each_allocation(make_skin, mesh, "skin");
+    mote_mesh_destroy(mesh);
 }
 
 TEST(start_when_an_allocation_fails_says_so)

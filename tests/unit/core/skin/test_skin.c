@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "core/certificate/certificate_shared.h"
+#include "core/certificate/scene.h"
 #include "core/certificate/certificate_state.h"
 #include "core/skin/skin.h"
 #include "core/body/field_kinds.h"
@@ -110,6 +111,7 @@ static void next_pose(skinned *k, double wild, double reach)
         mote_body_state *state = &s->frame.body[b];
         const uint32_t padded = s->field[b]->padded;
         double *w = k->weights[b];
+        state->shape_changed = state->pose_changed = true;
         state->pose.rotation = random_rotation(s);
         state->pose.translation =
             mote_vec3_make(b * scene_random(s, 0.1, reach) * s->length,
@@ -442,6 +444,73 @@ TEST(sample_poses_change_no_answer)
         mote_certificate_destroy(c[b]);
         free(at[b]);
     }
+    skinned_free(&k);
+}
+
+/* The methods that look at vertices one by one, all at once, or through trees of their own. */
+TEST(other_methods_answer_for_skins)
+{
+    static const char *const names[] = {"particle", "particle-paper", "aabb-tree"};
+    skinned k;
+    skinned_init(&k, 30, 14, 9, 3);
+    void *state[3];
+    double values[3][64];
+    for (int i = 0; i < 3; ++i) {
+        const mote_method *method = mote_method_find(names[i]);
+        mote_parameters_default(method->parameters, method->parameter_count, values[i]);
+        const mote_setup setup = {.body = {&k.s.body[0], &k.s.body[1]},
+                                  .length = k.s.length,
+                                  .ask = MOTE_ASK_DISTANCE,
+                                  .seed = 1,
+                                  .values = values[i]};
+        assert_int_equal(mote_method_create(method, &setup, &state[i]), MOTE_OK);
+    }
+    int exact = 0;
+    for (int frame = 0; frame < 20; ++frame) {
+        next_pose(&k, 0.1, 2);
+        const double truth = scene_distance(&k.s);
+        for (int i = 0; i < 3; ++i) {
+            const mote_method *method = mote_method_find(names[i]);
+            mote_frame frame_of = k.s.frame;
+            for (int b = 0; b < 2; ++b)
+                frame_of.body[b].vertices = k.s.world[b];
+            mote_answer a = {.has_distance = false};
+            if (method->update)
+                assert_int_equal(method->update(state[i], &frame_of), MOTE_OK);
+            assert_int_equal(method->query(state[i], &frame_of, &a), MOTE_OK);
+            assert_true(a.has_distance);
+            assert_true(a.distance >= truth - 1e-12 * k.s.length);
+            const bool same = a.distance <= truth + 1e-12 * k.s.length;
+            assert_true(same || i < 2);
+            exact += same && i == 0;
+        }
+    }
+    assert_true(exact >= 15);
+    for (int i = 0; i < 3; ++i)
+        mote_method_destroy(mote_method_find(names[i]), state[i]);
+    skinned_free(&k);
+}
+
+/* A scene of bodies of two skins: each pair is answered as all pairs of triangles are. */
+TEST(scene_of_skins_equals_all_pairs)
+{
+    skinned k;
+    skinned_init(&k, 22, 11, 9, 3);
+    const mote_body *const shapes[2] = {&k.s.body[0], &k.s.body[1]};
+    const uint32_t shape_of[2] = {0, 1};
+    const uint32_t pairs[1][2] = {{0, 1}};
+    const mote_scene_options options = {.threads = 1, .ask = MOTE_ASK_DISTANCE, .tolerance = 0};
+    mote_scene *many = NULL;
+    assert_int_equal(mote_scene_create(shapes, 2, shape_of, 2, &options, &many), MOTE_OK);
+    for (int frame = 0; frame < 20; ++frame) {
+        next_pose(&k, wildness[frame % 4], 2);
+        assert_int_equal(mote_scene_query(many, k.s.frame.body, pairs, 1), MOTE_OK);
+        size_t count = 0;
+        const mote_scene_pair *pair = mote_scene_pairs(many, &count);
+        assert_int_equal(count, 1);
+        assert_true(fabs(pair->distance - scene_distance(&k.s)) <= 1e-12 * k.s.length);
+    }
+    mote_scene_destroy(many);
     skinned_free(&k);
 }
 
