@@ -8,7 +8,8 @@ cd "$1"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I."
-sources="tests/unit/core/test_portability.c tests/support/test_main.c"
+sources="tests/unit/core/test_portability.c tests/support/test_main.c tests/support/folder.c \
+    harness/base/file.c harness/base/memory.c"
 for name in status mesh_create mesh_ring field_kinds field_evaluate field_sum csrbf modes body deform lazy \
     potential site start far_cache particles triangle refine \
     certificate_query certificate_create certificate_build certificate_box certificate_fitted \
