@@ -4,6 +4,7 @@
 #include "harness/figure/figure_room.h"
 #include "harness/summary/front.h"
 
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +63,7 @@ static bool is_point(const mote_summary *summary, const mote_summary_row *row,
    c->room.taken. */
 static void open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
 {
-    double low = HUGE_VAL, high = 0;
+    double low = HUGE_VAL, high = DBL_MIN;
     memset(c, 0, sizeof *c);
     c->room.taken = mote_allocate(2 * summary->count, sizeof *c->room.taken);
     for (size_t i = 0; i < summary->count; ++i) {
