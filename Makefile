@@ -219,7 +219,7 @@ test-page: build deps-page
 	@node tests/scripts/page.mjs $(MOTE) $(BUILD)/page/replay.js "$$(command -v chromium)" $(BUILD)/page/test
 
 SOURCES = $(wildcard $(foreach folder,core baselines datasets harness tests cmake,\
-    $(foreach kind,c h cpp hpp,$(folder)/*.$(kind) $(folder)/*/*.$(kind) $(folder)/*/*/*.$(kind))))
+    $(foreach kind,c h cpp hpp,$(addsuffix .$(kind),$(addprefix $(folder)/,* */* */*/* */*/*/*)))))
 
 format: deps-lint
 	@clang-format --dry-run -Werror $(SOURCES)

@@ -42,7 +42,7 @@ inside() { # ROOT COMMAND...
     for name in "$@"; do
         echo "== bare: $name"
         start=$SECONDS
-        chroot "$root" env -i "${environment[@]}" sh -c "cd /root/mote && $name"
+        chroot "$root" env -i "${environment[@]}" sh -c "cd /mote && $name"
         echo "== bare: $name took $((SECONDS - start)) s"
     done
 }
@@ -136,9 +136,9 @@ if [ ! -e "$root" ]; then
 fi
 exec 7< "$root" 8>&-
 
-mkdir "$work/root"
-tar -xp --numeric-owner -C "$work/root" <&7
+mkdir "$work/debian"
+tar -xp --numeric-owner -C "$work/debian" <&7
 exec 7<&-
-cp -L /etc/resolv.conf /etc/hosts "$work/root/etc"
-git clone --quiet --no-hardlinks "$source" "$work/root/root/mote"
-apart "$self" --inside "$work/root" "$@"
+cp -L /etc/resolv.conf /etc/hosts "$work/debian/etc"
+git clone --quiet --no-hardlinks "$source" "$work/debian/mote"
+apart "$self" --inside "$work/debian" "$@"

@@ -229,7 +229,7 @@ TEST(mass_of_mesh_bad_input_refused_with_reason)
         {solid_join(solid_box(1, 1, 1.5), taken, 9), 1, "not that of a solid"},
         {solid_box(1e-120, 1e-120, 1e-120), 1, "mass 0 "},
         {solid_box(1e60, 1e63, 1e63), 1, "not that of a solid"}, /* moments of inf */
-        {piled, 2.24e7, "inf is not that of a solid"},             /* the larger ones */
+        {piled, 2.24e7, "inf is not that of a solid"},           /* the larger ones */
         {solid_grid(3, 3), 1, "open"},
         {twisted, 1, "wound differently"},
         {solid_box(1, 1, 0), 1, "no volume"},
