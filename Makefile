@@ -237,8 +237,8 @@ lint: format
 	    > $(BUILD)/lint/compile_commands.json
 	@grep -qE '"file": ".*/($(DEEP))/.+"' $(BUILD)/lint/compile_commands.json || \
 	    { echo 'lint: there is no file in $(DEEP)' >&2; exit 1; }
-	@$(TIDY) '/($(DEEP))/.+$$'
-	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='/%/.+$$'))
+	@$(TIDY) '^$(CURDIR)/($(DEEP))/.+$$'
+	@$(if $(REST),$(TIDY) -checks='-clang-analyzer-*' $(REST:%='^$(CURDIR)/%/.+$$'))
 
 # Beside lint's clang-tidy. Warnings of gcc and clang are errors in the builds that have presets.
 .PHONY: check-static check-threads valgrind

@@ -86,8 +86,8 @@ static bool allocate(fitter *f, const mote_field *field)
     f->stamp = calloc(n, sizeof *f->stamp);
     f->fits = malloc(n * sizeof *f->fits);
     f->phi = malloc(field->padded * sizeof *f->phi);
-    f->at_vertex = malloc(field->most * sizeof *f->at_vertex);
-    f->value = malloc(field->most * sizeof *f->value);
+    f->at_vertex = calloc(field->most, sizeof *f->at_vertex);
+    f->value = calloc(field->most, sizeof *f->value);
     f->row = malloc(n * sizeof *f->row);
     f->active = malloc(n * sizeof *f->active);
     f->is_active = calloc(n, sizeof *f->is_active);

@@ -150,7 +150,7 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
    Twice leaf_margin is 64 u B. */
 bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
 {
-    mote_cert_hull placed;
+    mote_cert_hull placed = {0};
     node->wide &= ~(1u << lane);
     const mote_cert_hull *near = mote_cert_leaf_near_hull(side, node, lane);
     if (!near)

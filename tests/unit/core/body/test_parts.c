@@ -198,7 +198,8 @@ TEST(parts_create_of_components_simplified_to_nothing_is_one_part_each)
     const size_t each = all.vertex_count / 16;
     for (size_t i = 0; i < all.vertex_count; ++i) {
         const double *p = all.xyz + 3 * i;
-        const double at = (double)(i / each);
+        const size_t which = i / each;
+        const double at = (double)which;
         solid_set_vertex(&all, i, 1e-12 * p[0] + at, 1e-12 * p[1] + at, 1e-12 * p[2] + at);
     }
     mote_mesh *mesh = solid_to_mesh(all);
