@@ -95,13 +95,13 @@ static size_t add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
 {
     size_t i, count = 0;
     const json_t *row;
-    const json_t **line = mote_allocate(json_array_size(rows), sizeof *line);
+    const json_t **line = mote_allocate(json_array_size(rows), sizeof(const json_t *));
     MOTE_EACH(i, row, rows)
     {
         if (is_row(row, methods[m], densities[d]))
             line[count++] = row;
     }
-    qsort(line, count, sizeof *line, by_bodies);
+    qsort(line, count, sizeof(const json_t *), by_bodies);
     mote_gnuplot_block(text, methods[m]);
     for (size_t k = 0; k < count; ++k)
         mote_text_add(text, "%.0f %.6g %.6g\n", number_of(line[k], "bodies"),

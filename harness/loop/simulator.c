@@ -15,7 +15,7 @@ static mote_simulator *new_simulator(uint32_t count, uint32_t shape_count,
     made->choice = *choice;
     made->options = *options;
     made->gravity = mote_scale(options->gravity, length);
-    made->shapes = mote_allocate(shape_count, sizeof *made->shapes);
+    made->shapes = mote_allocate(shape_count, sizeof(const mote_body *));
     made->shape_of = mote_allocate(count, sizeof *made->shape_of);
     made->masses = mote_allocate(shape_count, sizeof *made->masses);
     made->start = mote_allocate(count, sizeof *made->start);

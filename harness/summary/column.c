@@ -81,6 +81,8 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
     "{\"type\": \"array\", \"items\": {\"type\": \"integer\", \"minimum\": 0}, "               \
     "\"minItems\": 2, \"maxItems\": 2}"
 
+/* Arguments are initialisers, members and parts of texts.
+   NOLINTBEGIN(bugprone-macro-parentheses) */
 #define AT(member) .offset = offsetof(mote_summary_row, member)
 #define PLACE(table, report, brief)                                                            \
     {                                                                                          \
@@ -204,6 +206,7 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
             false                                                                              \
         }                                                                                      \
     }
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 const mote_column mote_columns[] = {
     {.key = "scenario",

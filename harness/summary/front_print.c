@@ -70,7 +70,8 @@ static void print_members(const mote_fronts *fronts, const mote_summary_row *blo
                           FILE *out)
 {
     const mote_summary *summary = fronts->summary;
-    const mote_summary_row **members = mote_allocate(summary->count, sizeof *members);
+    const mote_summary_row **members =
+        mote_allocate(summary->count, sizeof(const mote_summary_row *));
     size_t count = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
@@ -78,7 +79,7 @@ static void print_members(const mote_fronts *fronts, const mote_summary_row *blo
             members[count++] = row;
     }
     if (count > 0) {
-        qsort(members, count, sizeof *members, by_time);
+        qsort(members, count, sizeof(const mote_summary_row *), by_time);
         (void)fprintf(out, "front of time against error%s:", given ? ", positions given" : "");
         for (size_t i = 0; i < count; ++i)
             (void)fprintf(out, "%s %s", i ? "," : "", members[i]->label);

@@ -70,7 +70,7 @@ static bool drop_worst(choice *c)
 
 static choice choose(const mote_summary *summary, size_t start, size_t end, bool given)
 {
-    choice c = {.rows = mote_allocate(end - start, sizeof *c.rows)};
+    choice c = {.rows = mote_allocate(end - start, sizeof(const mote_summary_row *))};
     for (size_t i = start; i < end; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         if (row->given != given || row->status != MOTE_CELL_OK)
@@ -84,7 +84,7 @@ static choice choose(const mote_summary *summary, size_t start, size_t end, bool
         continue;
     for (size_t i = 0; i < c.count; ++i)
         c.any_marked = c.any_marked || is_marked(c.rows[i]);
-    qsort(c.rows, c.count, sizeof(*c.rows), by_time);
+    qsort(c.rows, c.count, sizeof(const mote_summary_row *), by_time);
     return c;
 }
 
