@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/* Zero-initialise it: what is left out has no samples. */
 typedef struct mote_body {
     const mote_mesh *mesh;   /* borrowed */
     const mote_field *field; /* borrowed; never NULL: static when nothing deforms */

@@ -1,7 +1,7 @@
 /* Replaces linear_algebra.c and parts_hacd.cpp where the core is built without other libraries
    (MOTE_CORE_ONLY): principal axes by our own code, no convex parts. CSRBF weights are not
    fitted there: they come from the caller. */
-#include "core/certificate/certificate_fit.h"
+#include "core/certificate/certificate_box.h"
 #include "core/base/linear_algebra.h"
 #include "core/body/parts.h"
 

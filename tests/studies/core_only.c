@@ -98,10 +98,9 @@ int main(void)
     mote_body body[2];
     for (int b = 0; b < 2; ++b) {
         mote_field *field = NULL;
-        body[b].mesh = make_box(1, 2, 3);
         if (mote_field_create_csrbf(centres, 2, 3, &field) != MOTE_OK)
             (void)puts(mote_error_text());
-        body[b].field = field;
+        body[b] = (mote_body){.mesh = make_box(1, 2, 3), .field = field};
     }
     check_mass(body[0].mesh);
     run_method("certified", "", body);
