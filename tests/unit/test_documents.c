@@ -60,12 +60,24 @@ static bool is_ours(const char *name)
     return true;
 }
 
+/* Runs leave any number of files in results/, where what is ours has these names. */
+static bool is_of_a_run(const char *name)
+{
+    static const char *const ours[] = {"results/README.md", "results/history.csv",
+                                       "results/reference/*", "results/schema/*",
+                                       "results/records/*"};
+    bool kept = strncmp(name, "results/", 8) != 0;
+    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; ++i)
+        kept = kept || fnmatch(ours[i], name, 0) == 0;
+    return !kept;
+}
+
 static int keep_file(const char *path, const struct stat *information, int type,
                      struct FTW *walk)
 {
     (void)information, (void)walk;
     const char *name = path + strlen(MOTE_SOURCE_DIR) + 1;
-    if (type != FTW_F || name[0] == '.' || strncmp(name, "build", 5) == 0)
+    if (type != FTW_F || name[0] == '.' || strncmp(name, "build", 5) == 0 || is_of_a_run(name))
         return 0;
     if (file_count == sizeof files / sizeof files[0] || !(files[file_count] = strdup(name)))
         return -1;
