@@ -243,7 +243,7 @@ static void make_pattern(const char *name, char *pattern, size_t size)
 /* Of a file or a folder; a name without a folder may lie in any. */
 static void check_file(const char *document, const char *name, const char *rest)
 {
-    char file[600], folder[600], anywhere[600];
+    char file[600], folder[600], anywhere[640];
     (void)rest;
     make_pattern(name, file, 512);
     const size_t length = strlen(file) - (file[strlen(file) - 1] == '/');
