@@ -177,11 +177,8 @@ void Pair::query(mote_answer *answer)
 
 mote_traits traits(const double *values)
 {
-    const bool vertices = values[UPDATE] != MOTE_ENGINE_NONE, given = values[POSITIONS] > 0;
-    mote_traits result = {};
-    result.needs_vertices = vertices && !given;
-    result.given_vertices = vertices && given;
-    return result;
+    return mote_engine_traits(static_cast<mote_engine_update>(values[UPDATE]),
+                              values[POSITIONS] > 0);
 }
 
 mote_status create(const mote_setup *setup, void **state)

@@ -5,15 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-static mote_vec3 box_centre(const mote_mesh *mesh)
+mote_traits mote_engine_traits(mote_engine_update update, bool given)
 {
-    mote_vec3 low = mesh->positions[0], high = low;
-    for (uint32_t i = 1; i < mesh->vertex_count; ++i) {
-        const mote_vec3 p = mesh->positions[i];
-        low = mote_vec3_make(fmin(low.x, p.x), fmin(low.y, p.y), fmin(low.z, p.z));
-        high = mote_vec3_make(fmax(high.x, p.x), fmax(high.y, p.y), fmax(high.z, p.z));
-    }
-    return mote_scale(mote_add(low, high), 0.5);
+    const bool vertices = update != MOTE_ENGINE_NONE;
+    return (mote_traits){.needs_vertices = vertices && !given,
+                         .given_vertices = vertices && given};
 }
 
 static mote_mat3 identity(void)
@@ -37,7 +33,8 @@ mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
     for (int b = 0; b < 2; ++b) {
         mote_engine_body *body = &engine->body[b];
         body->mesh = setup->body[b]->mesh;
-        body->centre = box_centre(body->mesh);
+        body->centre =
+            mote_add(mote_scale(body->mesh->low, 0.5), mote_scale(body->mesh->high, 0.5));
         body->rigid = setup->body[b]->field->count == 0;
         body->rotation = identity();
         if (update == MOTE_ENGINE_NONE && !body->rigid)

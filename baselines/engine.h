@@ -41,6 +41,9 @@ typedef struct mote_engine {
     double scale;
 } mote_engine;
 
+/* given: the frame's vertices come free of charge (positions=given). */
+mote_traits mote_engine_traits(mote_engine_update update, bool given);
+
 /* Checks the setup and fills the engine. MOTE_EUNSUPPORTED where the question is another one
    than contact at tolerance 0, or where update is MOTE_ENGINE_NONE and a body deforms;
    MOTE_EINVAL as mote_input_check. name: of the engine, for messages. The meshes are borrowed.

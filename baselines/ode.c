@@ -44,9 +44,7 @@ static void begin_ode(void)
 
 static mote_traits traits(const double *values)
 {
-    const bool vertices = values[UPDATE] != MOTE_ENGINE_NONE, given = values[POSITIONS] > 0;
-    return (mote_traits){.needs_vertices = vertices && !given,
-                         .given_vertices = vertices && given};
+    return mote_engine_traits((mote_engine_update)values[UPDATE], values[POSITIONS] > 0);
 }
 
 static void destroy(void *state)
