@@ -35,8 +35,7 @@ int mote_process_core(void)
     return -1;
 }
 
-/* Pins this process to a core; -1 does nothing. */
-static void pin(int core)
+void mote_process_pin(int core)
 {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -136,7 +135,7 @@ static mote_status work(void *context, int output)
     message told;
     memset(&told, 0, sizeof told);
     if (!has_threads(t->cell))
-        pin(t->options->core);
+        mote_process_pin(t->options->core);
     mote_status status = MOTE_OK;
     if (t->probe)
         child_probe(t->cell, &told);

@@ -46,4 +46,7 @@ mote_status mote_cell_probe(const mote_cell *cell, const mote_process_options *o
 /* A core to pin to: the last of those allowed; -1 when unknown. */
 int mote_process_core(void);
 
+/* Pins this process to a core; -1 does nothing. */
+void mote_process_pin(int core);
+
 #endif

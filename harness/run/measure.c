@@ -16,7 +16,7 @@
 #define BATCH 100
 
 /* What a cell holds while it runs. */
-typedef struct session {
+struct mote_measurement {
     const mote_cell *cell;
     mote_scene_session *scene; /* of more than two bodies; what follows is then not used but
                                   evict and clock_ns */
@@ -27,7 +27,9 @@ typedef struct session {
     mote_vec3 *vertices[2];
     volatile unsigned char *evict; /* NULL when caches stay hot */
     uint64_t clock_ns;
-} session;
+};
+
+typedef mote_measurement session;
 
 static mote_status make_vertices(session *s)
 {
@@ -299,6 +301,38 @@ mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limi
     else
         mote_cell_result_free(&measured);
     return status;
+}
+
+mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **measurement)
+{
+    mote_measurement *made = mote_allocate(1, sizeof *made);
+    mote_cell_result unused = {.core = -1};
+    made->cell = cell;
+    mote_status status = check_keys(cell);
+    if (status == MOTE_OK)
+        status = prepare(made, &unused, 0);
+    if (status == MOTE_OK)
+        status = build_pair(made, &unused);
+    mote_cell_result_free(&unused);
+    if (status == MOTE_OK)
+        *measurement = made;
+    else
+        mote_measurement_close(made);
+    return status;
+}
+
+mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t number,
+                                   uint32_t previous, mote_cell_row *row)
+{
+    *row = (mote_cell_row){0};
+    return run_frame(measurement, number, previous, row);
+}
+
+void mote_measurement_close(mote_measurement *measurement)
+{
+    if (measurement)
+        close_session(measurement);
+    free(measurement);
 }
 
 void mote_cell_result_free(mote_cell_result *result)

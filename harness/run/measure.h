@@ -20,4 +20,17 @@ mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limi
 
 void mote_cell_result_free(mote_cell_result *result);
 
+/* A method built on a scenario of two bodies and measured one frame at a time, in any order,
+   by the same timed calls as a cell. */
+typedef struct mote_measurement mote_measurement;
+
+/* Builds the method of a cell; the cell is borrowed until close. MOTE_EINVAL and
+   MOTE_EUNSUPPORTED with the method's text. */
+mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **measurement);
+
+/* Runs a frame, `previous` (0: none) being the one before it; row is set. */
+mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t number,
+                                   uint32_t previous, mote_cell_row *row);
+void mote_measurement_close(mote_measurement *measurement); /* NULL is allowed */
+
 #endif
