@@ -3,6 +3,7 @@
 #define MOTE_CORE_CERTIFICATE_STATE_H
 
 #include "core/certificate/certificate.h"
+#include "core/certificate/certificate_hulls.h"
 #include "core/certificate/certificate_memory.h"
 #include "core/certificate/certificate_tree.h"
 #include "core/body/lazy.h"
@@ -109,19 +110,6 @@ struct mote_certificate {
     mote_counters counters;
 };
 
-/* The place of the lowest bit; bits is not 0. */
-static inline size_t mote_lowest_bit(uint32_t bits)
-{
-#if defined(__GNUC__)
-    return (size_t)__builtin_ctz(bits);
-#else
-    size_t place = 0;
-    while (!(bits >> place & 1))
-        ++place;
-    return place;
-#endif
-}
-
 /* certificate_deform.c */
 
 /* Converts the frame's pose and weights to the side's units, relative to the query's origin. */
@@ -193,39 +181,6 @@ uint32_t mote_cert_row_boxes(const mote_cert_node *d, size_t lane, const mote_ce
    that they are far enough apart, or measures their faces and lowers the upper bound. */
 void mote_cert_leaf_pair(mote_certificate *c, const mote_cert_node *const nodes[2],
                          const size_t lanes[2]);
-
-/* certificate_triangles.c */
-
-/* The largest coordinate of each face of a leaf along a direction. */
-typedef struct mote_cert_reaches {
-    float reach[MOTE_CERT_LEAF_TRIANGLES]; /* padded with -FLT_MAX */
-    float farthest;
-    size_t lanes; /* in use: a multiple of 8 */
-} mote_cert_reaches;
-
-void mote_cert_reach_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
-                           const float direction[3], mote_cert_reaches *reaches);
-
-/* Bit i: face i has a reach above `least`. */
-uint32_t mote_cert_reaching(const mote_cert_reaches *reaches, float least);
-
-/* Faces in lanes: twice the width of boxes, since each step of the search for their distance
-   waits for the one before. */
-#define MOTE_CERT_FACE_LANES 16
-
-typedef struct mote_cert_face_lanes {
-    float corner[3][3][MOTE_CERT_FACE_LANES]; /* [corner][coordinate][lane] */
-} mote_cert_face_lanes;
-
-/* Loads the corners of faces of a hull's leaf, given by their numbers. */
-void mote_cert_load_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
-                          const uint8_t faces[MOTE_CERT_FACE_LANES],
-                          mote_cert_face_lanes *lanes);
-
-/* Which of the lanes in `undecided` are not proven to be at least `need` apart. loose: by how
-   much a difference of two corners may be wrong in each coordinate. */
-uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *s, const mote_cert_face_lanes *t,
-                              uint32_t undecided, float need, const float loose[3]);
 
 /* certificate_search.c */
 

@@ -1,57 +1,48 @@
 /* Which pairs of faces of two leaves may be near. */
-#include "core/certificate/certificate_state.h"
+#include "core/certificate/certificate_hulls.h"
 #include "core/base/clones.h"
-
-#include <float.h>
 
 #define WIDTH MOTE_CERT_WIDTH
 #define LANES MOTE_CERT_FACE_LANES
 
-static inline const uint8_t (*corners_of(const mote_cert_tree *tree,
-                                         const mote_cert_hull *hull))[3]
-{
-    return (const uint8_t(*)[3])tree->corners + hull->leaf->first_corner;
-}
-
-void mote_cert_load_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
+void mote_cert_load_faces(const mote_cert_points *leaf,
                           const uint8_t faces[MOTE_CERT_FACE_LANES],
                           mote_cert_face_lanes *lanes)
 {
-    const uint8_t(*corners)[3] = corners_of(tree, hull);
     for (size_t k = 0; k < 3; ++k) {
         size_t place[LANES];
         for (size_t l = 0; l < LANES; ++l)
-            place[l] = corners[faces[l]][k];
+            place[l] = leaf->corners[faces[l]][k];
         for (size_t r = 0; r < 3; ++r) {
             for (size_t l = 0; l < LANES; ++l)
-                lanes->corner[k][r][l] = hull->x[r][place[l]];
+                lanes->corner[k][r][l] = leaf->x[r][place[l]];
         }
     }
 }
 
-/* Coordinates of a hull's vertices along a direction. */
+/* Coordinates of a leaf's points along a direction. */
 MOTE_CLONES
-static void project_hull(const mote_cert_hull *restrict hull, const float direction[3],
-                         float at[MOTE_CERT_LEAF_VERTICES])
+static void project_points(const mote_cert_points *restrict leaf, const float direction[3],
+                           float *restrict at)
 {
     const float x = direction[0];
     const float y = direction[1];
     const float z = direction[2];
-    for (size_t g = 0; g < hull->groups * WIDTH; g += WIDTH) {
+    for (size_t g = 0; g < leaf->groups * WIDTH; g += WIDTH) {
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l)
-            at[g + l] = hull->x[0][g + l] * x + hull->x[1][g + l] * y + hull->x[2][g + l] * z;
+            at[g + l] = leaf->x[0][g + l] * x + leaf->x[1][g + l] * y + leaf->x[2][g + l] * z;
     }
 }
 
 /* The largest of the projections of a face's corners on a direction. */
-void mote_cert_reach_faces(const mote_cert_tree *tree, const mote_cert_hull *hull,
-                           const float direction[3], mote_cert_reaches *reaches)
+void mote_cert_reach_faces(const mote_cert_points *leaf, const float direction[3],
+                           mote_cert_reaches *reaches)
 {
-    const uint8_t(*corners)[3] = corners_of(tree, hull);
-    const size_t count = hull->leaf->triangle_count;
-    float at[MOTE_CERT_LEAF_VERTICES];
-    project_hull(hull, direction, at);
+    const uint8_t(*corners)[3] = leaf->corners;
+    const size_t count = leaf->faces;
+    float at[MOTE_CERT_POINTS];
+    project_points(leaf, direction, at);
     float most = -FLT_MAX;
     for (size_t i = 0; i < count; ++i) {
         const float a = at[corners[i][0]];

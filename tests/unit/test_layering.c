@@ -30,7 +30,7 @@ typedef struct house {
 } house;
 
 static const house houses[] = {
-    {"core", {"base", "body", "method", "particle", "certificate", "skin", "motion"}},
+    {"core", {"base", "body", "method", "particle", "certificate", "skin", "stream", "motion"}},
     {"harness",
      {"base", "process", "mesh", "scene", "run", "loop", "summary", "figure", "study", "report",
       "command"}},
