@@ -131,10 +131,11 @@ static int check(const char *name, bool json, const char *directory)
     return mote_command_finish(code);
 }
 
-static int print_scene_json(const mote_bodies *bodies, const mote_scene_facts *facts)
+static int print_scene_json(const mote_subject *subject, const mote_scene_facts *facts)
 {
+    const mote_bodies *bodies = subject->bodies;
     char fingerprint[32];
-    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, facts->fingerprint);
+    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, subject->fingerprint);
     json_t *root = json_pack("{s:s, s:s, s:I, s:I, s:I, s:I, s:f}", "scenario", bodies->name,
                              "fingerprint", fingerprint, "bodies", (json_int_t)bodies->count,
                              "frames", (json_int_t)bodies->frames, "contacts",
@@ -147,20 +148,21 @@ static int print_scene_json(const mote_bodies *bodies, const mote_scene_facts *f
 /* Of more than two bodies: they have no truth but certified's, and no active interval. */
 static int check_scene(const char *name, bool json)
 {
-    mote_bodies *bodies = NULL;
+    mote_subject subject = {0};
     mote_scene_facts facts;
-    mote_status status = mote_bodies_load(name, &bodies);
+    mote_status status = mote_subject_load(name, &subject);
     if (status == MOTE_OK)
-        status = mote_scene_check(bodies, &facts);
+        status = mote_scene_check(&subject, &facts);
     int code = status == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
     if (status == MOTE_OK && json) {
-        code = print_scene_json(bodies, &facts);
+        code = print_scene_json(&subject, &facts);
     } else if (status == MOTE_OK) {
-        (void)printf("%s: fingerprint %016" PRIx64 "\n", bodies->name, facts.fingerprint);
+        const mote_bodies *bodies = subject.bodies;
+        (void)printf("%s: fingerprint %016" PRIx64 "\n", bodies->name, subject.fingerprint);
         (void)printf("%u bodies, %u frames, %.4g near pairs a frame, contact in %u frames\n",
                      bodies->count, bodies->frames, facts.near_pairs, facts.contacts);
     }
-    mote_bodies_destroy(bodies);
+    mote_subject_free(&subject);
     return mote_command_finish(code);
 }
 

@@ -8,7 +8,7 @@
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 #include "harness/base/memory.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/scenario.h"
 
 #include <jansson.h>
@@ -27,7 +27,7 @@ typedef struct request {
 
 /* A method that keeps state is given the frames before, as in a run; the others only this
    one. */
-static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe,
+static mote_status answer_frame(const mote_scenario *scenario, mote_engine *probe,
                                 const mote_method_choice *choice, uint32_t last,
                                 mote_answer *answer)
 {
@@ -38,7 +38,7 @@ static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe
     for (uint32_t k = first; k <= last && status == MOTE_OK; ++k) {
         const mote_frame *frame =
             mote_scenario_frame(scenario, buffer, k, k == first ? 0 : k - 1);
-        status = mote_probe_answer(probe, frame, answer);
+        status = mote_engine_answer(probe, frame, answer);
     }
     mote_frame_buffer_destroy(buffer);
     return status;
@@ -47,12 +47,12 @@ static mote_status answer_frame(const mote_scenario *scenario, mote_probe *probe
 static mote_status ask_method(const mote_scenario *scenario, const mote_method_choice *choice,
                               mote_ask ask, uint32_t frame, mote_answer *answer)
 {
-    mote_probe *probe = NULL;
-    mote_status status = mote_probe_create(&scenario->body[0], &scenario->body[1], choice, ask,
-                                           scenario->tolerance, 1, &probe);
+    mote_engine *probe = NULL;
+    mote_status status = mote_engine_open_two(&scenario->body[0], &scenario->body[1], choice,
+                                              ask, scenario->tolerance, 1, &probe);
     if (status == MOTE_OK)
         status = answer_frame(scenario, probe, choice, frame, answer);
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     return status;
 }
 

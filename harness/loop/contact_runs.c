@@ -5,8 +5,8 @@
 #include <stdlib.h>
 
 /* The pair of these bodies at or after *place, which is moved there; NULL: none. */
-static const mote_bodies_pair *pair_of(const mote_bodies_pair *pairs, size_t count,
-                                       size_t *place, const uint32_t body[2])
+static const mote_near_pair *pair_of(const mote_near_pair *pairs, size_t count, size_t *place,
+                                     const uint32_t body[2])
 {
     while (*place < count && mote_pair_order(pairs[*place].body, body) < 0)
         ++*place;
@@ -27,8 +27,8 @@ static void end_run(mote_contact_runs *runs, const mote_contact_run *run)
 
 /* Counts a contact of the truth. */
 static mote_status count_contact(mote_contact_runs *runs, uint32_t k,
-                                 const mote_bodies_pair *truth, bool said,
-                                 mote_contact_run *run, mote_contact_depth depth, void *context)
+                                 const mote_near_pair *truth, bool said, mote_contact_run *run,
+                                 mote_contact_depth depth, void *context)
 {
     ++runs->contact_steps;
     runs->missed_steps += !said;
@@ -45,19 +45,19 @@ static mote_status count_contact(mote_contact_runs *runs, uint32_t k,
 }
 
 /* Counts contacts that only the method reports. */
-static void count_false(mote_contact_runs *runs, const mote_bodies_pair *truth,
-                        size_t truth_count, const mote_bodies_pair *said, size_t said_count)
+static void count_false(mote_contact_runs *runs, const mote_near_pair *truth,
+                        size_t truth_count, const mote_near_pair *said, size_t said_count)
 {
     size_t place = 0;
     for (size_t k = 0; k < said_count; ++k) {
-        const mote_bodies_pair *real = pair_of(truth, truth_count, &place, said[k].body);
+        const mote_near_pair *real = pair_of(truth, truth_count, &place, said[k].body);
         runs->false_steps += said[k].answer.contact && !(real && real->answer.contact);
     }
 }
 
 mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
-                                   const mote_bodies_pair *truth, size_t truth_count,
-                                   const mote_bodies_pair *said, size_t said_count,
+                                   const mote_near_pair *truth, size_t truth_count,
+                                   const mote_near_pair *said, size_t said_count,
                                    mote_contact_depth depth, void *context)
 {
     size_t old = 0, place = 0, count = 0;
@@ -65,7 +65,7 @@ mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
     runs->next =
         mote_reserve(runs->next, truth_count, &runs->next_capacity, sizeof *runs->next);
     for (size_t i = 0; i < truth_count && status == MOTE_OK; ++i) {
-        const mote_bodies_pair *pair = &truth[i];
+        const mote_near_pair *pair = &truth[i];
         if (!pair->answer.contact)
             continue;
         for (; old < runs->count && mote_pair_order(runs->current[old].body, pair->body) < 0;
@@ -75,7 +75,7 @@ mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
         *run = (mote_contact_run){.body = {pair->body[0], pair->body[1]}, .began = k};
         if (old < runs->count && mote_pair_order(runs->current[old].body, pair->body) == 0)
             *run = runs->current[old++];
-        const mote_bodies_pair *other = pair_of(said, said_count, &place, pair->body);
+        const mote_near_pair *other = pair_of(said, said_count, &place, pair->body);
         status =
             count_contact(runs, k, pair, other && other->answer.contact, run, depth, context);
     }

@@ -3,7 +3,8 @@
 #ifndef MOTE_HARNESS_CONTACT_RUNS_H
 #define MOTE_HARNESS_CONTACT_RUNS_H
 
-#include "harness/run/bodies_engine.h"
+#include "core/certificate/scene.h"
+#include "harness/engine/engine.h"
 
 /* A run that has not ended. */
 typedef struct mote_contact_run {
@@ -36,8 +37,8 @@ typedef mote_status (*mote_contact_depth)(void *context, const uint32_t body[2],
 /* Counts step k: near pairs with the truth's and with the method's answers, both in the
    order of pairs. depth is called for pairs whose surfaces meet. */
 mote_status mote_contact_runs_step(mote_contact_runs *runs, uint32_t k,
-                                   const mote_bodies_pair *truth, size_t truth_count,
-                                   const mote_bodies_pair *said, size_t said_count,
+                                   const mote_near_pair *truth, size_t truth_count,
+                                   const mote_near_pair *said, size_t said_count,
                                    mote_contact_depth depth, void *context);
 
 /* Ends the runs that have not ended. */

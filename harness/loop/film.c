@@ -192,7 +192,7 @@ static void add_particles(const mote_film *film, const mote_simulation_view *vie
     mote_vec3 positions[PARTICLES_MAX];
     size_t count = 0;
     if (view->method)
-        count = mote_probe_particles(view->method, i, positions, PARTICLES_MAX);
+        count = mote_engine_particles(view->method, i, positions, PARTICLES_MAX);
     count = count < PARTICLES_MAX ? count : PARTICLES_MAX;
     for (size_t k = 0; k < count; ++k)
         add_point(film, positions[k], text);

@@ -39,7 +39,7 @@ static void update_gaps(simulation *s)
     s->next_gaps =
         mote_reserve(s->next_gaps, s->said.count, &s->next_capacity, sizeof *s->next_gaps);
     for (size_t k = 0; k < s->said.count; ++k) {
-        const mote_bodies_pair *pair = &s->said.pairs[k];
+        const mote_near_pair *pair = &s->said.pairs[k];
         const mote_answer *a = &pair->answer;
         gap *made = &s->next_gaps[k];
         *made = (gap){.body = {pair->body[0], pair->body[1]}};
@@ -148,7 +148,7 @@ static mote_status check_apart(const simulation *s)
 {
     const mote_simulator *simulator = s->simulator;
     for (size_t k = 0; k < s->truth.count; ++k) {
-        const mote_bodies_pair *pair = &s->truth.pairs[k];
+        const mote_near_pair *pair = &s->truth.pairs[k];
         if (pair->answer.contact)
             return mote_fail(MOTE_EINVAL,
                              "%s: bodies %u and %u start in contact (%g L apart), where no "

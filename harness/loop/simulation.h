@@ -3,9 +3,9 @@
 #define MOTE_HARNESS_SIMULATION_H
 
 #include "core/motion/response.h"
-#include "harness/run/bodies_engine.h"
-#include "harness/scene/probe.h"
-#include "harness/scene/scenario.h"
+#include "harness/engine/engine.h"
+#include "harness/engine/engine.h"
+#include "harness/scene/bodies.h"
 
 /* The truth is not computed where a lower bound of the distance of two bodies exceeds this
    part of L. */
@@ -39,11 +39,12 @@ const char *mote_simulation_exact_method(const mote_method_choice *choice);
 typedef struct mote_simulation_view {
     uint32_t step;                 /* from 0 */
     const mote_body_state *states; /* where the bodies are, [count]; vertices are NULL */
-    const mote_bodies_pair *said;  /* the method's answers for the near pairs, [said_count] */
+    const mote_near_pair *said;    /* the method's answers for the near pairs, [said_count] */
     size_t said_count;
-    const mote_probe *method; /* of two bodies, asked just now: mote_probe_particles; or NULL */
-    bool contact;             /* the method reports a contact of some pair */
-    bool truth;               /* some pair is */
+    const mote_engine
+        *method;  /* of two bodies, asked just now: mote_engine_particles; or NULL */
+    bool contact; /* the method reports a contact of some pair */
+    bool truth;   /* some pair is */
 } mote_simulation_view;
 
 /* Sees every step; a status other than MOTE_OK ends the simulation with it. */

@@ -134,7 +134,7 @@ mote_status mote_simulator_create_of_scene(const mote_bodies *bodies,
 {
     mote_status status = mote_simulation_options_check(options);
     if (status == MOTE_OK)
-        status = mote_bodies_choice_check(choice);
+        status = mote_engine_check_choice(choice);
     if (status != MOTE_OK)
         return status;
     mote_simulator *made =

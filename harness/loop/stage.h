@@ -10,7 +10,7 @@
 /* Near pairs with answers, in the order of pairs; each answer has a distance, a contact or
    both, and `contact` is set in either case. Valid until the next question. */
 typedef struct mote_stage_pairs {
-    const mote_bodies_pair *pairs;
+    const mote_near_pair *pairs;
     size_t count;
 } mote_stage_pairs;
 
@@ -29,7 +29,7 @@ typedef struct mote_stage_kind {
     mote_status (*ask_truth)(void *state, mote_stage_pairs *truth, uint64_t *asked,
                              double *lower);
     /* Of a method that has them, after ask_method: the probe of two bodies; else NULL. */
-    const mote_probe *(*probe)(const void *state);
+    const mote_engine *(*probe)(const void *state);
 } mote_stage_kind;
 
 /* Of two bodies with masses[2]. Everything is borrowed. */

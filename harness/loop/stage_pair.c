@@ -11,7 +11,7 @@ typedef struct pair_stage {
     mote_method_choice choice;
     const mote_simulation_options *options;
     const mote_mass *masses;
-    mote_probe *truth, *method;
+    mote_engine *truth, *method;
     mote_frame_buffer *buffer;
     mote_frame frame;   /* the one that is shown */
     uint32_t first;     /* frame whose deformation is shown first */
@@ -21,7 +21,7 @@ typedef struct pair_stage {
     double *before[2];  /* those of the frame before */
     mote_rigid_state state[2], previous[2]; /* of this frame, of the frame before */
     double lower;                           /* of the true distance, proven */
-    mote_bodies_pair said, known;           /* answers of the method, of the truth */
+    mote_near_pair said, known;             /* answers of the method, of the truth */
 } pair_stage;
 
 static void pair_destroy(void *state)
@@ -34,8 +34,8 @@ static void pair_destroy(void *state)
         free(s->still[i]);
         free(s->before[i]);
     }
-    mote_probe_destroy(s->truth);
-    mote_probe_destroy(s->method);
+    mote_engine_destroy(s->truth);
+    mote_engine_destroy(s->method);
     mote_frame_buffer_destroy(s->buffer);
     free(s);
 }
@@ -46,10 +46,10 @@ static double tolerance_of(const pair_stage *s)
 }
 
 static mote_status create_probe(pair_stage *s, const mote_method_choice *choice, uint64_t seed,
-                                mote_probe **probe)
+                                mote_engine **probe)
 {
-    return mote_probe_create(&s->scenario->body[0], &s->scenario->body[1], choice,
-                             MOTE_ASK_DISTANCE, tolerance_of(s), seed, probe);
+    return mote_engine_open_two(&s->scenario->body[0], &s->scenario->body[1], choice,
+                                MOTE_ASK_DISTANCE, tolerance_of(s), seed, probe);
 }
 
 static void measure_body(pair_stage *s, int i)
@@ -93,7 +93,7 @@ mote_status mote_stage_pair_create(const mote_scenario *scenario,
 static mote_status pair_restart(void *state, const mote_simulation_start *start)
 {
     pair_stage *s = state;
-    mote_probe_destroy(s->method);
+    mote_engine_destroy(s->method);
     s->method = NULL;
     s->first = start->first;
     s->lower = 0;
@@ -184,7 +184,7 @@ static mote_status pair_ask_method(void *state, mote_stage_pairs *said, double *
     pair_stage *s = state;
     mote_answer *answer = &s->said.answer;
     const double from = now_ns();
-    const mote_status status = mote_probe_answer(s->method, &s->frame, answer);
+    const mote_status status = mote_engine_answer(s->method, &s->frame, answer);
     *ns += now_ns() - from;
     if (status != MOTE_OK)
         return status;
@@ -205,7 +205,7 @@ static mote_status pair_ask_truth(void *state, mote_stage_pairs *truth, uint64_t
     *truth = (mote_stage_pairs){NULL, 0};
     if (s->lower <= MOTE_SIMULATION_NEAR * s->scenario->length) {
         ++*asked;
-        status = mote_probe_answer(s->truth, &s->frame, &s->known.answer);
+        status = mote_engine_answer(s->truth, &s->frame, &s->known.answer);
         s->lower = s->known.answer.distance;
         s->known.answer.contact = s->lower <= tolerance_of(s);
         *truth = (mote_stage_pairs){&s->known, 1};
@@ -214,7 +214,7 @@ static mote_status pair_ask_truth(void *state, mote_stage_pairs *truth, uint64_t
     return status;
 }
 
-static const mote_probe *pair_probe(const void *state)
+static const mote_engine *pair_probe(const void *state)
 {
     return ((const pair_stage *)state)->method;
 }

@@ -1,7 +1,8 @@
 #include "harness/loop/stage.h"
 
 #include "harness/base/memory.h"
-#include "harness/run/clock.h"
+#include "harness/run/subject.h"
+#include "harness/base/clock.h"
 
 #include <stdlib.h>
 
@@ -10,7 +11,7 @@ typedef struct scene_stage {
     mote_method_choice choice;
     const mote_simulation_options *options;
     const mote_mass *masses;
-    mote_bodies_engine *method, *truth;
+    mote_engine *method, *truth;
     mote_bodies_frame frame;
 } scene_stage;
 
@@ -19,19 +20,28 @@ static void scene_destroy(void *state)
     scene_stage *s = state;
     if (!s)
         return;
-    mote_bodies_engine_destroy(s->method);
-    mote_bodies_engine_destroy(s->truth);
+    mote_engine_destroy(s->method);
+    mote_engine_destroy(s->truth);
     mote_bodies_frame_free(&s->frame);
     free(s);
+}
+
+/* An engine for the bodies, built. */
+static mote_status open_engine(scene_stage *s, const mote_method_choice *choice, uint64_t seed,
+                               mote_engine **engine)
+{
+    mote_engine_setup setup = mote_subject_engine(&(mote_subject){.bodies = &s->bodies});
+    setup.seed = seed;
+    const mote_status status = mote_engine_create(&setup, choice, engine);
+    return status == MOTE_OK ? mote_engine_build(*engine) : status;
 }
 
 static mote_status create_truth(scene_stage *s)
 {
     mote_method_choice exact;
-    mote_status status =
+    const mote_status status =
         mote_scene_choice_read(mote_simulation_exact_method(&s->choice), &exact);
-    return status == MOTE_OK ? mote_bodies_engine_create(&s->bodies, &exact, 1, &s->truth)
-                             : status;
+    return status == MOTE_OK ? open_engine(s, &exact, 1, &s->truth) : status;
 }
 
 mote_status mote_stage_scene_create(const mote_bodies *bodies, const mote_method_choice *choice,
@@ -61,9 +71,9 @@ mote_status mote_stage_scene_create(const mote_bodies *bodies, const mote_method
 static mote_status scene_restart(void *state, const mote_simulation_start *start)
 {
     scene_stage *s = state;
-    mote_bodies_engine_destroy(s->method);
+    mote_engine_destroy(s->method);
     s->method = NULL;
-    return mote_bodies_engine_create(&s->bodies, &s->choice, start->seed, &s->method);
+    return open_engine(s, &s->choice, start->seed, &s->method);
 }
 
 static const mote_body_state *scene_show(void *state, uint32_t k,
@@ -77,13 +87,14 @@ static const mote_body_state *scene_show(void *state, uint32_t k,
     return s->frame.states;
 }
 
-static mote_status ask(mote_bodies_engine *engine, const mote_body_state *states,
+static mote_status ask(mote_engine *engine, const mote_body_state *states,
                        mote_stage_pairs *answers)
 {
-    mote_bodies_step cost;
-    const mote_status status = mote_bodies_engine_step(engine, states, &cost);
+    mote_engine_cost cost;
+    mote_engine_show(engine, states);
+    const mote_status status = mote_engine_ask(engine, &cost);
     if (status == MOTE_OK)
-        answers->pairs = mote_bodies_engine_pairs(engine, &answers->count);
+        answers->pairs = mote_engine_pairs(engine, &answers->count);
     return status;
 }
 
@@ -106,7 +117,7 @@ static mote_status scene_ask_truth(void *state, mote_stage_pairs *truth, uint64_
     return ask(s->truth, s->frame.states, truth);
 }
 
-static const mote_probe *scene_probe(const void *state)
+static const mote_engine *scene_probe(const void *state)
 {
     (void)state;
     return NULL;

@@ -41,7 +41,7 @@ static void put_number(FILE *file, bool present, double value)
         (void)fputc(',', file);
 }
 
-static void put_pair(FILE *file, uint32_t frame, const mote_bodies_pair *pair)
+static void put_pair(FILE *file, uint32_t frame, const mote_near_pair *pair)
 {
     const mote_answer *a = &pair->answer;
     (void)fprintf(file, "%u,%u,%u,%u", frame, pair->body[0] + 1, pair->body[1] + 1,
@@ -62,7 +62,7 @@ static void put_pair(FILE *file, uint32_t frame, const mote_bodies_pair *pair)
 }
 
 void mote_cell_pairs_add(const mote_cell_pairs *pairs, uint32_t frame,
-                         const mote_bodies_pair *list, size_t count)
+                         const mote_near_pair *list, size_t count)
 {
     for (size_t k = 0; pairs->file && k < count; ++k) {
         if (list[k].answer.contact || !pairs->contacts_only)

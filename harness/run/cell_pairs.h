@@ -2,7 +2,6 @@
 #ifndef MOTE_HARNESS_CELL_PAIRS_H
 #define MOTE_HARNESS_CELL_PAIRS_H
 
-#include "harness/run/bodies_engine.h"
 #include "harness/run/cell.h"
 
 #include <stdio.h>
@@ -20,7 +19,7 @@ mote_status mote_cell_pairs_open(const mote_cell *cell, const char *directory,
 
 /* Adds the near pairs of a frame. An error of writing is reported when the file is closed. */
 void mote_cell_pairs_add(const mote_cell_pairs *pairs, uint32_t frame,
-                         const mote_bodies_pair *list, size_t count);
+                         const mote_near_pair *list, size_t count);
 
 /* Gives a whole file its final name and removes any other. MOTE_EIO when it could not be
    written. */

@@ -1,265 +1,257 @@
 #include "harness/run/measure.h"
 
-#include "core/body/deform.h"
+#include "core/base/frame_queue.h"
+#include "harness/base/clock.h"
 #include "harness/base/memory.h"
-#include "harness/base/statistics.h"
-#include "harness/run/measure_scene.h"
 
+#include <math.h>
+#include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 
 #define EVICT_BYTES ((size_t)32 << 20)
 #define CACHE_LINE 64
 
-/* How many empty calls the overhead is measured with: the median of batches. */
-#define BATCHES 21
-#define BATCH 100
+/* How many frames one thread may move ahead of the other that queries. */
+#define AHEAD_MAX 64
 
 /* What a cell holds while it runs. */
 struct mote_measurement {
     const mote_cell *cell;
-    mote_scene_session *scene; /* of more than two bodies; what follows is then not used but
-                                  evict and clock_ns */
-    mote_traits traits;
-    void *state; /* the method's */
-    mote_frame_buffer *buffer;
-    mote_deform *deform[2];
-    mote_vec3 *vertices[2];
+    mote_engine *engine;
+    uint32_t ahead;                       /* 0: motion and queries take turns in one thread */
+    mote_subject_frame frames[AHEAD_MAX]; /* [ahead], at least 1 */
+    uint64_t motion_ns[AHEAD_MAX];        /* of each frame that is in the queue */
+    mote_frame_queue *queue;
     volatile unsigned char *evict; /* NULL when caches stay hot */
-    uint64_t clock_ns;
+    size_t rows;                   /* to be measured */
+    uint64_t began;                /* when the first frame began */
+    const mote_cell_pairs *pairs;  /* or NULL */
+    mote_cell_result *result;
 };
 
 typedef mote_measurement session;
 
-static mote_status make_vertices(session *s)
+/* Everything that is charged to no method. */
+static mote_status prepare(session *s)
 {
-    for (int side = 0; side < 2; ++side) {
-        const mote_body *body = &s->cell->subject->scenario->body[side];
-        s->vertices[side] = mote_allocate(body->mesh->vertex_count, sizeof(mote_vec3));
-        mote_status status = mote_deform_create(body, &s->deform[side]);
-        if (status != MOTE_OK)
-            return status;
-    }
+    const mote_cell *cell = s->cell;
+    mote_cell_result *result = s->result;
+    mote_engine_setup setup = mote_subject_engine(cell->subject);
+    setup.seed = mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate);
+    setup.clock_ns = mote_clock_cost_ns();
+    s->ahead = (uint32_t)cell->choice->scene[MOTE_SCENE_AHEAD];
+    const mote_status status = mote_engine_create(&setup, cell->choice, &s->engine);
+    if (status != MOTE_OK)
+        return status;
+    result->rows = mote_allocate(s->rows, sizeof *result->rows);
+    result->clock_ns = setup.clock_ns;
+    result->overhead_ns = mote_engine_overhead_ns(setup.clock_ns);
+    if (cell->cache == MOTE_CACHE_EVICT)
+        s->evict = mote_allocate(EVICT_BYTES, 1);
+    for (uint32_t i = 0; i < (s->ahead ? s->ahead : 1); ++i)
+        s->frames[i] = mote_subject_frame_create(cell->subject);
     return MOTE_OK;
 }
 
-static int64_t vertices_bytes(const session *s)
-{
-    size_t bytes = 0;
-    for (int side = 0; side < 2; ++side)
-        bytes += mote_deform_bytes(s->deform[side]) +
-                 s->cell->subject->scenario->body[side].mesh->vertex_count * sizeof(mote_vec3);
-    return (int64_t)bytes;
-}
-
-/* Keys of scenes have no effect on two bodies, so a result must not list them. */
-static mote_status check_keys(const mote_cell *cell)
-{
-    if (!mote_method_choice_is_of_scenes(cell->choice))
-        return MOTE_OK;
-    return mote_fail(
-        MOTE_EINVAL,
-        "%s: refit, threads and ahead are keys for more than two bodies; leave them "
-        "out",
-        cell->choice->text);
-}
-
-static mote_status build_scene(session *s, mote_cell_result *result)
+/* Builds everything that the method needs, timed, with its bytes counted. */
+static mote_status build(session *s)
 {
     const uint64_t start = mote_clock_ns();
-    mote_status status = mote_scene_session_create(s->cell, &s->scene);
-    result->build_ns = mote_clock_ns() - start;
-    return status;
-}
-
-/* Builds everything that the method needs, timed, with its bytes counted. */
-static mote_status build_pair(session *s, mote_cell_result *result)
-{
-    const mote_cell *cell = s->cell;
-    const mote_scenario *scenario = cell->subject->scenario;
-    mote_setup setup = {.body = {&scenario->body[0], &scenario->body[1]},
-                        .length = scenario->length,
-                        .ask = scenario->ask,
-                        .tolerance = scenario->tolerance,
-                        .seed =
-                            mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate),
-                        .values = cell->choice->values};
-    uint64_t start = mote_clock_ns();
-    if (s->traits.needs_vertices && !s->traits.given_vertices) {
-        mote_status status = make_vertices(s);
-        if (status != MOTE_OK)
-            return status;
-        result->deform_bytes = vertices_bytes(s);
-    }
-    mote_status status = mote_method_create(cell->choice->method, &setup, &s->state);
-    result->build_ns = mote_clock_ns() - start;
+    const mote_status status = mote_engine_build(s->engine);
+    s->result->build_ns = mote_clock_ns() - start;
+    s->result->deform_bytes = mote_engine_deform_bytes(s->engine);
     return status;
 }
 
 /* Drives what a method uses out of the caches. */
-static void walk(void *context)
+static void walk(volatile unsigned char *bytes)
 {
-    volatile unsigned char *bytes = context;
     for (size_t i = 0; i < EVICT_BYTES; i += CACHE_LINE)
         bytes[i] = (unsigned char)(bytes[i] + 1);
 }
 
-static void deform(const session *s, mote_frame *frame)
+/* The frame of a row, from 0. */
+static uint32_t number_of(const session *s, size_t row)
 {
-    for (int side = 0; side < 2; ++side) {
-        mote_body_state *body = &frame->body[side];
-        if (body->shape_changed || body->pose_changed)
-            mote_deform_all(s->deform[side], body, s->vertices[side]);
-        body->vertices = s->vertices[side];
+    return s->cell->first + (uint32_t)row * s->cell->stride;
+}
+
+/* Gives the frame the answer of the closest near pair; where there is none, `near` is a
+   lower bound, since all pairs are farther apart. */
+static mote_answer closest_answer(const mote_bodies *bodies, const mote_engine_cost *cost,
+                                  const mote_near_pair *pairs, size_t count)
+{
+    mote_answer all = {.has_contact = true, .contact = cost->contacts > 0};
+    const mote_near_pair *closest = NULL;
+    all.has_lower = bodies->ask == MOTE_ASK_DISTANCE;
+    all.lower = bodies->near;
+    for (size_t k = 0; k < count; ++k) {
+        const mote_answer *a = &pairs[k].answer;
+        all.has_lower = all.has_lower && a->has_lower;
+        all.lower = fmin(all.lower, a->lower);
+        if (a->has_distance && (!closest || a->distance < closest->answer.distance))
+            closest = &pairs[k];
     }
-}
-
-static uint64_t elapsed(const session *s, uint64_t start, uint64_t end)
-{
-    uint64_t ns = end - start;
-    return ns > s->clock_ns ? ns - s->clock_ns : 0;
-}
-
-/* The timed calls: functions of their own, so that callgrind can count in them alone
-   (harness/run/instructions.c). */
-__attribute__((noinline)) static void timed_deform(const session *s, mote_frame *frame)
-{
-    deform(s, frame);
-}
-
-__attribute__((noinline)) static mote_status timed_update(const session *s,
-                                                          const mote_frame *frame)
-{
-    return s->cell->choice->method->update(s->state, frame);
-}
-
-__attribute__((noinline)) static mote_status
-timed_query(const session *s, const mote_frame *frame, mote_answer *answer)
-{
-    return s->cell->choice->method->query(s->state, frame, answer);
-}
-
-static mote_status answer_nothing(void *state, const mote_frame *frame, mote_answer *answer)
-{
-    (void)state;
-    (void)frame;
-    (void)answer;
-    return MOTE_OK;
-}
-
-/* The overhead of clock and bookkeeping that remains in a timed call after the clock's cost is
-   subtracted, measured with a method that does nothing. May be below 0. */
-static double overhead(uint64_t clock_ns)
-{
-    const mote_method nothing = {.query = answer_nothing};
-    const mote_method_choice choice = {.method = &nothing};
-    const mote_cell cell = {.choice = &choice};
-    const session s = {.cell = &cell};
-    const mote_frame frame = {0};
-    double batches[BATCHES];
-    for (size_t i = 0; i < BATCHES; ++i) {
-        uint64_t sum = 0;
-        for (size_t k = 0; k < BATCH; ++k) {
-            mote_answer answer;
-            uint64_t start = mote_clock_ns();
-            (void)timed_query(&s, &frame, &answer);
-            sum += mote_clock_ns() - start;
-        }
-        batches[i] = (double)sum / BATCH - (double)clock_ns;
+    if (closest && closest->answer.distance <= bodies->near) {
+        all.has_distance = true;
+        all.distance = closest->answer.distance;
+        all.has_witness = closest->answer.has_witness;
+        all.witness[0] = closest->answer.witness[0];
+        all.witness[1] = closest->answer.witness[1];
     }
-    return mote_statistics_median(batches, BATCHES);
+    all.counters = cost->counters;
+    return all;
 }
 
-/* Everything that is charged to no method. */
-static mote_status prepare(session *s, mote_cell_result *result, size_t rows)
+static void record(const session *s, uint32_t number, uint64_t motion_ns,
+                   const mote_engine_cost *cost, mote_cell_row *row)
 {
-    const mote_cell *cell = s->cell;
-    s->traits = mote_method_traits(cell->choice->method, cell->choice->values);
-    result->rows = mote_allocate(rows, sizeof *result->rows);
-    if (cell->cache == MOTE_CACHE_EVICT)
-        s->evict = mote_allocate(EVICT_BYTES, 1);
-    mote_status status = MOTE_OK;
-    if (!cell->subject->bodies)
-        s->buffer = mote_frame_buffer_create(cell->subject->scenario);
-    if (!cell->subject->bodies && s->traits.given_vertices)
-        status = make_vertices(s);
-    s->clock_ns = mote_clock_cost_ns();
-    result->clock_ns = s->clock_ns;
-    result->overhead_ns = overhead(s->clock_ns);
-    return status;
+    const mote_bodies *bodies = s->cell->subject->bodies;
+    size_t count;
+    const mote_near_pair *pairs = mote_engine_pairs(s->engine, &count);
+    *row = (mote_cell_row){.frame = number,
+                           .deform_ns = cost->deform_ns,
+                           .update_ns = cost->update_ns,
+                           .query_ns = cost->query_ns,
+                           .allocations = cost->allocations,
+                           .answer = bodies ? closest_answer(bodies, cost, pairs, count)
+                                            : pairs[0].answer,
+                           .scene = {.motion_ns = motion_ns,
+                                     .bounds_ns = cost->bounds_ns,
+                                     .broad_ns = cost->broad_ns,
+                                     .near_pairs = cost->pairs,
+                                     .new_pairs = cost->fresh,
+                                     .pair_contacts = cost->contacts}};
+    if (s->pairs)
+        mote_cell_pairs_add(s->pairs, number, pairs, count);
 }
 
-static mote_status run_frame(session *s, uint32_t number, uint32_t previous, mote_cell_row *row)
+/* Asks about a frame. */
+static mote_status ask(session *s, uint32_t number, const mote_subject_frame *frame,
+                       uint64_t motion_ns, mote_cell_row *row)
 {
-    const mote_method *method = s->cell->choice->method;
-    mote_frame frame =
-        *mote_scenario_frame(s->cell->subject->scenario, s->buffer, number, previous);
-    mote_status status = MOTE_OK;
-    row->frame = number;
-    if (s->traits.given_vertices)
-        deform(s, &frame);
+    mote_engine_cost cost;
+    mote_engine_show(s->engine, frame->states);
     if (s->evict)
-        walk((void *)(uintptr_t)s->evict);
-    if (s->traits.needs_vertices && !s->traits.given_vertices) {
-        uint64_t start = mote_clock_ns();
-        timed_deform(s, &frame);
-        row->deform_ns = elapsed(s, start, mote_clock_ns());
+        walk(s->evict);
+    const mote_status status = mote_engine_ask(s->engine, &cost);
+    if (status != MOTE_OK) {
+        char text[512];
+        (void)snprintf(text, sizeof text, "%s", mote_error_text());
+        return mote_fail(status, "frame %u: %s", number, text);
     }
-    uint64_t allocations = mote_heap_read().allocations;
-    if (method->update) {
-        uint64_t start = mote_clock_ns();
-        status = timed_update(s, &frame);
-        row->update_ns = elapsed(s, start, mote_clock_ns());
-    }
-    if (status == MOTE_OK) {
-        uint64_t start = mote_clock_ns();
-        status = timed_query(s, &frame, &row->answer);
-        row->query_ns = elapsed(s, start, mote_clock_ns());
-    }
-    row->allocations = mote_heap_read().allocations - allocations;
-    if (!row->answer.has_contact && row->answer.has_distance) {
-        row->answer.has_contact = true;
-        row->answer.contact = row->answer.distance <= s->cell->subject->scenario->tolerance;
+    record(s, number, motion_ns, &cost, row);
+    return MOTE_OK;
+}
+
+/* Asks about the frame of the next row. */
+static mote_status ask_next(session *s, const mote_subject_frame *frame, uint64_t motion_ns)
+{
+    mote_cell_result *result = s->result;
+    const size_t row = result->row_count;
+    const mote_status status = ask(s, number_of(s, row), frame, motion_ns, &result->rows[row]);
+    result->row_count += status == MOTE_OK;
+    return status;
+}
+
+static bool is_over(const session *s)
+{
+    const double spent = (double)(mote_clock_ns() - s->began) * 1e-9;
+    return s->result->row_count == s->rows ||
+           (s->cell->subject->bodies && s->cell->budget > 0 && spent > s->cell->budget &&
+            s->result->row_count >= MOTE_CELL_LEAST_FRAMES);
+}
+
+/* Moves the bodies to the frame of a row; returns the time. */
+static uint64_t move(const session *s, size_t row, mote_subject_frame *frame)
+{
+    const uint64_t from = mote_clock_ns();
+    mote_subject_frame_set(s->cell->subject, number_of(s, row),
+                           row > 0 ? number_of(s, row - 1) : 0, frame);
+    return mote_clock_ns() - from;
+}
+
+static mote_status run_in_turn(session *s)
+{
+    mote_status status = MOTE_OK;
+    while (status == MOTE_OK && !is_over(s)) {
+        const uint64_t motion_ns = move(s, s->result->row_count, &s->frames[0]);
+        status = ask_next(s, &s->frames[0], motion_ns);
     }
     return status;
 }
 
-static mote_status run_frames(session *s, size_t rows, mote_cell_result *result)
+static void *move_ahead(void *context)
 {
-    uint32_t previous = 0;
-    for (size_t i = 0; i < rows; ++i) {
-        uint32_t number = s->cell->first + (uint32_t)i * s->cell->stride;
-        mote_status status = run_frame(s, number, previous, &result->rows[i]);
-        if (status != MOTE_OK) {
-            char text[512];
-            (void)snprintf(text, sizeof text, "%s", mote_error_text());
-            return mote_fail(status, "frame %u: %s", number, text);
-        }
-        previous = number;
-        result->row_count = i + 1;
+    session *s = context;
+    size_t place;
+    for (size_t row = 0; row < s->rows && mote_frame_queue_reserve(s->queue, &place); ++row) {
+        s->motion_ns[place] = move(s, row, &s->frames[place]);
+        mote_frame_queue_commit(s->queue);
     }
-    return MOTE_OK;
+    mote_frame_queue_close(s->queue);
+    return NULL;
+}
+
+/* Motion and deformation in a thread of their own, over a bounded queue of frames. */
+static mote_status run_ahead(session *s)
+{
+    pthread_t mover;
+    mote_status status = mote_frame_queue_create(s->ahead, &s->queue);
+    if (status != MOTE_OK)
+        return status;
+    if (pthread_create(&mover, NULL, move_ahead, s) != 0) {
+        mote_frame_queue_destroy(s->queue);
+        return mote_fail(MOTE_ENOMEM, "a thread for motion cannot be started");
+    }
+    size_t place;
+    while (status == MOTE_OK && !is_over(s) && mote_frame_queue_take(s->queue, &place)) {
+        status = ask_next(s, &s->frames[place], s->motion_ns[place]);
+        mote_frame_queue_release(s->queue);
+    }
+    mote_frame_queue_cancel(s->queue);
+    (void)pthread_join(mover, NULL);
+    mote_frame_queue_destroy(s->queue);
+    return status;
+}
+
+static mote_status run(session *s)
+{
+    s->began = mote_clock_ns();
+    const mote_status status = s->ahead > 0 ? run_ahead(s) : run_in_turn(s);
+    s->result->frames_wall_ns = mote_clock_ns() - s->began;
+    return status;
 }
 
 static void close_session(session *s)
 {
-    mote_scene_session_destroy(s->scene);
-    mote_method_destroy(s->cell->choice->method, s->state);
-    for (int side = 0; side < 2; ++side) {
-        mote_deform_destroy(s->deform[side]);
-        free(s->vertices[side]);
-    }
-    mote_frame_buffer_destroy(s->buffer);
+    mote_engine_destroy(s->engine);
+    for (uint32_t i = 0; i < AHEAD_MAX; ++i)
+        mote_subject_frame_free(&s->frames[i]);
     free((void *)(uintptr_t)s->evict);
 }
 
-static mote_status run(session *s, size_t rows, const mote_cell_pairs *pairs,
-                       mote_cell_result *result)
+/* Builds and runs, with the bytes that this takes. */
+static mote_status build_and_run(session *s)
 {
-    if (!s->scene)
-        return run_frames(s, rows, result);
-    return mote_scene_session_run(s->scene, rows, s->evict ? walk : NULL,
-                                  (void *)(uintptr_t)s->evict, pairs, result);
+    mote_cell_result *result = s->result;
+    const mote_heap before = mote_heap_read();
+    mote_heap_reset_peak();
+    mote_status status = build(s);
+    const int64_t built = mote_heap_read().live_bytes;
+    if (status == MOTE_OK)
+        status = run(s);
+    const mote_heap after = mote_heap_read();
+    const int64_t live = built > after.live_bytes ? built : after.live_bytes;
+    result->heap_counted = after.counted;
+    result->heap_live_bytes = live - before.live_bytes;
+    result->heap_peak_bytes = after.peak_bytes - before.live_bytes;
+    struct rusage usage;
+    if (getrusage(RUSAGE_SELF, &usage) == 0)
+        result->rss_peak_bytes = (int64_t)usage.ru_maxrss * 1024;
+    return status;
 }
 
 mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
@@ -271,30 +263,16 @@ mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
 mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limit,
                                         const mote_cell_pairs *pairs, mote_cell_result *result)
 {
-    session s = {.cell = cell};
     mote_cell_result measured = {.core = -1};
-    const bool of_scene = cell->subject->bodies != NULL;
-    size_t rows = (cell->last - cell->first) / cell->stride + 1;
-    if (frame_limit && rows > frame_limit)
-        rows = frame_limit;
-    mote_status status = of_scene ? MOTE_OK : check_keys(cell);
+    session s = {.cell = cell,
+                 .rows = (cell->last - cell->first) / cell->stride + 1,
+                 .pairs = pairs,
+                 .result = &measured};
+    if (frame_limit && s.rows > frame_limit)
+        s.rows = frame_limit;
+    mote_status status = prepare(&s);
     if (status == MOTE_OK)
-        status = prepare(&s, &measured, rows);
-    mote_heap before = mote_heap_read();
-    mote_heap_reset_peak();
-    if (status == MOTE_OK)
-        status = of_scene ? build_scene(&s, &measured) : build_pair(&s, &measured);
-    int64_t built = mote_heap_read().live_bytes;
-    if (status == MOTE_OK)
-        status = run(&s, rows, pairs, &measured);
-    mote_heap after = mote_heap_read();
-    int64_t live = built > after.live_bytes ? built : after.live_bytes;
-    measured.heap_counted = after.counted;
-    measured.heap_live_bytes = live - before.live_bytes;
-    measured.heap_peak_bytes = after.peak_bytes - before.live_bytes;
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) == 0)
-        measured.rss_peak_bytes = (int64_t)usage.ru_maxrss * 1024;
+        status = build_and_run(&s);
     close_session(&s);
     if (status == MOTE_OK)
         *result = measured;
@@ -308,12 +286,12 @@ mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **meas
     mote_measurement *made = mote_allocate(1, sizeof *made);
     mote_cell_result unused = {.core = -1};
     made->cell = cell;
-    mote_status status = check_keys(cell);
+    made->result = &unused;
+    mote_status status = prepare(made);
     if (status == MOTE_OK)
-        status = prepare(made, &unused, 0);
-    if (status == MOTE_OK)
-        status = build_pair(made, &unused);
+        status = build(made);
     mote_cell_result_free(&unused);
+    made->result = NULL;
     if (status == MOTE_OK)
         *measurement = made;
     else
@@ -324,8 +302,9 @@ mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **meas
 mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t number,
                                    uint32_t previous, mote_cell_row *row)
 {
-    *row = (mote_cell_row){0};
-    return run_frame(measurement, number, previous, row);
+    mote_subject_frame *frame = &measurement->frames[0];
+    mote_subject_frame_set(measurement->cell->subject, number, previous, frame);
+    return ask(measurement, number, frame, 0, row);
 }
 
 void mote_measurement_close(mote_measurement *measurement)

@@ -4,7 +4,7 @@
 
 #include "harness/run/cell.h"
 #include "harness/run/cell_pairs.h"
-#include "harness/run/clock.h"
+#include "harness/base/clock.h"
 
 /* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all).
    The method's own failure is returned with its text, the frame named. Nothing is allocated

@@ -1,7 +1,7 @@
 #define _DEFAULT_SOURCE /* TIOCGWINSZ */
 #include "harness/run/progress.h"
 
-#include "harness/run/clock.h"
+#include "harness/base/clock.h"
 
 #include <stdio.h>
 #include <sys/ioctl.h>

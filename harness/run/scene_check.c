@@ -1,39 +1,40 @@
 #include "harness/run/scene_check.h"
 
-#include "harness/run/bodies_engine.h"
-
-static mote_status ask_frames(const mote_bodies *bodies, mote_bodies_engine *engine,
-                              mote_bodies_frame *frame, mote_scene_facts *facts)
+static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
+                              mote_subject_frame *frame, mote_scene_facts *facts)
 {
+    const uint32_t frames = subject->bodies->frames;
     mote_status status = MOTE_OK;
-    for (uint32_t k = 1; k <= bodies->frames && status == MOTE_OK; ++k) {
-        mote_bodies_step step;
-        mote_bodies_frame_set(bodies, k, frame);
-        status = mote_bodies_engine_step(engine, frame->states, &step);
+    for (uint32_t k = 1; k <= frames && status == MOTE_OK; ++k) {
+        mote_engine_cost cost;
+        mote_subject_frame_set(subject, k, k - 1, frame);
+        mote_engine_show(engine, frame->states);
+        status = mote_engine_ask(engine, &cost);
         if (status != MOTE_OK)
             break;
-        facts->near_pairs += (double)step.pairs / bodies->frames;
-        facts->pair_contacts += step.contacts;
-        facts->contacts += step.contacts > 0;
+        facts->near_pairs += (double)cost.pairs / frames;
+        facts->pair_contacts += cost.contacts;
+        facts->contacts += cost.contacts > 0;
     }
     return status;
 }
 
-mote_status mote_scene_check(const mote_bodies *bodies, mote_scene_facts *facts)
+mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *facts)
 {
     mote_scene_facts made = {0};
     mote_method_choice exact;
-    mote_bodies_engine *engine = NULL;
-    mote_bodies_frame frame = mote_bodies_frame_create(bodies);
-    mote_status status = mote_bodies_fingerprint(bodies, &made.fingerprint);
+    mote_engine *engine = NULL;
+    mote_subject_frame frame = mote_subject_frame_create(subject);
+    const mote_engine_setup setup = mote_subject_engine(subject);
+    mote_status status = mote_scene_choice_read("certified", &exact);
     if (status == MOTE_OK)
-        status = mote_scene_choice_read("certified", &exact);
+        status = mote_engine_create(&setup, &exact, &engine);
     if (status == MOTE_OK)
-        status = mote_bodies_engine_create(bodies, &exact, 1, &engine);
+        status = mote_engine_build(engine);
     if (status == MOTE_OK)
-        status = ask_frames(bodies, engine, &frame, &made);
-    mote_bodies_engine_destroy(engine);
-    mote_bodies_frame_free(&frame);
+        status = ask_frames(subject, engine, &frame, &made);
+    mote_engine_destroy(engine);
+    mote_subject_frame_free(&frame);
     if (status == MOTE_OK)
         *facts = made;
     return status;

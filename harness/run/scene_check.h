@@ -2,16 +2,15 @@
 #ifndef MOTE_HARNESS_SCENE_CHECK_H
 #define MOTE_HARNESS_SCENE_CHECK_H
 
-#include "harness/scene/bodies.h"
+#include "harness/run/subject.h"
 
 typedef struct mote_scene_facts {
-    uint64_t fingerprint;
     double near_pairs;      /* mean a frame */
     uint64_t pair_contacts; /* near pairs in contact, over all frames */
     uint32_t contacts;      /* frames in which some pair is */
 } mote_scene_facts;
 
 /* Asks certified for all near pairs of every frame. */
-mote_status mote_scene_check(const mote_bodies *bodies, mote_scene_facts *facts);
+mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *facts);
 
 #endif

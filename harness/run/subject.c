@@ -68,3 +68,55 @@ mote_subject_facts mote_subject_facts_of(const mote_subject *subject)
     return subject->bodies ? facts_of_bodies(subject->bodies)
                            : facts_of_pair(subject->scenario);
 }
+
+mote_engine_setup mote_subject_engine(const mote_subject *subject)
+{
+    const mote_bodies *bodies = subject->bodies;
+    const mote_scenario *pair = subject->scenario;
+    if (!bodies) {
+        mote_engine_setup setup = mote_engine_setup_of_two(&pair->body[0], &pair->body[1]);
+        setup.length = pair->length;
+        setup.ask = pair->ask;
+        setup.tolerance = pair->tolerance;
+        return setup;
+    }
+    mote_engine_setup setup = {.shape_count = bodies->shape_count,
+                               .shape_of = bodies->shape_of,
+                               .count = bodies->count,
+                               .length = bodies->length,
+                               .ask = bodies->ask,
+                               .tolerance = bodies->tolerance,
+                               .near = bodies->near};
+    for (uint32_t k = 0; k < bodies->shape_count; ++k)
+        setup.shapes[k] = &bodies->shapes[k].body;
+    return setup;
+}
+
+mote_subject_frame mote_subject_frame_create(const mote_subject *subject)
+{
+    mote_subject_frame frame = {.pair = NULL};
+    if (subject->bodies)
+        frame.scene = mote_bodies_frame_create(subject->bodies);
+    else
+        frame.pair = mote_frame_buffer_create(subject->scenario);
+    return frame;
+}
+
+void mote_subject_frame_free(mote_subject_frame *frame)
+{
+    mote_frame_buffer_destroy(frame->pair);
+    mote_bodies_frame_free(&frame->scene);
+    *frame = (mote_subject_frame){.pair = NULL};
+}
+
+void mote_subject_frame_set(const mote_subject *subject, uint32_t number, uint32_t previous,
+                            mote_subject_frame *frame)
+{
+    if (subject->bodies) {
+        mote_bodies_frame_set(subject->bodies, number, &frame->scene);
+        frame->states = frame->scene.states;
+    } else {
+        frame->states =
+            mote_scenario_frame(subject->scenario, frame->pair, number, previous)->body;
+    }
+}

@@ -2,6 +2,7 @@
 #ifndef MOTE_HARNESS_SUBJECT_H
 #define MOTE_HARNESS_SUBJECT_H
 
+#include "harness/engine/engine.h"
 #include "harness/run/truth.h"
 #include "harness/scene/bodies.h"
 
@@ -35,5 +36,23 @@ typedef struct mote_subject_facts {
 } mote_subject_facts;
 
 mote_subject_facts mote_subject_facts_of(const mote_subject *subject);
+
+/* Its bodies and its question, for an engine; seed and clock_ns are 0. */
+mote_engine_setup mote_subject_engine(const mote_subject *subject);
+
+/* The bodies of one frame, with the memory of their weights. */
+typedef struct mote_subject_frame {
+    const mote_body_state *states; /* [bodies], of the frame set last; vertices are NULL */
+    mote_frame_buffer *pair;
+    mote_bodies_frame scene;
+} mote_subject_frame;
+
+mote_subject_frame mote_subject_frame_create(const mote_subject *subject);
+void mote_subject_frame_free(mote_subject_frame *frame);
+
+/* Poses and weights of all bodies at a frame (1 .. frames). previous: the frame that the method
+   was asked about last, 0 for none, which tells what has changed. */
+void mote_subject_frame_set(const mote_subject *subject, uint32_t number, uint32_t previous,
+                            mote_subject_frame *frame);
 
 #endif

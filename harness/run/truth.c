@@ -3,7 +3,7 @@
 #include "harness/process/child.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -70,13 +70,13 @@ void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth)
 /* The sources of the truth of one scenario. */
 typedef struct sources {
     const mote_scenario *scenario;
-    mote_probe *oracle, *second, *judge;
+    mote_engine *oracle, *second, *judge;
 } sources;
 
-static mote_status ask(const sources *s, const char *method, mote_probe *probe,
+static mote_status ask(const sources *s, const char *method, mote_engine *probe,
                        const mote_frame *frame, mote_answer *answer)
 {
-    mote_status status = mote_probe_answer(probe, frame, answer);
+    mote_status status = mote_engine_answer(probe, frame, answer);
     if (status == MOTE_OK && (!answer->has_distance || !(answer->distance >= 0)))
         status = mote_fail(MOTE_ENUMERIC, "%s: frame %" PRIu64 ": %s gave no distance",
                            s->scenario->name, frame->number, method);
@@ -120,16 +120,16 @@ static mote_status answer_all(const mote_scenario *scenario, mote_frame_buffer *
                               truth_row *rows)
 {
     sources s = {.scenario = scenario};
-    mote_status status = mote_probe_create_distance(scenario->body, ORACLE, &s.oracle);
+    mote_status status = mote_engine_open_distance(scenario->body, ORACLE, &s.oracle);
     if (status == MOTE_OK)
-        status = mote_probe_create_distance(scenario->body, SECOND, &s.second);
+        status = mote_engine_open_distance(scenario->body, SECOND, &s.second);
     if (status == MOTE_OK)
-        status = mote_probe_create_distance(scenario->body, JUDGE, &s.judge);
+        status = mote_engine_open_distance(scenario->body, JUDGE, &s.judge);
     for (uint32_t k = 0; k < scenario->frames && status == MOTE_OK; ++k)
         status = answer_frame(&s, mote_scenario_frame(scenario, buffer, k + 1, k), &rows[k]);
-    mote_probe_destroy(s.oracle);
-    mote_probe_destroy(s.second);
-    mote_probe_destroy(s.judge);
+    mote_engine_destroy(s.oracle);
+    mote_engine_destroy(s.second);
+    mote_engine_destroy(s.judge);
     return status;
 }
 
@@ -197,8 +197,8 @@ static void choose_frames(const mote_scenario *scenario, const truth_row *rows, 
 static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                 const truth_row *rows, const bool *marked, uint32_t *checked)
 {
-    mote_probe *probe;
-    mote_status status = mote_probe_create_distance(scenario->body, REFEREE, &probe);
+    mote_engine *probe;
+    mote_status status = mote_engine_open_distance(scenario->body, REFEREE, &probe);
     if (status != MOTE_OK)
         return status;
     *checked = 0;
@@ -207,7 +207,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
             continue;
         mote_answer answer;
         const mote_frame *frame = mote_scenario_frame(scenario, buffer, k + 1, 0);
-        status = mote_probe_answer(probe, frame, &answer);
+        status = mote_engine_answer(probe, frame, &answer);
         if (status == MOTE_OK &&
             !(fabs(answer.distance - rows[k].distance) <= AGREEMENT * scenario->length))
             status = mote_fail(
@@ -216,7 +216,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
                 scenario->name, k + 1, rows[k].distance, REFEREE, answer.distance, AGREEMENT);
         ++*checked;
     }
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     return status;
 }
 

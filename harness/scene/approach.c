@@ -1,7 +1,9 @@
 #include "harness/scene/approach.h"
 
 #include "harness/scene/motion.h"
-#include "harness/scene/probe.h"
+#include "core/body/deform.h"
+#include "harness/base/memory.h"
+#include "harness/engine/engine.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,8 +18,10 @@
 typedef struct approach {
     const mote_scenario *scenario;
     const mote_approach_plan *plan;
-    mote_probe *probe;
+    mote_engine *probe;
     mote_frame frame;
+    mote_deform *deform[2];
+    mote_vec3 *world[2];       /* vertices */
     mote_vec3 direction, base; /* body 1's centre is at base + offset * direction */
     mote_vec3 still;           /* its translation with the centre at the origin */
     double precision;          /* absolute */
@@ -28,7 +32,7 @@ static mote_status distance_at(approach *a, double offset, double *distance)
     mote_answer answer;
     const mote_vec3 centre = mote_add_scaled(a->base, offset, a->direction);
     a->frame.body[1].pose.translation = mote_add(a->still, centre);
-    mote_status status = mote_probe_answer(a->probe, &a->frame, &answer);
+    mote_status status = mote_engine_answer(a->probe, &a->frame, &answer);
     if (status == MOTE_OK)
         *distance = answer.distance;
     return status;
@@ -43,8 +47,9 @@ static double start_far(approach *a, double gap)
     mote_vec3 centres[2], tips[2];
     double radius = gap;
     for (int i = 0; i < 2; ++i) {
-        const mote_vec3 *world = mote_probe_vertices(a->probe, frame, i);
+        mote_vec3 *world = a->world[i];
         double square = 0;
+        mote_deform_all(a->deform[i], &frame->body[i], world);
         centres[i] = mote_pose_apply(&frame->body[i].pose, motion[i].centre);
         tips[i] = a->plan->tips ? world[a->plan->tips[i]] : centres[i];
         for (uint32_t v = 0; v < a->scenario->body[i].mesh->vertex_count; ++v)
@@ -131,19 +136,28 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
                   .precision = fmax(PRECISION * smaller, ROUNDING * scenario->length)};
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     a.direction = mote_scale(plan->direction, 1 / mote_length(plan->direction));
-    mote_status status = mote_probe_create_distance(scenario->body, SEARCH, &a.probe);
+    mote_status status = mote_engine_open_distance(scenario->body, SEARCH, &a.probe);
+    for (int i = 0; i < 2; ++i) {
+        a.world[i] = mote_allocate(scenario->body[i].mesh->vertex_count, sizeof *a.world[i]);
+        if (status == MOTE_OK)
+            status = mote_deform_create(&scenario->body[i], &a.deform[i]);
+    }
     for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k)
         status = solve(&a, buffer, k, &positions[k]);
     mote_frame_buffer_destroy(buffer);
-    mote_probe_destroy(a.probe);
+    mote_engine_destroy(a.probe);
+    for (int i = 0; i < 2; ++i) {
+        mote_deform_destroy(a.deform[i]);
+        free(a.world[i]);
+    }
     return status;
 }
 
-static mote_status verify_frame(const mote_scenario *scenario, mote_probe *probe,
+static mote_status verify_frame(const mote_scenario *scenario, mote_engine *probe,
                                 const mote_frame *frame, double gap)
 {
     mote_answer answer;
-    mote_status status = mote_probe_answer(probe, frame, &answer);
+    mote_status status = mote_engine_answer(probe, frame, &answer);
     if (status != MOTE_OK)
         return status;
     const double found = answer.distance / scenario->length;
@@ -159,13 +173,13 @@ static mote_status verify_frame(const mote_scenario *scenario, mote_probe *probe
 mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *frames,
                                  const double *gaps, uint32_t count)
 {
-    mote_probe *probe = NULL;
+    mote_engine *probe = NULL;
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
-    mote_status status = mote_probe_create_distance(scenario->body, ORACLE, &probe);
+    mote_status status = mote_engine_open_distance(scenario->body, ORACLE, &probe);
     for (uint32_t k = 0; k < count && status == MOTE_OK; ++k)
         status = verify_frame(scenario, probe,
                               mote_scenario_frame(scenario, buffer, frames[k], 0), gaps[k]);
     mote_frame_buffer_destroy(buffer);
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     return status;
 }

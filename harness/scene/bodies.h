@@ -7,12 +7,13 @@
 #define MOTE_HARNESS_BODIES_H
 
 #include "core/certificate/scene.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario.h"
 
 /* The largest numbers of bodies and shapes. */
 #define MOTE_BODIES_MAX 1000000
-#define MOTE_BODIES_SHAPES_MAX 256
+#define MOTE_BODIES_SHAPES_MAX MOTE_ENGINE_SHAPES_MAX
 
 /* A shape with its deformation. */
 typedef struct mote_bodies_shape {

@@ -4,7 +4,7 @@
 #include "core/body/csrbf_fit.h"
 #include "datasets/letter.h"
 #include "harness/scene/motion.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/spread.h"
 #include "harness/scene/turn.h"
 
@@ -113,14 +113,14 @@ void mote_extreme_free(mote_extreme *e)
 static mote_status ask_distance(const mote_extreme *e, uint32_t frame, mote_answer *answer)
 {
     mote_method_choice choice;
-    mote_probe *probe = NULL;
+    mote_engine *probe = NULL;
     mote_status status = mote_method_choice_read("aabb-tree", &choice);
     if (status == MOTE_OK)
-        status = mote_probe_create(&e->body[0], &e->body[1], &choice, MOTE_ASK_DISTANCE, 0, 1,
-                                   &probe);
+        status = mote_engine_open_two(&e->body[0], &e->body[1], &choice, MOTE_ASK_DISTANCE, 0,
+                                      1, &probe);
     if (status == MOTE_OK)
-        status = mote_probe_answer(probe, &e->frame[frame], answer);
-    mote_probe_destroy(probe);
+        status = mote_engine_answer(probe, &e->frame[frame], answer);
+    mote_engine_destroy(probe);
     return status;
 }
 

@@ -3,7 +3,7 @@
 
 #include "harness/process/child.h"
 #include "harness/run/measure.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/base/statistics.h"
 
 #include <float.h>
@@ -47,14 +47,14 @@ typedef struct task {
 static mote_status ask_all(const task *t, message *told)
 {
     const mote_extreme *e = t->extreme;
-    mote_probe *probe = NULL;
+    mote_engine *probe = NULL;
     uint64_t start = mote_clock_ns();
-    mote_status status = mote_probe_create(&e->body[0], &e->body[1], &t->choice,
-                                           MOTE_ASK_DISTANCE, 0, 1, &probe);
+    mote_status status = mote_engine_open_two(&e->body[0], &e->body[1], &t->choice,
+                                              MOTE_ASK_DISTANCE, 0, 1, &probe);
     const bool contact_only = status == MOTE_EUNSUPPORTED;
     if (contact_only)
-        status = mote_probe_create(&e->body[0], &e->body[1], &t->choice, MOTE_ASK_CONTACT, 0, 1,
-                                   &probe);
+        status = mote_engine_open_two(&e->body[0], &e->body[1], &t->choice, MOTE_ASK_CONTACT, 0,
+                                      1, &probe);
     told->build_ns = mote_clock_ns() - start;
     const mote_traits traits = mote_method_traits(t->choice.method, t->choice.values);
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES && status == MOTE_OK; ++f) {
@@ -63,10 +63,10 @@ static mote_status ask_all(const task *t, message *told)
         told->said[f].single = e->parameters && strcmp(e->parameters, "precision=single") == 0;
         told->said[f].contact_only = contact_only;
         start = mote_clock_ns();
-        status = mote_probe_answer(probe, &e->frame[f], &told->said[f].answer);
+        status = mote_engine_answer(probe, &e->frame[f], &told->said[f].answer);
         told->ns[f] = mote_clock_ns() - start;
     }
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     return status;
 }
 

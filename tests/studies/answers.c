@@ -14,7 +14,7 @@
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/scenario.h"
 
 #include <inttypes.h>
@@ -73,7 +73,7 @@ static void hash_counts(uint64_t *hash, const mote_counters *c)
 #undef HASH_COUNT
 }
 
-static mote_status answer_frames(job *j, mote_probe *probe, mote_frame_buffer *buffer)
+static mote_status answer_frames(job *j, mote_engine *probe, mote_frame_buffer *buffer)
 {
     const uint32_t frames = j->scenario->frames;
     mote_status status = MOTE_OK;
@@ -83,7 +83,7 @@ static mote_status answer_frames(job *j, mote_probe *probe, mote_frame_buffer *b
         number = number + k % STEPS <= frames ? number + k % STEPS : frames;
         const mote_frame *frame = mote_scenario_frame(j->scenario, buffer, number, previous);
         mote_answer answer;
-        status = mote_probe_answer(probe, frame, &answer);
+        status = mote_engine_answer(probe, frame, &answer);
         if (status == MOTE_OK) {
             hash_answer(&j->hash, &answer);
             hash_counts(&j->counts, &answer.counters);
@@ -98,18 +98,18 @@ static void answer(job *j)
     j->hash = j->counts = MOTE_HASH_START;
     mote_method_choice choice;
     mote_frame_buffer *buffer = NULL;
-    mote_probe *probe = NULL;
+    mote_engine *probe = NULL;
     mote_status status = mote_method_choice_read(j->method, &choice);
     if (status == MOTE_OK)
         buffer = mote_frame_buffer_create(j->scenario);
     if (status == MOTE_OK)
-        status = mote_probe_create(&j->scenario->body[0], &j->scenario->body[1], &choice,
-                                   j->scenario->ask, j->scenario->tolerance, 1, &probe);
+        status = mote_engine_open_two(&j->scenario->body[0], &j->scenario->body[1], &choice,
+                                      j->scenario->ask, j->scenario->tolerance, 1, &probe);
     if (status == MOTE_OK)
         status = answer_frames(j, probe, buffer);
     j->hash = mote_hash_word(j->hash, status);
     j->status = status;
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     mote_frame_buffer_destroy(buffer);
 }
 

@@ -4,7 +4,7 @@
    methods agree to 1e-12 L, and the errors of the others keep their quantiles.
    Usage: metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit
    status 1 where something broke. */
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/base/statistics.h"
 #include "tests/support/checks.h"
 #include "tests/studies/twin.h"
@@ -43,7 +43,7 @@ typedef struct relation {
 typedef struct pair {
     scene base, twin;
     twin_change change;
-    mote_probe *probe[2][METHODS]; /* of base, of twin */
+    mote_engine *probe[2][METHODS]; /* of base, of twin */
 } pair;
 
 static bool open_pair(pair *p, const relation *r, uint32_t index)
@@ -59,8 +59,8 @@ static bool open_pair(pair *p, const relation *r, uint32_t index)
         const scene *s = m < METHODS ? &p->base : &p->twin;
         mote_method_choice choice;
         if (mote_method_choice_read(methods[m % METHODS], &choice) != MOTE_OK ||
-            mote_probe_create(&s->body[0], &s->body[1], &choice, MOTE_ASK_DISTANCE, 0, 1,
-                              &p->probe[m / METHODS][m % METHODS]) != MOTE_OK) {
+            mote_engine_open_two(&s->body[0], &s->body[1], &choice, MOTE_ASK_DISTANCE, 0, 1,
+                                 &p->probe[m / METHODS][m % METHODS]) != MOTE_OK) {
             fprintf(stderr, "metamorphic: %s\n", mote_error_text());
             return false;
         }
@@ -71,8 +71,8 @@ static bool open_pair(pair *p, const relation *r, uint32_t index)
 static void close_pair(pair *p)
 {
     for (int m = 0; m < METHODS; ++m) {
-        mote_probe_destroy(p->probe[0][m]);
-        mote_probe_destroy(p->probe[1][m]);
+        mote_engine_destroy(p->probe[0][m]);
+        mote_engine_destroy(p->probe[1][m]);
     }
     scene_free(&p->base);
     scene_free(&p->twin);
@@ -115,8 +115,8 @@ static bool compare_frame(relation *r, pair *p, bool sampled)
     double truth = 0;
     for (int m = 0; m < METHODS; ++m) {
         mote_answer base, twin;
-        if (mote_probe_answer(p->probe[0][m], &p->base.frame, &base) != MOTE_OK ||
-            mote_probe_answer(p->probe[1][m], &p->twin.frame, &twin) != MOTE_OK) {
+        if (mote_engine_answer(p->probe[0][m], &p->base.frame, &base) != MOTE_OK ||
+            mote_engine_answer(p->probe[1][m], &p->twin.frame, &twin) != MOTE_OK) {
             fprintf(stderr, "metamorphic: %s: %s\n", methods[m], mote_error_text());
             return false;
         }

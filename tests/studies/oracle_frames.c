@@ -1,6 +1,6 @@
 #include "tests/studies/oracle_frames.h"
 
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/scenario.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static const char *const judges[JUDGES] = {
 typedef struct court {
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
-    mote_probe *probe[JUDGES];
+    mote_engine *probe[JUDGES];
     json_t *disputed;
     double agreement, difference; /* over L: what is no dispute, and the largest */
     uint32_t frames, wrong[2];
@@ -37,8 +37,8 @@ static mote_status open_court(const char *scenario, court *c)
         mote_method_choice choice;
         status = mote_method_choice_read(judges[j], &choice);
         if (status == MOTE_OK)
-            status = mote_probe_create(&c->scenario->body[0], &c->scenario->body[1], &choice,
-                                       MOTE_ASK_DISTANCE, 0, 0, &c->probe[j]);
+            status = mote_engine_open_two(&c->scenario->body[0], &c->scenario->body[1], &choice,
+                                          MOTE_ASK_DISTANCE, 0, 0, &c->probe[j]);
     }
     return status;
 }
@@ -46,7 +46,7 @@ static mote_status open_court(const char *scenario, court *c)
 static void close_court(court *c)
 {
     for (int j = 0; j < JUDGES; j++)
-        mote_probe_destroy(c->probe[j]);
+        mote_engine_destroy(c->probe[j]);
     mote_frame_buffer_destroy(c->buffer);
     mote_scenario_destroy(c->scenario);
     json_decref(c->disputed);
@@ -58,7 +58,7 @@ static mote_status hear(court *c, int judge, uint32_t number, uint32_t previous,
 {
     const mote_frame *frame = mote_scenario_frame(c->scenario, c->buffer, number, previous);
     mote_answer answer;
-    mote_status status = mote_probe_answer(c->probe[judge], frame, &answer);
+    mote_status status = mote_engine_answer(c->probe[judge], frame, &answer);
     if (status == MOTE_OK && !answer.has_distance)
         status = mote_fail(MOTE_ENUMERIC, "%s: frame %u: %s gave no distance",
                            c->scenario->name, number, judges[judge]);

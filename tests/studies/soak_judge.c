@@ -1,7 +1,7 @@
 #include "tests/studies/soak_judge.h"
 
 #include "harness/process/child.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/scenario.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ typedef struct bench {
     bool stop;
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
-    mote_probe *probe[SOAK_METHODS + 1]; /* the last settles; made when needed */
+    mote_engine *probe[SOAK_METHODS + 1]; /* the last settles; made when needed */
     soak_verdict verdict;
 } bench;
 
@@ -35,8 +35,8 @@ static mote_status open_probe(bench *b, int m)
     mote_status status =
         mote_method_choice_read(m < SOAK_METHODS ? soak_methods[m] : settler, &choice);
     if (status == MOTE_OK)
-        status = mote_probe_create(&b->scenario->body[0], &b->scenario->body[1], &choice,
-                                   MOTE_ASK_DISTANCE, CONTACT, 1, &b->probe[m]);
+        status = mote_engine_open_two(&b->scenario->body[0], &b->scenario->body[1], &choice,
+                                      MOTE_ASK_DISTANCE, CONTACT, 1, &b->probe[m]);
     return status;
 }
 
@@ -57,7 +57,7 @@ static mote_status open_bench(bench *b)
 static void close_bench(bench *b)
 {
     for (int m = 0; m <= SOAK_METHODS; ++m)
-        mote_probe_destroy(b->probe[m]);
+        mote_engine_destroy(b->probe[m]);
     mote_frame_buffer_destroy(b->buffer);
     mote_scenario_destroy(b->scenario);
 }
@@ -82,7 +82,7 @@ static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answ
     mote_status status = b->probe[SOAK_METHODS] ? MOTE_OK : open_probe(b, SOAK_METHODS);
     mote_answer settled;
     if (status == MOTE_OK)
-        status = mote_probe_answer(b->probe[SOAK_METHODS], frame, &settled);
+        status = mote_engine_answer(b->probe[SOAK_METHODS], frame, &settled);
     if (status == MOTE_OK)
         *truth = settled.distance;
     return status;
@@ -125,7 +125,7 @@ static mote_status judge_frame(bench *b, uint32_t number, uint32_t previous)
     mote_answer answers[SOAK_METHODS];
     for (int m = 0; m < SOAK_METHODS; ++m) {
         mote_status status =
-            b->probe[m] ? mote_probe_answer(b->probe[m], frame, &answers[m]) : MOTE_OK;
+            b->probe[m] ? mote_engine_answer(b->probe[m], frame, &answers[m]) : MOTE_OK;
         if (status != MOTE_OK)
             return status;
     }

@@ -4,7 +4,7 @@
 #include "core/body/deform.h"
 #include "core/body/triangle.h"
 #include "harness/scene/catalog.h"
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/scene/scenario.h"
 #include "tests/support/bodies.h"
 #include "tests/support/test.h"
@@ -81,7 +81,7 @@ typedef struct panel {
     const mote_body *body[2];
     double length;
     const char *where;
-    mote_probe *probe[METHODS];
+    mote_engine *probe[METHODS];
     mote_deform *deform[2];
     mote_vec3 *world[2];
     size_t answers;
@@ -95,7 +95,7 @@ static void open_panel(panel *p, const mote_body *a, const mote_body *b, double 
         mote_method_choice choice;
         assert_int_equal(mote_method_choice_read(methods[m], &choice), MOTE_OK);
         const mote_status status =
-            mote_probe_create(a, b, &choice, MOTE_ASK_DISTANCE, 0, 1, &p->probe[m]);
+            mote_engine_open_two(a, b, &choice, MOTE_ASK_DISTANCE, 0, 1, &p->probe[m]);
         /* Few vertices, or more components than particles. */
         if (status != MOTE_OK && status != MOTE_EUNSUPPORTED && status != MOTE_EINVAL)
             fail_msg("%s: %s: %s", where, methods[m], mote_error_text());
@@ -118,7 +118,7 @@ static void check_frame(panel *p, const mote_frame *frame)
         mote_answer answer = {0};
         if (!p->probe[m])
             continue;
-        assert_int_equal(mote_probe_answer(p->probe[m], &known, &answer), MOTE_OK);
+        assert_int_equal(mote_engine_answer(p->probe[m], &known, &answer), MOTE_OK);
         check_answer(&answer, p->body, &known, p->length, p->where, methods[m]);
         ++p->answers;
     }
@@ -127,7 +127,7 @@ static void check_frame(panel *p, const mote_frame *frame)
 static size_t close_panel(panel *p)
 {
     for (int m = 0; m < METHODS; ++m)
-        mote_probe_destroy(p->probe[m]);
+        mote_engine_destroy(p->probe[m]);
     for (int i = 0; i < 2; ++i) {
         mote_deform_destroy(p->deform[i]);
         free(p->world[i]);

@@ -501,16 +501,16 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
     for (size_t p = 0; p < 2; ++p) {
         mote_scenario *scenario = load("", places[p], FLYING);
         mote_film *film = NULL;
-        mote_probe *probe = NULL;
+        mote_engine *probe = NULL;
         mote_frame_buffer *buffer = NULL;
-        const mote_bodies_pair none = {.body = {0, 1}};
+        const mote_near_pair none = {.body = {0, 1}};
         char name[64], *text = NULL;
         size_t size = 0;
         const mote_simulation_options options = mote_default_simulation_options(scenario);
         mote_simulator *simulator = simulator_of(scenario, &choice, &options);
         assert_int_equal(mote_film_create(simulator, "certified", 1000, FILM, &film), MOTE_OK);
-        assert_int_equal(mote_probe_create(&scenario->body[0], &scenario->body[1], &choice,
-                                           scenario->ask, 0, 1, &probe),
+        assert_int_equal(mote_engine_open_two(&scenario->body[0], &scenario->body[1], &choice,
+                                              scenario->ask, 0, 1, &probe),
                          MOTE_OK);
         buffer = mote_frame_buffer_create(scenario);
         mote_simulation_view view = {.said = &none, .said_count = 1, .method = probe};
@@ -530,7 +530,7 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         mote_film_destroy(film);
         assert_int_not_equal(access(FILM ".frames", F_OK), 0);
         mote_frame_buffer_destroy(buffer);
-        mote_probe_destroy(probe);
+        mote_engine_destroy(probe);
         mote_simulator_destroy(simulator);
         mote_scenario_destroy(scenario);
     }

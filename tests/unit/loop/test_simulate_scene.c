@@ -27,12 +27,12 @@ static void write_file(const char *bodies)
 }
 
 /* Pairs of a step: "0-1!" is a contact of bodies 0 and 1, "0-1" a near pair without. */
-static size_t pairs_of(const char *text, mote_bodies_pair pairs[8])
+static size_t pairs_of(const char *text, mote_near_pair pairs[8])
 {
     size_t count = 0;
     for (const char *c = text; *c; c += *c == ' ') {
         const bool contact = c[3] == '!';
-        pairs[count++] = (mote_bodies_pair){
+        pairs[count++] = (mote_near_pair){
             .body = {(uint32_t)(c[0] - '0'), (uint32_t)(c[2] - '0')},
             .answer = {.has_contact = true, .contact = contact, .distance = contact ? 0 : 1}};
         c += contact ? 4 : 3;
@@ -56,7 +56,7 @@ TEST(contact_runs_step_runs_of_several_pairs_are_kept_apart)
     static const char *const told[] = {"0-1! 2-3", "0-1 2-3!", "0-1! 1-4 2-3", "0-1!", "0-1"};
     mote_contact_runs runs = {.count = 0};
     for (uint32_t k = 0; k < 5; ++k) {
-        mote_bodies_pair a[8], b[8];
+        mote_near_pair a[8], b[8];
         const size_t m = pairs_of(truth[k], a), n = pairs_of(told[k], b);
         assert_int_equal(mote_contact_runs_step(&runs, k, a, m, b, n, depth_by_body, NULL),
                          MOTE_OK);

@@ -1,5 +1,5 @@
 /* The data of the page's replay, read back as the page reads it. */
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "harness/report/replay.h"
 #include "harness/base/record.h"
 #include "harness/report/report_rows.h"
@@ -376,22 +376,22 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
         cell.error = errors;
         mote_replay_track track = {.row = &row, .cell = &cell, .rows = odd[i].rows};
         mote_method_choice choice;
-        mote_probe *probe = NULL;
+        mote_engine *probe = NULL;
         mote_frame_buffer *buffer = NULL;
         if (odd[i].rows == 1) { /* with the answer that it gives */
             mote_answer answer = {0};
             assert_int_equal(mote_method_choice_read(label, &choice), MOTE_OK);
-            assert_int_equal(
-                mote_probe_create(&scene.scenario->body[0], &scene.scenario->body[1], &choice,
-                                  scene.scenario->ask, 0, track.cell->replicate_seed, &probe),
-                MOTE_OK);
+            assert_int_equal(mote_engine_open_two(
+                                 &scene.scenario->body[0], &scene.scenario->body[1], &choice,
+                                 scene.scenario->ask, 0, track.cell->replicate_seed, &probe),
+                             MOTE_OK);
             buffer = mote_frame_buffer_create(scene.scenario);
             assert_int_equal(
-                mote_probe_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),
-                                  &answer),
+                mote_engine_answer(probe, mote_scenario_frame(scene.scenario, buffer, 1, 0),
+                                   &answer),
                 MOTE_OK);
             errors[0] = (answer.distance - cell.truth[0]) / mote_stored_number(&cell, "length");
-            mote_probe_destroy(probe);
+            mote_engine_destroy(probe);
             mote_frame_buffer_destroy(buffer);
         }
         const size_t notes = json_array_size(scene.notes);

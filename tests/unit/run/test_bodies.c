@@ -1,5 +1,5 @@
 /* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
-#include "harness/run/bodies_engine.h"
+#include "harness/run/subject.h"
 
 #include "harness/figure/figure.h"
 #include "harness/base/file.h"
@@ -49,14 +49,24 @@ static mote_bodies_frame frame_of(const mote_bodies *b)
     return frame;
 }
 
-static mote_bodies_engine *engine_of(const mote_bodies *b, const char *text)
+static mote_engine *engine_of(mote_bodies *b, const char *text)
 {
     mote_method_choice choice;
-    mote_bodies_engine *engine = NULL;
+    mote_engine *engine = NULL;
+    mote_engine_setup setup = mote_subject_engine(&(mote_subject){.bodies = b});
+    setup.seed = 1;
     if (mote_scene_choice_read(text, &choice) != MOTE_OK ||
-        mote_bodies_engine_create(b, &choice, 1, &engine) != MOTE_OK)
+        mote_engine_create(&setup, &choice, &engine) != MOTE_OK ||
+        mote_engine_build(engine) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return engine;
+}
+
+static mote_status ask(mote_engine *engine, const mote_bodies_frame *frame,
+                       mote_engine_cost *cost)
+{
+    mote_engine_show(engine, frame->states);
+    return mote_engine_ask(engine, cost);
 }
 
 TEST(mote_bodies_load_near_pairs_are_as_wished)
@@ -67,19 +77,19 @@ TEST(mote_bodies_load_near_pairs_are_as_wished)
         mote_bodies *b = load("", more);
         free(more);
         mote_bodies_frame frame = frame_of(b);
-        mote_bodies_engine *engine = engine_of(b, "aabb-tree");
+        mote_engine *engine = engine_of(b, "aabb-tree");
         double pairs = 0;
         for (uint32_t f = 1; f <= b->frames; ++f) {
-            mote_bodies_step step;
+            mote_engine_cost step;
             mote_bodies_frame_set(b, f, &frame);
-            assert_int_equal(mote_bodies_engine_step(engine, frame.states, &step), MOTE_OK);
+            assert_int_equal(ask(engine, &frame, &step), MOTE_OK);
             if (f == 1)
                 assert_int_equal(step.contacts, 0);
             pairs += (double)step.pairs;
         }
         const double mean = pairs / b->frames / b->count;
         assert_close(mean / strtod(wishes[k], NULL), 1, 0.3);
-        mote_bodies_engine_destroy(engine);
+        mote_engine_destroy(engine);
         mote_bodies_frame_free(&frame);
         mote_bodies_destroy(b);
     }
@@ -148,10 +158,10 @@ TEST(mote_bodies_load_same_seed_same_bits)
 }
 
 /* The answer for a pair of bodies, or NULL where it is not near for this engine. */
-static const mote_answer *find(const mote_bodies_engine *engine, const uint32_t body[2])
+static const mote_answer *find(const mote_engine *engine, const uint32_t body[2])
 {
     size_t count;
-    const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engine, &count);
+    const mote_near_pair *pairs = mote_engine_pairs(engine, &count);
     for (size_t k = 0; k < count; ++k) {
         if (pairs[k].body[0] == body[0] && pairs[k].body[1] == body[1])
             return &pairs[k].answer;
@@ -160,12 +170,12 @@ static const mote_answer *find(const mote_bodies_engine *engine, const uint32_t 
 }
 
 /* Every pair within `near` is known to all engines, with one distance and one contact. */
-static void check_agreement(const mote_bodies *b, mote_bodies_engine *const *engines, int count,
+static void check_agreement(const mote_bodies *b, mote_engine *const *engines, int count,
                             size_t *near, size_t *contacts)
 {
     for (int from = 0; from < count; ++from) {
         size_t size;
-        const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engines[from], &size);
+        const mote_near_pair *pairs = mote_engine_pairs(engines[from], &size);
         for (size_t k = 0; k < size; ++k) {
             const mote_answer *a = &pairs[k].answer;
             if (a->distance > b->near)
@@ -182,13 +192,13 @@ static void check_agreement(const mote_bodies *b, mote_bodies_engine *const *eng
     }
 }
 
-TEST(mote_bodies_engine_step_exact_methods_agree)
+TEST(mote_engine_ask_exact_methods_agree)
 {
     static const char *const texts[] = {"certified", "fcl-aabb:refit=every", "fcl-aabb",
                                         "aabb-tree", "aabb-tree:refit=every"};
     mote_bodies *b = load(", \"tolerance\": 0.01",
                           "\"count\": 16, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    mote_bodies_engine *engines[5];
+    mote_engine *engines[5];
     mote_bodies_frame frame = frame_of(b);
     size_t near = 0, contacts = 0;
     for (int m = 0; m < 5; ++m)
@@ -196,20 +206,20 @@ TEST(mote_bodies_engine_step_exact_methods_agree)
     for (uint32_t f = 1; f <= 10; ++f) {
         mote_bodies_frame_set(b, f, &frame);
         for (int m = 0; m < 5; ++m) {
-            mote_bodies_step step;
-            if (mote_bodies_engine_step(engines[m], frame.states, &step) != MOTE_OK)
+            mote_engine_cost step;
+            if (ask(engines[m], &frame, &step) != MOTE_OK)
                 fail_msg("%s: %s", texts[m], mote_error_text());
         }
         check_agreement(b, engines, 5, &near, &contacts);
     }
     assert_true(near > contacts && contacts > 0);
     for (int m = 0; m < 5; ++m)
-        mote_bodies_engine_destroy(engines[m]);
+        mote_engine_destroy(engines[m]);
     mote_bodies_frame_free(&frame);
     mote_bodies_destroy(b);
 }
 
-TEST(mote_bodies_engine_step_contact_question_agrees)
+TEST(mote_engine_ask_contact_question_agrees)
 {
     static const char *const texts[] = {"certified", "fcl-aabb", "aabb-tree"};
     write_file("", "");
@@ -220,19 +230,18 @@ TEST(mote_bodies_engine_step_contact_question_agrees)
     free(text);
     mote_bodies *b = NULL;
     assert_int_equal(mote_bodies_load(FILE_NAME, &b), MOTE_OK);
-    mote_bodies_engine *engines[3];
+    mote_engine *engines[3];
     mote_bodies_frame frame = frame_of(b);
     size_t contacts = 0;
     for (int m = 0; m < 3; ++m)
         engines[m] = engine_of(b, texts[m]);
     for (uint32_t f = 1; f <= 20; ++f) {
         mote_bodies_frame_set(b, f, &frame);
-        mote_bodies_step step[3];
+        mote_engine_cost step[3];
         for (int m = 0; m < 3; ++m)
-            assert_int_equal(mote_bodies_engine_step(engines[m], frame.states, &step[m]),
-                             MOTE_OK);
+            assert_int_equal(ask(engines[m], &frame, &step[m]), MOTE_OK);
         size_t count;
-        const mote_bodies_pair *pairs = mote_bodies_engine_pairs(engines[0], &count);
+        const mote_near_pair *pairs = mote_engine_pairs(engines[0], &count);
         for (size_t k = 0; k < count; ++k) {
             for (int m = 1; m < 3; ++m)
                 assert_int_equal(find(engines[m], pairs[k].body)->contact,
@@ -242,7 +251,7 @@ TEST(mote_bodies_engine_step_contact_question_agrees)
     }
     assert_true(contacts > 0);
     for (int m = 0; m < 3; ++m)
-        mote_bodies_engine_destroy(engines[m]);
+        mote_engine_destroy(engines[m]);
     mote_bodies_frame_free(&frame);
     mote_bodies_destroy(b);
 }
@@ -486,7 +495,7 @@ TEST(mote_bodies_choice_read_keys_are_taken_apart)
     };
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; ++k) {
         if (mote_scene_choice_read(bad[k][0], &c) == MOTE_OK &&
-            mote_bodies_choice_check(&c) == MOTE_OK)
+            mote_engine_check_choice(&c) == MOTE_OK)
             fail_msg("%s: not refused", bad[k][0]);
         if (!strstr(mote_error_text(), bad[k][1]))
             fail_msg("%s: %s", bad[k][0], mote_error_text());

@@ -1,4 +1,4 @@
-#include "harness/run/clock.h"
+#include "harness/base/clock.h"
 
 #include "harness/base/statistics.h"
 

@@ -1,5 +1,5 @@
 /* One method asked outside a measurement: its particles after it has answered. */
-#include "harness/scene/probe.h"
+#include "harness/engine/engine.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -22,9 +22,9 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
     assert_int_equal(mote_method_choice_read("particle:n=8", &choice), MOTE_OK);
     scene s;
     scene_init(&s, 24, 12, 1, true);
-    mote_probe *probe = NULL;
+    mote_engine *probe = NULL;
     assert_int_equal(
-        mote_probe_create(&s.body[0], &s.body[1], &choice, MOTE_ASK_DISTANCE, 0, 1, &probe),
+        mote_engine_open_two(&s.body[0], &s.body[1], &choice, MOTE_ASK_DISTANCE, 0, 1, &probe),
         MOTE_OK);
     int touching = 0;
     (void)scene_next(&s, 0, false);
@@ -32,11 +32,11 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
         mote_answer answer;
         s.frame.body[1].pose.translation.x = (1.2 - 0.02 * k) * s.length;
         scene_step(&s);
-        assert_int_equal(mote_probe_answer(probe, &s.frame, &answer), MOTE_OK);
+        assert_int_equal(mote_engine_answer(probe, &s.frame, &answer), MOTE_OK);
         between();
         for (int b = 0; b < 2; ++b) {
             mote_vec3 at[9];
-            const size_t count = mote_probe_particles(probe, b, at, 9);
+            const size_t count = mote_engine_particles(probe, b, at, 9);
             assert_in_range(count, 1, 9);
             touching += count > 1 && answer.distance <= 0;
             for (size_t i = 0; i < count; ++i) {
@@ -49,6 +49,6 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
         }
     }
     assert_true(touching > 10);
-    mote_probe_destroy(probe);
+    mote_engine_destroy(probe);
     scene_free(&s);
 }

@@ -1,4 +1,4 @@
-#include "harness/run/bodies_engine.h"
+#include "harness/engine/engine.h"
 
 #include <string.h>
 
@@ -24,7 +24,7 @@ static bool sets_own(const mote_method_choice *choice)
     return false;
 }
 
-mote_status mote_bodies_choice_check(const mote_method_choice *choice)
+mote_status mote_engine_check_choice(const mote_method_choice *choice)
 {
     static const char *const forms[] = {"certified", "fcl-aabb", "aabb-tree", "particle",
                                         "particle-paper"};

@@ -1,0 +1,41 @@
+/* More than two bodies: the certified scene, which finds and answers by the same trees. */
+#include "harness/engine/engine_kind.h"
+
+static void copy_answers(mote_engine *e)
+{
+    size_t count;
+    const mote_scene_pair *from = mote_scene_pairs(e->scene, &count);
+    const bool distance = e->setup.ask == MOTE_ASK_DISTANCE;
+    mote_pair_list_make_room(&e->now, count);
+    e->now.count = count;
+    for (size_t k = 0; k < count; ++k) {
+        const mote_scene_pair *p = &from[k];
+        e->now.pairs[k] = (mote_near_pair){.body = {p->body[0], p->body[1]},
+                                           .steps = p->steps,
+                                           .answer = {.has_distance = distance,
+                                                      .has_lower = true,
+                                                      .has_witness = distance || p->contact,
+                                                      .has_contact = true,
+                                                      .contact = p->contact,
+                                                      .distance = p->distance,
+                                                      .lower = p->lower,
+                                                      .witness = {p->witness[0], p->witness[1]},
+                                                      .counters = p->counters}};
+    }
+}
+
+static mote_status certified_ask(mote_engine *e, mote_engine_cost *cost)
+{
+    mote_pairs_wanted wanted = {0};
+    mote_status status = mote_engine_bound(e, cost);
+    if (status == MOTE_OK)
+        status = mote_engine_find_near(e, cost, &wanted);
+    if (status == MOTE_OK)
+        status = mote_scene_query(e->scene, e->states, wanted.pairs, wanted.count);
+    if (status == MOTE_OK)
+        copy_answers(e);
+    return status;
+}
+
+const mote_engine_kind mote_engine_of_certified = {
+    NULL, mote_engine_build_near, mote_engine_destroy_near, NULL, certified_ask};
