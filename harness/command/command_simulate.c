@@ -34,32 +34,12 @@ static void set_options(const request *wish, mote_simulation_options *options)
     options->gravity = wish->gravity;
 }
 
-/* What is simulated: two bodies or many; the other pointer is NULL. */
-typedef struct subject {
-    mote_scenario *pair;
-    mote_bodies *scene;
-} subject;
-
-static mote_status load(request *wish, subject *s)
+static mote_status load(request *wish, mote_subject *subject)
 {
-    const bool many = mote_bodies_is(wish->scenario);
-    mote_status status = many ? mote_scene_choice_read(wish->method, &wish->choice)
-                              : mote_method_choice_read(wish->method, &wish->choice);
-    if (status == MOTE_OK)
-        status = many ? mote_bodies_load(wish->scenario, &s->scene)
-                      : mote_scenario_load(wish->scenario, &s->pair);
-    return status;
-}
-
-static mote_status create(const request *wish, const subject *s,
-                          mote_simulation_options *options, mote_simulator **simulator)
-{
-    *options = s->scene ? mote_default_simulation_options_of_scene(s->scene)
-                        : mote_default_simulation_options(s->pair);
-    set_options(wish, options);
-    return s->scene
-               ? mote_simulator_create_of_scene(s->scene, &wish->choice, options, simulator)
-               : mote_simulator_create(s->pair, &wish->choice, options, simulator);
+    const mote_status status = mote_bodies_is(wish->scenario)
+                                   ? mote_scene_choice_read(wish->method, &wish->choice)
+                                   : mote_method_choice_read(wish->method, &wish->choice);
+    return status == MOTE_OK ? mote_subject_open(wish->scenario, subject) : status;
 }
 
 /* Simulates, and draws the film if one is asked for. */
@@ -91,21 +71,13 @@ static FILE *result_stream(const request *wish)
     return in_use ? stderr : stdout;
 }
 
-static mote_status write_trace(const request *wish, const subject *s,
-                               const mote_simulation_options *options, const mote_mass *masses,
-                               const mote_rigid_state *trace, uint32_t count)
+static mote_status simulate(const request *wish, const mote_subject *subject)
 {
-    return s->scene
-               ? mote_trace_write_scene(s->scene, masses, trace, count, options, wish->trace)
-               : mote_trace_write(s->pair, masses, trace, count, options, wish->trace);
-}
-
-static mote_status simulate(const request *wish, const subject *s)
-{
-    mote_simulation_options options;
+    mote_simulation_options options = mote_default_simulation_options(subject);
     mote_simulator *simulator;
     mote_simulation_result result;
-    mote_status status = create(wish, s, &options, &simulator);
+    set_options(wish, &options);
+    mote_status status = mote_simulator_create(subject, &wish->choice, &options, &simulator);
     if (status != MOTE_OK)
         return status;
     const uint32_t bodies = mote_simulator_bodies(simulator).count;
@@ -118,8 +90,8 @@ static mote_status simulate(const request *wish, const subject *s)
         trace = mote_allocate(((size_t)start.steps + 1) * bodies, sizeof *trace);
     status = run(wish, simulator, trace, &start, &result);
     if (status == MOTE_OK && trace)
-        status = write_trace(wish, s, &options, mote_simulator_masses(simulator), trace,
-                             result.steps + 1);
+        status = mote_trace_write(subject, mote_simulator_masses(simulator), trace,
+                                  result.steps + 1, &options, wish->trace);
     FILE *out = result_stream(wish);
     if (status == MOTE_OK && wish->json)
         status = mote_simulation_json(wish->scenario, bodies, &wish->choice, &result, out);
@@ -231,11 +203,10 @@ int mote_command_simulate(int argc, char **argv)
     if (!wish.scenario || !wish.method)
         return mote_command_usage("simulate", "something is missing; write `mote simulate "
                                               "SCENARIO --method NAME`");
-    subject s = {NULL, NULL};
-    mote_status status = load(&wish, &s);
+    mote_subject subject = {0};
+    mote_status status = load(&wish, &subject);
     if (status == MOTE_OK)
-        status = simulate(&wish, &s);
-    mote_scenario_destroy(s.pair);
-    mote_bodies_destroy(s.scene);
+        status = simulate(&wish, &subject);
+    mote_subject_free(&subject);
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }

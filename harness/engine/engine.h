@@ -101,7 +101,7 @@ mote_status mote_engine_answer(mote_engine *engine, const mote_frame *frame,
                                mote_answer *answer);
 
 /* The particles of body i after the last answer: see mote_method.particles. 0 for a method
-   without. */
+   without, and for more than two bodies. */
 size_t mote_engine_particles(const mote_engine *engine, int i, mote_vec3 *positions,
                              size_t capacity);
 

@@ -222,5 +222,7 @@ size_t mote_engine_particles(const mote_engine *engine, int i, mote_vec3 *positi
                              size_t capacity)
 {
     const mote_method *method = engine->choice.method;
-    return method->particles ? method->particles(engine->state, i, positions, capacity) : 0;
+    return method->particles && engine->state
+               ? method->particles(engine->state, i, positions, capacity)
+               : 0;
 }

@@ -83,15 +83,16 @@ static void add_result(mote_approaches *sum, const mote_simulation_result *r)
     sum->query_ns += r->query_ns * (r->steps + 1.0);
 }
 
-mote_status mote_approaches_simulate(const mote_scenario *scenario, const char *method,
+mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,
                                      uint32_t wanted, mote_approaches *sum)
 {
     mote_method_choice choice;
     mote_simulator *simulator = NULL;
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_subject subject = {.scenario = scenario};
+    const mote_simulation_options options = mote_default_simulation_options(&subject);
     mote_status status = mote_method_choice_read(method, &choice);
     if (status == MOTE_OK)
-        status = mote_simulator_create(scenario, &choice, &options, &simulator);
+        status = mote_simulator_create(&subject, &choice, &options, &simulator);
     mote_approaches made = {0};
     for (uint32_t i = 0; status == MOTE_OK && made.approaches < wanted && i < 4 * wanted; ++i) {
         mote_rigid_state states[2];

@@ -62,7 +62,7 @@ mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mo
                                          uint32_t index, mote_rigid_state states[2]);
 
 /* Simulates approaches 0, 1, ... until `wanted` came to a contact, or 4 * wanted were tried. */
-mote_status mote_approaches_simulate(const mote_scenario *scenario, const char *method,
+mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,
                                      uint32_t wanted, mote_approaches *sum);
 
 /* passes_through / approaches, and its exact binomial interval; MOTE_NONE without approaches.

@@ -179,7 +179,7 @@ static mote_status watch(const simulation *s, uint32_t k)
                                        .states = s->shown,
                                        .said = s->said.pairs,
                                        .said_count = s->said.count,
-                                       .method = simulator->kind->probe(simulator->stage),
+                                       .method = mote_stage_method(simulator->stage),
                                        .contact = some_contact(&s->said),
                                        .truth = some_contact(&s->truth)};
     return s->start->watch(s->start->context, &view);
@@ -188,12 +188,11 @@ static mote_status watch(const simulation *s, uint32_t k)
 /* One step: the truth, the method's answers, the response. */
 static mote_status step(simulation *s, uint32_t k)
 {
-    const mote_stage_kind *kind = s->simulator->kind;
-    void *stage = s->simulator->stage;
-    s->shown = kind->show(stage, k, s->states);
-    mote_status status = kind->ask_method(stage, &s->said, &s->result.query_ns);
+    mote_stage *stage = s->simulator->stage;
+    s->shown = mote_stage_show(stage, k, s->states);
+    mote_status status = mote_stage_ask_method(stage, &s->said, &s->result.query_ns);
     if (status == MOTE_OK)
-        status = kind->ask_truth(stage, &s->truth, &s->result.truth_asked, &s->lower);
+        status = mote_stage_ask_truth(stage, &s->truth, &s->result.truth_asked, &s->lower);
     if (status == MOTE_OK && k == 0)
         status = check_apart(s);
     if (status == MOTE_OK)
@@ -272,7 +271,7 @@ static mote_simulation_result result_of(simulation *s)
 mote_status mote_simulator_run(mote_simulator *simulator, const mote_simulation_start *start,
                                mote_rigid_state *trace, mote_simulation_result *result)
 {
-    mote_status status = simulator->kind->restart(simulator->stage, start);
+    mote_status status = mote_stage_restart(simulator->stage, start);
     if (status != MOTE_OK)
         return status;
     simulation s = {.simulator = simulator, .start = start};

@@ -2,21 +2,12 @@
 
 #include <string.h>
 
-static mote_simulation_options default_options(double tolerance, double length)
+mote_simulation_options mote_default_simulation_options(const mote_subject *subject)
 {
-    const double own = tolerance / length;
+    const mote_subject_facts facts = mote_subject_facts_of(subject);
+    const double own = facts.tolerance / facts.length;
     return (mote_simulation_options){
         .density = 1, .restitution = 1, .tolerance = own > 0 ? own : 0.005, .time_step = 1};
-}
-
-mote_simulation_options mote_default_simulation_options(const mote_scenario *scenario)
-{
-    return default_options(scenario->tolerance, scenario->length);
-}
-
-mote_simulation_options mote_default_simulation_options_of_scene(const mote_bodies *bodies)
-{
-    return default_options(bodies->tolerance, bodies->length);
 }
 
 mote_status mote_simulation_options_check(const mote_simulation_options *options)

@@ -3,9 +3,7 @@
 #define MOTE_HARNESS_SIMULATION_H
 
 #include "core/motion/response.h"
-#include "harness/engine/engine.h"
-#include "harness/engine/engine.h"
-#include "harness/scene/bodies.h"
+#include "harness/run/subject.h"
 
 /* The truth is not computed where a lower bound of the distance of two bodies exceeds this
    part of L. */
@@ -25,8 +23,7 @@ typedef struct mote_simulation_options {
 
 /* Density 1, restitution 1, no gravity, the scenario's tolerance or, when that is 0, 0.005, a
    frame a step. */
-mote_simulation_options mote_default_simulation_options(const mote_scenario *scenario);
-mote_simulation_options mote_default_simulation_options_of_scene(const mote_bodies *bodies);
+mote_simulation_options mote_default_simulation_options(const mote_subject *subject);
 
 /* MOTE_EINVAL, saying what would be right, for options out of range. */
 mote_status mote_simulation_options_check(const mote_simulation_options *options);
@@ -41,10 +38,9 @@ typedef struct mote_simulation_view {
     const mote_body_state *states; /* where the bodies are, [count]; vertices are NULL */
     const mote_near_pair *said;    /* the method's answers for the near pairs, [said_count] */
     size_t said_count;
-    const mote_engine
-        *method;  /* of two bodies, asked just now: mote_engine_particles; or NULL */
-    bool contact; /* the method reports a contact of some pair */
-    bool truth;   /* some pair is */
+    const mote_engine *method; /* of two bodies, asked just now: mote_engine_particles */
+    bool contact;              /* the method reports a contact of some pair */
+    bool truth;                /* some pair is */
 } mote_simulation_view;
 
 /* Sees every step; a status other than MOTE_OK ends the simulation with it. */

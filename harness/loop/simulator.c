@@ -4,35 +4,44 @@
 #include "harness/scene/motion.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-/* A simulator with room for this many bodies and shapes, which the caller fills in. */
-static mote_simulator *new_simulator(uint32_t count, uint32_t shape_count,
+/* A simulator with the bodies of the subject. */
+static mote_simulator *new_simulator(const mote_subject *subject,
                                      const mote_method_choice *choice,
-                                     const mote_simulation_options *options, double length)
+                                     const mote_simulation_options *options)
 {
+    const mote_engine_setup bodies = mote_subject_engine(subject);
+    const uint32_t count = bodies.count, shape_count = bodies.shape_count;
     mote_simulator *made = mote_allocate(1, sizeof *made);
     made->choice = *choice;
     made->options = *options;
-    made->gravity = mote_scale(options->gravity, length);
-    made->shapes = mote_allocate(shape_count, sizeof(const mote_body *));
-    made->shape_of = mote_allocate(count, sizeof *made->shape_of);
+    made->gravity = mote_scale(options->gravity, bodies.length);
+    made->frames = mote_subject_facts_of(subject).frames;
+    made->shapes = mote_copy(bodies.shapes, shape_count * sizeof(const mote_body *));
+    made->shape_of = mote_copy(bodies.shape_of, count * sizeof *made->shape_of);
     made->masses = mote_allocate(shape_count, sizeof *made->masses);
     made->start = mote_allocate(count, sizeof *made->start);
     made->deform = mote_allocate(shape_count, sizeof(mote_deform *));
     made->penetrations =
         mote_allocate((size_t)shape_count * shape_count, sizeof(mote_penetration *));
-    made->bodies = (mote_simulated){.length = length,
+    made->bodies = (mote_simulated){.name = mote_subject_facts_of(subject).name,
+                                    .length = bodies.length,
                                     .count = count,
                                     .shape_count = shape_count,
                                     .shapes = made->shapes,
                                     .shape_of = made->shape_of};
+    if (subject->bodies) {
+        made->bodies.path = subject->bodies->path;
+        made->room = subject->bodies->room;
+    } else {
+        made->bodies.path = subject->scenario->path;
+        made->room = (mote_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    }
     return made;
 }
 
-/* Masses of all shapes, and room for the vertices of the largest. word: what a message calls a
-   shape. */
-static mote_status weigh_shapes(mote_simulator *s, const char *word)
+/* Masses of all shapes, and room for the vertices of the largest. */
+static mote_status weigh_shapes(mote_simulator *s, bool many)
 {
     uint32_t most = 0;
     for (uint32_t k = 0; k < s->bodies.shape_count; ++k) {
@@ -40,7 +49,7 @@ static mote_status weigh_shapes(mote_simulator *s, const char *word)
         const mote_status status = mote_mass_of_mesh(mesh, s->options.density, &s->masses[k]);
         if (status != MOTE_OK)
             return mote_fail(status, "%s: %s %u cannot respond to a collision: %s",
-                             s->bodies.path, word, k + 1, mote_error_text());
+                             s->bodies.path, many ? "shape" : "body", k + 1, mote_error_text());
         most = mesh->vertex_count > most ? mesh->vertex_count : most;
     }
     for (int i = 0; i < 2; ++i)
@@ -90,9 +99,23 @@ static void start_scene(mote_simulator *s, const mote_bodies *bodies)
     }
 }
 
-/* The simulator, or what failed. */
-static mote_status finish(mote_simulator *made, mote_status status, mote_simulator **simulator)
+mote_status mote_simulator_create(const mote_subject *subject, const mote_method_choice *choice,
+                                  const mote_simulation_options *options,
+                                  mote_simulator **simulator)
 {
+    mote_status status = mote_simulation_options_check(options);
+    if (status == MOTE_OK && subject->bodies)
+        status = mote_engine_check_choice(choice);
+    if (status != MOTE_OK)
+        return status;
+    mote_simulator *made = new_simulator(subject, choice, options);
+    status = weigh_shapes(made, subject->bodies != NULL);
+    if (status == MOTE_OK && subject->bodies)
+        start_scene(made, subject->bodies);
+    else if (status == MOTE_OK)
+        start_pair(made, subject->scenario);
+    if (status == MOTE_OK)
+        status = mote_stage_create(subject, choice, &made->options, made->masses, &made->stage);
     if (status == MOTE_OK)
         *simulator = made;
     else
@@ -100,68 +123,12 @@ static mote_status finish(mote_simulator *made, mote_status status, mote_simulat
     return status;
 }
 
-mote_status mote_simulator_create(const mote_scenario *scenario,
-                                  const mote_method_choice *choice,
-                                  const mote_simulation_options *options,
-                                  mote_simulator **simulator)
-{
-    mote_status status = mote_simulation_options_check(options);
-    if (status != MOTE_OK)
-        return status;
-    mote_simulator *made = new_simulator(2, 2, choice, options, scenario->length);
-    made->bodies.name = scenario->name;
-    made->bodies.path = scenario->path;
-    made->frames = scenario->frames;
-    made->room = (mote_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    made->kind = &mote_stage_pair;
-    for (uint32_t i = 0; i < 2; ++i) {
-        made->shapes[i] = &scenario->body[i];
-        made->shape_of[i] = i;
-    }
-    status = weigh_shapes(made, "body");
-    if (status == MOTE_OK) {
-        start_pair(made, scenario);
-        status = mote_stage_pair_create(scenario, choice, &made->options, made->masses,
-                                        &made->stage);
-    }
-    return finish(made, status, simulator);
-}
-
-mote_status mote_simulator_create_of_scene(const mote_bodies *bodies,
-                                           const mote_method_choice *choice,
-                                           const mote_simulation_options *options,
-                                           mote_simulator **simulator)
-{
-    mote_status status = mote_simulation_options_check(options);
-    if (status == MOTE_OK)
-        status = mote_engine_check_choice(choice);
-    if (status != MOTE_OK)
-        return status;
-    mote_simulator *made =
-        new_simulator(bodies->count, bodies->shape_count, choice, options, bodies->length);
-    made->bodies.name = bodies->name;
-    made->bodies.path = bodies->path;
-    made->frames = bodies->frames;
-    made->room = bodies->room;
-    made->kind = &mote_stage_scene;
-    for (uint32_t k = 0; k < bodies->shape_count; ++k)
-        made->shapes[k] = &bodies->shapes[k].body;
-    memcpy(made->shape_of, bodies->shape_of, bodies->count * sizeof *made->shape_of);
-    status = weigh_shapes(made, "shape");
-    if (status == MOTE_OK) {
-        start_scene(made, bodies);
-        status =
-            mote_stage_scene_create(bodies, choice, &made->options, made->masses, &made->stage);
-    }
-    return finish(made, status, simulator);
-}
-
 void mote_simulator_destroy(mote_simulator *simulator)
 {
     if (!simulator)
         return;
     const size_t shapes = simulator->bodies.shape_count;
-    simulator->kind->destroy(simulator->stage);
+    mote_stage_destroy(simulator->stage);
     for (size_t k = 0; k < shapes; ++k)
         mote_deform_destroy(simulator->deform[k]);
     for (size_t k = 0; k < shapes * shapes; ++k)

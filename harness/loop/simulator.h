@@ -30,22 +30,16 @@ typedef struct mote_simulator {
     mote_deform **deform;            /* of the shapes, made when depth is first measured */
     mote_penetration **penetrations; /* [shapes][shapes], likewise */
     mote_vec3 *world[2];             /* vertices, room for those of any shape */
-    const mote_stage_kind *kind;
-    void *stage;
+    mote_stage *stage;
 } mote_simulator;
 
 /* Masses of the scenario's bodies, the method, and the exact method beside it: certified, or
    aabb-tree where certified is itself in question. MOTE_EINVAL for an open mesh, which has no
    volume, and for options out of range; of many bodies also for a tolerance above `near`.
    Everything but the options is borrowed. */
-mote_status mote_simulator_create(const mote_scenario *scenario,
-                                  const mote_method_choice *choice,
+mote_status mote_simulator_create(const mote_subject *subject, const mote_method_choice *choice,
                                   const mote_simulation_options *options,
                                   mote_simulator **simulator);
-mote_status mote_simulator_create_of_scene(const mote_bodies *bodies,
-                                           const mote_method_choice *choice,
-                                           const mote_simulation_options *options,
-                                           mote_simulator **simulator);
 void mote_simulator_destroy(mote_simulator *simulator); /* NULL is allowed */
 
 mote_simulated mote_simulator_bodies(const mote_simulator *simulator);

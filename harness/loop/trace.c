@@ -69,9 +69,9 @@ static mote_status check_deformation(const mote_scenario *scenario, uint32_t cou
                      scenario->path, scenario->frames - 1, time_step, count - 1);
 }
 
-mote_status mote_trace_write(const mote_scenario *scenario, const mote_mass mass[2],
-                             const mote_rigid_state *states, uint32_t count,
-                             const mote_simulation_options *options, const char *path)
+static mote_status write_pair(const mote_scenario *scenario, const mote_mass mass[2],
+                              const mote_rigid_state *states, uint32_t count,
+                              const mote_simulation_options *options, const char *path)
 {
     mote_json_file file;
     mote_status status = check_deformation(scenario, count, options->time_step);
@@ -134,9 +134,9 @@ static mote_status write_json(const json_t *root, const char *path)
     return status;
 }
 
-mote_status mote_trace_write_scene(const mote_bodies *bodies, const mote_mass *masses,
-                                   const mote_rigid_state *states, uint32_t count,
-                                   const mote_simulation_options *options, const char *path)
+static mote_status write_scene(const mote_bodies *bodies, const mote_mass *masses,
+                               const mote_rigid_state *states, uint32_t count,
+                               const mote_simulation_options *options, const char *path)
 {
     mote_json_file file;
     if (mote_path_is_stream(path))
@@ -160,4 +160,13 @@ mote_status mote_trace_write_scene(const mote_bodies *bodies, const mote_mass *m
     free(poses);
     mote_json_close(&file);
     return status;
+}
+
+mote_status mote_trace_write(const mote_subject *subject, const mote_mass *masses,
+                             const mote_rigid_state *states, uint32_t count,
+                             const mote_simulation_options *options, const char *path)
+{
+    return subject->bodies
+               ? write_scene(subject->bodies, masses, states, count, options, path)
+               : write_pair(subject->scenario, masses, states, count, options, path);
 }

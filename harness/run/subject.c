@@ -1,17 +1,22 @@
 #include "harness/run/subject.h"
 
+mote_status mote_subject_open(const char *name_or_path, mote_subject *subject)
+{
+    return mote_bodies_is(name_or_path) ? mote_bodies_load(name_or_path, &subject->bodies)
+                                        : mote_scenario_load(name_or_path, &subject->scenario);
+}
+
+mote_status mote_subject_identify(mote_subject *subject)
+{
+    return subject->bodies
+               ? mote_bodies_fingerprint(subject->bodies, &subject->fingerprint)
+               : mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
+}
+
 mote_status mote_subject_load(const char *name_or_path, mote_subject *subject)
 {
-    if (mote_bodies_is(name_or_path)) {
-        mote_status status = mote_bodies_load(name_or_path, &subject->bodies);
-        if (status == MOTE_OK)
-            status = mote_bodies_fingerprint(subject->bodies, &subject->fingerprint);
-        return status;
-    }
-    mote_status status = mote_scenario_load(name_or_path, &subject->scenario);
-    if (status == MOTE_OK)
-        status = mote_scenario_fingerprint(subject->scenario, &subject->fingerprint);
-    return status;
+    const mote_status status = mote_subject_open(name_or_path, subject);
+    return status == MOTE_OK ? mote_subject_identify(subject) : status;
 }
 
 void mote_subject_free(mote_subject *subject)

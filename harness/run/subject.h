@@ -17,7 +17,10 @@ typedef struct mote_subject {
 } mote_subject;
 
 /* Loads a scenario of two bodies or of more (as mote_scenario_load and mote_bodies_load take
-   it) and computes its fingerprint. Free with mote_subject_free also after a failure. */
+   it); computes the fingerprint of one, which looks at its frames; does both. Free with
+   mote_subject_free also after a failure. */
+mote_status mote_subject_open(const char *name_or_path, mote_subject *subject);
+mote_status mote_subject_identify(mote_subject *subject);
 mote_status mote_subject_load(const char *name_or_path, mote_subject *subject);
 void mote_subject_free(mote_subject *subject);
 

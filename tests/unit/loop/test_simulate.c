@@ -43,11 +43,17 @@ static mote_scenario *load(const char *more, const char *position, const char *m
     return scenario;
 }
 
-static mote_simulator *simulator_of(const mote_scenario *scenario, const mote_method_choice *m,
+static mote_simulation_options options_of(mote_scenario *scenario)
+{
+    return mote_default_simulation_options(&(mote_subject){.scenario = scenario});
+}
+
+static mote_simulator *simulator_of(mote_scenario *scenario, const mote_method_choice *m,
                                     const mote_simulation_options *options)
 {
     mote_simulator *simulator = NULL;
-    if (mote_simulator_create(scenario, m, options, &simulator) != MOTE_OK)
+    if (mote_simulator_create(&(mote_subject){.scenario = scenario}, m, options, &simulator) !=
+        MOTE_OK)
         fail_msg("%s", mote_error_text());
     return simulator;
 }
@@ -103,8 +109,7 @@ static const mote_method told_method = {.name = "told",
                                         .destroy = told_destroy,
                                         .query = told_query};
 
-static mote_simulation_result run_of(const mote_scenario *scenario,
-                                     const mote_method_choice *choice,
+static mote_simulation_result run_of(mote_scenario *scenario, const mote_method_choice *choice,
                                      const mote_simulation_options *options,
                                      mote_rigid_state (*trace)[2])
 {
@@ -121,7 +126,7 @@ TEST(simulator_run_exact_methods_agree_and_miss_nothing)
 {
     static const char *const methods[] = {"certified", "aabb-tree", "fcl-aabb"};
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_simulation_options options = options_of(scenario);
     mote_rigid_state(*trace[3])[2];
     for (int i = 0; i < 3; ++i) {
         const mote_method_choice choice = choice_of(methods[i]);
@@ -149,7 +154,7 @@ TEST(simulator_run_blind_method_passes_through)
     const mote_method_choice blind = {.method = &told_method, .text = "told"};
     told = false;
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_simulation_options options = options_of(scenario);
     mote_rigid_state(*trace)[2] = calloc(scenario->frames, sizeof *trace);
     const mote_simulation_result r = run_of(scenario, &blind, &options, trace);
     assert_true(r.approaches > 0 && r.passes == r.approaches && r.deep_passes > 0);
@@ -158,7 +163,8 @@ TEST(simulator_run_blind_method_passes_through)
     assert_int_equal(r.responses, 0);
     /* Replayed as a scenario, the truth of its own code finds the same contacts. */
     mote_simulator *simulator = simulator_of(scenario, &blind, &options);
-    assert_int_equal(mote_trace_write(scenario, mote_simulator_masses(simulator), trace[0],
+    assert_int_equal(mote_trace_write(&(mote_subject){.scenario = scenario},
+                                      mote_simulator_masses(simulator), trace[0],
                                       scenario->frames, &options, TRACE),
                      MOTE_OK);
     mote_scenario *replay = NULL;
@@ -193,7 +199,7 @@ TEST(simulator_run_at_rest_stays)
 {
     mote_scenario *scenario =
         load("", "1.1, 0, 0", "\"velocity\": [0, 0, 0], \"spin\": [0, 0, 0]");
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_simulation_options options = options_of(scenario);
     const mote_method_choice choice = choice_of("certified");
     mote_rigid_state(*trace)[2] = calloc(scenario->frames, sizeof *trace);
     const mote_simulation_result r = run_of(scenario, &choice, &options, trace);
@@ -206,7 +212,7 @@ TEST(simulator_run_at_rest_stays)
 TEST(simulator_run_gravity_and_restitution_are_accounted_for)
 {
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
-    mote_simulation_options options = mote_default_simulation_options(scenario);
+    mote_simulation_options options = options_of(scenario);
     options.gravity = mote_vec3_make(1e-5, -2e-5, 3e-5);
     options.restitution = 0.4;
     options.density = 7;
@@ -224,7 +230,7 @@ TEST(simulator_run_refuses_with_reason)
     /* A contact without a normal. */
     told = true;
     mote_scenario *scenario = load("", "1.1, 0, 0", FLYING);
-    const mote_simulation_options good = mote_default_simulation_options(scenario);
+    const mote_simulation_options good = options_of(scenario);
     mote_simulator *simulator = simulator_of(scenario, &method, &good);
     mote_simulation_start start = mote_simulation_start_of(simulator);
     assert_int_equal(mote_simulator_run(simulator, &start, NULL, &r), MOTE_EUNSUPPORTED);
@@ -249,7 +255,8 @@ TEST(simulator_run_refuses_with_reason)
     bad[9].restitution = -0.1;
     bad[10].time_step = 1e300;
     for (int i = 0; i < 11; ++i) {
-        assert_int_equal(mote_simulator_create(scenario, &method, &bad[i], &simulator),
+        assert_int_equal(mote_simulator_create(&(mote_subject){.scenario = scenario}, &method,
+                                               &bad[i], &simulator),
                          MOTE_EINVAL);
         assert_non_null(strstr(mote_error_text(), says[i]));
     }
@@ -281,7 +288,7 @@ TEST(simulator_run_needs_an_answer)
                  {SAY_DISTANCE, true, MOTE_EUNSUPPORTED, "has given no witness points"}};
     const mote_method_choice method = {.method = &told_method, .text = "told"};
     mote_scenario *scenario = load(", \"tolerance\": 0.01", "1.1, 0, 0", FLYING);
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_simulation_options options = options_of(scenario);
     assert_close(options.tolerance, 0.01, 1e-15);
     mote_simulator *simulator = simulator_of(scenario, &method, &options);
     mote_simulation_start start = mote_simulation_start_of(simulator);
@@ -310,7 +317,7 @@ TEST(simulator_run_of_one_frame_moves_on)
     assert_int_equal(mote_file_write(ONE, text, sizeof text - 1), MOTE_OK);
     mote_scenario *scenario = NULL;
     assert_int_equal(mote_scenario_load(ONE, &scenario), MOTE_OK);
-    const mote_simulation_options options = mote_default_simulation_options(scenario);
+    const mote_simulation_options options = options_of(scenario);
     const mote_method_choice choice = choice_of("certified");
     mote_simulator *simulator = simulator_of(scenario, &choice, &options);
     mote_simulation_start start = mote_simulation_start_of(simulator);
@@ -332,7 +339,7 @@ TEST(simulator_run_time_step_keeps_the_pace)
 {
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
     const mote_method_choice choice = choice_of("certified");
-    mote_simulation_options options = mote_default_simulation_options(scenario);
+    mote_simulation_options options = options_of(scenario);
     mote_rigid_state(*trace[3])[2];
     static const double sizes[] = {1, 0.5, 2};
     static const uint32_t counts[] = {159, 318, 80};
@@ -506,7 +513,7 @@ TEST(film_watch_of_odd_steps_keeps_its_bounds)
         const mote_near_pair none = {.body = {0, 1}};
         char name[64], *text = NULL;
         size_t size = 0;
-        const mote_simulation_options options = mote_default_simulation_options(scenario);
+        const mote_simulation_options options = options_of(scenario);
         mote_simulator *simulator = simulator_of(scenario, &choice, &options);
         assert_int_equal(mote_film_create(simulator, "certified", 1000, FILM, &film), MOTE_OK);
         assert_int_equal(mote_engine_open_two(&scenario->body[0], &scenario->body[1], &choice,

@@ -94,7 +94,8 @@ static mote_simulation_result simulate(const char *method, double restitution,
                                              .time_step = 1};
     if (mote_bodies_load(FILE_NAME, &bodies) != MOTE_OK ||
         mote_scene_choice_read(method, &choice) != MOTE_OK ||
-        mote_simulator_create_of_scene(bodies, &choice, &options, &simulator) != MOTE_OK)
+        mote_simulator_create(&(mote_subject){.bodies = bodies}, &choice, &options,
+                              &simulator) != MOTE_OK)
         fail_msg("%s: %s", method, mote_error_text());
     const mote_simulation_start start = mote_simulation_start_of(simulator);
     if (mote_simulator_run(simulator, &start, NULL, &result) != MOTE_OK)

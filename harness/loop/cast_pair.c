@@ -1,0 +1,141 @@
+#include "harness/loop/cast.h"
+
+#include "harness/base/memory.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct pair_cast {
+    const mote_scenario *scenario;
+    const mote_simulation_options *options;
+    const mote_mass *masses;
+    mote_frame_buffer *buffer;
+    mote_body_state body[2]; /* as they are shown */
+    uint32_t first;          /* frame whose deformation is shown first */
+    double radius[2];        /* greatest distance of a rest vertex from the centre of mass */
+    double *weights[2];      /* those of the frame, in world axes: x, y, z, [3][padded] */
+    double *still[2];        /* the same in rest axes, [count][3] */
+    double *before[2];       /* those of the frame before */
+    mote_rigid_state state[2], previous[2]; /* of this frame, of the frame before */
+} pair_cast;
+
+static void pair_destroy(void *cast)
+{
+    pair_cast *s = cast;
+    for (int i = 0; i < 2; ++i) {
+        free(s->weights[i]);
+        free(s->still[i]);
+        free(s->before[i]);
+    }
+    mote_frame_buffer_destroy(s->buffer);
+    free(s);
+}
+
+static void measure_body(pair_cast *s, int i)
+{
+    const mote_mesh *mesh = s->scenario->body[i].mesh;
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v)
+        s->radius[i] =
+            fmax(s->radius[i], mote_distance_squared(mesh->positions[v], s->masses[i].centre));
+    s->radius[i] = sqrt(s->radius[i]);
+    const size_t numbers = (size_t)3 * s->scenario->body[i].field->padded;
+    s->weights[i] = mote_allocate(numbers, sizeof(double));
+    s->still[i] = mote_allocate(numbers, sizeof(double));
+    s->before[i] = mote_allocate(numbers, sizeof(double));
+}
+
+static void *pair_create(const mote_subject *subject, const mote_simulation_options *options,
+                         const mote_mass *masses)
+{
+    pair_cast *made = mote_allocate(1, sizeof *made);
+    made->scenario = subject->scenario;
+    made->options = options;
+    made->masses = masses;
+    made->buffer = mote_frame_buffer_create(made->scenario);
+    for (int i = 0; i < 2; ++i)
+        measure_body(made, i);
+    return made;
+}
+
+static void pair_restart(void *cast, const mote_simulation_start *start)
+{
+    ((pair_cast *)cast)->first = start->first;
+}
+
+/* The frame whose deformation step k shows: forwards, then backwards, and so on. */
+static double shown_place(const pair_cast *s, uint32_t k)
+{
+    if (s->scenario->frames == 1)
+        return 1;
+    const double last = s->scenario->frames - 1.0;
+    const double place = fmod(s->first - 1.0 + k * s->options->time_step, 2 * last);
+    return 1 + (place <= last ? place : 2 * last - place);
+}
+
+/* Turns the weights of body i from the pose that the scenario shows to the simulated one. */
+static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
+{
+    mote_body_state *body = &s->body[i];
+    const uint32_t padded = body->weights.padded;
+    double *world = s->weights[i], *still = s->before[i];
+    s->before[i] = s->still[i];
+    s->still[i] = still;
+    for (uint32_t j = 0; j < body->weights.count; ++j) {
+        const mote_vec3 w = mote_rotate_back(
+            shown, mote_vec3_make(body->weights.x[j], body->weights.y[j], body->weights.z[j]));
+        const mote_vec3 turned = mote_rotate(&body->pose.rotation, w);
+        memcpy(&still[(size_t)3 * j], &w, sizeof w);
+        world[j] = turned.x;
+        world[padded + j] = turned.y;
+        world[2 * padded + j] = turned.z;
+    }
+    body->weights.x = world;
+    body->weights.y = world + padded;
+    body->weights.z = world + 2 * (size_t)padded;
+}
+
+/* The most that any point of body i has moved since the frame before: by its centre, by the
+   turn, and by the deformation, basis functions being at most 1. */
+static double body_moved(const pair_cast *s, int i)
+{
+    const mote_rigid_state *a = &s->previous[i], *b = &s->state[i];
+    const mote_quaternion back = {a->turn.w, -a->turn.x, -a->turn.y, -a->turn.z};
+    const mote_quaternion d = mote_quaternion_multiply(b->turn, back);
+    const double chord = 2 * sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    double radius = s->radius[i], shape = 0;
+    const mote_vec3 *now = (const mote_vec3 *)(const void *)s->still[i];
+    const mote_vec3 *then = (const mote_vec3 *)(const void *)s->before[i];
+    for (uint32_t j = 0; j < s->scenario->body[i].field->count; ++j) {
+        radius += mote_length(then[j]);
+        shape += mote_length(mote_sub(now[j], then[j]));
+    }
+    return mote_length(mote_sub(b->centre, a->centre)) + chord * radius + shape;
+}
+
+static double pair_moved(const void *cast)
+{
+    const pair_cast *s = cast;
+    return body_moved(s, 0) + body_moved(s, 1);
+}
+
+static const mote_body_state *pair_show(void *cast, uint32_t k, const mote_rigid_state *states)
+{
+    pair_cast *s = cast;
+    memcpy(s->previous, s->state, sizeof s->previous);
+    memcpy(s->state, states, sizeof s->state);
+    memcpy(s->body, mote_scenario_frame_at(s->scenario, s->buffer, shown_place(s, k))->body,
+           sizeof s->body);
+    for (int i = 0; i < 2; ++i) {
+        mote_body_state *body = &s->body[i];
+        const mote_mat3 shown = body->pose.rotation;
+        body->pose = mote_rigid_pose(&s->masses[i], &states[i]);
+        body->pose_changed = true;
+        body->shape_changed = body->weights.count > 0 || k == 0;
+        if (body->weights.count > 0)
+            turn_weights(s, i, &shown);
+    }
+    return s->body;
+}
+
+const mote_cast_kind mote_cast_pair = {pair_create, pair_destroy, pair_restart, pair_show,
+                                       pair_moved};
