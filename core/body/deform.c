@@ -5,7 +5,8 @@
 
 /* Vertices are kept in blocks of MOTE_LANES, padded with copies of the last one. A block is
    x[LANES], y[LANES], z[LANES] at rest, then phi_j[LANES] for each of the tabulated basis
-   functions. Those of a sparse field are not tabulated: almost all would be 0. */
+   functions. Those of a sparse field are not tabulated, since almost all would be 0, nor those
+   of a field without any: such displacements are evaluated. */
 struct mote_deform {
     const mote_body *body;
     uint32_t blocks;
@@ -13,6 +14,12 @@ struct mote_deform {
     size_t stride;      /* doubles in a block */
     double *table;      /* [blocks][stride] */
 };
+
+/* Whether displacements are evaluated rather than summed over a table. */
+static bool evaluated(const mote_field *field)
+{
+    return field->kind->sparse || !field->kind->basis;
+}
 
 static void fill_block(mote_deform *deform, uint32_t block, double *phi)
 {
@@ -42,7 +49,7 @@ mote_status mote_deform_create(const mote_body *body, mote_deform **deform)
         return mote_fail(MOTE_ENOMEM, "no memory to deform a body");
     made->body = body;
     made->blocks = (body->mesh->vertex_count + MOTE_LANES - 1) / MOTE_LANES;
-    made->tabulated = body->field->kind->sparse ? 0 : body->field->padded;
+    made->tabulated = evaluated(body->field) ? 0 : body->field->padded;
     made->stride = (size_t)MOTE_LANES * (3 + made->tabulated);
     /* The stride is a multiple of 64 bytes, so that every row is aligned. */
     made->table = aligned_alloc(64, made->blocks * made->stride * sizeof(double));
@@ -102,9 +109,9 @@ MOTE_INLINE void sum_block(const double *phi, const mote_weights *weights, uint3
     }
 }
 
-/* The same of a sparse field, without a table. */
-static void sum_sparse(const mote_deform *deform, uint32_t block, const mote_weights *weights,
-                       double sum[3][MOTE_LANES])
+/* The same without a table. */
+static void evaluate_block(const mote_deform *deform, uint32_t block,
+                           const mote_weights *weights, double sum[3][MOTE_LANES])
 {
     const mote_mesh *mesh = deform->body->mesh;
     const mote_field *field = deform->body->field;
@@ -145,15 +152,15 @@ void mote_deform_all(const mote_deform *deform, const mote_body_state *state, mo
 {
     const uint32_t count = deform->body->mesh->vertex_count;
     const uint32_t padded = deform->tabulated;
-    const bool sparse = deform->body->field->kind->sparse;
+    const bool evaluate = evaluated(deform->body->field);
     for (uint32_t b = 0; b < deform->blocks; ++b) {
         const double *block = deform->table + b * deform->stride;
         double p[3][MOTE_LANES];
         move_block(block, &state->pose, p);
-        if (padded > 0 || sparse) {
+        if (padded > 0 || evaluate) {
             double sum[3][MOTE_LANES];
-            if (sparse)
-                sum_sparse(deform, b, &state->weights, sum);
+            if (evaluate)
+                evaluate_block(deform, b, &state->weights, sum);
             else
                 sum_block(block + 3 * MOTE_LANES, &state->weights, padded, sum);
             for (int c = 0; c < 3; ++c) {

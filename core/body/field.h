@@ -11,6 +11,8 @@
      is three basis functions, its x, y and z column, with the weights (s, 0, 0), (0, s, 0) and
      (0, 0, s).
 
+   Two more are in core/skin/skin.h: skins, and skins with morph targets.
+
    A field is immutable once made. A new kind is a new source file that fills the struct below;
    field_maker.h gives it a name in scenarios. */
 #ifndef MOTE_CORE_FIELD_H
@@ -53,7 +55,8 @@ typedef struct mote_field_kind {
     const char *name; /* "static", "csrbf", "modes" */
 
     /* phi[0 .. padded - 1] at a rest vertex; zeros in the padding. Deterministic: the same bits
-       on every instruction set. */
+       on every instruction set. NULL: the displacement is not linear in all weights; such a
+       kind has displacement, displacement_single and bounds of its own. */
     void (*basis)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex, double *phi);
 
     /* Of a kind whose functions are 0 at most vertices: the functions that may not be 0 at a

@@ -44,9 +44,10 @@ typedef struct mote_certificate_options {
    switched off. length > 0: L of the pair. */
 mote_certificate_options mote_default_certificate_options(double length);
 
-/* Builds both trees: O(t log t), about 1 s a million triangles. MOTE_ENOMEM. options are not
-   checked; change the defaults only within their ranges. The bodies are borrowed; a change
-   of their fields or rest meshes needs a new certificate. The caller destroys *certificate;
+/* Builds both trees: O(t log t), about 1 s a million triangles. MOTE_EINVAL for a skin of
+   another mesh; MOTE_ENOMEM. options are not checked; change the defaults only within their
+   ranges. The bodies are borrowed; a change of their fields or rest meshes needs a new
+   certificate. The caller destroys *certificate;
    one thread at a time may use it. */
 mote_status mote_certificate_create(const mote_body *const body[2],
                                     const mote_certificate_options *options,

@@ -31,7 +31,8 @@ typedef struct mote_cert_bounds {
 
     /* Sets tree->fixed (one block of fixed_bytes that the tree frees) if the kind keeps
        anything of the tree as a whole, and makes what fit needs. linear_fits is
-       mote_cert_tree_options's. MOTE_ENOMEM. stop follows on success only. */
+       mote_cert_tree_options's. MOTE_EINVAL where the field is not one of the body's mesh;
+       MOTE_ENOMEM. stop follows on success only. */
     mote_status (*start)(mote_cert_tree *tree, bool linear_fits, void **fitter);
 
     /* Bounds one child of the block that is being built. */

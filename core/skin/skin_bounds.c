@@ -1,10 +1,8 @@
 /* Bounds of a skin, in a query.
 
-   Margins. Let u = 2^-24, and let S (side->bound) bound, for each bone and each coordinate r,
-       |M_b[r][3]| + |row r of M_b| (|c| + sum_k |h_k|)
-   of any box: by Cauchy's inequality, all terms of a coordinate of M_b x together, for any
-   point of a box. Along a direction they add up to at most sqrt(3) S.
-
+   Margins, with u and S as in skin_frame.c, and with n the bones of a block at leaves and n_t
+   its targets, of which each rounds what it adds to once more, and 4 more in all where there
+   are any.
    - Matrices are rounded to floats once, or twice along a direction. Above the leaves each term
    of an end of an interval is rounded at most 9 times, and the end once more; the middle and
    half size of the union once more each: at most 24 u S. The union of intervals within -S .. S
@@ -13,182 +11,141 @@
    - At leaves, with K (head.reach) the sum of the sizes of a child's entries, all terms add up
    to at most B = S (1 + 2 K): e and the d_k together are at most 2 S. Each is rounded at most
    13 times, and n times more where n bones are added up: sqrt(3) (n + 13) + 40 < 2 n + 64 u B.
-   - Rest vertices stick out of boxes by tree->leak; a matrix whose rows are no longer than
-   `stretch` makes that at most sqrt(3) stretch leak along any direction.
-   - Positions in double precision are sums of 4 terms a bone; with V the size of the weight
-   vectors and `world` that of the pose's coordinates, each is wrong by at most 2^-53 (4 n + 12)
-   (world + V + S), n being the most bones of a vertex; 2^-48 (n + 4) is more, and covers the
-   rounding of the matrices' entries in double precision too.
-   - Hulls: a vertex in floats, a matrix's entries, four products and their sums are wrong by 7
-   u S, the sum over n bones, whose weights are exact and add up to 1, by (n + 1) u S, and what
-   follows is rounded as in certificate_leaf.c: less than (64 + n) u S. */
+   - Targets add at most sqrt(3) (n_t + 4) < 2 (n_t + 4) u of the same terms to either. */
 #include "core/skin/skin_bounds.h"
 #include "core/certificate/certificate_project.h"
 #include "core/skin/skin_data.h"
+#include "core/skin/skin_frame.h"
 
 #include <float.h>
 #include <string.h>
 
 #define WIDTH MOTE_CERT_WIDTH
-#define FLOAT_ROUNDING 0x1p-24
 
 /* A leaf whose width is more than this part of its axes is worth measuring. */
 #define WIDE 0.1F
-
-/* The bones' matrices in the tree's units, relative to the query's origin. */
-typedef struct skin_frame {
-    float hull_width;
-    float (*along)[4];    /* [bones] along the plane's normal */
-    float matrix[][3][4]; /* [bones] */
-} skin_frame;
-
-static const skin_frame *frame_of(const mote_cert_side *side)
-{
-    return side->frame;
-}
-
-static float rounded_up(double x)
-{
-    return (float)(x * (1 + 0x1p-22));
-}
-
-static size_t skin_frame_bytes(const mote_cert_tree *tree)
-{
-    const size_t bones = mote_skin_of(tree->body->field)->bones;
-    return sizeof(skin_frame) + bones * 16 * sizeof(float);
-}
-
-/* Sizes of all bones, for the margins. */
-typedef struct sizes {
-    double reach;   /* S */
-    double stretch; /* the longest row */
-    double moved;   /* V */
-    double finite;  /* 0, or a NaN where any weight is not finite */
-} sizes;
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-/* Row r of the matrix of a bone, whose weights begin at w; at: from the skin's origin to the
-   tree's, in the skin's units. */
-static void make_row(const mote_cert_side *side, const mote_skin *skin, const double *w,
-                     const double at[3], size_t r, float row[4], sizes *all)
-{
-    const double t[3] = {side->exact_translation.x, side->exact_translation.y,
-                         side->exact_translation.z};
-    const double *rotation = side->state->pose.rotation.m[r];
-    const double scale = side->tree->scale;
-    double m[4], squared = 0, moved = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        m[k] = rotation[k] + w[k] / skin->unit;
-        squared += m[k] * m[k];
-        moved += fabs(w[k]);
-    }
-    m[3] = t[r] + scale * (w[0] * at[0] + w[1] * at[1] + w[2] * at[2] + w[3]);
-    for (size_t k = 0; k < 4; ++k)
-        row[k] = (float)m[k];
-    const double length = sqrt(squared);
-    all->stretch = larger(length, all->stretch);
-    all->reach = larger(fabs(m[3]) + length * side->tree->radius, all->reach);
-    all->moved = larger(scale * (moved + fabs(w[3])), all->moved);
-    all->finite += 0 * (m[0] + m[1] + m[2] + m[3]);
-}
-
-static void skin_begin(mote_cert_side *side)
-{
-    const mote_cert_tree *tree = side->tree;
-    const mote_skin *skin = mote_skin_of(tree->body->field);
-    const mote_weights *w = &side->state->weights;
-    const double *const by[3] = {w->x, w->y, w->z};
-    const mote_vec3 d = mote_sub(tree->origin, skin->origin);
-    const double at[3] = {d.x / skin->unit, d.y / skin->unit, d.z / skin->unit};
-    skin_frame *frame = side->frame;
-    frame->along = (float(*)[4])(void *)frame->matrix[skin->bones];
-    sizes all = {0, 0, 0, 0};
-    for (size_t b = 0; b < skin->bones; ++b) {
-        for (size_t r = 0; r < 3; ++r)
-            make_row(side, skin, by[r] + 4 * b, at, r, frame->matrix[b][r], &all);
-    }
-    side->bound = all.reach + all.finite;
-    side->noise = 0x1p-48 * side->bound;
-    side->exact = 0x1p-48 * (skin->most + 4) * (side->world + all.moved + side->bound);
-    side->margin_base = rounded_up(2 * tree->leak * all.stretch + side->exact);
-    side->margin_unit = rounded_up(FLOAT_ROUNDING * side->bound);
-    side->reach_margin = rounded_up(8 * FLOAT_ROUNDING * side->bound);
-    side->leaf_margin = 32 * side->margin_unit;
-    frame->hull_width =
-        rounded_up((64 + skin->most) * FLOAT_ROUNDING * side->bound + side->exact);
-}
-
-static void skin_face(mote_cert_side *side)
-{
-    const mote_vec3 n = side->facing;
-    const uint32_t bones = mote_skin_of(side->tree->body->field)->bones;
-    skin_frame *frame = side->frame;
-    for (uint32_t b = 0; b < bones; ++b) {
-        float(*m)[4] = frame->matrix[b];
-        for (size_t k = 0; k < 4; ++k)
-            frame->along[b][k] =
-                (float)((double)m[0][k] * n.x + (double)m[1][k] * n.y + (double)m[2][k] * n.z);
-    }
-}
 
 static const mote_skin_head *head_of(const mote_cert_side *side, const mote_cert_block *block)
 {
     return (const mote_skin_head *)(const void *)(side->tree->strips + block->first_strip);
 }
 
-/* One row of each bone's matrix, or all of it along a direction. */
-typedef struct line {
-    const float *first; /* four numbers of bone 0 */
-    size_t stride;      /* to those of the next bone */
-} line;
+/* The boxes of a block before the bones move them: as at rest, or moved by morph targets. */
+typedef struct shape {
+    const float (*centre)[WIDTH];
+    const float (*half)[3][WIDTH];
+    const float (*loose)[WIDTH]; /* half width to be added, or NULL */
+} shape;
+
+static inline shape rest_shape(const mote_cert_block *block)
+{
+    return (shape){block->centre, block->half, NULL};
+}
+
+typedef struct morphed {
+    float centre[3][WIDTH], half[3][3][WIDTH], loose[3][WIDTH];
+} morphed;
+
+MOTE_INLINE void add_target(const mote_skin_morph_row *restrict row, float m,
+                            morphed *restrict to)
+{
+    const float size = fabsf(m);
+    for (size_t r = 0; r < 3; ++r) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            to->centre[r][l] += m * row->offset[r][l];
+            to->half[0][r][l] += m * row->slope[0][r][l];
+            to->half[1][r][l] += m * row->slope[1][r][l];
+            to->half[2][r][l] += m * row->slope[2][r][l];
+            to->loose[r][l] += size * row->residual[r][l];
+        }
+    }
+}
+
+/* Rows of the block's targets begin `first` strips after its head. Targets with the amount 0
+   cost nothing. */
+MOTE_INLINE shape morph_shape(const mote_cert_side *restrict side,
+                              const mote_cert_block *restrict block, size_t first,
+                              morphed *restrict to)
+{
+    const size_t count = (size_t)head_of(side, block)->morphs;
+    const void *strips = side->tree->strips + block->first_strip + 1 + first;
+    const mote_skin_morph_row *rows = strips;
+    const uint16_t *target =
+        side->tree->active + block->first_active + (block->active_count - count);
+    const float *amount = mote_skin_frame_of(side)->amount;
+    memcpy(to->centre, block->centre, sizeof to->centre);
+    memcpy(to->half, block->half, sizeof to->half);
+    memset(to->loose, 0, sizeof to->loose);
+    for (size_t i = 0; i < count; ++i) {
+        const float m = amount[target[i]];
+        if (fabsf(m) > 0)
+            add_target(&rows[i], m, to);
+    }
+    return (shape){(const float(*)[WIDTH])to->centre, (const float(*)[3][WIDTH])to->half,
+                   (const float(*)[WIDTH])to->loose};
+}
+
+static float morph_roundings(float morphs)
+{
+    return morphs > 0 ? 2 * (morphs + 4) : 0;
+}
 
 /* The image of a block's boxes along a line, without translation, by one bone: of centre and
- * axes. */
-MOTE_INLINE void image(const mote_cert_block *restrict block, const float x, const float y,
-                       const float z, size_t l, float at[4])
+   axes. */
+MOTE_INLINE void image(const shape *restrict box, const float x, const float y, const float z,
+                       size_t l, float at[4])
 {
-    at[0] = x * block->centre[0][l] + y * block->centre[1][l] + z * block->centre[2][l];
+    at[0] = x * box->centre[0][l] + y * box->centre[1][l] + z * box->centre[2][l];
     for (size_t k = 0; k < 3; ++k)
-        at[1 + k] =
-            x * block->half[k][0][l] + y * block->half[k][1][l] + z * block->half[k][2][l];
+        at[1 + k] = x * box->half[k][0][l] + y * box->half[k][1][l] + z * box->half[k][2][l];
+}
+
+/* That of what is loose. */
+MOTE_INLINE float loose_image(const shape *restrict box, const float x, const float y,
+                              const float z, size_t l)
+{
+    if (!box->loose)
+        return 0;
+    return fabsf(x) * box->loose[0][l] + fabsf(y) * box->loose[1][l] +
+           fabsf(z) * box->loose[2][l];
 }
 
 /* --- above the leaves -----------------------------------------------------------------------
  */
 
-/* The intervals along a line that hold the children: a middle and a half size. */
+/* The intervals along a line that hold the children: a middle and a half size. line: rows of
+   the bones. */
 MOTE_INLINE void convex_along(const mote_cert_side *restrict side,
-                              const mote_cert_block *restrict block, line to,
-                              float middle[WIDTH], float half[WIDTH])
+                              const mote_cert_block *restrict block, const shape *restrict box,
+                              const float *restrict line, float middle[WIDTH],
+                              float half[WIDTH])
 {
     const void *strips = side->tree->strips + block->first_strip + 1;
     const mote_skin_convex_row *rows = strips;
     const uint16_t *active = side->tree->active + block->first_active;
+    const size_t count = block->active_count - (size_t)head_of(side, block)->morphs;
     float low[WIDTH], high[WIDTH];
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l) {
         low[l] = 0x1p120F;
         high[l] = -0x1p120F;
     }
-    for (size_t i = 0; i < block->active_count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
         const mote_skin_convex_row *row = &rows[i];
-        const float *m = to.first + to.stride * active[i];
+        const float *m = line + (size_t)4 * active[i];
         const float x = m[0], y = m[1], z = m[2], t = m[3];
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
             float p[4];
-            image(block, x, y, z, l, p);
+            image(box, x, y, z, l, p);
             const float at = (t + p[0]) + (p[1] * row->middle[0][l] + p[2] * row->middle[1][l] +
                                            p[3] * row->middle[2][l]);
             /* of a child that the bone does not move, an interval that no other one ends beyond
              */
             const float size = (fabsf(p[1]) * row->half[0][l] + fabsf(p[2]) * row->half[1][l] +
                                 fabsf(p[3]) * row->half[2][l]) +
-                               (row->present[l] - 1) * 0x1p110F;
+                               loose_image(box, x, y, z, l) + (row->present[l] - 1) * 0x1p110F;
             low[l] = low[l] < at - size ? low[l] : at - size;
             high[l] = high[l] > at + size ? high[l] : at + size;
         }
@@ -202,21 +159,21 @@ MOTE_INLINE void convex_along(const mote_cert_side *restrict side,
     }
 }
 
-static float convex_margin(const mote_cert_side *side)
+static float convex_margin(const mote_cert_side *side, const mote_cert_block *block)
 {
-    return side->margin_base + 128 * side->margin_unit;
+    const float more = morph_roundings(head_of(side, block)->morphs);
+    return side->margin_base + (128 + more) * side->margin_unit * (1 + 0x1p-20F);
 }
 
-MOTE_CLONES
-static void skin_convex_boxes(const mote_cert_side *restrict side,
-                              const mote_cert_block *restrict block,
+MOTE_INLINE void convex_boxes(const mote_cert_side *restrict side,
+                              const mote_cert_block *restrict block, shape box,
                               mote_cert_node *restrict node)
 {
-    const float margin = convex_margin(side);
+    const float margin = convex_margin(side, block);
     memset(node->axis, 0, sizeof node->axis);
     for (size_t r = 0; r < 3; ++r) {
-        const line row = {frame_of(side)->matrix[0][r], 12};
-        convex_along(side, block, row, node->centre[r], node->axis[r][r]);
+        convex_along(side, block, &box, mote_skin_frame_of(side)->row[r], node->centre[r],
+                     node->axis[r][r]);
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l)
             node->width[r][l] = margin;
@@ -224,15 +181,14 @@ static void skin_convex_boxes(const mote_cert_side *restrict side,
     mote_cert_finish_boxes(node);
 }
 
-MOTE_CLONES
-static void skin_convex_project(const mote_cert_side *restrict side,
-                                const mote_cert_block *restrict block,
+MOTE_INLINE void convex_project(const mote_cert_side *restrict side,
+                                const mote_cert_block *restrict block, shape box,
                                 mote_cert_node *restrict node)
 {
-    const float margin = convex_margin(side);
-    const line along = {frame_of(side)->along[0], 4};
+    const float margin = convex_margin(side, block);
     memset(node->slant, 0, sizeof node->slant);
-    convex_along(side, block, along, node->middle, node->slant[0]);
+    convex_along(side, block, &box, mote_skin_frame_of(side)->along, node->middle,
+                 node->slant[0]);
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l)
         node->loose[l] = margin;
@@ -245,9 +201,12 @@ static void skin_convex_project(const mote_cert_side *restrict side,
 
 static float leaf_margin(const mote_cert_side *side, const mote_cert_block *block)
 {
-    const float more = 1 + 2 * head_of(side, block)->reach;
-    const float bones = (float)(block->active_count - WIDTH);
-    return side->margin_base + side->margin_unit * more * (64 + 2 * bones) * (1 + 0x1p-20F);
+    const mote_skin_head *head = head_of(side, block);
+    const float more = 1 + 2 * head->reach;
+    const float bones = (float)(block->active_count - WIDTH) - head->morphs;
+    return side->margin_base + side->margin_unit * more *
+                                   (64 + 2 * bones + morph_roundings(head->morphs)) *
+                                   (1 + 0x1p-20F);
 }
 
 /* Middle, three axes and half width along a line. */
@@ -256,39 +215,40 @@ typedef struct fitted {
 } fitted;
 
 MOTE_INLINE void leaf_along(const mote_cert_side *restrict side,
-                            const mote_cert_block *restrict block, line to, float margin,
-                            fitted *restrict out)
+                            const mote_cert_block *restrict block, const shape *restrict box,
+                            const float *restrict line, float margin, fitted *restrict out)
 {
     const void *strips = side->tree->strips + block->first_strip + 1;
     const mote_skin_leaf_row *rows = strips;
     const uint16_t *reference = side->tree->active + block->first_active;
     const uint16_t *active = reference + WIDTH;
-    const size_t count = block->active_count - WIDTH;
+    const size_t count = block->active_count - WIDTH - (size_t)head_of(side, block)->morphs;
     _Alignas(32) float own[4][WIDTH];
     for (size_t l = 0; l < WIDTH; ++l) {
-        const float *m = to.first + to.stride * reference[l];
+        const float *m = line + (size_t)4 * reference[l];
         for (size_t k = 0; k < 4; ++k)
             own[k][l] = m[k];
     }
-    float middle[WIDTH], a0[WIDTH], a1[WIDTH], a2[WIDTH], width[WIDTH];
+    float middle[WIDTH], a0[WIDTH], a1[WIDTH], a2[WIDTH], width[WIDTH], loose[WIDTH];
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l) {
         float p[4];
-        image(block, own[0][l], own[1][l], own[2][l], l, p);
+        image(box, own[0][l], own[1][l], own[2][l], l, p);
         middle[l] = own[3][l] + p[0];
         a0[l] = p[1];
         a1[l] = p[2];
         a2[l] = p[3];
         width[l] = margin;
+        loose[l] = loose_image(box, own[0][l], own[1][l], own[2][l], l);
     }
     for (size_t i = 0; i < count; ++i) {
         const mote_skin_leaf_row *row = &rows[i];
-        const float *m = to.first + to.stride * active[i];
+        const float *m = line + (size_t)4 * active[i];
         const float x = m[0], y = m[1], z = m[2], t = m[3];
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
             float d[4];
-            image(block, x - own[0][l], y - own[1][l], z - own[2][l], l, d);
+            image(box, x - own[0][l], y - own[1][l], z - own[2][l], l, d);
             const float e = (t - own[3][l]) + d[0];
             const float f = row->offset[l];
             middle[l] += f * e + (row->shift[0][l] * d[1] + row->shift[1][l] * d[2] +
@@ -299,8 +259,13 @@ MOTE_INLINE void leaf_along(const mote_cert_side *restrict side,
             width[l] += row->rest[l] * fabsf(e) +
                         (row->spread[0][l] * fabsf(d[1]) + row->spread[1][l] * fabsf(d[2]) +
                          row->spread[2][l] * fabsf(d[3]));
+            const float other = row->rest[l] > 0 ? loose_image(box, x, y, z, l) : 0;
+            loose[l] = other > loose[l] ? other : loose[l];
         }
     }
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        width[l] += loose[l];
     memcpy(out->middle, middle, sizeof middle);
     memcpy(out->axis[0], a0, sizeof a0);
     memcpy(out->axis[1], a1, sizeof a1);
@@ -325,16 +290,14 @@ MOTE_INLINE uint32_t wide_leaves(const mote_cert_node *restrict node, float marg
     return bits;
 }
 
-MOTE_CLONES
-static void skin_leaf_boxes(const mote_cert_side *restrict side,
-                            const mote_cert_block *restrict block,
+MOTE_INLINE void leaf_boxes(const mote_cert_side *restrict side,
+                            const mote_cert_block *restrict block, shape box,
                             mote_cert_node *restrict node)
 {
     const float margin = leaf_margin(side, block);
     for (size_t r = 0; r < 3; ++r) {
-        const line row = {frame_of(side)->matrix[0][r], 12};
         fitted f;
-        leaf_along(side, block, row, margin, &f);
+        leaf_along(side, block, &box, mote_skin_frame_of(side)->row[r], margin, &f);
         memcpy(node->centre[r], f.middle, sizeof f.middle);
         for (size_t k = 0; k < 3; ++k)
             memcpy(node->axis[k][r], f.axis[k], sizeof f.axis[k]);
@@ -347,14 +310,13 @@ static void skin_leaf_boxes(const mote_cert_side *restrict side,
     mote_cert_finish_boxes(node);
 }
 
-MOTE_CLONES
-static void skin_leaf_project(const mote_cert_side *restrict side,
-                              const mote_cert_block *restrict block,
+MOTE_INLINE void leaf_project(const mote_cert_side *restrict side,
+                              const mote_cert_block *restrict block, shape box,
                               mote_cert_node *restrict node)
 {
-    const line along = {frame_of(side)->along[0], 4};
     fitted f;
-    leaf_along(side, block, along, leaf_margin(side, block), &f);
+    leaf_along(side, block, &box, mote_skin_frame_of(side)->along, leaf_margin(side, block),
+               &f);
     memcpy(node->middle, f.middle, sizeof f.middle);
     memcpy(node->slant, f.axis, sizeof f.axis);
     memcpy(node->loose, f.width, sizeof f.width);
@@ -363,22 +325,78 @@ static void skin_leaf_project(const mote_cert_side *restrict side,
     mote_cert_finish_projection(side, block, node, false);
 }
 
+/* --- both ----------------------------------------------------------------------------------
+   Functions with and without targets: what targets add is left out of the latter by the
+   compiler. */
+
+#define ROW_STRIPS(row) (sizeof(row) / sizeof(mote_cert_strip))
+
+/* Strips of the bones' rows of a block. */
+static size_t bone_strips(const mote_cert_side *side, const mote_cert_block *block)
+{
+    const mote_skin_head *head = head_of(side, block);
+    const size_t bones = block->active_count - (size_t)head->morphs;
+    return head->convex > 0 ? bones * ROW_STRIPS(mote_skin_convex_row)
+                            : (bones - WIDTH) * ROW_STRIPS(mote_skin_leaf_row);
+}
+
+#define BOTH(name)                                                                             \
+    MOTE_CLONES                                                                                \
+    static void skin_##name(const mote_cert_side *restrict side,                               \
+                            const mote_cert_block *restrict block,                             \
+                            mote_cert_node *restrict node)                                     \
+    {                                                                                          \
+        name(side, block, rest_shape(block), node);                                            \
+    }                                                                                          \
+    MOTE_CLONES                                                                                \
+    static void morph_##name(const mote_cert_side *restrict side,                              \
+                             const mote_cert_block *restrict block,                            \
+                             mote_cert_node *restrict node)                                    \
+    {                                                                                          \
+        morphed m;                                                                             \
+        name(side, block, morph_shape(side, block, bone_strips(side, block), &m), node);       \
+    }
+
+BOTH(convex_boxes)
+BOTH(convex_project)
+BOTH(leaf_boxes)
+BOTH(leaf_project)
+
 static void skin_boxes(const mote_cert_side *side, const mote_cert_block *block,
                        mote_cert_node *node)
 {
-    if (head_of(side, block)->convex > 0)
-        skin_convex_boxes(side, block, node);
+    const mote_skin_head *head = head_of(side, block);
+    if (head->morphs > 0)
+        (head->convex > 0 ? morph_convex_boxes : morph_leaf_boxes)(side, block, node);
     else
-        skin_leaf_boxes(side, block, node);
+        (head->convex > 0 ? skin_convex_boxes : skin_leaf_boxes)(side, block, node);
 }
 
 static void skin_project(const mote_cert_side *side, const mote_cert_block *block,
                          mote_cert_node *node)
 {
-    if (head_of(side, block)->convex > 0)
-        skin_convex_project(side, block, node);
+    const mote_skin_head *head = head_of(side, block);
+    if (head->morphs > 0)
+        (head->convex > 0 ? morph_convex_project : morph_leaf_project)(side, block, node);
     else
-        skin_leaf_project(side, block, node);
+        (head->convex > 0 ? skin_convex_project : skin_leaf_project)(side, block, node);
+}
+
+/* A vertex in floats before the bones move it. */
+static void place_morphed(const mote_cert_side *side, const mote_skin *skin, uint32_t vertex,
+                          float q[3])
+{
+    const mote_vec3 x = mote_cert_tree_position(side->tree, vertex);
+    const mote_morph *morph = &skin->morph;
+    const float *amount = mote_skin_frame_of(side)->amount;
+    float d[3] = {0, 0, 0};
+    for (uint32_t i = morph->start[vertex]; i < morph->start[vertex + 1]; ++i) {
+        for (size_t r = 0; r < 3; ++r)
+            d[r] += amount[morph->target[i]] * morph->move[i][r];
+    }
+    q[0] = (float)x.x + d[0];
+    q[1] = (float)x.y + d[1];
+    q[2] = (float)x.z + d[2];
 }
 
 /* A vertex in floats. */
@@ -386,13 +404,15 @@ static void place(const mote_cert_side *side, const mote_skin *skin, uint32_t ve
                   float p[3])
 {
     const mote_vec3 x = mote_cert_tree_position(side->tree, vertex);
-    const float q[3] = {(float)x.x, (float)x.y, (float)x.z};
+    float q[3] = {(float)x.x, (float)x.y, (float)x.z};
+    if (skin->morph.targets > 0)
+        place_morphed(side, skin, vertex, q);
     p[0] = p[1] = p[2] = 0;
     for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
-        const float *m = frame_of(side)->matrix[skin->bone[i]][0];
-        for (size_t r = 0; r < 3; ++r)
-            p[r] += skin->weight[i] * ((m[4 * r] * q[0] + m[4 * r + 1] * q[1]) +
-                                       (m[4 * r + 2] * q[2] + m[4 * r + 3]));
+        for (size_t r = 0; r < 3; ++r) {
+            const float *m = mote_skin_frame_of(side)->row[r] + (size_t)4 * skin->bone[i];
+            p[r] += skin->weight[i] * ((m[0] * q[0] + m[1] * q[1]) + (m[2] * q[2] + m[3]));
+        }
     }
 }
 
@@ -410,7 +430,7 @@ static bool skin_hull(const mote_cert_side *side, const mote_cert_node *node, si
             hull->x[r][i] = p[r];
     }
     for (size_t r = 0; r < 3; ++r)
-        hull->width[r] = frame_of(side)->hull_width;
+        hull->width[r] = mote_skin_frame_of(side)->hull_width;
     return true;
 }
 
@@ -419,9 +439,9 @@ const mote_cert_bounds mote_skin_bounds = {.name = "skin",
                                            .fit = mote_skin_fit,
                                            .store = mote_skin_fit_store,
                                            .stop = mote_skin_fit_stop,
-                                           .frame_bytes = skin_frame_bytes,
-                                           .begin = skin_begin,
-                                           .face = skin_face,
+                                           .frame_bytes = mote_skin_frame_bytes,
+                                           .begin = mote_skin_begin,
+                                           .face = mote_skin_face,
                                            .project = skin_project,
                                            .boxes = skin_boxes,
                                            .hull = skin_hull};

@@ -14,7 +14,15 @@
    each axis. A sum of the kind above would be wide here, where one bone moves little of what is
    in the box.
 
-   Both hold for any matrices: nothing is assumed of them. */
+   Both hold for any matrices: nothing is assumed of them.
+
+   Morph targets. Displacements of target k are fitted over the vertices of a box by d_k = f +
+   sum_i g_i z_i + r,  |r| <= m in each coordinate, vectors all. With amounts m_k the vertices
+   are then, before the bones move them, in a box with the centre c + sum_k m_k f, the half axes
+   h_i + sum_k m_k g_i and, added to it, the half width e = sum_k |m_k| m. The bones move that
+   box as they would the box at rest. What they make of the half width lies, since weights are
+   not negative and add up to 1, within the largest |M_b| e of the bones, translation left out.
+ */
 #ifndef MOTE_CORE_SKIN_BOUNDS_H
 #define MOTE_CORE_SKIN_BOUNDS_H
 
@@ -24,13 +32,14 @@
 extern "C" {
 #endif
 
-/* A block's strips: a head, then a row for each of its bones, in the order of its active
-   numbers. The active numbers of a block of leaves begin with the reference bone of each child.
- */
+/* A block's strips: a head, then a row for each of its bones, then one for each of its targets,
+   in the order of its active numbers. The active numbers of a block of leaves begin with the
+   reference bone of each child. */
 typedef struct mote_skin_head {
     float convex; /* 1: rows are mote_skin_convex_row, 0: mote_skin_leaf_row */
     float reach;  /* leaves: the largest sum of abs(f), m, abs(g_k), abs(s_k), m_k of a child */
-    float unused[MOTE_CERT_WIDTH - 2];
+    float morphs; /* how many of the rows, the last ones, are mote_skin_morph_row */
+    float unused[MOTE_CERT_WIDTH - 3];
 } mote_skin_head;
 
 typedef struct mote_skin_leaf_row {
@@ -46,6 +55,15 @@ typedef struct mote_skin_convex_row {
     mote_cert_strip half[3];
     mote_cert_strip present; /* 1 where the bone moves any of the child's vertices, else 0 */
 } mote_skin_convex_row;
+
+/* In the target's size. [coordinate], slopes [axis][coordinate]. */
+typedef struct mote_skin_morph_row {
+    mote_cert_strip offset[3];
+    mote_cert_strip slope[3][3];
+    mote_cert_strip residual[3];
+} mote_skin_morph_row;
+
+#define MOTE_MORPH_STRIPS (sizeof(mote_skin_morph_row) / sizeof(mote_cert_strip))
 
 extern const mote_cert_bounds mote_skin_bounds;
 

@@ -1,4 +1,6 @@
 /* Bounds of a skin, while a tree is built. */
+#include "core/skin/interval.h"
+#include "core/skin/morph_fit.h"
 #include "core/skin/skin_bounds.h"
 #include "core/skin/skin_data.h"
 
@@ -32,6 +34,7 @@ typedef struct fitter {
     uint16_t reference[WIDTH];
     bool convex;
     float reach;
+    mote_morph_fitter *morphs; /* NULL without targets */
 } fitter;
 
 void mote_skin_fit_stop(void *state)
@@ -42,13 +45,30 @@ void mote_skin_fit_stop(void *state)
     free(f->child_stamp);
     free(f->of_block);
     free(f->of_child);
+    mote_morph_fit_stop(f->morphs);
     free(f);
+}
+
+/* The weight vectors are relative to the middle of the mesh, as the tree is. */
+static mote_status check_mesh(const mote_skin *skin, const mote_cert_tree *tree)
+{
+    const uint32_t n = tree->body->mesh->vertex_count;
+    if (skin->vertex_count != n)
+        return mote_fail(MOTE_EINVAL,
+                         "the skin was made for a mesh of %u vertices, the body's has %u",
+                         skin->vertex_count, n);
+    if (mote_distance_squared(skin->origin, tree->origin) > 0)
+        return mote_fail(MOTE_EINVAL, "the skin was made for another mesh than the body's");
+    return MOTE_OK;
 }
 
 mote_status mote_skin_fit_start(mote_cert_tree *tree, bool linear_fits, void **made)
 {
     const mote_skin *skin = mote_skin_of(tree->body->field);
     const size_t bones = skin->bones;
+    mote_status status = check_mesh(skin, tree);
+    if (status != MOTE_OK)
+        return status;
     fitter *f = calloc(1, sizeof *f);
     if (f) {
         f->skin = skin;
@@ -59,7 +79,8 @@ mote_status mote_skin_fit_start(mote_cert_tree *tree, bool linear_fits, void **m
         f->child_stamp = calloc(bones, sizeof *f->child_stamp);
         f->of_block = malloc(bones * sizeof *f->of_block);
         f->of_child = malloc(bones * sizeof *f->of_child);
-        if (f->rows && f->block_stamp && f->child_stamp && f->of_block && f->of_child) {
+        if (f->rows && f->block_stamp && f->child_stamp && f->of_block && f->of_child &&
+            mote_morph_fit_start(tree, &f->morphs) == MOTE_OK) {
             *made = f;
             return MOTE_OK;
         }
@@ -139,11 +160,6 @@ static void fit_convex(fitter *f, const mote_cert_tree *tree, const mote_cert_pa
 /* --- leaves ---------------------------------------------------------------------------------
  */
 
-static float rounded_up(double x)
-{
-    return (float)x * (1 + 0x1p-22F) + 0x1p-40F;
-}
-
 static double weight_of(const mote_skin *skin, uint32_t vertex, uint32_t bone)
 {
     for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
@@ -178,25 +194,6 @@ static void add_up(fitter *f, const mote_cert_tree *tree, const mote_cert_part *
         a[r][r] += 1e-6 * (double)part->count; /* where the vertices do not spread */
 }
 
-/* The middle and the half size of a range of numbers, rounded so that it holds them. */
-typedef struct interval {
-    double low, high;
-} interval;
-
-static void widen(interval *i, double x)
-{
-    i->low = x < i->low ? x : i->low;
-    i->high = x > i->high ? x : i->high;
-}
-
-static double settle(const interval *i, float *middle, float *half)
-{
-    const double m = mote_as_float(0.5 * (i->low + i->high));
-    *middle = (float)m;
-    *half = rounded_up(i->high - m > m - i->low ? i->high - m : m - i->low);
-    return fabs(m) + (double)*half;
-}
-
 /* Writes one lane of a bone's row, and returns the sum of the sizes of its entries. Slopes only
    decide how wide the rest is: beyond 4 they would cost more in margins than they save. */
 static double write_lane(const fitter *f, const mote_cert_tree *tree,
@@ -211,26 +208,27 @@ static double write_lane(const fitter *f, const mote_cert_tree *tree,
         row->slope[k][lane] = (float)g[k];
         reach += fabs(g[k]);
     }
-    interval rest = {DBL_MAX, -DBL_MAX};
+    mote_interval rest = MOTE_INTERVAL_EMPTY;
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
         double z[3];
         mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
-        widen(&rest,
-              weight_of(f->skin, vertex, bone) - g[0] * z[0] - g[1] * z[1] - g[2] * z[2]);
+        mote_interval_widen(&rest, weight_of(f->skin, vertex, bone) - g[0] * z[0] -
+                                       g[1] * z[1] - g[2] * z[2]);
     }
-    reach += settle(&rest, &row->offset[lane], &row->rest[lane]);
+    reach += mote_interval_settle(&rest, &row->offset[lane], &row->rest[lane]);
     const double offset = (double)row->offset[lane];
-    interval product[3] = {{DBL_MAX, -DBL_MAX}, {DBL_MAX, -DBL_MAX}, {DBL_MAX, -DBL_MAX}};
+    mote_interval product[3] = {MOTE_INTERVAL_EMPTY, MOTE_INTERVAL_EMPTY, MOTE_INTERVAL_EMPTY};
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
         double z[3];
         mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
         for (int k = 0; k < 3; ++k)
-            widen(&product[k], (weight_of(f->skin, vertex, bone) - offset) * z[k]);
+            mote_interval_widen(&product[k],
+                                (weight_of(f->skin, vertex, bone) - offset) * z[k]);
     }
     for (int k = 0; k < 3; ++k)
-        reach += settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
+        reach += mote_interval_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
     return reach;
 }
 
@@ -256,7 +254,7 @@ static void fit_leaf(fitter *f, const mote_cert_tree *tree, const mote_cert_part
         if (f->of_child[i] != reference)
             reach += write_lane(f, tree, part, f->of_child[i]);
     }
-    f->reach = rounded_up(reach) > f->reach ? rounded_up(reach) : f->reach;
+    f->reach = mote_rounded_up(reach) > f->reach ? mote_rounded_up(reach) : f->reach;
 }
 
 /* --- blocks ---------------------------------------------------------------------------------
@@ -271,6 +269,8 @@ void mote_skin_fit(void *state, mote_cert_tree *tree, const mote_cert_part *part
         fit_convex(f, tree, part);
     else
         fit_leaf(f, tree, part);
+    if (f->morphs)
+        mote_morph_fit(f->morphs, tree, part, f->linear);
 }
 
 /* A bone that is the reference of all of its children needs no row. */
@@ -286,24 +286,34 @@ static bool has_row(const fitter *f, uint16_t bone)
     return most > 0;
 }
 
-mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_block *block)
+/* The bones with rows, in ascending order; returns how many there are. */
+static uint32_t list_rows(fitter *f)
 {
-    fitter *f = state;
-    const size_t bytes = f->convex ? sizeof(mote_skin_convex_row) : sizeof(mote_skin_leaf_row);
-    const size_t strips = bytes / sizeof(mote_cert_strip);
-    const size_t first = f->convex ? 0 : WIDTH;
     uint32_t count = 0;
     qsort(f->of_block, f->block_count, sizeof *f->of_block, ascending);
     for (uint32_t i = 0; i < f->block_count; ++i) {
         if (has_row(f, f->of_block[i]))
             f->of_block[count++] = f->of_block[i];
     }
-    mote_status status = mote_cert_tree_keep(tree, block, 1 + strips * count, first + count);
+    return count;
+}
+
+mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_block *block)
+{
+    fitter *f = state;
+    const size_t bytes = f->convex ? sizeof(mote_skin_convex_row) : sizeof(mote_skin_leaf_row);
+    const size_t strips = bytes / sizeof(mote_cert_strip);
+    const size_t first = f->convex ? 0 : WIDTH;
+    const uint32_t count = list_rows(f);
+    const uint32_t morphs = f->morphs ? mote_morph_fit_count(f->morphs) : 0;
+    mote_status status = mote_cert_tree_keep(
+        tree, block, 1 + strips * count + MOTE_MORPH_STRIPS * morphs, first + count + morphs);
     if (status != MOTE_OK)
         return status;
     mote_cert_strip *strip = tree->strips + block->first_strip;
     uint16_t *active = tree->active + block->first_active;
-    const mote_skin_head head = {.convex = f->convex ? 1 : 0, .reach = f->reach};
+    const mote_skin_head head = {
+        .convex = f->convex ? 1 : 0, .reach = f->reach, .morphs = (float)morphs};
     memcpy(strip, &head, sizeof head);
     for (size_t l = 0; l < first; ++l)
         active[l] = l < block->children ? f->reference[l] : f->reference[0];
@@ -311,6 +321,8 @@ mote_status mote_skin_fit_store(void *state, mote_cert_tree *tree, mote_cert_blo
         active[first + i] = f->of_block[i];
         memcpy(strip + 1 + strips * i, &f->rows[f->of_block[i]].row, bytes);
     }
+    if (f->morphs)
+        mote_morph_fit_store(f->morphs, strip + 1 + strips * count, active + first + count);
     f->block_count = 0;
     f->reach = 0;
     ++f->block;

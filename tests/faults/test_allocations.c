@@ -151,6 +151,20 @@ static mote_status make_places(void *context)
     return status;
 }
 
+/* The tree of a field that was made with a status; frees the field. */
+static mote_status make_tree(const mote_mesh *mesh, mote_field *field, mote_status status)
+{
+    const mote_body body = {.mesh = mesh, .field = field};
+    const mote_cert_tree_options options = {
+        .length = mesh->diagonal, .width = 8, .linear_fits = true};
+    mote_cert_tree *tree = NULL;
+    if (status == MOTE_OK)
+        status = mote_cert_tree_create(&body, &options, &tree);
+    mote_cert_tree_destroy(tree);
+    mote_field_destroy(field);
+    return status;
+}
+
 /* A skin of three bones, and the tree of its bounds. */
 static mote_status make_skin(void *context)
 {
@@ -168,15 +182,30 @@ static mote_status make_skin(void *context)
     }
     mote_field *field = NULL;
     mote_status status = mote_field_create_skin(mesh, 3, start, bone, weight, &field);
-    const mote_body body = {.mesh = mesh, .field = field};
-    const mote_cert_tree_options options = {
-        .length = mesh->diagonal, .width = 8, .linear_fits = true};
-    mote_cert_tree *tree = NULL;
+    return make_tree(mesh, field, status);
+}
+
+/* Two morph targets, with these bones and without. */
+static mote_status make_morphs(void *context)
+{
+    const mote_mesh *mesh = context;
+    static const uint32_t start[3] = {0, 3, 5}, vertex[5] = {4, 2, 0, 1, 2};
+    static uint32_t weights_start[1000];
+    static uint16_t bone[1000];
+    static double weight[1000];
+    const mote_morph_targets targets = {2, start, vertex, mesh->positions};
+    for (uint32_t v = 0; v < mesh->vertex_count; ++v) {
+        weights_start[v + 1] = v + 1;
+        weight[v] = 1;
+    }
+    mote_field *field = NULL;
+    mote_status status =
+        mote_field_create_morphs(mesh, 1, weights_start, bone, weight, &targets, &field);
+    status = make_tree(mesh, field, status);
+    field = NULL;
     if (status == MOTE_OK)
-        status = mote_cert_tree_create(&body, &options, &tree);
-    mote_cert_tree_destroy(tree);
-    mote_field_destroy(field);
-    return status;
+        status = mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field);
+    return make_tree(mesh, field, status);
 }
 
 TEST(skin_when_an_allocation_fails_says_so)
@@ -184,6 +213,7 @@ TEST(skin_when_an_allocation_fails_says_so)
     mote_mesh *mesh = solid_to_mesh(solid_icosphere(2));
     assert_true(mesh->vertex_count < 1000);
     fail_each_allocation(make_skin, mesh, "skin");
+    fail_each_allocation(make_morphs, mesh, "morphs");
     mote_mesh_destroy(mesh);
 }
 

@@ -1,0 +1,184 @@
+/* What skins and morph targets are made of, and what they refuse. */
+#include "core/certificate/certificate_tree.h"
+#include "core/skin/skin.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test.h"
+
+static void expect_error(const mote_mesh *mesh, uint32_t bones, const uint32_t *start,
+                         const uint16_t *bone, const double *weight, const char *text)
+{
+    mote_field mark;
+    mote_field *field = &mark;
+    assert_int_equal(mote_field_create_skin(mesh, bones, start, bone, weight, &field),
+                     MOTE_EINVAL);
+    assert_string_equal(mote_error_text(), text);
+    assert_ptr_equal(field, &mark);
+}
+
+TEST(create_skin_with_bad_input_says_what)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    uint32_t start[10];
+    uint16_t bone[9] = {0, 1, 0, 1, 0, 1, 0, 1, 0};
+    double weight[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+    assert_int_equal(mesh->vertex_count, 9);
+    for (uint32_t v = 0; v < 10; ++v)
+        start[v] = v;
+    expect_error(mesh, 0, start, bone, weight, "a skin has 1 to 65535 bones, not 0");
+    expect_error(mesh, 65536, start, bone, weight, "a skin has 1 to 65535 bones, not 65536");
+    expect_error(mesh, 1, start, bone, weight, "vertex 1 follows bone 1 of 1, counted from 0");
+    weight[2] = -0.5;
+    expect_error(mesh, 2, start, bone, weight,
+                 "vertex 2 has the weight -0.5; it must be finite and not negative");
+    weight[2] = HUGE_VAL;
+    expect_error(mesh, 2, start, bone, weight,
+                 "vertex 2 has the weight inf; it must be finite and not negative");
+    weight[2] = 0;
+    expect_error(mesh, 2, start, bone, weight,
+                 "the weights of vertex 2 add up to 0; their sum must be positive and finite");
+    weight[2] = 1;
+    start[4] = 3;
+    expect_error(mesh, 2, start, bone, weight, "vertex 3 has no bone; it needs at least one");
+    start[4] = 4;
+    start[0] = 1;
+    expect_error(mesh, 2, start, bone, weight, "the weights of vertex 0 start at 1, not at 0");
+    mote_mesh_destroy(mesh);
+}
+
+/* Several weights of a bone are added up, tiny ones dropped, and the sum is 1 exactly. */
+TEST(weights_are_merged_and_normalised)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    uint32_t start[10];
+    uint16_t bone[36];
+    double weight[36];
+    for (uint32_t v = 0; v < 9; ++v) {
+        const uint16_t b[4] = {7, 2, 7, 5};
+        const double w[4] = {0.2, 0.4, 0.3, 1e-9};
+        start[v] = 4 * v;
+        memcpy(bone + 4 * v, b, sizeof b);
+        memcpy(weight + 4 * v, w, sizeof w);
+    }
+    start[9] = 36;
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_skin(mesh, 8, start, bone, weight, &field), MOTE_OK);
+    const mote_skin *skin = mote_field_skin(field);
+    assert_true(fabs(skin->off - 0.1) < 1e-8);
+    assert_int_equal(skin->most, 2);
+    assert_int_equal(skin->start[9], 18);
+    assert_int_equal(skin->bone[16], 2);
+    assert_int_equal(skin->bone[17], 7);
+    assert_true(fabs((double)skin->weight[16] - 4 / 9.0) < 1e-6);
+    assert_true((double)skin->weight[16] + (double)skin->weight[17] == 1.0);
+    assert_int_equal(field->count, 32);
+    assert_string_equal(field->kind->name, "skin");
+    mote_field_destroy(field);
+    mote_field *still = NULL;
+    assert_int_equal(mote_field_create_static(&still), MOTE_OK);
+    assert_null(mote_field_skin(still));
+    mote_field_destroy(still);
+    mote_mesh_destroy(mesh);
+}
+
+/* Targets that are wrong in one way each. */
+typedef struct bad_targets {
+    uint32_t count, start[3], vertex[3];
+    mote_vec3 move[3];
+    const char *text;
+} bad_targets;
+
+static const bad_targets bad[] = {
+    {0, {0, 0, 0}, {0}, {{0, 0, 0}}, "there are 1 to 65535 morph targets, not 0"},
+    {65536, {0, 0, 0}, {0}, {{0, 0, 0}}, "there are 1 to 65535 morph targets, not 65536"},
+    {1, {1, 2, 0}, {0}, {{0, 0, 0}}, "morph target 0 starts at 1, not at 0"},
+    {2, {0, 2, 1}, {0, 1, 0}, {{0, 0, 0}}, "morph target 1 ends at 1, before its start at 2"},
+    {2,
+     {0, 1, 2},
+     {0, 9, 0},
+     {{0, 0, 0}},
+     "morph target 1 moves vertex 9 of 9, counted from 0"},
+    {1, {0, 2, 0}, {3, 3, 0}, {{0, 0, 0}}, "morph target 0 names vertex 3 twice"},
+    {1,
+     {0, 1, 0},
+     {5, 0, 0},
+     {{0, HUGE_VAL, 0}},
+     "morph target 0 moves vertex 5 by (0, inf, 0); it must be finite"},
+};
+
+TEST(create_morphs_with_bad_input_says_what)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    for (size_t i = 0; i < ROWS_OF(bad); ++i) {
+        const mote_morph_targets targets = {bad[i].count, bad[i].start, bad[i].vertex,
+                                            bad[i].move};
+        mote_field mark;
+        mote_field *field = &mark;
+        test_row("%s", bad[i].text);
+        assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                         MOTE_EINVAL);
+        assert_string_equal(mote_error_text(), bad[i].text);
+        assert_ptr_equal(field, &mark);
+    }
+    mote_mesh_destroy(mesh);
+}
+
+/* Displacements are kept by vertex, those of 0 are not, and sizes are powers of two. */
+TEST(targets_are_ordered_by_vertex)
+{
+    mote_mesh *mesh = make_torus(3, 3, 1);
+    static const uint32_t start[4] = {0, 3, 3, 5}, vertex[5] = {7, 2, 4, 2, 8};
+    static const mote_vec3 move[5] = {
+        {3, 0, 0}, {0, -1, 0}, {0, 0, 0}, {1e-9, 0, 3e-10}, {0, 0, 0}};
+    const mote_morph_targets targets = {3, start, vertex, move};
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(mesh, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const mote_skin *skin = mote_field_skin(field);
+    assert_non_null(skin);
+    assert_int_equal(skin->bones, 1);
+    assert_int_equal(skin->most, 1);
+    const mote_morph *morph = &skin->morph;
+    assert_int_equal(morph->start[9], 3);
+    assert_int_equal(morph->most, 2);
+    assert_int_equal(morph->start[2], 0);
+    assert_int_equal(morph->start[3], 2);
+    assert_int_equal(morph->target[0], 0);
+    assert_int_equal(morph->target[1], 2);
+    assert_true(morph->size[0] == 2.0);
+    assert_true(morph->size[1] == 1.0);
+    assert_true((double)morph->move[0][1] == -0.5);
+    assert_true((double)morph->move[2][0] == 1.5);
+    assert_true(fabs((double)morph->move[1][2] * morph->size[2] - 3e-10) < 1e-16);
+    assert_string_equal(field->kind->name, "morphs");
+    assert_int_equal(field->count, 4 + 3 + 3);
+    mote_field_destroy(field);
+    mote_mesh_destroy(mesh);
+}
+
+/* A skin that was made for one mesh does not bound another. */
+TEST(tree_of_another_mesh_is_refused)
+{
+    mote_mesh *own = make_torus(4, 3, 1), *other = make_torus(4, 3, 2),
+              *more = make_torus(5, 3, 1);
+    static const uint32_t start[2] = {0, 1}, vertex[1] = {2};
+    static const mote_vec3 move[1] = {{1, 0, 0}};
+    const mote_morph_targets targets = {1, start, vertex, move};
+    mote_field *field = NULL;
+    assert_int_equal(mote_field_create_morphs(own, 0, NULL, NULL, NULL, &targets, &field),
+                     MOTE_OK);
+    const mote_cert_tree_options options = {.length = 1, .width = 8, .linear_fits = true};
+    mote_mesh *const meshes[3] = {own, more, other};
+    for (int i = 0; i < 3; ++i) {
+        const mote_body body = {.mesh = meshes[i], .field = field};
+        mote_cert_tree *tree = NULL;
+        assert_int_equal(mote_cert_tree_create(&body, &options, &tree),
+                         i == 0 ? MOTE_OK : MOTE_EINVAL);
+        mote_cert_tree_destroy(tree);
+    }
+    assert_string_equal(mote_error_text(),
+                        "the skin was made for another mesh than the body's");
+    mote_field_destroy(field);
+    mote_mesh_destroy(own);
+    mote_mesh_destroy(other);
+    mote_mesh_destroy(more);
+}
