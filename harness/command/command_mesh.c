@@ -1,5 +1,6 @@
 /* mote mesh FILE [--json] [--strict]: what a mesh is. */
 #include "core/body/parts.h"
+#include "harness/command/character_facts.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/mesh/mesh_import.h"
@@ -87,6 +88,7 @@ static void print_lines(const char *path, const mote_mesh *mesh, const mote_impo
         (void)printf("cleaned             %zu vertices welded, %zu faces collapsed by it, %zu "
                      "vertices in no face\n",
                      import->welded, import->collapsed, import->unused);
+    mote_character_facts_print(path);
 }
 
 static int print_json(const char *path, const mote_mesh *mesh, const mote_import *import,
@@ -111,6 +113,7 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
     }
     /* The part of each vertex, in the vertices' order. */
     (void)json_object_set_new(root, "part_labels", labels_json(parts));
+    (void)json_object_set_new(root, "character", mote_character_facts_json(path));
     return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE
                                                                   : mote_command_fail();
 }

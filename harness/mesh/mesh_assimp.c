@@ -1,23 +1,17 @@
-/* Meshes read by assimp: PLY, STL, glTF and the other formats that it knows. The only file
-   that includes it. */
+/* Meshes read by assimp: PLY, STL, glTF and the other formats that it knows. */
+#include "harness/mesh/mesh_assimp.h"
+
 #include "harness/base/memory.h"
-#include "harness/mesh/mesh_soup.h"
 
 #include <assimp/cimport.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SAID_MAX 200
-
-/* What assimp or a file says, fit for one line: no control characters, no full stop at the
-   end. */
-static const char *one_line(const char *text, char said[SAID_MAX])
+const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX])
 {
-    (void)snprintf(said, SAID_MAX, "%.*s", SAID_MAX - 1, text);
+    (void)snprintf(said, MOTE_SAID_MAX, "%.*s", MOTE_SAID_MAX - 1, text);
     size_t length = strlen(said);
     while (length > 0 && strchr(" .,\r\n", said[length - 1]))
         said[--length] = '\0';
@@ -26,46 +20,34 @@ static const char *one_line(const char *text, char said[SAID_MAX])
     return said;
 }
 
-/* " of mesh NAME", where it has a name. */
-static const char *of_mesh(const struct aiMesh *mesh, char text[SAID_MAX])
+const char *mote_assimp_of_mesh(const struct aiMesh *mesh, char text[MOTE_SAID_MAX])
 {
-    char name[SAID_MAX];
-    (void)one_line(mesh->mName.data, name);
-    (void)snprintf(text, SAID_MAX, "%s%.60s", name[0] ? " of mesh " : "", name);
+    char name[MOTE_SAID_MAX];
+    (void)mote_assimp_line(mesh->mName.data, name);
+    (void)snprintf(text, MOTE_SAID_MAX, "%s%.60s", name[0] ? " of mesh " : "", name);
     return text;
 }
 
-/* parent * child, in double precision. */
-static void multiply(const double parent[12], const struct aiMatrix4x4 *m, double out[12])
+mote_affine mote_assimp_affine(const struct aiMatrix4x4 *m)
 {
-    const double child[12] = {(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4,
-                              (double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4,
-                              (double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4};
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) {
-            out[4 * r + c] = parent[4 * r] * child[c] + parent[4 * r + 1] * child[4 + c] +
-                             parent[4 * r + 2] * child[8 + c] +
-                             (c == 3 ? parent[4 * r + 3] : 0);
-        }
-    }
+    return (mote_affine){{{(double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4},
+                          {(double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4},
+                          {(double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4}}};
 }
 
-static mote_status add_vertices(const char *path, const struct aiMesh *mesh, const double m[12],
-                                mote_soup *soup)
+static mote_status add_vertices(const char *path, const struct aiMesh *mesh,
+                                const mote_affine *place, mote_soup *soup)
 {
     mote_status status = MOTE_OK;
     for (unsigned v = 0; v < mesh->mNumVertices && status == MOTE_OK; ++v) {
-        const double x = (double)mesh->mVertices[v].x;
-        const double y = (double)mesh->mVertices[v].y;
-        const double z = (double)mesh->mVertices[v].z;
-        const double wx = m[0] * x + m[1] * y + m[2] * z + m[3];
-        const double wy = m[4] * x + m[5] * y + m[6] * z + m[7];
-        const double wz = m[8] * x + m[9] * y + m[10] * z + m[11];
-        char name[SAID_MAX];
-        if (!isfinite(wx) || !isfinite(wy) || !isfinite(wz))
+        const mote_vec3 at = mote_affine_apply(
+            place, mote_vec3_make((double)mesh->mVertices[v].x, (double)mesh->mVertices[v].y,
+                                  (double)mesh->mVertices[v].z));
+        char name[MOTE_SAID_MAX];
+        if (!isfinite(at.x) || !isfinite(at.y) || !isfinite(at.z))
             return mote_fail(MOTE_EINVAL, "%s: vertex %u%s is not finite; give finite numbers",
-                             path, v, of_mesh(mesh, name));
-        status = mote_soup_add_vertex(soup, wx, wy, wz);
+                             path, v, mote_assimp_of_mesh(mesh, name));
+        status = mote_soup_add_vertex(soup, at.x, at.y, at.z);
     }
     return status;
 }
@@ -86,10 +68,10 @@ static mote_status add_face(const char *path, const struct aiMesh *mesh, unsigne
         return MOTE_OK;
     }
     const mote_status status = mote_soup_add_polygon(soup, corners, face->mNumIndices);
-    char name[SAID_MAX];
+    char name[MOTE_SAID_MAX];
     return status == MOTE_OK ? status
                              : mote_fail(status, "%s: face %u%s: %s", path, f,
-                                         of_mesh(mesh, name), mote_error_text());
+                                         mote_assimp_of_mesh(mesh, name), mote_error_text());
 }
 
 static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32_t base,
@@ -108,28 +90,31 @@ static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32
     return status;
 }
 
-/* A file may nest nodes without end; real ones do not go this deep. */
-#define DEPTH_MAX 256
+mote_status mote_assimp_add_mesh(const char *path, const struct aiMesh *mesh,
+                                 const mote_affine *place, mote_soup *soup)
+{
+    const uint32_t base = (uint32_t)soup->vertex_count;
+    const mote_status status = add_vertices(path, mesh, place, soup);
+    return status == MOTE_OK ? add_faces(path, mesh, base, soup) : status;
+}
+
+mote_status mote_assimp_too_deep(const char *path)
+{
+    return mote_fail(MOTE_EINVAL, "%s: nodes nested deeper than %d; flatten them", path,
+                     MOTE_ASSIMP_DEPTH_MAX);
+}
 
 static mote_status add_node(const char *path, const struct aiScene *scene,
-                            const struct aiNode *node, const double parent[12], int depth,
+                            const struct aiNode *node, const mote_affine *parent, int depth,
                             mote_soup *soup)
 {
-    double m[12];
-    multiply(parent, &node->mTransformation, m);
-    mote_status status = MOTE_OK;
-    if (depth > DEPTH_MAX)
-        return mote_fail(MOTE_EINVAL, "%s: nodes nested deeper than %d; flatten them", path,
-                         DEPTH_MAX);
-    for (unsigned i = 0; i < node->mNumMeshes && status == MOTE_OK; ++i) {
-        const struct aiMesh *mesh = scene->mMeshes[node->mMeshes[i]];
-        const uint32_t base = (uint32_t)soup->vertex_count;
-        status = add_vertices(path, mesh, m, soup);
-        if (status == MOTE_OK)
-            status = add_faces(path, mesh, base, soup);
-    }
+    const mote_affine local = mote_assimp_affine(&node->mTransformation);
+    const mote_affine place = mote_affine_multiply(parent, &local);
+    mote_status status = depth > MOTE_ASSIMP_DEPTH_MAX ? mote_assimp_too_deep(path) : MOTE_OK;
+    for (unsigned i = 0; i < node->mNumMeshes && status == MOTE_OK; ++i)
+        status = mote_assimp_add_mesh(path, scene->mMeshes[node->mMeshes[i]], &place, soup);
     for (unsigned i = 0; i < node->mNumChildren && status == MOTE_OK; ++i)
-        status = add_node(path, scene, node->mChildren[i], m, depth + 1, soup);
+        status = add_node(path, scene, node->mChildren[i], &place, depth + 1, soup);
     return status;
 }
 
@@ -142,8 +127,8 @@ static void note_dropped(const char *message, char *dropped)
 
 static mote_status fail_as_assimp_says(const char *path)
 {
-    char said[SAID_MAX];
-    (void)one_line(aiGetErrorString(), said);
+    char said[MOTE_SAID_MAX];
+    (void)mote_assimp_line(aiGetErrorString(), said);
     if (strncmp(said, "No suitable reader", strlen("No suitable reader")) == 0)
         return mote_fail(MOTE_EINVAL,
                          "%s: no mesh format that is known by this name or content; give a "
@@ -155,27 +140,39 @@ static mote_status fail_as_assimp_says(const char *path)
         said);
 }
 
-mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
+mote_status mote_assimp_open(const char *path, const struct aiScene **scene)
 {
-    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     char dropped = 0;
     const struct aiLogStream log = {note_dropped, &dropped};
     aiAttachLogStream(&log);
     /* We weld vertices ourselves, after checking that they are finite, and triangulate
        polygons ourselves: assimp makes wrong triangles where a face is concave and not flat. */
-    const struct aiScene *scene = aiImportFile(path, 0);
+    const struct aiScene *opened = aiImportFile(path, 0);
     aiDetachLogStream(&log);
-    if (!scene)
+    if (!opened)
         return fail_as_assimp_says(path);
     mote_status status = MOTE_OK;
-    soup->single_precision = true;
     if (dropped)
         status = mote_fail(
             MOTE_EINVAL, "%s: a face with an index out of range; use those of vertices", path);
-    else if (!scene->mRootNode || scene->mNumMeshes == 0)
+    else if (!opened->mRootNode || opened->mNumMeshes == 0)
         status = mote_fail(MOTE_EINVAL, "%s: no mesh in it; give triangles", path);
+    if (status == MOTE_OK)
+        *scene = opened;
     else
-        status = add_node(path, scene, scene->mRootNode, identity, 0, soup);
+        aiReleaseImport(opened);
+    return status;
+}
+
+mote_status mote_soup_read_assimp(const char *path, mote_soup *soup)
+{
+    const mote_affine identity = mote_affine_identity();
+    const struct aiScene *scene = NULL;
+    mote_status status = mote_assimp_open(path, &scene);
+    if (status != MOTE_OK)
+        return status;
+    soup->single_precision = true;
+    status = add_node(path, scene, scene->mRootNode, &identity, 0, soup);
     if (status == MOTE_OK && soup->triangle_count == 0)
         status = mote_fail(MOTE_EINVAL, "%s: no face in it; give triangles", path);
     aiReleaseImport(scene);

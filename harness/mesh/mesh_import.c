@@ -1,9 +1,9 @@
 #include "harness/mesh/mesh_import.h"
 
-#include "harness/process/child.h"
 #include "harness/base/file.h"
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
+#include "harness/mesh/import_child.h"
 #include "harness/mesh/mesh_soup.h"
 
 #include <errno.h>
@@ -103,10 +103,15 @@ static void crash_for_good(void)
         (void)signal(signals[i], SIG_DFL);
 }
 
-static mote_status import_in_child(void *context, int output)
+void mote_import_begin_child(void)
 {
     silence();
     crash_for_good();
+}
+
+static mote_status import_in_child(void *context, int output)
+{
+    mote_import_begin_child();
     mote_soup soup = {0};
     header head;
     memset(&head, 0, sizeof head);
@@ -135,6 +140,11 @@ static bool is_strict;
 void mote_mesh_import_strictly(void)
 {
     is_strict = true;
+}
+
+bool mote_import_is_strict(void)
+{
+    return is_strict;
 }
 
 mote_status mote_import_refuse_split(const char *path, const mote_import *import)
@@ -205,33 +215,41 @@ static mote_status make_mesh(const char *path, const char *data, size_t size, mo
     return status;
 }
 
-mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import)
+mote_status mote_import_run_child(const char *path, mote_child_work work, char **output,
+                                  size_t *size)
 {
     struct stat info;
     if (stat(path, &info) != 0)
         return mote_fail(MOTE_EIO, "%s: %s; name a mesh file", path, strerror(errno));
     if (!S_ISREG(info.st_mode))
         return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a mesh file", path);
-    const size_t size = (size_t)info.st_size;
-    if (size > FILE_LIMIT)
-        return mote_fail(MOTE_EINVAL, "%s: %zu bytes; at most %zu are read", path, size,
+    const size_t bytes = (size_t)info.st_size;
+    if (bytes > FILE_LIMIT)
+        return mote_fail(MOTE_EINVAL, "%s: %zu bytes; at most %zu are read", path, bytes,
                          FILE_LIMIT);
-    const mote_child_limits limits = {.seconds = SECONDS + (double)size / 8e6,
-                                      .memory_bytes = MEMORY_BYTES + 60 * size,
-                                      .output_bytes = MEMORY_BYTES + 60 * size,
+    const mote_child_limits limits = {.seconds = SECONDS + (double)bytes / 8e6,
+                                      .memory_bytes = MEMORY_BYTES + 60 * bytes,
+                                      .output_bytes = MEMORY_BYTES + 60 * bytes,
                                       .confined = true};
-    char *output = NULL, *reader = mote_format("%s: the reader of this format", path);
-    size_t got = 0;
+    char *reader = mote_format("%s: the reader of this format", path);
     /* The child only reads the name. */
     mote_status status =
-        mote_child_run(reader, import_in_child, (void *)(uintptr_t)path, limits, &output, &got);
-    if (status == MOTE_OK)
-        status = make_mesh(path, output, got, mesh, import);
-    else if (strncmp(mote_error_text(), reader, strlen(reader)) == 0)
+        mote_child_run(reader, work, (void *)(uintptr_t)path, limits, output, size);
+    if (status != MOTE_OK && strncmp(mote_error_text(), reader, strlen(reader)) == 0)
         status = mote_fail(status, "%s; give %s", mote_error_text(),
                            is_read_by_us(path) ? "triangles, or fewer of them"
                                                : "the mesh in OBJ or OFF");
-    free(output);
     free(reader);
+    return status;
+}
+
+mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import)
+{
+    char *output = NULL;
+    size_t size = 0;
+    mote_status status = mote_import_run_child(path, import_in_child, &output, &size);
+    if (status == MOTE_OK)
+        status = make_mesh(path, output, size, mesh, import);
+    free(output);
     return status;
 }

@@ -83,6 +83,7 @@ void mote_soup_free(mote_soup *soup)
     free(soup->xyz);
     free(soup->indices);
     free(soup->lines);
+    free(soup->kind);
     *soup = (mote_soup){0};
 }
 
@@ -104,14 +105,21 @@ static bool same_place(const double *a, const double *b)
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* map[v]: the first vertex at the place of v. slots: a power of two, all UINT32_MAX. */
+static bool same_kind(const mote_soup *soup, uint32_t a, uint32_t b)
+{
+    return !soup->kind || soup->kind[a] == soup->kind[b];
+}
+
+/* map[v]: the first vertex at the place of v that is of its kind. slots: a power of two, all
+ * UINT32_MAX. */
 static void find_first(const mote_soup *soup, uint32_t *slots, size_t slot_count, uint32_t *map)
 {
     for (uint32_t v = 0; v < soup->vertex_count; ++v) {
         const double *place = soup->xyz + (size_t)3 * v;
         size_t slot = hash_place(place) & (slot_count - 1);
         while (slots[slot] != UINT32_MAX &&
-               !same_place(soup->xyz + (size_t)3 * slots[slot], place))
+               !(same_kind(soup, slots[slot], v) &&
+                 same_place(soup->xyz + (size_t)3 * slots[slot], place)))
             slot = (slot + 1) & (slot_count - 1);
         if (slots[slot] == UINT32_MAX)
             slots[slot] = v;
@@ -171,6 +179,8 @@ void mote_soup_compact(mote_soup *soup)
         if (place[v] == UINT32_MAX)
             continue;
         memmove(soup->xyz + (size_t)3 * kept, soup->xyz + 3 * v, 3 * sizeof *soup->xyz);
+        if (soup->kind)
+            soup->kind[kept] = soup->kind[v];
         place[v] = kept++;
     }
     for (size_t i = 0; i < 3 * soup->triangle_count; ++i)

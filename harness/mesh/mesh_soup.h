@@ -13,6 +13,7 @@ typedef struct mote_soup {
     uint32_t *indices; /* [3 * triangle_count] */
     uint32_t *lines;   /* [triangle_count] of the file; 0: unknown */
     uint32_t line;     /* of the triangles that are added next */
+    uint32_t *kind;    /* [vertex_count], or NULL; vertices of different kinds stay apart */
     size_t vertex_count, triangle_count;
     size_t vertex_capacity, index_capacity, line_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */
@@ -31,7 +32,7 @@ void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c)
 mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count);
 void mote_soup_free(mote_soup *soup);
 
-/* Merges vertices with equal coordinates, and leaves out the faces that collapse.
+/* Merges vertices with equal coordinates and kinds, and leaves out the faces that collapse.
    Expected cost O(v + t). */
 void mote_soup_weld(mote_soup *soup);
 

@@ -392,11 +392,15 @@ static void apply(splitter *s, mote_split *split)
         tell_edge(s, &s->edges[e], split);
     soup->xyz =
         mote_reserve(soup->xyz, s->vertex_count, &soup->vertex_capacity, 3 * sizeof *soup->xyz);
+    if (soup->kind)
+        soup->kind = mote_resize(soup->kind, s->vertex_count, sizeof *soup->kind);
     soup->vertex_count = s->vertex_count;
     for (size_t c = 0; c < 3 * soup->triangle_count; ++c) {
         if (s->vertex[c] >= before)
             memcpy(soup->xyz + (size_t)3 * s->vertex[c],
                    soup->xyz + (size_t)3 * soup->indices[c], 3 * sizeof *soup->xyz);
+        if (s->vertex[c] >= before && soup->kind)
+            soup->kind[s->vertex[c]] = soup->kind[soup->indices[c]];
         soup->indices[c] = s->vertex[c];
     }
     split->edges = s->edge_count;

@@ -59,7 +59,7 @@ static const library libraries[] = {
     {"ode/", {"baselines/ode.c"}},
     {"btBullet", {"baselines/bullet_"}},
     {"BulletCollision", {"baselines/bullet_"}},
-    {"assimp/", {"harness/mesh/mesh_assimp.c"}},
+    {"assimp/", {"harness/mesh/mesh_assimp", "harness/mesh/character_"}},
 };
 
 /* An include line: both names are from the root; of another library: what stands in the line.

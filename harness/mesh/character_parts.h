@@ -1,0 +1,56 @@
+/* The steps from a file to a character; used by the importer and its tests only. */
+#ifndef MOTE_HARNESS_CHARACTER_PARTS_H
+#define MOTE_HARNESS_CHARACTER_PARTS_H
+
+#include "harness/mesh/character_data.h"
+#include "harness/mesh/mesh_soup.h"
+
+/* A character on its way: its triangles are in soup, and start, bone, weight, shift_start,
+   target and shift are those of the soup's vertices. made.mesh is NULL. Zero-initialise. */
+typedef struct mote_character_draft {
+    mote_soup soup;
+    mote_character made;
+    mote_character_import import;
+} mote_character_draft;
+
+void mote_character_draft_free(mote_character_draft *draft);
+
+/* Frees start, bone, weight, shift_start, target and shift. */
+void mote_character_free_arrays(mote_character *character);
+
+/* Reads meshes, nodes, bones, weights, morph targets and clips by assimp. Vertices are as many
+   as in the file, their weights as given. Call it in a child process with limits. */
+mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft);
+
+/* A node by the name that the file gives it. */
+typedef struct mote_node_name {
+    const char *name;
+    uint32_t node;
+} mote_node_name;
+
+/* The first node of a name, MOTE_RIG_NONE where there is none. names[count] are sorted. */
+uint32_t mote_node_find(const mote_node_name *names, size_t count, const char *name);
+
+/* The clips of a file's animations, added to a rig whose nodes, as many as names, and targets
+   are known: a part of the above. */
+struct aiScene;
+void mote_character_read_clips(const struct aiScene *scene, const mote_node_name *names,
+                               mote_rig *rig);
+
+/* Makes weights add up to 1, welds vertices at one place that move alike, cuts edges of more
+   than two faces apart, and notes what was done. MOTE_EINVAL: a weight that is negative or not
+   finite. */
+mote_status mote_character_weld(const char *path, mote_character_draft *draft);
+
+/* Sends a draft to the parent process; takes it from what was sent. What arrives is checked as
+   if it came from a stranger: MOTE_EIO where it is not a draft. Nothing in a draft that was
+   taken leads outside its arrays. */
+mote_status mote_character_put(int output, const mote_character_draft *draft);
+mote_status mote_character_take(const char *path, const char *data, size_t size,
+                                mote_character_draft *draft);
+
+/* What a user's file may have wrong: numbers that are not finite, times that fall, rotations of
+   no length. MOTE_EINVAL, naming node, clip and key. */
+mote_status mote_character_check_rig(const char *path, const mote_rig *rig);
+
+#endif
