@@ -30,8 +30,7 @@ static mote_status two_create(mote_engine *e)
     if (mote_method_choice_is_of_scenes(&e->choice))
         return mote_fail(
             MOTE_EINVAL,
-            "%s: refit, threads and ahead are keys for more than two bodies; leave them out",
-            e->choice.text);
+            "refit, threads and ahead are keys for more than two bodies; leave them out");
     e->now.count = 1;
     mote_pair_list_make_room(&e->now, 1);
     e->now.pairs[0] = (mote_near_pair){.body = {0, 1}};

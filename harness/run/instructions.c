@@ -18,14 +18,28 @@ bool mote_instructions_possible(void)
     return mote_spawn(argv, NULL, text, sizeof text) == MOTE_OK;
 }
 
+/* callgrind counts in one thread. */
+static mote_status check_threads(const mote_method_choice *choice)
+{
+    if (choice->scene[MOTE_SCENE_THREADS] > 1 || choice->scene[MOTE_SCENE_AHEAD] > 0)
+        return mote_fail(MOTE_EUNSUPPORTED,
+                         "%s: instructions are counted in one thread; leave out threads= and "
+                         "ahead=",
+                         choice->text);
+    return MOTE_OK;
+}
+
 mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t last,
                                   const mote_method_choice *choice)
 {
     mote_subject subject = {0};
-    mote_status status = mote_scenario_load(scenario, &subject.scenario);
-    if (status == MOTE_OK && last > subject.scenario->frames)
+    mote_status status = check_threads(choice);
+    if (status == MOTE_OK)
+        status = mote_subject_open(scenario, &subject);
+    const uint32_t frames = status == MOTE_OK ? mote_subject_facts_of(&subject).frames : 0;
+    if (status == MOTE_OK && last > frames)
         status = mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u", first,
-                           last, scenario, subject.scenario->frames);
+                           last, scenario, frames);
     if (status == MOTE_OK) {
         const mote_cell cell = {.subject = &subject,
                                 .choice = choice,
@@ -39,7 +53,7 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
         if (status == MOTE_OK)
             mote_cell_result_free(&result);
     }
-    mote_scenario_destroy(subject.scenario);
+    mote_subject_free(&subject);
     return status;
 }
 
@@ -149,8 +163,9 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
         put_row(rows,
                 json_pack("{s:s, s:s, s:s, s:o, s:[i,i], s:I, s:f}", "scenario", scenario,
                           "method", choice->method->name, "label", choice->text, "parameters",
-                          mote_choice_json(choice, false), "frames", (int)first, (int)last,
-                          "instructions", count, "per_frame", per_frame));
+                          mote_choice_json(choice, mote_bodies_is(scenario)), "frames",
+                          (int)first, (int)last, "instructions", count, "per_frame",
+                          per_frame));
     }
     if (status == MOTE_OK)
         return mote_record_json(directory, "instructions.json",

@@ -260,8 +260,8 @@ mote_status mote_scenario_load(const char *name_or_path, mote_scenario **scenari
     mote_json root = mote_json_root(&file);
     mote_json bodies = mote_json_member(&root, "bodies");
     if (mote_scenario_of_bodies(&file))
-        status = mote_json_fail(&bodies, "several bodies, where two are needed; `mote run`, "
-                                         "`mote simulate` and `mote check` take several");
+        status = mote_json_fail(&bodies, "several bodies, where two are needed; `mote list` "
+                                         "names scenarios, most of them of two");
     else
         status = mote_scenario_read(&file, scenario);
     mote_json_close(&file);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # tune.sh MOTE PROFILE OUT: every useful configuration of every baseline on every scenario of the
-# paper, into one run directory; ends with the best of each. A run that was stopped goes on where
+# paper and on a scene of many bodies, into one run directory; ends with the best of each. A run that was stopped goes on where
 # it stopped. quick: 100 frames of each scenario, once; full: all frames, three times.
 set -eu
 mote=$1
@@ -22,6 +22,7 @@ frames() {
     [ "$profile" = quick ] || return 0
     case $1 in
     ww) echo --frames 1201-1300 ;;
+    letters) echo --frames 1-10 ;;
     *) echo --frames 201-300 ;;
     esac
 }
@@ -53,6 +54,11 @@ for scenario in ww tt mv; do
             --method 'fcl-kios:update=none,call=node|api'
     fi
 done
+
+# shellcheck disable=SC2046
+measure letters --replicates $replicates $(frames letters) --method certified \
+    --method 'fcl-aabb:refit=near|every' --method 'aabb-tree:refit=near|every' \
+    --method 'particle:n=3|8|16' --method 'particle-paper:n=3|8|16,refine=no|near,start=random|fps'
 
 "$mote" tune "$out"
 exit $failed

@@ -516,9 +516,7 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
         {"run " FILE_NAME " --pairs some", "expected all|contacts", 2},
         {"check " FILE_NAME, "6 bodies, 40 frames, ", 0},
         {"check " FILE_NAME " --json", "\"near_pairs\": ", 0},
-        {"export " FILE_NAME " --frame 1 --out "
-         "x",
-         "several bodies", 4},
+        {"approach " FILE_NAME " --gaps 1:0.1 -o x.json", "several bodies", 4},
         {"run "
          "none.json --method certified",
          "none.json", 4},
