@@ -58,6 +58,22 @@ json_t *mote_json_number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
+double mote_number_of(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+double mote_number_at(const json_t *object, const char *key)
+{
+    return mote_number_of(json_object_get(object, key));
+}
+
+const char *mote_text_at(const json_t *object, const char *key)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : "";
+}
+
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out)
 {
     if (!object)

@@ -22,6 +22,12 @@ mote_status mote_record_read_json(const char *directory, const char *name, json_
 /* A real, or null where it is not finite. */
 json_t *mote_json_number(double value);
 
+/* The number that a JSON value is, or that object[key] is; NaN where it is none. The text
+   object[key]; "" where it is none. */
+double mote_number_of(const json_t *value);
+double mote_number_at(const json_t *object, const char *key);
+const char *mote_text_at(const json_t *object, const char *key);
+
 /* Prints object with jansson's flags and a line end, and decrefs it; NULL is MOTE_EINVAL as
    above. The caller checks out for errors. */
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out);

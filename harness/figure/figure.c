@@ -23,19 +23,14 @@ const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER])
 
 static bool usable(const mote_summary_row *row, const char *scenario)
 {
-    return row->status == MOTE_CELL_OK && row->jobs == 1 &&
-           strcmp(row->first->scenario, scenario) == 0 &&
-           strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
+    return row->status == MOTE_CELL_OK && row->times_comparable &&
+           strcmp(row->scenario, scenario) == 0 &&
+           strcmp(row->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0;
 }
 
-/* The first and last frame, 0 for what is no frame's number. */
-static void frame_range(const mote_summary_row *row, json_int_t range[2])
+static int64_t frames_asked(const mote_summary_row *row)
 {
-    const json_t *frames = json_object_get(row->first->json, "frames");
-    for (size_t i = 0; i < 2; ++i) {
-        const json_int_t number = json_integer_value(json_array_get(frames, i));
-        range[i] = number >= 1 && number <= UINT32_MAX ? number : 0;
-    }
+    return (int64_t)row->frame_range[1] - row->frame_range[0];
 }
 
 bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
@@ -43,21 +38,15 @@ bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
 {
     if (!usable(row, scenario))
         return false;
-    json_int_t widest[2] = {0, -1}, range[2];
-    const mote_summary_row *first = NULL;
+    const mote_summary_row *widest = NULL;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (!usable(other, scenario))
             continue;
-        frame_range(other, range);
-        if (range[1] - range[0] > widest[1] - widest[0]) {
-            memcpy(widest, range, sizeof widest);
-            first = other;
-        }
+        if (!widest || frames_asked(other) > frames_asked(widest))
+            widest = other;
     }
-    frame_range(row, range);
-    return first && range[0] == widest[0] && range[1] == widest[1] &&
-           mote_stored_by_scene(row->first, first->first) == 0;
+    return widest && mote_summary_same_block(row, widest);
 }
 
 const mote_summary_row *mote_figure_row(const mote_summary *summary, const char *scenario,
@@ -144,8 +133,5 @@ double mote_figure_length(const mote_summary_row *row)
 
 double mote_figure_triangles(const mote_summary_row *row)
 {
-    const json_t *triangles = json_object_get(row->first->json, "triangles");
-    const double a = json_number_value(json_array_get(triangles, 0));
-    const double b = json_number_value(json_array_get(triangles, 1));
-    return a > b ? a : b;
+    return fmax(row->triangles[0], row->triangles[1]);
 }

@@ -2,7 +2,7 @@
 #include "harness/figure/figure.h"
 
 #include "harness/base/memory.h"
-#include "harness/base/record.h"
+#include "harness/summary/summary_json.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,93 +19,70 @@ enum {
     METHODS = sizeof methods / sizeof methods[0]
 };
 
-static bool has_scenes(const json_t *root)
+static bool has_scenes(const mote_summary *summary)
 {
-    size_t i;
-    const json_t *row;
-    MOTE_EACH(i, row, json_object_get(root, "rows"))
-    {
-        if (json_object_get(row, "bodies"))
-            return true;
-    }
-    return false;
+    size_t i = 0;
+    while (i < summary->count && summary->rows[i].bodies == 0)
+        ++i;
+    return i < summary->count;
 }
 
-/* Reads summary.json of the run where it has more than two bodies, else of ../bodies; false,
-   with a text in missing, where there is none. */
-static bool read_rows(const mote_figure_run *run, mote_figure *figure, json_t **root)
+/* The summary of the run where it has more than two bodies, else of ../bodies, read into
+ *other, which the caller frees; NULL, with a text in missing, where there is none. */
+static const mote_summary *find_summary(const mote_figure_run *run, mote_figure *figure,
+                                        mote_summary *other)
 {
     static const char *const names[] = {"summary.json", "../bodies/summary.json"};
+    if (has_scenes(run->summary))
+        return run->summary;
     for (size_t k = 0; k < 2; ++k) {
         char *path = mote_format("%s/%s", run->directory, names[k]);
         const bool there = access(path, F_OK) == 0;
         free(path);
         if (!there)
             continue;
-        if (mote_record_read_json(run->directory, names[k], root) != MOTE_OK) {
+        if (mote_summary_read(run->directory, names[k], other) != MOTE_OK) {
             mote_text_add(&figure->missing, "%s", mote_error_text());
-            return false;
+            return NULL;
         }
-        if (has_scenes(*root))
-            return true;
-        json_decref(*root);
-        *root = NULL;
+        if (has_scenes(other))
+            return other;
+        mote_summary_free(other);
     }
     mote_text_add(&figure->missing, "rows of more than two bodies in summary.json, here or in "
                                     "../bodies; `make bodies` measures them");
-    return false;
-}
-
-static double number_of(const json_t *row, const char *key)
-{
-    const json_t *value = json_object_get(row, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
-static bool has_text(const json_t *row, const char *key, const char *text)
-{
-    const char *value = json_string_value(json_object_get(row, key));
-    return value && strcmp(value, text) == 0;
+    return NULL;
 }
 
 /* Whether a row is that of a method (its label), on bodies with a density, and ended well. */
-static bool is_row(const json_t *row, const char *method, double density)
+static bool is_row(const mote_summary_row *row, const char *method, double density)
 {
-    return has_text(row, "status", "ok") && has_text(row, "label", method) &&
-           fabs(number_of(row, "near_pairs_wanted") - density) < 1e-9;
+    return row->status == MOTE_CELL_OK && strcmp(row->label, method) == 0 &&
+           fabs(row->near_pairs_wanted - density) < 1e-9;
 }
 
-/* Mean over all frames but the first. */
-static double mean_of(const json_t *row)
-{
-    return number_of(json_object_get(row, "active_total_ns"), "mean");
-}
-
-/* Numbers of bodies ascending; a number that is missing comes first. */
 static int by_bodies(const void *a, const void *b)
 {
-    const double x = number_of(*(const json_t *const *)a, "bodies");
-    const double y = number_of(*(const json_t *const *)b, "bodies");
-    return (x > y || (x == x && y != y)) - (x < y || (y == y && x != x));
+    const mote_summary_row *const *x = a, *const *y = b;
+    return ((*x)->bodies > (*y)->bodies) - ((*x)->bodies < (*y)->bodies);
 }
 
 /* A line: N, mean of a frame in us, MB of the process. Rows come in the order of their
    scenarios' names. Returns how many points it has. */
-static size_t add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
+static size_t add_line(const mote_summary *summary, size_t d, size_t m, mote_text *text)
 {
-    size_t i, count = 0;
-    const json_t *row;
-    const json_t **line = mote_allocate(json_array_size(rows), sizeof(const json_t *));
-    MOTE_EACH(i, row, rows)
-    {
-        if (is_row(row, methods[m], densities[d]))
-            line[count++] = row;
+    size_t count = 0;
+    const mote_summary_row **line =
+        mote_allocate(summary->count, sizeof(const mote_summary_row *));
+    for (size_t i = 0; i < summary->count; ++i) {
+        if (is_row(&summary->rows[i], methods[m], densities[d]))
+            line[count++] = &summary->rows[i];
     }
-    qsort(line, count, sizeof(const json_t *), by_bodies);
+    qsort(line, count, sizeof(const mote_summary_row *), by_bodies);
     mote_gnuplot_block(text, methods[m]);
     for (size_t k = 0; k < count; ++k)
-        mote_text_add(text, "%.0f %.6g %.6g\n", number_of(line[k], "bodies"),
-                      mean_of(line[k]) / 1e3, number_of(line[k], "rss_peak_bytes") / 1e6);
+        mote_text_add(text, "%u %.6g %.6g\n", line[k]->bodies, line[k]->active_total.mean / 1e3,
+                      line[k]->rss_peak_bytes / 1e6);
     if (count == 0)
         mote_text_add(text, "NaN NaN NaN\n");
     free(line);
@@ -113,18 +90,15 @@ static size_t add_line(const json_t *rows, size_t d, size_t m, mote_text *text)
 }
 
 /* The time of the first control over that of certified, for 1,000 bodies. */
-static void add_ratios(const json_t *rows, mote_text *caption)
+static void add_ratios(const mote_summary *summary, mote_text *caption)
 {
     for (size_t d = 0; d < DENSITIES; ++d) {
         double means[2] = {(double)NAN, (double)NAN};
-        size_t i;
-        const json_t *row;
-        MOTE_EACH(i, row, rows)
-        {
+        for (size_t i = 0; i < summary->count; ++i) {
+            const mote_summary_row *row = &summary->rows[i];
             for (int m = 0; m < 2; ++m) {
-                if (is_row(row, methods[m], densities[d]) &&
-                    fabs(number_of(row, "bodies") - 1000) < 0.5)
-                    means[m] = mean_of(row);
+                if (row->bodies == 1000 && is_row(row, methods[m], densities[d]))
+                    means[m] = row->active_total.mean; /* over all frames but the first */
             }
         }
         const double ratio = means[1] / means[0];
@@ -140,22 +114,22 @@ static void add_ratios(const json_t *rows, mote_text *caption)
 mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
-    json_t *root = NULL;
+    mote_summary other = {0};
     (void)scenario;
-    if (!read_rows(run, figure, &root))
+    const mote_summary *summary = find_summary(run, figure, &other);
+    if (!summary)
         return MOTE_OK;
-    const json_t *rows = json_object_get(root, "rows");
     size_t points = 0;
     for (size_t d = 0; d < DENSITIES; ++d) {
         for (size_t m = 0; m < METHODS; ++m)
-            points += add_line(rows, d, m, &figure->data);
+            points += add_line(summary, d, m, &figure->data);
     }
     if (points == 0) {
         mote_text_add(&figure->missing, "rows of more than two bodies with \"near_pairs\" of "
                                         "0.1, 1 or 4; `make bodies` measures them");
         free(figure->data.data);
         figure->data = (mote_text){0};
-        json_decref(root);
+        mote_summary_free(&other);
         return MOTE_OK;
     }
     mote_text_add(&figure->caption,
@@ -164,7 +138,7 @@ mote_status mote_figure_bodies(const mote_figure_run *run, const char *scenario,
                   "certified ran, letters of four shapes. Points: means over the frames but "
                   "the first, which finds all pairs anew. fcl-aabb and aabb-tree refit the "
                   "bodies that have a near pair; refit=every refits all.");
-    add_ratios(rows, &figure->caption);
-    json_decref(root);
+    add_ratios(summary, &figure->caption);
+    mote_summary_free(&other);
     return MOTE_OK;
 }

@@ -1,6 +1,8 @@
 /* Figures of tracked particles: what each ingredient adds (13), and the front over its
    parameters (14). Their rows are measured by harness/scripts/ingredients.sh. */
 #include "harness/figure/figure.h"
+
+#include "harness/base/record.h"
 #include "harness/figure/figure_room.h"
 
 #include <stdlib.h>
@@ -101,7 +103,7 @@ static void add_failures(const mote_summary *summary, mote_text *caption)
     int count = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        const char *scenario = row->first->scenario;
+        const char *scenario = row->scenario;
         if (row != mote_figure_row(summary, scenario, WHOLE) || !mote_figure_has_error(row) ||
             !(percent_wrong(row) >= LEAST_PERCENT || row->missed > 0))
             continue;
@@ -210,9 +212,8 @@ static int open_front(const mote_summary *summary, const char *scenario, front *
 /* The value of a series' parameter. */
 static double value_of(const mote_summary_row *row, const char *key)
 {
-    const json_t *parameters = json_object_get(row->first->json, "parameters");
-    const json_t *value = json_object_get(parameters, key);
-    return json_is_number(value) ? json_number_value(value) : 0; /* launch=auto */
+    const double value = mote_number_at(row->parameters, key);
+    return value == value ? value : 0; /* launch=auto */
 }
 
 /* Lines of a series: its value or nothing, time in us and its interval, percent wrong, the

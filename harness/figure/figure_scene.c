@@ -23,7 +23,7 @@
 
 mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scene *scene)
 {
-    const char *name = row->first->scenario;
+    const char *name = row->scenario;
     uint64_t fingerprint;
     char text[20];
     memset(scene, 0, sizeof *scene);

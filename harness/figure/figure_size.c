@@ -32,7 +32,7 @@ typedef struct size_series {
 static void put_row(const mote_summary_row *row, size_series *series)
 {
     for (size_t i = 0; i < series->count; ++i) {
-        if (strcmp(series->rows[i]->first->scenario, row->first->scenario) != 0)
+        if (strcmp(series->rows[i]->scenario, row->scenario) != 0)
             continue;
         if (row->frames < series->rows[i]->frames)
             series->rows[i] = row;
@@ -58,10 +58,10 @@ static size_t find_series(const mote_summary *summary, size_series series[SERIES
             is_new = is_new && strcmp(series[k].label, row->label) != 0;
         for (size_t k = 0; k < summary->count && is_new; ++k) {
             const mote_summary_row *other = &summary->rows[k];
-            if (other->status == MOTE_CELL_OK && other->jobs == 1 &&
-                is_size(other->first->scenario) && strcmp(other->label, made.label) == 0 &&
-                strcmp(other->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
-                strcmp(other->first->machine, row->first->machine) == 0)
+            if (other->status == MOTE_CELL_OK && other->times_comparable &&
+                is_size(other->scenario) && strcmp(other->label, made.label) == 0 &&
+                strcmp(other->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+                strcmp(other->machine, row->machine) == 0)
                 put_row(other, &made);
         }
         if (made.count >= SIZES_LEAST)
@@ -130,9 +130,7 @@ mote_status mote_figure_size_time(const mote_figure_run *run, const char *scenar
 
 static double vertices_of(const mote_summary_row *row)
 {
-    const json_t *vertices = json_object_get(row->first->json, "vertices");
-    return json_number_value(json_array_get(vertices, 0)) +
-           json_number_value(json_array_get(vertices, 1));
+    return (double)row->vertices[0] + (double)row->vertices[1];
 }
 
 mote_status mote_figure_size_bytes(const mote_figure_run *run, const char *scenario,

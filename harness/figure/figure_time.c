@@ -138,7 +138,7 @@ static int by_total(const void *a, const void *b)
 /* The n that represents a method: the paper's own for its method. */
 static double usual_n(const mote_summary_row *row)
 {
-    return strcmp(row->first->method, "particle-paper") == 0 ? 5 : 8;
+    return strcmp(row->method, "particle-paper") == 0 ? 5 : 8;
 }
 
 static size_t collect_shares(const mote_summary *summary, const char *scenario,
@@ -265,9 +265,9 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
     for (size_t i = 0; i < sizeof series / sizeof series[0]; ++i) {
         const mote_summary_row *row =
             mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
-        if (!row || row->ratio_best.to == SIZE_MAX || row->first->frames == 0)
+        if (!row || !row->ratio_best.to || row->first->frames == 0)
             continue;
-        const mote_summary_row *best = &run->summary->rows[row->ratio_best.to];
+        const mote_summary_row *best = row->ratio_best.to;
         if (figure->caption.size == 0)
             mote_text_add(
                 &figure->caption,

@@ -139,23 +139,21 @@ static char *file_name(const figure_kind *kind, const char *scenario)
 static void make_heading(const drawing *d, const figure_kind *kind, const char *scenario,
                          char *heading, size_t size)
 {
-    const json_t *triangles = NULL;
     const mote_summary *summary = d->run.summary;
-    uint32_t bodies = 0;
-    for (size_t i = 0; scenario && i < summary->count && !triangles; ++i) {
-        if (strcmp(summary->rows[i].first->scenario, scenario) != 0)
-            continue;
-        triangles = json_object_get(summary->rows[i].first->json, "triangles");
-        bodies = summary->rows[i].first->bodies;
+    const mote_summary_row *row = NULL;
+    for (size_t i = 0; scenario && i < summary->count && !row; ++i)
+        row = strcmp(summary->rows[i].scenario, scenario) == 0 ? &summary->rows[i] : NULL;
+    if (!row) {
+        (void)snprintf(heading, size, "%s", scenario ? scenario : kind->title);
+        return;
     }
     char a[MOTE_FIGURE_NUMBER], b[MOTE_FIGURE_NUMBER];
-    (void)mote_figure_number(json_number_value(json_array_get(triangles, 0)), a);
-    (void)mote_figure_number(json_number_value(json_array_get(triangles, 1)), b);
-    if (!triangles)
-        (void)snprintf(heading, size, "%s", scenario ? scenario : kind->title);
-    else if (bodies > 0)
-        (void)snprintf(heading, size, "%s, %s bodies", scenario, mote_figure_number(bodies, a));
-    else if (strcmp(a, b) == 0)
+    (void)mote_figure_number(row->triangles[0], a);
+    (void)mote_figure_number(row->triangles[1], b);
+    if (row->bodies > 0)
+        (void)snprintf(heading, size, "%s, %s bodies", scenario,
+                       mote_figure_number(row->bodies, a));
+    else if (row->triangles[0] == row->triangles[1])
         (void)snprintf(heading, size, "%s, %s triangles each", scenario, a);
     else
         (void)snprintf(heading, size, "%s, %s and %s triangles", scenario, a, b);
@@ -275,7 +273,7 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
 static bool first_of_scenario(const mote_summary *summary, size_t index)
 {
     for (size_t i = 0; i < index; ++i) {
-        if (strcmp(summary->rows[i].first->scenario, summary->rows[index].first->scenario) == 0)
+        if (strcmp(summary->rows[i].scenario, summary->rows[index].scenario) == 0)
             return false;
     }
     return true;
@@ -291,13 +289,12 @@ static mote_status draw_each(drawing *d, const figure_kind *kind)
     for (size_t i = 0; i < summary->count && status == MOTE_OK; ++i) {
         if (!first_of_scenario(summary, i))
             continue;
-        status = draw(d, kind, summary->rows[i].first->scenario, true, &done);
+        status = draw(d, kind, summary->rows[i].scenario, true, &done);
         any = any || done;
     }
     if (status == MOTE_OK && !any)
-        status =
-            draw(d, kind, summary->count ? summary->rows[0].first->scenario : "any scenario",
-                 false, &done);
+        status = draw(d, kind, summary->count ? summary->rows[0].scenario : "any scenario",
+                      false, &done);
     return status;
 }
 

@@ -109,7 +109,7 @@ static mote_status check_frames(const mote_replay_scene *scene)
 static bool is_shown(const mote_summary_row *row)
 {
     return row->status == MOTE_CELL_OK && row->first->frames > 0 &&
-           strcmp(row->first->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+           strcmp(row->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
            !strstr(row->label, "positions=given");
 }
 
@@ -211,12 +211,12 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
     mote_replay_scene made = {.notes = json_array()};
     mote_status status = MOTE_OK;
     for (size_t i = first; i < end && status == MOTE_OK; ++i) {
-        if (is_shown(mote_report_cells(report, i)))
-            status = add_track(report, mote_report_cells(report, i), &made);
+        if (is_shown(mote_report_row(report, i)))
+            status = add_track(report, mote_report_row(report, i), &made);
     }
     if (status == MOTE_OK && made.count == 0)
         status = mote_fail(MOTE_EUNSUPPORTED, "%s: no answers with hot caches",
-                           mote_report_cells(report, first)->first->scenario);
+                           mote_report_row(report, first)->scenario);
     if (status == MOTE_OK)
         status = find_scenario(report, made.tracks[0].cell, &made.scenario);
     if (status == MOTE_OK)
@@ -251,9 +251,9 @@ void mote_replay_free(mote_replay_scene *scene)
 /* Whether this is the first row of a block of hot caches. */
 static bool starts_block(const mote_report *report, size_t i)
 {
-    const json_t *row = mote_report_row(report, i);
-    return strcmp(mote_report_text(row, "cache"), mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
-           (i == 0 || !mote_report_same_block(row, mote_report_row(report, i - 1)));
+    const mote_summary_row *row = mote_report_row(report, i);
+    return strcmp(row->cache, mote_cache_names[MOTE_CACHE_HOT]) == 0 &&
+           (i == 0 || !mote_summary_same_block(row, mote_report_row(report, i - 1)));
 }
 
 /* How many of the page's bytes are left, and for how many scenes. */
@@ -289,7 +289,7 @@ static mote_status add_scene(const mote_report *report, size_t first, share *lef
 mote_status mote_replay_json(const mote_report *report, json_t **data)
 {
     json_t *scenes = json_array(), *notes = json_array();
-    const size_t count = report->has_cells ? report->cells.count : 0;
+    const size_t count = report->has_cells ? report->summary.count : 0;
     share left = {MOTE_REPLAY_PAGE_BYTES, 0};
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < count; ++i)

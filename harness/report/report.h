@@ -23,10 +23,9 @@ typedef struct mote_report {
     const char *directory; /* borrowed */
     char *name;            /* the last part of the directory's path */
     json_t *manifest;      /* manifest.json */
-    json_t *summary;       /* as summary.json; made from the cells where there are any */
-    bool has_cells;
-    mote_summary cells; /* where has_cells: row i is row i of summary */
-    size_t *order;      /* [rows of summary], as shown: see mote_report_sort */
+    mote_summary summary;  /* made from the cells, or else read from summary.json */
+    bool has_summary, has_cells;
+    size_t *order; /* [rows of summary], as shown: see mote_report_sort */
     json_t *claims, *requirements;
     char *claims_folder; /* where they are, relative to the run: "" or "../claims/" */
     mote_report_figure *figures;

@@ -5,6 +5,8 @@
 #include "harness/report/report_facts.h"
 #include "harness/report/report_rows.h"
 #include "harness/summary/column_docs.h"
+#include "harness/summary/summary_json.h"
+#include "harness/summary/table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -49,12 +51,12 @@ static json_t *column_data(const mote_column *column)
     return data;
 }
 
-static json_t *notes_data(const json_t *row)
+static json_t *notes_data(const mote_summary_row *row)
 {
     json_t *notes = json_array();
-    char note[MOTE_REPORT_NOTE];
-    for (size_t i = 0; i < MOTE_REPORT_NOTES; ++i) {
-        if (mote_report_note(row, i, note))
+    char note[MOTE_ROW_NOTE];
+    for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
+        if (mote_table_note(row, i, note))
             append(notes, json_string(note));
     }
     return notes;
@@ -63,7 +65,7 @@ static json_t *notes_data(const json_t *row)
 static json_t *cells_data(const mote_summary_row *row)
 {
     json_t *cells = json_array();
-    for (size_t r = 0; row && r < row->replicates; ++r) {
+    for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
         append(cells, json_pack("[i, s, s]", (int)cell->replicate, cell->id,
                                 mote_cell_status_names[cell->status]));
@@ -72,18 +74,14 @@ static json_t *cells_data(const mote_summary_row *row)
 }
 
 /* A row of the summary, without what no table of the page shows. */
-static json_t *row_data(const mote_report *report, size_t i)
+static json_t *row_data(const mote_summary_row *row)
 {
     static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint"};
-    const json_t *row = mote_report_row(report, i);
-    json_t *data = json_object();
-    (void)json_object_update(data, (json_t *)(uintptr_t)row);
+    json_t *data = mote_summary_row_json(row);
     for (size_t k = 0; k < sizeof unused / sizeof unused[0]; ++k)
         (void)json_object_del(data, unused[k]);
-    set(data, "scene", json_string(mote_report_scene(row))); /* also of older summaries */
     set(data, "notes", notes_data(row));
-    set(data, "stands", json_boolean(mote_report_stands_for_method(row)));
-    set(data, "cells", cells_data(mote_report_cells(report, i)));
+    set(data, "cells", cells_data(row));
     return data;
 }
 
@@ -94,24 +92,23 @@ static void set_rows(const mote_report *report, json_t *data)
     const size_t count = mote_column_view(MOTE_VIEW_REPORT, shown);
     for (size_t k = 0; k < count; ++k)
         append(columns, column_data(shown[k]));
-    for (size_t first = 0; first < mote_report_row_count(report);) {
+    for (size_t first = 0; first < report->summary.count;) {
         const size_t end = mote_report_block_end(report, first);
         const mote_report_glance glance = mote_report_block_glance(report, first, end);
         append(blocks, json_pack("{s:I, s:I, s:o, s:o}", "first", (json_int_t)first, "end",
                                  (json_int_t)end, "right", index_or_null(glance.right),
                                  "fastest", index_or_null(glance.fastest)));
         for (size_t i = first; i < end; ++i)
-            append(rows, row_data(report, i));
+            append(rows, row_data(mote_report_row(report, i)));
         first = end;
     }
     set(data, "columns", columns);
     set(data, "blocks", blocks);
     set(data, "rows", rows);
-    const double floor = mote_report_number(report->summary, NULL, "noise_floor");
-    if (floor == floor)
+    const double floor = report->summary.noise_floor;
+    if (report->has_summary && floor == floor)
         set(data, "noise_floor", json_real(floor));
-    set(data, "machines_differ",
-        json_boolean(report->has_cells && mote_summary_machines_differ(&report->cells)));
+    set(data, "machines_differ", json_boolean(mote_summary_machines_differ(&report->summary)));
 }
 
 /* The drawing of a figure, packed; an animation is linked and not shown. */

@@ -16,7 +16,7 @@ static void add_pair(json_t *list, const char *key, const char *value)
 
 static void add_sources(const mote_report *report, json_t *list)
 {
-    const char *commit = mote_report_text(report->manifest, "commit");
+    const char *commit = mote_text_at(report->manifest, "commit");
     const json_t *dirty = json_object_get(report->manifest, "dirty");
     if (!commit[0])
         return;
@@ -43,12 +43,12 @@ json_t *mote_report_machine(const mote_report *report)
                                         "libraries", "version",    "program"};
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof before / sizeof before[0]; ++i)
-        add_pair(list, before[i], mote_report_text(report->manifest, before[i]));
+        add_pair(list, before[i], mote_text_at(report->manifest, before[i]));
     add_number(report, "cores", list);
     add_sources(report, list);
     add_number(report, "seed", list);
     for (size_t i = 0; i < sizeof after / sizeof after[0]; ++i)
-        add_pair(list, after[i], mote_report_text(report->manifest, after[i]));
+        add_pair(list, after[i], mote_text_at(report->manifest, after[i]));
     return list;
 }
 
@@ -82,7 +82,7 @@ static json_t *command(const json_t *session)
     {
         add_word(&text, json_is_string(word) ? json_string_value(word) : "");
     }
-    json_t *pair = json_pack("[s,s]", mote_report_text(session, "started"), text.data);
+    json_t *pair = json_pack("[s,s]", mote_text_at(session, "started"), text.data);
     free(text.data);
     return pair;
 }
@@ -116,8 +116,8 @@ json_t *mote_report_scenarios(const mote_report *report)
         catalog.count = 0;
     json_t *list = json_array();
     const char *last = NULL;
-    for (size_t i = 0; i < mote_report_row_count(report); ++i) {
-        const char *name = mote_report_text(mote_report_row(report, i), "scenario");
+    for (size_t i = 0; i < report->summary.count; ++i) {
+        const char *name = mote_report_row(report, i)->scenario;
         if (last && strcmp(last, name) == 0)
             continue;
         last = name;
@@ -134,14 +134,14 @@ char *mote_report_subtitle(const mote_report *report)
     const size_t count = json_array_size(scenarios);
     json_decref(scenarios);
     if (report->has_cells)
-        mote_text_add(&text, "%zu cells of ", report->cells.stored.count);
+        mote_text_add(&text, "%zu cells of ", report->summary.stored.count);
     mote_text_add(&text, "%zu scenario%s", count, count == 1 ? "" : "s");
-    const char *commit = mote_report_text(report->manifest, "commit");
+    const char *commit = mote_text_at(report->manifest, "commit");
     if (commit[0])
         mote_text_add(&text, ", commit %.8s", commit);
     const json_t *sessions = json_object_get(report->manifest, "sessions");
     const json_t *session = json_array_get(sessions, json_array_size(sessions) - 1);
-    const char *started = mote_report_text(session, "started");
+    const char *started = mote_text_at(session, "started");
     if (started[0])
         mote_text_add(&text, ", %.10s", started);
     return text.data;

@@ -41,16 +41,16 @@ static void add_entry(mote_report *report, const json_t *entry)
 {
     size_t i;
     const json_t *item;
-    const char *scenario = mote_report_text(entry, "scenario");
+    const char *scenario = mote_text_at(entry, "scenario");
     MOTE_EACH(i, item, json_object_get(entry, "files"))
     {
         const char *file = json_is_string(item) ? json_string_value(item) : "";
         if (!is_drawn(file) || strchr(file, '/') || !exists(report, file))
             continue;
         char *title =
-            mote_format("Figure %.0f. %s%s%s", mote_report_number(entry, NULL, "number"),
-                        mote_report_text(entry, "title"), scenario[0] ? ": " : "", scenario);
-        add_figure(report, file, title, mote_report_text(entry, "caption"));
+            mote_format("Figure %.0f. %s%s%s", mote_number_at(entry, "number"),
+                        mote_text_at(entry, "title"), scenario[0] ? ": " : "", scenario);
+        add_figure(report, file, title, mote_text_at(entry, "caption"));
     }
 }
 

@@ -29,14 +29,22 @@ static bool exists(const char *directory, const char *name)
     return found;
 }
 
+/* Whether the run has a file; notes it where it is missing. */
+static bool is_there(mote_report *report, const char *name, const char *remedy)
+{
+    const bool there = exists(report->directory, name);
+    if (!there)
+        add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
+    return there;
+}
+
 /* Reads directory/name. A file that is missing or cannot be read is noted, and is no
    failure. */
 static void read_json(mote_report *report, const char *name, const char *remedy,
                       json_t **object)
 {
-    if (!exists(report->directory, name))
-        add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
-    else if (mote_record_read_json(report->directory, name, object) != MOTE_OK)
+    if (is_there(report, name, remedy) &&
+        mote_record_read_json(report->directory, name, object) != MOTE_OK)
         add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
 }
 
@@ -52,30 +60,39 @@ static void add_lines(mote_report *report, const char *text)
     }
 }
 
+/* The rows as they were stored. */
+static void read_summary(mote_report *report)
+{
+    static const char name[] = "summary.json";
+    if (!is_there(report, name, "`mote summarize` writes it from the cells"))
+        return;
+    report->has_summary =
+        mote_summary_read(report->directory, name, &report->summary) == MOTE_OK;
+    if (!report->has_summary)
+        add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
+}
+
 /* The rows: from the cells that can be read, or else as they were stored. */
 static void read_rows(mote_report *report)
 {
     mote_text damaged = {0};
     const bool made =
-        mote_summary_make_whole(report->directory, &damaged, &report->cells) == MOTE_OK;
+        mote_summary_make_whole(report->directory, &damaged, &report->summary) == MOTE_OK;
     if (made && damaged.size > 0)
         add_lines(report, damaged.data);
     free(damaged.data);
-    if (made && report->cells.count > 0) {
-        report->has_cells = true;
-        report->summary = mote_summary_json(&report->cells);
+    report->has_cells = report->has_summary = made && report->summary.count > 0;
+    if (report->has_cells)
         return;
-    }
     if (made) {
-        mote_summary_free(&report->cells);
+        mote_summary_free(&report->summary);
         add_text(report->missing,
                  mote_format("cells: none that can be read; `mote run --out %s` measures them",
                              report->directory));
     } else {
         add_text(report->missing, mote_format("cells: %s", mote_error_text()));
     }
-    read_json(report, "summary.json", "`mote summarize` writes it from the cells",
-              &report->summary);
+    read_summary(report);
 }
 
 /* The claims are measured by a run of their own, which `make claims` writes beside the
@@ -145,7 +162,7 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     read_rows(&made);
     mote_report_sort(&made);
     mote_report_figures(&made);
-    if (!made.summary && !made.figure_count && !exists(directory, "claims.json")) {
+    if (!made.has_summary && !made.figure_count && !exists(directory, "claims.json")) {
         mote_report_free(&made);
         return mote_fail(
             MOTE_EIO,
@@ -161,10 +178,8 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
 
 void mote_report_free(mote_report *report)
 {
-    if (report->has_cells)
-        mote_summary_free(&report->cells);
+    mote_summary_free(&report->summary);
     json_decref(report->manifest);
-    json_decref(report->summary);
     json_decref(report->claims);
     json_decref(report->requirements);
     json_decref(report->damaged);

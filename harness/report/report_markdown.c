@@ -6,6 +6,7 @@
 #include "harness/report/report_rows.h"
 #include "harness/summary/column.h"
 #include "harness/summary/dominance.h"
+#include "harness/summary/table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -112,7 +113,7 @@ static int label_width(const mote_report *report, size_t first, size_t end)
 {
     size_t width = strlen("method");
     for (size_t i = first; i < end; ++i) {
-        size_t length = strlen(mote_report_text(mote_report_row(report, i), "label"));
+        size_t length = strlen(mote_report_row(report, i)->label);
         width = length > width ? length : width;
     }
     return (int)width;
@@ -155,10 +156,9 @@ static void add_head(int width, mote_text *text)
 }
 
 /* "[1][c3-1] [2][c3-2]": the cells of row i. */
-static void add_cell_links(const mote_report *report, size_t i, mote_text *text)
+static void add_cell_links(const mote_summary_row *row, size_t i, mote_text *text)
 {
-    const mote_summary_row *row = mote_report_cells(report, i);
-    if (!row) {
+    if (!row->cells) {
         mote_text_add(text, " [summary](summary.json)");
         return;
     }
@@ -168,23 +168,23 @@ static void add_cell_links(const mote_report *report, size_t i, mote_text *text)
 }
 
 /* What else is to be known of a row, after its cells. */
-static void add_notes(const json_t *row, mote_text *text)
+static void add_notes(const mote_summary_row *row, mote_text *text)
 {
-    char note[MOTE_REPORT_NOTE];
-    for (size_t i = 0; i < MOTE_REPORT_NOTES; ++i) {
-        if (mote_report_note(row, i, note))
+    char note[MOTE_ROW_NOTE];
+    for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
+        if (mote_table_note(row, i, note))
             mote_text_add(text, "; %s", note);
     }
     mote_text_add(text, " |");
 }
 
 /* Why a row has no values, in the place of the first of them. */
-static void add_ending(const json_t *row, size_t columns, mote_text *text)
+static void add_ending(const mote_summary_row *row, size_t columns, mote_text *text)
 {
     mote_text_add(text, " ");
-    mote_escape_markdown(text, mote_report_text(row, "status"));
+    mote_escape_markdown(text, row->ending);
     mote_text_add(text, ": ");
-    mote_escape_markdown(text, mote_report_text(row, "reason"));
+    mote_escape_markdown(text, row->reason);
     for (size_t k = 0; k < columns; ++k)
         mote_text_add(text, " |");
 }
@@ -193,19 +193,19 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
 {
     const mote_column *columns[MOTE_VIEW_MAX];
     const size_t count = brief_columns(columns);
-    const json_t *row = mote_report_row(report, i);
-    const char *label = mote_report_text(row, "label");
-    const bool ok = strcmp(mote_report_text(row, "status"), "ok") == 0;
+    const mote_summary_row *row = mote_report_row(report, i);
+    const char *label = row->label;
+    const bool ok = row->status == MOTE_CELL_OK;
     char value[MOTE_NUMBER_TEXT];
     mote_text_add(text, "| ");
     mote_escape_markdown(text, label);
     mote_text_add(text, "%*s |", width - (int)strlen(label), "");
     for (size_t k = 0; ok && k < count; ++k)
-        add_field(text, columns[k]->show(mote_column_stored(columns[k], row), value),
+        add_field(text, columns[k]->show(mote_column_number(columns[k], row), value),
                   FIELD_WIDTH);
     if (!ok)
         add_ending(row, count, text);
-    add_cell_links(report, i, text);
+    add_cell_links(row, i, text);
     add_notes(row, text);
     mote_text_add(text, "\n");
 }
@@ -218,8 +218,8 @@ static void add_table(const mote_report *report, size_t first, size_t end, bool 
     const int width = label_width(report, first, end);
     bool begun = false;
     for (size_t i = first; i < end; ++i) {
-        const json_t *row = mote_report_row(report, i);
-        if (mote_report_is_given(row) != given || (!all && !mote_report_stands_for_method(row)))
+        const mote_summary_row *row = mote_report_row(report, i);
+        if (row->given != given || (!all && !row->stands_for_method))
             continue;
         if (!begun && given)
             mote_text_add(text, "\nWith positions given, where no method is charged for "
@@ -242,27 +242,26 @@ static void add_tables(const mote_report *report, size_t first, size_t end, bool
 static bool all_stand(const mote_report *report, size_t first, size_t end)
 {
     size_t i = first;
-    while (i < end && mote_report_stands_for_method(mote_report_row(report, i)))
+    while (i < end && mote_report_row(report, i)->stands_for_method)
         ++i;
     return i == end;
 }
 
 static void add_block(const mote_report *report, size_t first, size_t end, mote_text *text)
 {
-    const json_t *row = mote_report_row(report, first);
-    const json_t *triangles = json_object_get(row, "triangles");
+    const mote_summary_row *row = mote_report_row(report, first);
     char shown[2][MOTE_NUMBER_TEXT];
     mote_text_add(text, "\n### ");
-    mote_escape_markdown(text, mote_report_scene(row));
+    mote_escape_markdown(text, row->scene);
     mote_text_add(text, ", caches ");
-    mote_escape_markdown(text, mote_report_text(row, "cache"));
-    if (report->has_cells && mote_summary_machines_differ(&report->cells)) {
+    mote_escape_markdown(text, row->cache);
+    if (mote_summary_machines_differ(&report->summary)) {
         mote_text_add(text, ", on ");
-        mote_escape_markdown(text, mote_report_text(row, "machine"));
+        mote_escape_markdown(text, row->machine);
     }
     mote_text_add(text, ": %s and %s triangles\n\n",
-                  mote_show_whole(json_number_value(json_array_get(triangles, 0)), shown[0]),
-                  mote_show_whole(json_number_value(json_array_get(triangles, 1)), shown[1]));
+                  mote_show_whole(row->triangles[0], shown[0]),
+                  mote_show_whole(row->triangles[1], shown[1]));
     add_tables(report, first, end, false, text);
     if (all_stand(report, first, end))
         return;
@@ -272,7 +271,7 @@ static void add_block(const mote_report *report, size_t first, size_t end, mote_
 
 static void add_results(const mote_report *report, mote_text *text)
 {
-    const size_t count = mote_report_row_count(report);
+    const size_t count = report->summary.count;
     if (count == 0)
         return;
     mote_text_add(
@@ -315,18 +314,18 @@ static void add_figures(const mote_report *report, mote_text *text)
 static void add_claim(const mote_report *report, const json_t *claim, const char *file,
                       mote_text *text)
 {
-    const double value = mote_report_number(claim, NULL, "value");
+    const double value = mote_number_at(claim, "value");
     double interval[2];
     mote_text_add(text, "- **");
-    mote_escape_markdown(text, mote_report_text(claim, "id"));
+    mote_escape_markdown(text, mote_text_at(claim, "id"));
     mote_text_add(text, "**, ");
-    mote_escape_markdown(text, mote_report_text(claim, "verdict"));
+    mote_escape_markdown(text, mote_text_at(claim, "verdict"));
     mote_text_add(text, ": ");
-    mote_escape_markdown(text, mote_report_text(claim, "claim"));
+    mote_escape_markdown(text, mote_text_at(claim, "claim"));
     if (value == value) {
         mote_text_add(text, ". Measured: [%.4g", value);
-        mote_escape_markdown(text, mote_report_text(claim, "unit")[0] ? " " : "");
-        mote_escape_markdown(text, mote_report_text(claim, "unit"));
+        mote_escape_markdown(text, mote_text_at(claim, "unit")[0] ? " " : "");
+        mote_escape_markdown(text, mote_text_at(claim, "unit"));
         mote_text_add(text, "](%s%s)", report->claims_folder, file);
     }
     if (mote_report_interval(claim, interval))
@@ -354,8 +353,8 @@ static void add_cells(const mote_report *report, mote_text *text)
     if (!report->has_cells)
         return;
     mote_text_add(text, "\n");
-    for (size_t i = 0; i < report->cells.count; ++i) {
-        const mote_summary_row *row = mote_report_cells(report, i);
+    for (size_t i = 0; i < report->summary.count; ++i) {
+        const mote_summary_row *row = mote_report_row(report, i);
         for (size_t r = 0; r < row->replicates; ++r) {
             const mote_stored_cell *cell = &row->cells[r];
             mote_text_add(text, "[c%zu-%u]: cells/", i + 1, cell->replicate);

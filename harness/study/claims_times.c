@@ -80,9 +80,9 @@ static mote_status find_row(const mote_summary *summary, const char *scenario, m
 {
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        if (row->status == MOTE_CELL_OK && row->jobs == 1 &&
-            strcmp(row->first->scenario, scenario) == 0 &&
-            strcmp(row->first->cache, mote_cache_names[cache]) == 0 &&
+        if (row->status == MOTE_CELL_OK && row->times_comparable &&
+            strcmp(row->scenario, scenario) == 0 &&
+            strcmp(row->cache, mote_cache_names[cache]) == 0 &&
             strcmp(row->label, label) == 0) {
             *found = row;
             return MOTE_OK;

@@ -169,7 +169,7 @@ static const scene *scene_of(const mote_summary_row *row)
 {
     const double wanted = mote_stored_number(row->first, "near_pairs_wanted");
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; ++k) {
-        if (row->first->bodies == scenes[k].count &&
+        if (row->bodies == scenes[k].count &&
             fabs(wanted - strtod(scenes[k].density, NULL)) < 1e-9)
             return &scenes[k];
     }
@@ -201,7 +201,7 @@ static double wall_of(const mote_summary_row *row)
 
 static bool is_exact(const mote_summary_row *row)
 {
-    return strncmp(row->first->method, "particle", strlen("particle")) != 0;
+    return strncmp(row->method, "particle", strlen("particle")) != 0;
 }
 
 /* Adds a requirement to the list and prints it. */
@@ -229,7 +229,7 @@ static json_t *requirements(const study *s, bool *met)
         const mote_summary_row *row = &s->summary.rows[k];
         const scene *of = scene_of(row);
         failed += row->finished == 0;
-        if (row->finished > 0 && is_exact(row) && row->contacts_of == SIZE_MAX)
+        if (row->finished > 0 && is_exact(row) && !row->contacts_of)
             ++unlike;
         else if (row->finished > 0 && is_exact(row))
             differing += row->missed + row->false_contacts;
@@ -260,14 +260,13 @@ static json_t *gains(const study *s)
         const mote_summary_row *row = &s->summary.rows[k];
         const scene *of = scene_of(row);
         const mote_summary_row *one = of ? find(s, of, "certified") : NULL;
-        if (row->finished == 0 || !one || one == row ||
-            strcmp(row->first->method, "certified") != 0)
+        if (row->finished == 0 || !one || one == row || strcmp(row->method, "certified") != 0)
             continue;
         const double gain = wall_of(one) / wall_of(row);
-        (void)printf("%-8u %10s  %-30s %12.1f %12.1f %6.2f\n", row->first->bodies, of->density,
+        (void)printf("%-8u %10s  %-30s %12.1f %12.1f %6.2f\n", row->bodies, of->density,
                      row->label, wall_of(one) / 1e3, wall_of(row) / 1e3, gain);
         (void)json_array_append_new(
-            list, json_pack("{s:i, s:f, s:s, s:f, s:f, s:f}", "bodies", (int)row->first->bodies,
+            list, json_pack("{s:i, s:f, s:s, s:f, s:f, s:f}", "bodies", (int)row->bodies,
                             "near_pairs", strtod(of->density, NULL), "method", row->label,
                             "one_ns", wall_of(one), "wall_ns", wall_of(row), "gain", gain));
     }
@@ -285,36 +284,33 @@ static double column_median(const mote_summary_row *row, int column, double *wor
 }
 
 /* The time of the row that a row's contacts are compared with, over its own. */
-static double ratio_of(const study *s, const mote_summary_row *row)
+static double ratio_of(const mote_summary_row *row)
 {
-    return row->contacts_of == SIZE_MAX
-               ? MOTE_NONE
-               : mean_of(&s->summary.rows[row->contacts_of]) / mean_of(row);
+    return row->contacts_of ? mean_of(row->contacts_of) / mean_of(row) : MOTE_NONE;
 }
 
-static void add_csv_row(const study *s, const mote_summary_row *row, mote_text *text)
+static void add_csv_row(const mote_summary_row *row, mote_text *text)
 {
     double *work = mote_allocate(row->frames, sizeof *work);
-    mote_text_add(text, "%s,\"%s\",%u,", row->first->scenario, row->label, row->first->bodies);
+    mote_text_add(text, "%s,\"%s\",%u,", row->scenario, row->label, row->bodies);
     if (row->finished > 0)
         mote_text_add(
             text,
             "%.6g,%zu,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%g,",
-            row->near_pairs / row->first->bodies, row->frames, mean_of(row),
-            row->active_total.median, row->active_total.p95,
-            column_median(row, MOTE_SCENE_COLUMN_bounds_ns, work), row->deform.median,
-            row->update.median, column_median(row, MOTE_SCENE_COLUMN_broad_ns, work),
-            row->query.median, column_median(row, MOTE_SCENE_COLUMN_motion_ns, work),
-            wall_of(row), row->heap_live_bytes, row->heap_peak_bytes, row->rss_peak_bytes,
-            row->contacts);
+            row->near_pairs / row->bodies, row->frames, mean_of(row), row->active_total.median,
+            row->active_total.p95, column_median(row, MOTE_SCENE_COLUMN_bounds_ns, work),
+            row->deform.median, row->update.median,
+            column_median(row, MOTE_SCENE_COLUMN_broad_ns, work), row->query.median,
+            column_median(row, MOTE_SCENE_COLUMN_motion_ns, work), wall_of(row),
+            row->heap_live_bytes, row->heap_peak_bytes, row->rss_peak_bytes, row->contacts);
     else
         mote_text_add(text, ",,,,,,,,,,,,,,,,");
-    if (row->contacts_of != SIZE_MAX)
+    if (row->contacts_of)
         mote_text_add(text, "%g,%g,", row->missed, row->false_contacts);
     else
         mote_text_add(text, ",,");
-    if (!isnan(ratio_of(s, row)))
-        mote_text_add(text, "%.6g", ratio_of(s, row));
+    if (!isnan(ratio_of(row)))
+        mote_text_add(text, "%.6g", ratio_of(row));
     mote_text_add(text, ",%s\n", mote_cell_status_names[row->status]);
     free(work);
 }
@@ -329,7 +325,7 @@ static mote_status write_csv(const study *s)
         "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,contacts,missed,"
         "false_contacts,ratio,status\n");
     for (size_t k = 0; k < s->summary.count; ++k)
-        add_csv_row(s, &s->summary.rows[k], &text);
+        add_csv_row(&s->summary.rows[k], &text);
     return mote_record_text(s->directory, "bodies.csv", &text);
 }
 

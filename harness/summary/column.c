@@ -1,89 +1,12 @@
 #include "harness/summary/column.h"
 
-#include "harness/base/record.h"
-#include "harness/summary/column_value.h"
-#include "harness/summary/dominance.h"
-
-#include <string.h>
-
-#define DEFINE_TEXT(name, expression)                                                          \
-    static const char *name(const mote_summary *summary, const mote_summary_row *row)          \
-    {                                                                                          \
-        (void)summary;                                                                         \
-        return expression;                                                                     \
-    }
-#define DEFINE_NUMBER(name, expression)                                                        \
-    static double name(const mote_summary_row *row)                                            \
-    {                                                                                          \
-        return (double)(expression);                                                           \
-    }
-
-static const char *label_of(const mote_summary *summary, size_t index)
-{
-    return index == SIZE_MAX ? NULL : summary->rows[index].label;
-}
-
-DEFINE_TEXT(scenario, row->first->scenario)
-DEFINE_TEXT(scene, row->scene)
-DEFINE_TEXT(fingerprint, row->first->fingerprint)
-DEFINE_TEXT(cache, row->first->cache)
-DEFINE_TEXT(method, row->first->method)
-DEFINE_TEXT(label, row->label)
-DEFINE_TEXT(status, mote_cell_status_names[row->status])
-DEFINE_TEXT(machine, row->first->machine[0] ? row->first->machine : NULL)
-DEFINE_TEXT(ask, row->first->ask[0] ? row->first->ask : NULL)
-DEFINE_TEXT(reason, mote_summary_row_reason(row))
-DEFINE_TEXT(accounting, row->given ? "given" : "charged")
-DEFINE_TEXT(ratio_to, label_of(summary, row->ratio.to))
-DEFINE_TEXT(ratio_given_to, label_of(summary, row->ratio_given.to))
-DEFINE_TEXT(ratio_best_to, label_of(summary, row->ratio_best.to))
-DEFINE_TEXT(contacts_of, label_of(summary, row->contacts_of))
-DEFINE_TEXT(dominated_by, label_of(summary, row->dominated_by))
-
-DEFINE_NUMBER(stride, row->first->stride)
-DEFINE_NUMBER(seed, row->first->seed)
-DEFINE_NUMBER(frames, row->frames)
-DEFINE_NUMBER(replicates, row->finished)
-DEFINE_NUMBER(replicates_failed, row->replicates - row->finished)
-DEFINE_NUMBER(jobs, row->jobs)
-DEFINE_NUMBER(times_comparable, row->jobs == 1)
-DEFINE_NUMBER(on_front, mote_on_front(row))
-DEFINE_NUMBER(stands_for_method, row->stands_for_method)
-
-static json_t *bodies(const mote_summary_row *row)
-{
-    return row->first->bodies > 0 ? json_integer(row->first->bodies) : NULL;
-}
-
-static json_t *near_pairs(const mote_summary_row *row)
-{
-    return row->first->bodies > 0 ? mote_json_number(row->near_pairs) : NULL;
-}
-
-static json_t *frame_range(const mote_summary_row *row)
-{
-    return json_pack("[I,I]", (json_int_t)row->first->first, (json_int_t)row->first->last);
-}
-
-/* Heap over the vertices of all bodies. */
-static double heap_bytes_per_vertex(const mote_summary_row *row)
-{
-    const double total = mote_stored_number(row->first, "vertices_total");
-    if (total > 0) /* of more than two */
-        return row->heap_live_bytes / total;
-    const json_t *both = json_object_get(row->first->json, "vertices");
-    const double count =
-        json_number_value(json_array_get(both, 0)) + json_number_value(json_array_get(both, 1));
-    return count > 0 ? row->heap_live_bytes / count : MOTE_NONE;
-}
-
-#define TWO_WHOLE                                                                              \
-    "{\"type\": \"array\", \"items\": {\"type\": \"integer\", \"minimum\": 0}, "               \
-    "\"minItems\": 2, \"maxItems\": 2}"
-
 /* Arguments are initialisers, members and parts of texts.
    NOLINTBEGIN(bugprone-macro-parentheses) */
-#define AT(member) .offset = offsetof(mote_summary_row, member)
+/* Of a count that is never 0. */
+#define POSITIVE "{\"type\": \"integer\", \"minimum\": 1}"
+
+#define AT(member)                                                                             \
+    .offset = offsetof(mote_summary_row, member), .size = sizeof((mote_summary_row *)0)->member
 #define PLACE(table, report, brief)                                                            \
     {                                                                                          \
         table, report, brief                                                                   \
@@ -129,15 +52,14 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
     }
 
 /* A ratio: csv names it and csv_ends its interval; NULL: not in the CSV. */
-#define RATIO(ratio, name, reader, csv_name, csv_low, csv_high, above, says, in_report,        \
-              places)                                                                          \
+#define RATIO(ratio, name, csv_name, csv_low, csv_high, above, says, in_report, places)        \
     {.object = name,                                                                           \
      .key = "to",                                                                              \
-     .type = MOTE_COLUMN_TEXT,                                                                 \
+     .type = MOTE_COLUMN_ROW,                                                                  \
      .optional = true,                                                                         \
      .unit = "",                                                                               \
      .meaning = says,                                                                          \
-     .text = reader},                                                                          \
+     AT(ratio.to)},                                                                            \
         {.object = name,                                                                       \
          .key = "value",                                                                       \
          .csv = csv_name,                                                                      \
@@ -176,7 +98,6 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
             compared,                                                                          \
             SAME,                                                                              \
             ROUNDING,                                                                          \
-            false,                                                                             \
             false                                                                              \
         }                                                                                      \
     }
@@ -189,7 +110,6 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
             compared,                                                                          \
             SAME,                                                                              \
             0,                                                                                 \
-            false,                                                                             \
             false                                                                              \
         }                                                                                      \
     }
@@ -202,7 +122,6 @@ static double heap_bytes_per_vertex(const mote_summary_row *row)
             compared,                                                                          \
             HEAP_SHARE,                                                                        \
             0,                                                                                 \
-            false,                                                                             \
             false                                                                              \
         }                                                                                      \
     }
@@ -214,24 +133,20 @@ const mote_column mote_columns[] = {
      .quoted = true,
      .unit = "",
      .meaning = "The scenario's name",
-     .text = scenario},
+     AT(scenario)},
     {.key = "cache",
      .csv = "cache",
      .unit = "",
      .meaning = "Caches: `hot`, or `evict`, where 32 MB are walked between two frames",
-     .text = cache,
+     AT(cache),
      .schema = "{\"enum\": [\"hot\", \"evict\"]}"},
-    {.key = "method",
-     .csv = "method",
-     .unit = "",
-     .meaning = "The method's name",
-     .text = method},
+    {.key = "method", .csv = "method", .unit = "", .meaning = "The method's name", AT(method)},
     {.key = "label",
      .csv = "label",
      .quoted = true,
      .unit = "",
      .meaning = "method:key=value,... with the parameters that are not at their default",
-     .text = label},
+     AT(label)},
     {.key = "n",
      .csv = "n",
      .type = MOTE_COLUMN_REAL,
@@ -243,28 +158,28 @@ const mote_column mote_columns[] = {
      .place = PLACE(1, 0, 0)},
     {.key = "stride",
      .csv = "stride",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "frames",
      .meaning = "Every k-th frame was measured",
-     .number = stride,
-     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+     AT(stride),
+     .schema = POSITIVE},
     {.key = "frames",
      .csv = "frames",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "frames",
      .meaning = "How many were measured in each replicate",
-     .number = frames},
+     AT(frames)},
     {.key = "replicates",
      .csv = "replicates",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "processes",
      .meaning = "How many ran to their end",
-     .number = replicates},
+     AT(finished)},
     {.key = "status",
      .csv = "status",
      .unit = "",
      .meaning = "`ok` where any replicate ended well, else how the worst ended",
-     .text = status,
+     AT(ending),
      .schema = "{\"enum\": [\"ok\", \"crashed\", \"timeout\", \"unsupported\"]}"},
     TIME(total, "total_ns", "total", "Deform, update and query together", "total",
          PLACE(10, 10, 10), PLACE(11, 11, 0)),
@@ -279,13 +194,13 @@ const mote_column mote_columns[] = {
     TIME(given_total, "given_total_ns", "given",
          "The total where nobody is charged for deforming all vertices", NULL, PLACE(0, 92, 0),
          PLACE(0, 0, 0)),
-    RATIO(ratio, "ratio", ratio_to, "ratio", "ratio_ci_low", "ratio_ci_high", "fcl-aabb",
+    RATIO(ratio, "ratio", "ratio", "ratio_ci_low", "ratio_ci_high", "fcl-aabb",
           "How many times slower FCL's AABB tree is (the row `to`), paired frame by frame; for "
           "positions=given, without deformation on both sides",
           "FCL/this", PLACE(20, 20, 0)),
-    RATIO(ratio_given, "ratio_given", ratio_given_to, NULL, NULL, NULL, "given",
+    RATIO(ratio_given, "ratio_given", NULL, NULL, NULL, "given",
           "The same where nobody is charged for deforming all vertices", NULL, PLACE(21, 0, 0)),
-    RATIO(ratio_best, "ratio_best", ratio_best_to, "ratio_best", NULL, NULL, "best FCL",
+    RATIO(ratio_best, "ratio_best", "ratio_best", NULL, NULL, "best FCL",
           "How many times slower the fastest configuration of FCL is, in the same way",
           "best/this", PLACE(22, 22, 20)),
     ERROR(median, "median", "Absolute error: median over frames and replicates", "median", NULL,
@@ -317,7 +232,7 @@ const mote_column mote_columns[] = {
      .brief = "exact",
      .show = mote_show_percent,
      .place = PLACE(40, 40, 40),
-     .rule = {"inexact rate", SAME, 0, true, false}},
+     .rule = {"inexact rate", SAME, 0, true}},
     {.object = "error",
      .key = "exact_rate_separated",
      .type = MOTE_COLUMN_REAL,
@@ -343,40 +258,39 @@ const mote_column mote_columns[] = {
      .optional = true,
      .unit = "",
      .meaning = "Which machine measured; rows of different machines are never compared",
-     .text = machine},
+     AT(machine)},
     {.key = "replicates_failed",
      .csv = "replicates_failed",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "processes",
      .meaning = "How many did not run to their end; no value of the row includes them",
-     .number = replicates_failed,
-     .schema = "{\"type\": \"integer\", \"minimum\": 0}",
-     .rule = {"failed replicates", 0, 0, false, true}},
+     AT(failed),
+     .rule = {"failed replicates", 0, 0, false}},
     {.key = "jobs",
      .csv = "jobs",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "processes",
      .meaning = "How many cells ran at the same time",
-     .number = jobs,
-     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+     AT(jobs),
+     .schema = POSITIVE},
     {.key = "fingerprint",
      .csv = "fingerprint",
      .unit = "",
      .meaning = "Hash of the deformed vertices of all frames: which scene was measured",
-     .text = fingerprint},
+     AT(fingerprint)},
     {.key = "scene",
      .csv = "scene",
      .quoted = true,
      .unit = "",
      .meaning = "The scenario's name, with what tells it from another scene of that name",
-     .text = scene},
+     AT(scene)},
     {.key = "accounting",
      .csv = "accounting",
      .unit = "",
      .meaning =
          "`charged` for deformation as far as the method needs it, or `given` all vertices "
          "at no charge (positions=given); only rows of one accounting are compared",
-     .text = accounting,
+     AT(accounting),
      .schema = "{\"enum\": [\"charged\", \"given\"]}"},
     {.key = "on_front",
      .csv = "on_front",
@@ -385,106 +299,103 @@ const mote_column mote_columns[] = {
      .meaning =
          "No other row is surely faster and no worse in p99, in the largest error, in the "
          "share of exact frames, in missed and in false contacts",
-     .number = on_front},
+     AT(on_front)},
     {.key = "dominated_by",
+     .type = MOTE_COLUMN_ROW,
      .csv = "dominated_by",
      .quoted = true,
      .optional = true,
      .unit = "",
      .meaning = "Label of the fastest row that is faster and no worse",
-     .text = dominated_by},
+     AT(dominated_by)},
     {.key = "stands_for_method",
      .type = MOTE_COLUMN_FLAG,
      .unit = "",
      .meaning = "Shown where there is room for one row a method: the fastest without a wrong "
                 "contact and with p99 of at most 0.01 L, or else the most accurate",
-     .number = stands_for_method},
+     AT(stands_for_method)},
     {.key = "parameters",
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Every parameter with its value, defaults included",
-     .stored = true,
+     AT(parameters),
      .schema = "{\"type\": \"object\"}"},
     {.key = "triangles",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNTS,
      .unit = "",
      .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
-     .stored = true,
-     .schema = TWO_WHOLE},
+     AT(triangles)},
     {.key = "vertices",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNTS,
      .unit = "",
      .meaning = "Of each body; of more than two, of the smallest and of the largest shape",
-     .stored = true,
-     .schema = TWO_WHOLE},
+     AT(vertices)},
     {.key = "bodies",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNT,
      .optional = true,
      .unit = "",
      .meaning = "How many there are, where they are not two",
-     .json = bodies,
-     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+     AT(bodies),
+     .schema = POSITIVE},
     {.key = "shapes",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNT,
      .optional = true,
      .unit = "",
      .meaning = "How many shapes these have",
-     .stored = true,
-     .schema = "{\"type\": \"integer\", \"minimum\": 1}"},
+     AT(shapes),
+     .schema = POSITIVE},
     {.key = "near_pairs_wanted",
-     .type = MOTE_COLUMN_OBJECT,
-     .optional = true,
+     .type = MOTE_COLUMN_REAL,
+     .of_scenes = true,
      .unit = "pairs",
      .meaning = "Near pairs a body that the scenario asks for; null: it gives a box",
-     .stored = true,
-     .schema = "{\"type\": [\"number\", \"null\"]}"},
+     AT(near_pairs_wanted)},
     {.key = "near_pairs",
-     .type = MOTE_COLUMN_OBJECT,
-     .optional = true,
+     .type = MOTE_COLUMN_REAL,
+     .of_scenes = true,
      .unit = "pairs",
      .meaning = "Near pairs that were queried: mean over frames",
-     .json = near_pairs,
-     .schema = "{\"type\": [\"number\", \"null\"]}"},
+     AT(near_pairs)},
     {.key = "contacts_of",
+     .type = MOTE_COLUMN_ROW,
      .optional = true,
      .unit = "",
      .meaning = "Label of the exact row whose contacts count as true, where there is no truth",
-     .text = contacts_of},
+     AT(contacts_of)},
     {.key = "seed",
-     .type = MOTE_COLUMN_WHOLE,
+     .type = MOTE_COLUMN_COUNT,
      .unit = "",
      .meaning = "The run's seed",
-     .number = seed},
+     AT(seed)},
     {.key = "frame_range",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNTS,
      .unit = "",
      .meaning = "First and last frame asked for; 0 where the cells do not say",
-     .json = frame_range,
-     .schema = TWO_WHOLE},
+     AT(frame_range)},
     {.key = "ask",
      .optional = true,
      .unit = "",
      .meaning = "What each frame is asked: `distance` or `contact`",
-     .text = ask,
+     AT(ask),
      .schema = "{\"enum\": [\"distance\", \"contact\"]}"},
     {.key = "tolerance",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_REAL,
      .optional = true,
      .unit = "",
      .meaning = "How far apart bodies in contact may be",
-     .stored = true,
+     AT(tolerance),
      .schema = "{\"type\": \"number\"}"},
     {.key = "reason",
      .optional = true,
      .unit = "",
      .meaning = "Why there are no values, where the status is not `ok`",
-     .text = reason},
+     AT(reason)},
     {.key = "times_comparable",
      .type = MOTE_COLUMN_FLAG,
      .unit = "",
      .meaning =
          "False where cells ran at the same time (`--jobs`): no ratio is made of such times",
-     .number = times_comparable},
+     AT(times_comparable)},
     {.key = "smallest_change",
      .type = MOTE_COLUMN_REAL,
      .unit = "share",
@@ -495,46 +406,34 @@ const mote_column mote_columns[] = {
      .type = MOTE_COLUMN_REAL,
      .unit = "bytes",
      .meaning = "Heap held by the method over the vertices of all bodies",
-     .number = heap_bytes_per_vertex},
+     AT(heap_bytes_per_vertex)},
     {.key = "counters",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_COUNTERS,
      .unit = "",
      .meaning = "Mean and largest of each deterministic count over the frames",
-     .json = mote_column_counters,
-     .schema = MOTE_COUNTERS_SCHEMA},
+     AT(counts)},
     {.key = "processes",
-     .type = MOTE_COLUMN_OBJECT,
+     .type = MOTE_COLUMN_PROCESSES,
      .unit = "",
      .meaning =
          "Each replicate: the median of its total, its paired ratio to fcl-aabb, the sums of "
          "its counts",
-     .json = mote_column_processes,
-     .schema = MOTE_PROCESSES_SCHEMA},
-    {.key = "quiet",
-     .type = MOTE_COLUMN_OBJECT,
-     .unit = "",
+     AT(processes)},
+    {.object = "quiet",
+     .key = "total_ns",
+     .type = MOTE_COLUMN_NUMBERS,
+     .unit = "ns",
      .meaning = "Of each frame the fastest of a fifth of the replicates, then the median over "
                 "frames; null below ten replicates",
-     .json = mote_column_quiet,
-     .schema = MOTE_QUIET_SCHEMA},
+     AT(quiet.total)},
+    {.object = "quiet",
+     .key = "ratio",
+     .type = MOTE_COLUMN_NUMBERS,
+     .unit = "",
+     .meaning = "Likewise how many times slower fcl-aabb is; null below ten replicates",
+     AT(quiet.ratio)},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
-
-double mote_column_number(const mote_column *column, const mote_summary_row *row)
-{
-    if (column->number)
-        return column->number(row);
-    double value = MOTE_NONE;
-    if (column->offset > 0)
-        memcpy(&value, (const char *)row + column->offset, sizeof value);
-    return value;
-}
-
-const char *mote_column_text(const mote_column *column, const mote_summary *summary,
-                             const mote_summary_row *row)
-{
-    return column->text ? column->text(summary, row) : NULL;
-}
 
 size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX])
 {
@@ -549,11 +448,4 @@ size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX
         columns[k] = column;
     }
     return count;
-}
-
-double mote_column_stored(const mote_column *column, const json_t *row)
-{
-    const json_t *value = json_object_get(
-        column->object ? json_object_get(row, column->object) : row, column->key);
-    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
 }

@@ -1,7 +1,8 @@
-/* The columns of a summary's rows, each declared once: its name, unit and meaning, where its
-   value comes from, how it is shown and how two runs are compared by it. summary.json, its
-   schema, the CSV, the tables of the terminal, the report and the documents follow from this
-   list, in its order. A new column is one entry in column.c. */
+/* The columns of a summary's rows, each declared once: its name, unit and meaning, where it
+   stands in a row, how it is shown and how two runs are compared by it. summary.json and the
+   reading of it, its schema, the CSV, the tables of the terminal, the report with its page and
+   the documents follow from this list, in its order. A new column is a member of
+   mote_summary_row and one entry in column.c. */
 #ifndef MOTE_HARNESS_COLUMN_H
 #define MOTE_HARNESS_COLUMN_H
 
@@ -10,12 +11,19 @@
 
 #include <jansson.h>
 
+/* What a member of mote_summary_row holds. */
 typedef enum mote_column_type {
-    MOTE_COLUMN_TEXT,
-    MOTE_COLUMN_WHOLE, /* a whole number */
-    MOTE_COLUMN_REAL,
-    MOTE_COLUMN_FLAG,  /* true or false; a number: 1 or 0 */
-    MOTE_COLUMN_OBJECT /* anything else, in JSON only */
+    MOTE_COLUMN_TEXT,     /* const char *; "": there is none */
+    MOTE_COLUMN_REAL,     /* double */
+    MOTE_COLUMN_WHOLE,    /* double: a whole number */
+    MOTE_COLUMN_COUNT,    /* uint32_t, uint64_t or size_t */
+    MOTE_COLUMN_FLAG,     /* bool; a number: 1 or 0 */
+    MOTE_COLUMN_ROW,      /* const mote_summary_row *, another row: written as its label */
+    MOTE_COLUMN_COUNTS,   /* uint32_t[] */
+    MOTE_COLUMN_NUMBERS,  /* double[] */
+    MOTE_COLUMN_COUNTERS, /* the row's counts and processes */
+    MOTE_COLUMN_PROCESSES,
+    MOTE_COLUMN_OBJECT /* json_t *, borrowed */
 } mote_column_type;
 
 /* The tables that show a choice of columns. */
@@ -32,7 +40,6 @@ typedef struct mote_column_rule {
     const char *name; /* what a comparison calls it; NULL: it is not compared in this way */
     double share, negligible;
     bool complement; /* more is better: 1 less the value is compared */
-    bool assumed;    /* 0 where a run of an older build lacks the column */
 } mote_column_rule;
 
 typedef struct mote_column {
@@ -40,19 +47,13 @@ typedef struct mote_column {
                                  row[key] where object is NULL */
     const char *csv;          /* its name in the CSV; NULL: not there */
     mote_column_type type;
+    size_t offset, size; /* of the member */
     bool quoted;         /* TEXT: always quoted in the CSV */
     bool optional;       /* left out of JSON where there is no value; else null */
+    bool of_scenes;      /* left out of JSON in rows of two bodies */
     const char *unit;    /* "ns", "L", "bytes", "frames", "share"; "" for none */
     const char *meaning; /* NULL: as in the column before, whose object it shares */
-
-    /* Where the value comes from: for numbers, a double at an offset in mote_summary_row, or a
-       function. MOTE_NONE and NULL: there is none. */
-    size_t offset;
-    double (*number)(const mote_summary_row *row);
-    const char *(*text)(const mote_summary *summary, const mote_summary_row *row);
-    json_t *(*json)(const mote_summary_row *row); /* new reference */
-    bool stored;        /* as it stands in the row's cells, under the same key */
-    const char *schema; /* JSON of its schema, where the type does not say enough */
+    const char *schema;  /* JSON of its schema, where the type does not say enough */
 
     /* How it is shown, for those in a view. */
     const char *group, *head; /* the two lines above it: "total", "median" */
@@ -67,16 +68,18 @@ typedef struct mote_column {
 extern const mote_column mote_columns[];
 extern const size_t mote_column_count;
 
-/* The value of a number or flag in a row, or MOTE_NONE; the text of a text, or NULL. */
+/* The value of a number or flag in a row, or MOTE_NONE; the text of a text, or "". */
 double mote_column_number(const mote_column *column, const mote_summary_row *row);
-const char *mote_column_text(const mote_column *column, const mote_summary *summary,
-                             const mote_summary_row *row);
+const char *mote_column_text(const mote_column *column, const mote_summary_row *row);
+
+/* The value as JSON: a new reference, NULL where there is none; and back from JSON (NULL: it is
+   not there), without those of type ROW, whose rows the reader of a summary finds. What is of
+   another type counts as not there: then texts are "", numbers MOTE_NONE or 0, flags true. */
+json_t *mote_column_write(const mote_column *column, const mote_summary_row *row);
+void mote_column_read(const mote_column *column, const json_t *value, mote_summary_row *row);
 
 /* The columns of a view from left to right; returns how many. columns holds MOTE_VIEW_MAX. */
 #define MOTE_VIEW_MAX 40
 size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX]);
-
-/* The same value from a row of a stored summary.json; MOTE_NONE where it is no number. */
-double mote_column_stored(const mote_column *column, const json_t *row);
 
 #endif

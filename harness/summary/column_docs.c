@@ -3,7 +3,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const type_names[] = {"text", "whole", "real", "flag", "object"};
+#define COUNTERS                                                                               \
+    "{\"type\": \"object\", \"additionalProperties\": {\"type\": \"object\", \"properties\": " \
+    "{\"mean\": {\"type\": \"number\"}, \"max\": {\"type\": \"number\"}}, \"required\": "      \
+    "[\"mean\", \"max\"]}}"
+
+#define PROCESSES                                                                              \
+    "{\"type\": \"array\", \"items\": {\"type\": \"object\", \"properties\": {\"replicate\": " \
+    "{\"type\": \"integer\"}, \"median_ns\": {\"type\": [\"number\", \"null\"]}, \"ratio\": "  \
+    "{\"type\": [\"number\", \"null\"]}, \"counters\": {\"type\": \"object\", "                \
+    "\"additionalProperties\": {\"type\": \"number\"}}}, \"required\": [\"replicate\", "       \
+    "\"median_ns\", \"ratio\", \"counters\"]}}"
+
+/* A list of as many numbers as the member holds. */
+static json_t *list_schema(size_t count, json_t *item)
+{
+    return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", item, "minItems",
+                     (int)count, "maxItems", (int)count);
+}
 
 /* The schema of a column's value by its type; null stands for a missing number. */
 static json_t *type_schema(const mote_column *column)
@@ -12,13 +29,26 @@ static json_t *type_schema(const mote_column *column)
         return json_loads(column->schema, 0, NULL);
     switch (column->type) {
     case MOTE_COLUMN_TEXT:
+    case MOTE_COLUMN_ROW:
         return json_pack("{s:s}", "type", "string");
     case MOTE_COLUMN_WHOLE:
         return json_pack("{s:[s,s]}", "type", "integer", "null");
     case MOTE_COLUMN_REAL:
         return json_pack("{s:[s,s]}", "type", "number", "null");
+    case MOTE_COLUMN_COUNT:
+        return json_pack("{s:s, s:i}", "type", "integer", "minimum", 0);
     case MOTE_COLUMN_FLAG:
         return json_pack("{s:s}", "type", "boolean");
+    case MOTE_COLUMN_COUNTS:
+        return list_schema(column->size / sizeof(uint32_t),
+                           json_pack("{s:s, s:i}", "type", "integer", "minimum", 0));
+    case MOTE_COLUMN_NUMBERS:
+        return list_schema(column->size / sizeof(double),
+                           json_pack("{s:[s,s]}", "type", "number", "null"));
+    case MOTE_COLUMN_COUNTERS:
+        return json_loads(COUNTERS, 0, NULL);
+    case MOTE_COLUMN_PROCESSES:
+        return json_loads(PROCESSES, 0, NULL);
     default:
         return json_object();
     }
@@ -68,7 +98,8 @@ json_t *mote_columns_schema(void)
         if (column->object)
             add_member(object_schema(row, column), column->key, value_schema(column), true);
         else
-            add_member(row, column->key, value_schema(column), !column->optional);
+            add_member(row, column->key, value_schema(column),
+                       !column->optional && !column->of_scenes);
     }
     return row;
 }
@@ -101,21 +132,12 @@ static json_t *less_is_better(const mote_column *column)
 json_t *mote_column_json(const mote_column *column)
 {
     return json_pack(
-        "{s:s?, s:s, s:s?, s:s, s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:i, s:i, s:i, s:o}",
-        "object", column->object, "key", column->key, "csv", column->csv, "type",
-        type_names[column->type], "unit", column->unit, "meaning", column->meaning, "group",
-        column->group, "head", column->head, "brief", column->brief, "show",
-        show_name(column->show), "interval", column->interval, "table",
+        "{s:s?, s:s, s:s?, s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:b, s:i, s:i, s:i, s:o}",
+        "object", column->object, "key", column->key, "csv", column->csv, "unit", column->unit,
+        "meaning", column->meaning, "group", column->group, "head", column->head, "brief",
+        column->brief, "show", show_name(column->show), "interval", column->interval, "table",
         column->place[MOTE_VIEW_TABLE], "report", column->place[MOTE_VIEW_REPORT], "screen",
         column->place[MOTE_VIEW_SCREEN], "less_is_better", less_is_better(column));
-}
-
-json_t *mote_columns_json(void)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < mote_column_count; ++i)
-        (void)json_array_append_new(list, mote_column_json(&mote_columns[i]));
-    return list;
 }
 
 static void add_name(const mote_column *column, mote_text *text)

@@ -1,4 +1,4 @@
-/* The list of columns as data: for other programs, for the page, for the documents. */
+/* The list of columns as data, for the page; as a schema and as a table of the documents. */
 #ifndef MOTE_HARNESS_COLUMN_DOCS_H
 #define MOTE_HARNESS_COLUMN_DOCS_H
 
@@ -9,15 +9,11 @@
    results/schema/summary.json holds it as $defs.row. */
 json_t *mote_columns_schema(void);
 
-/* A column as data: {"object" (or null), "key", "csv" (or null), "type":
-   "text|whole|real|flag|object", "unit", "meaning", "group", "head", "brief" (or null), "show":
-   "time|ratio|percent|error|count|bytes" (or null), "interval", "table", "report", "screen"
-   (its place there, rising from left to right; 0: not there), "less_is_better" (or null where
-   neither is)}; NULL when memory ran out. */
+/* A column as data: {"object" (or null), "key", "csv" (or null), "unit", "meaning", "group",
+   "head", "brief" (or null), "show": "time|ratio|percent|error|count|bytes" (or null),
+   "interval", "table", "report", "screen" (its place there, rising from left to right; 0: not
+   there), "less_is_better" (or null where neither is)}; NULL when memory ran out. */
 json_t *mote_column_json(const mote_column *column);
-
-/* All of them in a list. */
-json_t *mote_columns_json(void);
 
 /* The columns as a table in Markdown, which results/README.md holds. */
 void mote_columns_markdown(mote_text *text);

@@ -1,6 +1,7 @@
 #include "harness/summary/compare.h"
 
 #include "harness/base/memory.h"
+#include "harness/base/record.h"
 #include "harness/summary/column.h"
 #include "harness/summary/compared_run.h"
 
@@ -25,61 +26,43 @@ void mote_comparison_free(mote_comparison *comparison)
     *comparison = none;
 }
 
-static const char *row_text(const json_t *row, const char *key)
-{
-    const char *text = json_string_value(json_object_get(row, key));
-    return text ? text : "";
-}
-
-static double number_at(const json_t *row, const char *group, const char *key)
-{
-    const json_t *value =
-        group ? json_object_get(json_object_get(row, group), key) : json_object_get(row, key);
-    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
-}
-
 /* Rows are of one configuration when all of this is equal. */
-static bool same_configuration(const json_t *a, const json_t *b)
+static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
 {
-    static const char *const keys[] = {"scenario", "fingerprint", "method", "parameters",
-                                       "cache",    "stride",      "seed",   "frames"};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
-        if (!json_equal(json_object_get(a, keys[i]), json_object_get(b, keys[i])))
-            return false;
-    }
-    return true;
+    return strcmp(a->scenario, b->scenario) == 0 &&
+           strcmp(a->fingerprint, b->fingerprint) == 0 && strcmp(a->method, b->method) == 0 &&
+           strcmp(a->cache, b->cache) == 0 && json_equal(a->parameters, b->parameters) &&
+           a->stride == b->stride && a->seed == b->seed && a->frames == b->frames;
 }
 
 /* The row of that configuration, on the same machine where there is one. */
-static const json_t *find_partner(const json_t *rows, const json_t *row)
+static const mote_summary_row *find_partner(const mote_summary *summary,
+                                            const mote_summary_row *row)
 {
-    const json_t *found = NULL;
-    for (size_t i = 0; i < json_array_size(rows); ++i) {
-        const json_t *other = json_array_get(rows, i);
+    const mote_summary_row *found = NULL;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *other = &summary->rows[i];
         if (!same_configuration(row, other))
             continue;
-        if (json_equal(json_object_get(row, "machine"), json_object_get(other, "machine")))
+        if (row->machine[0] && strcmp(row->machine, other->machine) == 0)
             return other;
         found = found ? found : other;
     }
     return found;
 }
 
-static const json_t *find_process(const json_t *row, const json_t *replicate)
+static const mote_process *find_process(const mote_summary_row *row, uint32_t replicate)
 {
-    const json_t *processes = json_object_get(row, "processes");
-    for (size_t i = 0; i < json_array_size(processes); ++i) {
-        const json_t *process = json_array_get(processes, i);
-        if (json_equal(json_object_get(process, "replicate"), replicate))
-            return process;
+    for (size_t p = 0; p < row->process_count; ++p) {
+        if (row->processes[p].replicate == replicate)
+            return &row->processes[p];
     }
     return NULL;
 }
 
-static bool is_reference(const json_t *row)
+static bool is_reference(const mote_summary_row *row)
 {
-    const char *to = row_text(json_object_get(row, "ratio"), "to");
-    return to[0] != '\0' && strcmp(to, row_text(row, "label")) == 0;
+    return row->ratio.to && strcmp(row->ratio.to->label, row->label) == 0;
 }
 
 /* The logarithm of new / base of a time: relative to fcl-aabb, which takes out most of what
@@ -94,22 +77,15 @@ static double log_change(double base_ratio, double new_ratio, double base_ns, do
     return base_ns > 0 && new_ns > 0 ? log(new_ns / base_ns) : MOTE_NONE;
 }
 
-static double element(const json_t *row, const char *key, size_t index)
-{
-    const json_t *value =
-        json_array_get(json_object_get(json_object_get(row, "quiet"), key), index);
-    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
-}
-
 /* The changes of the quiet times, group by group; returns how many. */
-static size_t quiet_changes(const json_t *base, const json_t *fresh, bool other_machine,
-                            double *logs)
+static size_t quiet_changes(const mote_summary_row *base, const mote_summary_row *fresh,
+                            bool other_machine, double *logs)
 {
+    const mote_quiet *was = &base->quiet, *is = &fresh->quiet;
     size_t count = 0;
     for (size_t k = 0; k < MOTE_QUIET_GROUPS; ++k) {
-        double value = log_change(element(base, "ratio", k), element(fresh, "ratio", k),
-                                  element(base, "total_ns", k), element(fresh, "total_ns", k),
-                                  other_machine);
+        const double value =
+            log_change(was->ratio[k], is->ratio[k], was->total[k], is->total[k], other_machine);
         if (value == value)
             logs[count++] = value;
     }
@@ -118,20 +94,16 @@ static size_t quiet_changes(const json_t *base, const json_t *fresh, bool other_
 
 /* The changes of the processes' medians. Replicates with one number draw the same random
    numbers: they are compared in pairs. */
-static size_t process_changes(const json_t *base, const json_t *fresh, bool other_machine,
-                              double *logs)
+static size_t process_changes(const mote_summary_row *base, const mote_summary_row *fresh,
+                              bool other_machine, double *logs)
 {
     size_t count = 0;
-    const json_t *processes = json_object_get(base, "processes");
-    for (size_t i = 0; i < json_array_size(processes) && count < PAIRS_MAX; ++i) {
-        const json_t *process = json_array_get(processes, i);
-        const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
-        double value = MOTE_NONE;
-        if (partner)
-            value =
-                log_change(number_at(process, NULL, "ratio"), number_at(partner, NULL, "ratio"),
-                           number_at(process, NULL, "median_ns"),
-                           number_at(partner, NULL, "median_ns"), other_machine);
+    for (size_t p = 0; p < base->process_count && count < PAIRS_MAX; ++p) {
+        const mote_process *was = &base->processes[p],
+                           *is = find_process(fresh, was->replicate);
+        const double value =
+            is ? log_change(was->ratio, is->ratio, was->median, is->median, other_machine)
+               : MOTE_NONE;
         if (value == value)
             logs[count++] = value;
     }
@@ -145,19 +117,17 @@ static void say_unknown(mote_change *change, const char *what)
     mote_text_add(&change->what, "%s%s", change->what.size ? "; " : "", what);
 }
 
-static bool has_time(const json_t *row)
+static bool has_time(const mote_summary_row *row)
 {
-    const json_t *processes = json_object_get(row, "processes");
-    for (size_t i = 0; i < json_array_size(processes); ++i) {
-        const json_t *process = json_array_get(processes, i);
-        if (number_at(process, NULL, "median_ns") > 0 || number_at(process, NULL, "ratio") > 0)
+    for (size_t p = 0; p < row->process_count; ++p) {
+        if (row->processes[p].median > 0 || row->processes[p].ratio > 0)
             return true;
     }
-    return element(row, "total_ns", 0) > 0 || element(row, "ratio", 0) > 0;
+    return row->quiet.total[0] > 0 || row->quiet.ratio[0] > 0;
 }
 
-static void compare_times(const json_t *base, const json_t *fresh, bool other_machine,
-                          mote_change *change)
+static void compare_times(const mote_summary_row *base, const mote_summary_row *fresh,
+                          bool other_machine, mote_change *change)
 {
     static double logs[PAIRS_MAX];
     size_t count = quiet_changes(base, fresh, other_machine, logs);
@@ -166,8 +136,7 @@ static void compare_times(const json_t *base, const json_t *fresh, bool other_ma
     /* Between machines a row without a ratio to fcl-aabb has no time that compares. */
     if (count == 0 && !other_machine && has_time(base))
         say_unknown(change, "no time to compare");
-    change->smallest_change = fmax(number_at(base, NULL, "smallest_change"),
-                                   number_at(fresh, NULL, "smallest_change"));
+    change->smallest_change = fmax(base->smallest_change, fresh->smallest_change);
     change->ratio = exp(mote_statistics_mean(logs, count));
     change->interval = mote_statistics_t_interval(logs, count);
     change->interval.low = exp(change->interval.low);
@@ -203,38 +172,44 @@ static void compare_figure(mote_change *change, const char *name, double base, d
 }
 
 /* Whether the two rows have a replicate in common. */
-static bool has_pair(const json_t *base, const json_t *fresh)
+static bool has_pair(const mote_summary_row *base, const mote_summary_row *fresh)
 {
-    const json_t *processes = json_object_get(base, "processes");
-    for (size_t i = 0; i < json_array_size(processes); ++i) {
-        const json_t *process = json_array_get(processes, i);
-        if (find_process(fresh, json_object_get(process, "replicate")))
+    for (size_t p = 0; p < base->process_count; ++p) {
+        if (find_process(fresh, base->processes[p].replicate))
             return true;
     }
     return false;
 }
 
-/* The sums of a count over the replicates that both have. */
-static void compare_counts(const json_t *base, const json_t *fresh, mote_change *change)
+/* The sum of a process's count of that name; MOTE_NONE: it was not counted. */
+static double count_in(const mote_summary_row *row, const mote_process *process,
+                       const char *name)
 {
-    const json_t *processes = json_object_get(base, "processes");
-    if (json_array_size(processes) > 0 && !has_pair(base, fresh)) {
+    for (size_t k = 0; k < row->count_count; ++k) {
+        if (strcmp(row->counts[k].name, name) == 0)
+            return process->sums[k];
+    }
+    return MOTE_NONE;
+}
+
+/* The sums of a count over the replicates that both have. */
+static void compare_counts(const mote_summary_row *base, const mote_summary_row *fresh,
+                           mote_change *change)
+{
+    if (base->process_count > 0 && !has_pair(base, fresh)) {
         say_unknown(change, "no replicate in common: counts are not compared");
         return;
     }
-    json_t *counters = json_object_get(json_array_get(processes, 0), "counters");
-    const char *name;
-    json_t *first;
-    json_object_foreach(counters, name, first)
-    {
+    for (size_t k = 0; k < base->count_count; ++k) {
+        const char *name = base->counts[k].name;
         double sums[2] = {0, 0};
-        for (size_t i = 0; i < json_array_size(processes); ++i) {
-            const json_t *process = json_array_get(processes, i);
-            const json_t *partner = find_process(fresh, json_object_get(process, "replicate"));
-            if (!partner)
+        for (size_t p = 0; p < base->process_count; ++p) {
+            const mote_process *was = &base->processes[p];
+            const mote_process *is = find_process(fresh, was->replicate);
+            if (!is)
                 continue;
-            sums[0] += number_at(process, "counters", name);
-            sums[1] += number_at(partner, "counters", name);
+            sums[0] += was->sums[k];
+            sums[1] += count_in(fresh, is, name);
         }
         change->counted =
             change->counted || fabs(sums[0] - sums[1]) > EXACT_SHARE * fmax(sums[0], sums[1]);
@@ -243,18 +218,17 @@ static void compare_counts(const json_t *base, const json_t *fresh, mote_change 
 }
 
 /* Compares the columns by their own rules (mote_column_rule). */
-static void compare_columns(const json_t *base, const json_t *fresh, mote_change *change)
+static void compare_columns(const mote_summary_row *base, const mote_summary_row *fresh,
+                            mote_change *change)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {
         const mote_column *column = &mote_columns[i];
         const mote_column_rule *rule = &column->rule;
-        double values[2] = {mote_column_stored(column, base),
-                            mote_column_stored(column, fresh)};
+        double values[2] = {mote_column_number(column, base),
+                            mote_column_number(column, fresh)};
         if (!rule->name)
             continue;
         for (size_t k = 0; k < 2; ++k) {
-            if (rule->assumed && values[k] != values[k])
-                values[k] = 0;
             if (rule->complement)
                 values[k] = 1 - values[k];
         }
@@ -263,21 +237,14 @@ static void compare_columns(const json_t *base, const json_t *fresh, mote_change
     }
 }
 
-static bool times_comparable(const json_t *row)
+static void compare_row(const mote_summary_row *base, const mote_summary_row *fresh,
+                        bool other_machine, mote_change *change)
 {
-    return !json_is_false(json_object_get(row, "times_comparable"));
-}
-
-static void compare_row(const json_t *base, const json_t *fresh, bool other_machine,
-                        mote_change *change)
-{
-    const char *scene = row_text(base, "scene"); /* older summaries have none */
-    change->name = mote_format("%s/%s/%s", scene[0] ? scene : row_text(base, "scenario"),
-                               row_text(base, "label"), row_text(base, "cache"));
+    change->name = mote_format("%s/%s/%s", base->scene, base->label, base->cache);
     change->is_reference = is_reference(base) && is_reference(fresh);
     change->ratio = change->interval.low = change->interval.high = change->p = MOTE_NONE;
     change->smallest_change = MOTE_NONE;
-    const char *was = row_text(base, "status"), *is = row_text(fresh, "status");
+    const char *was = base->ending, *is = fresh->ending;
     if (strcmp(was, is) != 0) {
         mote_text_add(&change->what, "status %s to %s", was, is);
         change->worse = strcmp(was, "ok") == 0;
@@ -290,7 +257,7 @@ static void compare_row(const json_t *base, const json_t *fresh, bool other_mach
             say_unknown(change, "no status");
         return;
     }
-    if (!times_comparable(base) || !times_comparable(fresh))
+    if (!base->times_comparable || !fresh->times_comparable)
         mote_text_add(&change->what, "times not comparable: measured with --jobs");
     else if (!change->is_reference)
         compare_times(base, fresh, other_machine, change);
@@ -345,30 +312,29 @@ static void judge(mote_comparison *c)
     free(p);
 }
 
-static double raised_floor(double floor, const json_t *base, const json_t *fresh)
+static double raised_floor(double floor, const mote_compared_run runs[2])
 {
-    double noise[2] = {number_at(base, NULL, "noise_floor"),
-                       number_at(fresh, NULL, "noise_floor")};
-    for (int i = 0; i < 2; ++i)
-        floor = noise[i] > floor ? noise[i] : floor;
+    for (int i = 0; i < 2; ++i) {
+        const double noise = runs[i].summary.noise_floor;
+        floor = noise > floor ? noise : floor;
+    }
     return floor;
 }
 
-static mote_status compare_rows(const json_t *base_rows, const json_t *new_rows,
+static mote_status compare_rows(const mote_summary *base, const mote_summary *fresh,
                                 mote_comparison *c)
 {
-    c->changes = mote_allocate(json_array_size(base_rows), sizeof *c->changes);
-    for (size_t i = 0; i < json_array_size(base_rows); ++i) {
-        const json_t *row = json_array_get(base_rows, i);
-        const json_t *partner = find_partner(new_rows, row);
+    c->changes = mote_allocate(base->count, sizeof *c->changes);
+    for (size_t i = 0; i < base->count; ++i) {
+        const mote_summary_row *partner = find_partner(fresh, &base->rows[i]);
         if (partner)
-            compare_row(row, partner, c->other_machine, &c->changes[c->count++]);
+            compare_row(&base->rows[i], partner, c->other_machine, &c->changes[c->count++]);
         else
             ++c->only_base;
     }
     /* Several rows of the base, of different machines, may have one partner. */
-    for (size_t i = 0; i < json_array_size(new_rows); ++i)
-        c->only_new += find_partner(base_rows, json_array_get(new_rows, i)) ? 0 : 1;
+    for (size_t i = 0; i < fresh->count; ++i)
+        c->only_new += find_partner(base, &fresh->rows[i]) ? 0 : 1;
     c->undecided = c->only_base > 0; /* nothing is known of them now */
     if (c->count == 0)
         return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
@@ -392,15 +358,16 @@ static bool same_frames(const json_t *a, const json_t *b)
 
 /* The counted row of a row of the summary, over the frames of `like` where it is given; NULL
    when there is none. */
-static const json_t *find_counted(const json_t *counted, const json_t *row, const json_t *like)
+static const json_t *find_counted(const json_t *counted, const mote_summary_row *row,
+                                  const json_t *like)
 {
-    const json_t *rows = json_object_get(counted, "rows");
-    for (size_t i = 0; i < json_array_size(rows); ++i) {
-        const json_t *other = json_array_get(rows, i);
-        if (json_equal(json_object_get(other, "scenario"), json_object_get(row, "scenario")) &&
-            json_equal(json_object_get(other, "method"), json_object_get(row, "method")) &&
-            json_equal(json_object_get(other, "parameters"),
-                       json_object_get(row, "parameters")) &&
+    size_t i;
+    const json_t *other;
+    MOTE_EACH(i, other, json_object_get(counted, "rows"))
+    {
+        if (strcmp(mote_text_at(other, "scenario"), row->scenario) == 0 &&
+            strcmp(mote_text_at(other, "method"), row->method) == 0 &&
+            json_equal(json_object_get(other, "parameters"), row->parameters) &&
             (!like || same_frames(other, like)))
             return other;
     }
@@ -411,18 +378,16 @@ static const json_t *find_counted(const json_t *counted, const json_t *row, cons
 static void compare_instructions(const mote_compared_run runs[2], bool judged,
                                  mote_comparison *c)
 {
-    const json_t *base_rows = json_object_get(runs[0].summary, "rows");
-    const json_t *new_rows = json_object_get(runs[1].summary, "rows");
     size_t index = 0;
-    for (size_t i = 0; i < json_array_size(base_rows); ++i) {
-        const json_t *row = json_array_get(base_rows, i);
-        if (!find_partner(new_rows, row))
+    for (size_t i = 0; i < runs[0].summary.count; ++i) {
+        const mote_summary_row *row = &runs[0].summary.rows[i];
+        if (!find_partner(&runs[1].summary, row))
             continue;
         mote_change *change = &c->changes[index++];
         const json_t *was = find_counted(runs[0].instructions, row, NULL);
-        const double a = number_at(was, NULL, "per_frame");
+        const double a = mote_number_at(was, "per_frame");
         const double b =
-            number_at(find_counted(runs[1].instructions, row, was), NULL, "per_frame");
+            mote_number_at(find_counted(runs[1].instructions, row, was), "per_frame");
         bool known = a == a && b == b;
         change->executed = known && fabs(b - a) > INSTRUCTIONS_SHARE * fmax(a, b);
         if (judged && known)
@@ -438,11 +403,10 @@ static mote_status compare_runs(const mote_compared_run runs[2], double floor,
                                 mote_comparison *c)
 {
     c->other_machine = manifests_differ(runs, "processor");
-    c->floor = raised_floor(floor, runs[0].summary, runs[1].summary);
+    c->floor = raised_floor(floor, runs);
     if (c->other_machine && c->floor < MOTE_OTHER_MACHINE_FLOOR)
         c->floor = MOTE_OTHER_MACHINE_FLOOR;
-    const mote_status status = compare_rows(json_object_get(runs[0].summary, "rows"),
-                                            json_object_get(runs[1].summary, "rows"), c);
+    const mote_status status = compare_rows(&runs[0].summary, &runs[1].summary, c);
     if (status != MOTE_OK)
         return status;
     c->instructions = runs[0].instructions && runs[1].instructions;
@@ -455,7 +419,7 @@ static mote_status compare_runs(const mote_compared_run runs[2], double floor,
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison)
 {
-    mote_compared_run runs[2] = {{NULL, NULL, NULL}, {NULL, NULL, NULL}};
+    mote_compared_run runs[2] = {{.manifest = NULL}, {.manifest = NULL}};
     mote_comparison c = {0};
     mote_status status = mote_compared_run_read(base, &runs[0]);
     if (status == MOTE_OK)

@@ -28,30 +28,15 @@ static bool exists(const char *directory, const char *name)
     return there;
 }
 
-static mote_status make_from_cells(const char *directory, json_t **summary)
-{
-    mote_summary made;
-    const mote_status status = mote_summary_make(directory, &made);
-    if (status != MOTE_OK)
-        return status;
-    *summary = mote_summary_json(&made);
-    mote_summary_free(&made);
-    return MOTE_OK;
-}
-
-static mote_status read_summary(const char *directory, const char *name, json_t **summary)
+static mote_status read_summary(const char *directory, const char *name, mote_summary *summary)
 {
     if (strcmp(name, "summary.json") == 0 && exists(directory, "cells"))
-        return make_from_cells(directory, summary);
+        return mote_summary_make(directory, summary);
     if (!exists(directory, name))
         return mote_fail(MOTE_EIO,
                          "%s: neither cells nor a %s; name a run, or its summary.json",
                          directory, name);
-    const mote_status status = mote_record_read_json(directory, name, summary);
-    if (status == MOTE_OK && !json_is_array(json_object_get(*summary, "rows")))
-        return mote_fail(MOTE_EINVAL, "%s/%s: no rows; name a run, or its summary.json",
-                         directory, name);
-    return status;
+    return mote_summary_read(directory, name, summary);
 }
 
 /* *object stays NULL where there is no such file. */
@@ -62,7 +47,7 @@ static mote_status read_beside(const char *directory, const char *name, json_t *
 
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
 {
-    mote_compared_run made = {NULL, NULL, NULL};
+    mote_compared_run made = {.manifest = NULL};
     const char *name;
     char *directory = split(path, &name);
     mote_status status = read_summary(directory, name, &made.summary);
@@ -80,8 +65,8 @@ mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
 
 void mote_compared_run_free(mote_compared_run *run)
 {
-    json_decref(run->summary);
+    mote_summary_free(&run->summary);
     json_decref(run->manifest);
     json_decref(run->instructions);
-    run->summary = run->manifest = run->instructions = NULL;
+    run->manifest = run->instructions = NULL;
 }

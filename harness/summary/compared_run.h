@@ -2,12 +2,10 @@
 #ifndef MOTE_HARNESS_COMPARED_RUN_H
 #define MOTE_HARNESS_COMPARED_RUN_H
 
-#include "core/base/status.h"
-
-#include <jansson.h>
+#include "harness/summary/summary.h"
 
 typedef struct mote_compared_run {
-    json_t *summary;      /* as summary.json holds it */
+    mote_summary summary;
     json_t *manifest;     /* manifest.json, or NULL */
     json_t *instructions; /* instructions.json, or NULL */
 } mote_compared_run;

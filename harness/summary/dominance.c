@@ -18,7 +18,7 @@ static bool error_no_worse(double a, double b)
    errors do not count there. */
 static bool distances_no_worse(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return strcmp(a->first->ask, "contact") == 0 ||
+    return strcmp(a->ask, "contact") == 0 ||
            (error_no_worse(a->error.p99, b->error.p99) &&
             error_no_worse(a->error.max, b->error.max) &&
             no_worse(-a->error.exact_rate, -b->error.exact_rate));
@@ -35,13 +35,14 @@ bool mote_dominates(const mote_summary_row *a, const mote_summary_row *b)
 void mote_find_dominated(mote_summary_row *rows, size_t count)
 {
     for (size_t i = 0; i < count; ++i) {
-        size_t *by = &rows[i].dominated_by;
-        *by = SIZE_MAX;
+        mote_summary_row *row = &rows[i];
+        row->dominated_by = NULL;
         for (size_t k = 0; k < count; ++k) {
-            if (mote_dominates(&rows[k], &rows[i]) &&
-                (*by == SIZE_MAX || rows[k].total.median < rows[*by].total.median))
-                *by = k;
+            if (mote_dominates(&rows[k], row) &&
+                (!row->dominated_by || rows[k].total.median < row->dominated_by->total.median))
+                row->dominated_by = &rows[k];
         }
+        row->on_front = mote_summary_row_measured(row) && !row->dominated_by;
     }
 }
 
@@ -53,8 +54,8 @@ typedef struct standing {
 static standing standing_of(const mote_summary_row *row)
 {
     const double wrong = row->missed + row->false_contacts, time = row->total.median;
-    const bool asked = strcmp(row->first->ask, "contact") != 0;
-    const bool timed = row->status == MOTE_CELL_OK && row->jobs == 1 && time == time;
+    const bool asked = strcmp(row->ask, "contact") != 0;
+    const bool timed = row->status == MOTE_CELL_OK && row->times_comparable && time == time;
     return (standing){wrong == wrong ? wrong : HUGE_VAL,
                       asked && row->error.p99 > MOTE_CLOSE_ERROR ? row->error.p99 : 0,
                       timed ? time : HUGE_VAL};
@@ -76,8 +77,7 @@ static bool stands_for_method(const mote_summary_row *rows, size_t count, size_t
     for (size_t k = 0; k < count; ++k) {
         const mote_summary_row *other = &rows[k];
         if (k == index || other->given != row->given ||
-            strcmp(other->first->method, row->first->method) != 0 ||
-            !mote_summary_same_block(other, row))
+            strcmp(other->method, row->method) != 0 || !mote_summary_same_block(other, row))
             continue;
         const standing theirs = standing_of(other);
         if (is_better(&theirs, &own) || (k < index && !is_better(&own, &theirs)))
@@ -90,9 +90,4 @@ void mote_find_method_rows(mote_summary_row *rows, size_t count)
 {
     for (size_t i = 0; i < count; ++i)
         rows[i].stands_for_method = stands_for_method(rows, count, i);
-}
-
-bool mote_on_front(const mote_summary_row *row)
-{
-    return mote_summary_row_measured(row) && row->dominated_by == SIZE_MAX;
 }

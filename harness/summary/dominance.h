@@ -12,8 +12,8 @@
    false contacts. Errors up to MOTE_EXACT_ERROR are equal. */
 bool mote_dominates(const mote_summary_row *a, const mote_summary_row *b);
 
-/* Sets dominated_by of each row: the fastest row that dominates it. Part of mote_summary_make.
-   Cost O(count^2). */
+/* Sets dominated_by of each row, the fastest row that dominates it, and on_front. Part of
+   mote_summary_make. Cost O(count^2). */
 void mote_find_dominated(mote_summary_row *rows, size_t count);
 
 /* Sets stands_for_method of each row. Of a method's rows in one block and of one accounting it
@@ -22,8 +22,5 @@ void mote_find_dominated(mote_summary_row *rows, size_t count);
    wrong contacts, then the smallest error. Part of mote_summary_make. Cost O(count^2). */
 #define MOTE_CLOSE_ERROR 0.01
 void mote_find_method_rows(mote_summary_row *rows, size_t count);
-
-/* Whether a row is on the front of its block: measured, and no other row dominates it. */
-bool mote_on_front(const mote_summary_row *row);
 
 #endif

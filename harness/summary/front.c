@@ -159,13 +159,14 @@ static void fill_row(const workshop *w, size_t index, double *work)
     double *total = w->total + index * w->processes, *given = w->given + index * w->processes;
     for (size_t k = 0; k < w->processes; ++k)
         total[k] = given[k] = MOTE_NONE;
+    const mote_process *process = row->processes;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
         if (!mote_stored_ran(cell))
             continue;
         for (size_t k = 0; k < cell->frames; ++k)
             work[k] = cell->update_ns[k] + cell->query_ns[k];
-        total[cell->replicate - 1] = row->processes[r].median;
+        total[cell->replicate - 1] = process++->median;
         given[cell->replicate - 1] = mote_statistics_median(work, cell->frames);
     }
 }

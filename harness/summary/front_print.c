@@ -24,23 +24,23 @@ static void print_speed(const mote_front_speed *speed, FILE *out)
 }
 
 /* What distinguishes this block from others of the same scenario and caches. */
-static void print_apart(const mote_summary *summary, const mote_stored_cell *cell, FILE *out)
+static void print_apart(const mote_summary *summary, const mote_summary_row *row, FILE *out)
 {
     bool frames = false;
     for (size_t i = 0; i < summary->count; ++i)
-        frames = frames || (mote_stored_by_scene(summary->rows[i].first, cell) == 0 &&
-                            mote_stored_by_frames(summary->rows[i].first, cell) != 0);
+        frames = frames || (mote_summary_by_scene(&summary->rows[i], row) == 0 &&
+                            mote_summary_by_frames(&summary->rows[i], row) != 0);
     if (frames)
-        (void)fprintf(out, ", frames %u-%u", cell->first, cell->last);
+        (void)fprintf(out, ", frames %u-%u", row->frame_range[0], row->frame_range[1]);
     if (mote_summary_machines_differ(summary))
-        (void)fprintf(out, ", on %s", cell->machine);
+        (void)fprintf(out, ", on %s", row->machine);
 }
 
 static void print_place(const mote_fronts *fronts, size_t first, int width, FILE *out)
 {
     const mote_summary_row *place = row_of(fronts, first);
-    (void)fprintf(out, "\n%s, caches %s", place->scene, place->first->cache);
-    print_apart(fronts->summary, place->first, out);
+    (void)fprintf(out, "\n%s, caches %s", place->scene, place->cache);
+    print_apart(fronts->summary, place, out);
     (void)fprintf(
         out,
         ": how many times faster than the best FCL at an error (99th percentile) of at "
@@ -75,7 +75,7 @@ static void print_members(const mote_fronts *fronts, const mote_summary_row *blo
     size_t count = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
-        if (mote_summary_same_block(block, row) && mote_on_front(row) && row->given == given)
+        if (mote_summary_same_block(block, row) && row->on_front && row->given == given)
             members[count++] = row;
     }
     if (count > 0) {
@@ -131,11 +131,10 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
     json_t *list = json_array();
     for (size_t i = 0; i < fronts->count; ++i) {
         const mote_summary_row *row = row_of(fronts, i);
-        json_t *front =
-            json_pack("{s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->first->scenario,
-                      "fingerprint", row->first->fingerprint, "cache", row->first->cache,
-                      "accounting", row->given ? "given" : "charged", "family",
-                      fronts->items[i].title, "speed", speeds_json(&fronts->items[i]));
+        json_t *front = json_pack(
+            "{s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->scenario, "fingerprint",
+            row->fingerprint, "cache", row->cache, "accounting", row->accounting, "family",
+            fronts->items[i].title, "speed", speeds_json(&fronts->items[i]));
         (void)json_array_append_new(list, front);
     }
     return list;
@@ -144,9 +143,9 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
 /* "scenario,cache,family" */
 static void add_family(const mote_summary_row *row, const char *title, mote_text *text)
 {
-    mote_escape_csv(text, row->first->scenario, false);
+    mote_escape_csv(text, row->scenario, false);
     mote_text_add(text, ",");
-    mote_escape_csv(text, row->first->cache, false);
+    mote_escape_csv(text, row->cache, false);
     mote_text_add(text, ",");
     mote_escape_csv(text, title, true);
 }
@@ -161,10 +160,9 @@ static void add_numbers(const double *numbers, size_t count, mote_text *text)
 
 static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
 {
-    const mote_summary_row *rows = fronts->summary->rows, *row = &rows[index];
+    const mote_summary_row *row = &fronts->summary->rows[index];
     const double numbers[] = {row->n, row->error.p99, row->total.median, row->total.low,
                               row->total.high};
-    const size_t by = row->dominated_by;
     char title[MOTE_FRONT_TITLE];
     if (!mote_summary_row_measured(row) || row->error.p99 != row->error.p99)
         return;
@@ -174,8 +172,8 @@ static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
     mote_escape_csv(text, row->label, true);
     add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
     mote_text_add(text, ",");
-    mote_escape_csv(text, by == SIZE_MAX ? "" : rows[by].label, true);
-    mote_text_add(text, ",%d,%s\n", mote_on_front(row) ? 1 : 0, row->first->fingerprint);
+    mote_escape_csv(text, row->dominated_by ? row->dominated_by->label : "", true);
+    mote_text_add(text, ",%d,%s\n", row->on_front, row->fingerprint);
 }
 
 static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mote_text *text)
@@ -187,7 +185,7 @@ static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mot
     add_family(row, fronts->items[index].title, text);
     mote_text_add(text, ",%g", mote_front_levels[level]);
     add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
-    mote_text_add(text, ",%s\n", row->first->fingerprint);
+    mote_text_add(text, ",%s\n", row->fingerprint);
 }
 
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)

@@ -41,15 +41,11 @@ static void add_number(mote_text *text, double value)
 
 static double mean_count(const mote_summary_row *row, const char *name)
 {
-    double sum = 0, frames = 0;
-    for (int k = 0; k < MOTE_STORED_COUNTS; ++k) {
-        for (size_t r = 0; strcmp(mote_stored_count_names[k], name) == 0 && r < row->replicates;
-             ++r) {
-            sum += row->cells[r].counts[k].sum;
-            frames += (double)row->cells[r].frames;
-        }
+    for (size_t k = 0; k < row->count_count; ++k) {
+        if (strcmp(row->counts[k].name, name) == 0)
+            return row->counts[k].mean;
     }
-    return frames > 0 ? sum / frames : MOTE_NONE;
+    return MOTE_NONE;
 }
 
 static void add_row(mote_text *text, const char *date, const char *commit, const char *why,
@@ -61,10 +57,10 @@ static void add_row(mote_text *text, const char *date, const char *commit, const
     mote_text_add(text, ",");
     add_plain(text, why);
     mote_text_add(text, ",");
-    add_plain(text, row->first->scenario);
+    add_plain(text, row->scenario);
     mote_text_add(text, "/");
     add_plain(text, row->label);
-    mote_text_add(text, "/%s", row->first->cache);
+    mote_text_add(text, "/%s", row->cache);
     add_number(text, row->total.median);
     add_number(text, row->ratio.value);
     add_number(text, mean_count(row, "positions"));

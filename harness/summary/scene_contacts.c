@@ -103,31 +103,24 @@ mote_status mote_scene_contacts_read(const char *directory, const mote_stored_ce
 static uint32_t reference_rank(const mote_summary_row *row)
 {
     static const char *const names[] = {"fcl-aabb", "aabb-tree", "certified"};
-    const char *refit = json_string_value(json_object_get(row->first->parameters, "refit"));
+    const char *refit = json_string_value(json_object_get(row->parameters, "refit"));
     for (uint32_t i = 0; i < 3; ++i) {
-        if (strcmp(row->first->method, names[i]) == 0)
+        if (strcmp(row->method, names[i]) == 0)
             return 2 * i + (refit && strcmp(refit, "every") == 0 ? 0 : 1);
     }
     return UINT32_MAX;
 }
 
-static bool ran(const mote_stored_cell *cell)
+static const mote_summary_row *find_reference(const mote_summary_row *rows, size_t count,
+                                              const mote_summary_row *row)
 {
-    return cell->status == MOTE_CELL_OK && cell->frames > 0;
-}
-
-static size_t find_reference(const mote_summary_row *rows, size_t count,
-                             const mote_summary_row *row)
-{
-    size_t best = SIZE_MAX;
+    const mote_summary_row *best = NULL;
     uint32_t least = UINT32_MAX;
     for (size_t k = 0; k < count; ++k) {
         const uint32_t rank = reference_rank(&rows[k]);
-        if (rows[k].finished > 0 && rank < least &&
-            mote_stored_by_scene(rows[k].first, row->first) == 0 &&
-            mote_stored_by_frames(rows[k].first, row->first) == 0) {
+        if (rows[k].finished > 0 && rank < least && mote_summary_same_block(&rows[k], row)) {
             least = rank;
-            best = k;
+            best = &rows[k];
         }
     }
     return best;
@@ -147,7 +140,7 @@ static void count_own(mote_summary_row *row)
     double pairs = 0, contacts = 0, frames = 0;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (!ran(cell))
+        if (!mote_stored_ran(cell))
             continue;
         pairs += sum_of(cell->scene[MOTE_SCENE_COLUMN_near_pairs], cell->frames);
         contacts += sum_of(cell->scene[MOTE_SCENE_COLUMN_pair_contacts], cell->frames);
@@ -165,7 +158,7 @@ static mote_status count_differing(const char *directory, const mote_stored_cell
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
         mote_scene_contacts said;
-        if (!ran(cell))
+        if (!mote_stored_ran(cell))
             continue;
         const mote_status status = mote_scene_contacts_read(directory, cell, &said);
         const uint32_t own = cell->frame[cell->frames - 1];
@@ -186,17 +179,17 @@ mote_status mote_scene_contacts_count(const char *directory, mote_summary_row *r
                                       size_t count)
 {
     mote_scene_contacts real = {.count = 0};
-    size_t known = SIZE_MAX; /* the row that they are of */
+    const mote_summary_row *known = NULL; /* the row that they are of */
     mote_status status = MOTE_OK;
     for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         mote_summary_row *row = &rows[k];
-        if (row->first->bodies == 0 || row->finished == 0)
+        if (row->bodies == 0 || row->finished == 0)
             continue;
         count_own(row);
         row->contacts_of = find_reference(rows, count, row);
-        if (row->contacts_of == SIZE_MAX)
+        if (!row->contacts_of)
             continue;
-        const mote_stored_cell *reference = rows[row->contacts_of].first;
+        const mote_stored_cell *reference = row->contacts_of->first;
         if (row->contacts_of != known) {
             free(real.list);
             real = (mote_scene_contacts){.count = 0};

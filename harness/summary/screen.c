@@ -16,7 +16,7 @@
    none is surely faster than another, and a mark would say nothing. */
 static bool is_marked(const mote_summary_row *row)
 {
-    return mote_on_front(row) && row->total.low == row->total.low;
+    return row->on_front && row->total.low == row->total.low;
 }
 
 /* The rows of one block and one accounting. */
@@ -35,7 +35,7 @@ static void print_words(const mote_text *words, FILE *out)
 
 static bool is_best(const mote_summary_row *row)
 {
-    return row->status == MOTE_CELL_OK && (row->stands_for_method || mote_on_front(row));
+    return row->status == MOTE_CELL_OK && (row->stands_for_method || row->on_front);
 }
 
 /* Rows whose times cannot be compared come last. */
@@ -105,19 +105,19 @@ static void print_row(const mote_summary_row *row, FILE *out)
 }
 
 /* The row of FCL that ratios are taken to, of the first row that has any. */
-static const char *best_fcl(const mote_summary *summary, const choice *c)
+static const char *best_fcl(const choice *c)
 {
     for (size_t i = 0; i < c->count; ++i) {
-        if (c->rows[i]->ratio_best.to != SIZE_MAX)
-            return summary->rows[c->rows[i]->ratio_best.to].label;
+        if (c->rows[i]->ratio_best.to)
+            return c->rows[i]->ratio_best.to->label;
     }
     return NULL;
 }
 
-static void print_foot(const mote_summary *summary, const choice *c, FILE *out)
+static void print_foot(const choice *c, FILE *out)
 {
     mote_text words = {0};
-    const char *fcl = best_fcl(summary, c), *separator = "";
+    const char *fcl = best_fcl(c), *separator = "";
     if (c->any_marked) {
         mote_text_add(&words, "* on the front: no row is surely faster and as accurate");
         separator = "; ";
@@ -133,7 +133,7 @@ static void print_foot(const mote_summary *summary, const choice *c, FILE *out)
     free(words.data);
 }
 
-static void print_choice(const mote_summary *summary, const choice *c, bool given, FILE *out)
+static void print_choice(const choice *c, bool given, FILE *out)
 {
     if (c->count == 0)
         return;
@@ -143,7 +143,7 @@ static void print_choice(const mote_summary *summary, const choice *c, bool give
     mote_table_heads(MOTE_VIEW_SCREEN, LABEL_WIDTH, out);
     for (size_t i = 0; i < c->count; ++i)
         print_row(c->rows[i], out);
-    print_foot(summary, c, out);
+    print_foot(c, out);
 }
 
 /* Rows without a figure, and why. */
@@ -154,9 +154,7 @@ static void print_failures(const mote_summary *summary, size_t start, size_t end
         if (row->status == MOTE_CELL_OK)
             continue;
         mote_text words = {0};
-        const char *reason = mote_summary_row_reason(row);
-        mote_text_add(&words, "%s %s: %s", row->label, mote_cell_status_names[row->status],
-                      reason ? reason : "");
+        mote_text_add(&words, "%s %s: %s", row->label, row->ending, row->reason);
         print_words(&words, out);
         free(words.data);
     }
@@ -172,7 +170,7 @@ void mote_screen_print(const mote_summary *summary, FILE *out)
         free(heading);
         for (int given = 0; given < 2; ++given) {
             const choice c = choose(summary, start, end, given != 0);
-            print_choice(summary, &c, given != 0, out);
+            print_choice(&c, given != 0, out);
             free(c.rows);
         }
         print_failures(summary, start, end, out);

@@ -96,8 +96,7 @@ bool mote_stored_common(const mote_stored_cell *a, size_t *i, const mote_stored_
 
 double mote_stored_number(const mote_stored_cell *cell, const char *key)
 {
-    const json_t *value = json_object_get(cell->json, key);
-    return json_is_number(value) ? json_number_value(value) : MOTE_NONE;
+    return mote_number_at(cell->json, key);
 }
 
 static void make_arrays(mote_stored_cell *cell, size_t frames)
@@ -289,10 +288,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->active_last = (uint32_t)last;
     cell->first = frame_number(json_array_get(shown[2], 0));
     cell->last = frame_number(json_array_get(shown[2], 1));
-    const char *machine = json_string_value(json_object_get(cell->json, "machine"));
-    cell->machine = machine ? machine : "";
-    const char *ask = json_string_value(json_object_get(cell->json, "ask"));
-    cell->ask = ask ? ask : "";
+    cell->machine = mote_text_at(cell->json, "machine");
+    cell->ask = mote_text_at(cell->json, "ask");
     const json_int_t bodies = json_integer_value(json_object_get(cell->json, "bodies"));
     cell->bodies = bodies > 0 && bodies <= MOTE_BODIES_MAX ? (uint32_t)bodies : 0;
     cell->group = group_name(cell);
@@ -362,35 +359,6 @@ static void manifest_program(const char *directory, char *program, size_t size)
     if (text && strlen(text) < size)
         memcpy(program, text, strlen(text) + 1);
     json_decref(manifest);
-}
-
-static int by_number(double a, double b)
-{
-    if (a < b || a > b)
-        return a < b ? -1 : 1;
-    return (a == a) - (b == b);
-}
-
-int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b)
-{
-    int order = strcmp(a->scenario, b->scenario);
-    if (order == 0)
-        order = strcmp(b->cache, a->cache); /* hot, then evict */
-    if (order == 0)
-        order = strcmp(a->machine, b->machine);
-    if (order == 0)
-        order = strcmp(a->fingerprint, b->fingerprint);
-    if (order == 0)
-        order = strcmp(a->ask, b->ask);
-    return order ? order
-                 : by_number(mote_stored_number(a, "tolerance"),
-                             mote_stored_number(b, "tolerance"));
-}
-
-int mote_stored_by_frames(const mote_stored_cell *a, const mote_stored_cell *b)
-{
-    const int order = (a->first > b->first) - (a->first < b->first);
-    return order ? order : (a->last < b->last) - (a->last > b->last);
 }
 
 static int by_group(const void *a, const void *b)

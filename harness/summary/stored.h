@@ -62,13 +62,6 @@ typedef struct mote_stored {
 mote_status mote_stored_read(const char *directory, mote_text *damaged, mote_stored *stored);
 void mote_stored_free(mote_stored *stored);
 
-/* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question. 0:
-   the same frames, asked the same on one machine. What is of two scenes is never compared. */
-int mote_stored_by_scene(const mote_stored_cell *a, const mote_stored_cell *b);
-
-/* Likewise by the frames asked for: what begins earlier first, of these the longer. */
-int mote_stored_by_frames(const mote_stored_cell *a, const mote_stored_cell *b);
-
 /* Whether a cell has frames: it ended well. */
 bool mote_stored_ran(const mote_stored_cell *cell);
 

@@ -14,6 +14,7 @@ void mote_summary_free(mote_summary *summary)
         mote_summary_row_free(&summary->rows[i]);
     free(summary->rows);
     mote_stored_free(&summary->stored);
+    json_decref(summary->document);
     mote_summary none = {0};
     *summary = none;
 }
@@ -21,11 +22,11 @@ void mote_summary_free(mote_summary *summary)
 static int by_place(const void *a, const void *b)
 {
     const mote_summary_row *first = a, *second = b;
-    int order = mote_stored_by_scene(first->first, second->first);
+    int order = mote_summary_by_scene(first, second);
     if (order == 0)
-        order = mote_stored_by_frames(first->first, second->first);
+        order = mote_summary_by_frames(first, second);
     if (order == 0)
-        order = strcmp(first->first->method, second->first->method);
+        order = strcmp(first->method, second->method);
     if (order == 0)
         order = (int)first->given - (int)second->given;
     if (order == 0 && (first->n < second->n || first->n > second->n))
@@ -38,9 +39,9 @@ static int by_place(const void *a, const void *b)
    without deformation, whoever measured it. */
 static bool comparable(const mote_summary_row *row, const mote_summary_row *other)
 {
-    return row->status == MOTE_CELL_OK && other->status == MOTE_CELL_OK && row->jobs == 1 &&
-           other->jobs == 1 && mote_stored_by_scene(row->first, other->first) == 0 &&
-           (row->given || !other->given);
+    return row->status == MOTE_CELL_OK && other->status == MOTE_CELL_OK &&
+           row->times_comparable && other->times_comparable &&
+           mote_summary_by_scene(row, other) == 0 && (row->given || !other->given);
 }
 
 /* The part of a frame's time that is compared with that of other rows. */
@@ -52,7 +53,7 @@ static mote_part compared_part(const mote_summary_row *row)
 bool mote_summary_machines_differ(const mote_summary *summary)
 {
     for (size_t i = 1; i < summary->count; ++i) {
-        if (strcmp(summary->rows[i].first->machine, summary->rows[0].first->machine) != 0)
+        if (strcmp(summary->rows[i].machine, summary->rows[0].machine) != 0)
             return true;
     }
     return false;
@@ -61,7 +62,8 @@ bool mote_summary_machines_differ(const mote_summary *summary)
 /* Whether another row was asked for all frames that this one was. */
 static bool covers(const mote_summary_row *other, const mote_summary_row *row)
 {
-    return other->first->first <= row->first->first && other->first->last >= row->first->last;
+    return other->frame_range[0] <= row->frame_range[0] &&
+           other->frame_range[1] >= row->frame_range[1];
 }
 
 /* FCL's AABB tree as its users call it: with the default of each parameter, wherever the
@@ -74,68 +76,69 @@ static bool is_plain_fcl(const mote_summary_row *row)
 /* The row that this one's ratio is taken to: fcl-aabb with its defaults (seed=none, queue=2),
    or any fcl-aabb; on all of this row's frames, best with positions from where this row has
    them and on these frames alone, measured in turn with it. */
-static size_t find_reference(const mote_summary *summary, const mote_summary_row *row)
+static const mote_summary_row *find_reference(const mote_summary *summary,
+                                              const mote_summary_row *row)
 {
-    size_t reference = SIZE_MAX;
+    const mote_summary_row *reference = NULL;
     int highest = -1;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        if (!comparable(row, other) || strcmp(other->first->method, "fcl-aabb") != 0)
+        if (!comparable(row, other) || strcmp(other->method, "fcl-aabb") != 0)
             continue;
         const int rank = (covers(other, row) ? 8 : 0) + (is_plain_fcl(other) ? 4 : 0) +
                          (other->given == row->given ? 2 : 0) +
-                         (mote_stored_by_frames(other->first, row->first) == 0 ? 1 : 0);
-        reference = rank > highest ? i : reference;
+                         (mote_summary_by_frames(other, row) == 0 ? 1 : 0);
+        reference = rank > highest ? other : reference;
         highest = rank > highest ? rank : highest;
     }
     return reference;
 }
 
 /* Of rows on all of this row's frames, or else of any, the fastest over these frames. */
-static size_t find_best_fcl(const mote_summary *summary, const mote_summary_row *row)
+static const mote_summary_row *find_best_fcl(const mote_summary *summary,
+                                             const mote_summary_row *row)
 {
     double least = MOTE_NONE;
     bool covered = false;
-    size_t best = SIZE_MAX;
+    const mote_summary_row *best = NULL;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
         if (!comparable(row, other) || !mote_summary_is_fcl(other))
             continue;
-        const double median = mote_summary_median_within(other, row->first->first,
-                                                         row->first->last, compared_part(row));
+        const double median = mote_summary_median_within(
+            other, row->frame_range[0], row->frame_range[1], compared_part(row));
         const bool all = covers(other, row);
         if (median != median || (covered && !all))
             continue;
         if (all != covered || !(median >= least)) {
             least = median;
-            best = i;
+            best = other;
         }
         covered = all;
     }
     return best;
 }
 
-static void make_ratio(const mote_summary *summary, const mote_summary_row *row, size_t to,
-                       mote_part part, mote_ratio *ratio)
+static void make_ratio(const mote_summary_row *row, const mote_summary_row *to, mote_part part,
+                       mote_ratio *ratio)
 {
     ratio->to = to;
-    if (to != SIZE_MAX)
-        mote_summary_ratio(row, &summary->rows[to], part, ratio);
-    if (to != SIZE_MAX && &summary->rows[to] == row)
+    if (to)
+        mote_summary_ratio(row, to, part, ratio);
+    if (to == row)
         ratio->low = ratio->high = MOTE_NONE; /* 1 whatever was measured */
 }
 
 static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)
 {
-    const size_t to = find_reference(summary, row);
-    const mote_summary_row *reference = to == SIZE_MAX ? NULL : &summary->rows[to];
+    const mote_summary_row *reference = find_reference(summary, row);
     const mote_part part = compared_part(row);
-    make_ratio(summary, row, to, part, &row->ratio);
-    make_ratio(summary, row, to, MOTE_PART_GIVEN, &row->ratio_given);
+    make_ratio(row, reference, part, &row->ratio);
+    make_ratio(row, reference, MOTE_PART_GIVEN, &row->ratio_given);
     if (reference)
         mote_summary_process_ratios(row, reference, part);
     mote_summary_quiet(row, reference);
-    make_ratio(summary, row, find_best_fcl(summary, row), part, &row->ratio_best);
+    make_ratio(row, find_best_fcl(summary, row), part, &row->ratio_best);
 }
 
 static void make_rows(mote_summary *summary)
@@ -157,27 +160,26 @@ static void make_rows(mote_summary *summary)
 /* Names the scene of a row by its scenario and, where several scenes have that name, by its
    fingerprint: a file may have changed between two runs, or there are two in different
    folders. */
-static char *name_scene(const mote_summary *summary, const mote_stored_cell *cell)
+static char *name_scene(const mote_summary *summary, const mote_summary_row *row)
 {
     bool scenes = false, questions = false, tolerances = false;
     for (size_t i = 0; i < summary->count; ++i) {
-        const mote_stored_cell *other = summary->rows[i].first;
-        if (strcmp(other->scenario, cell->scenario) != 0)
+        const mote_summary_row *other = &summary->rows[i];
+        if (strcmp(other->scenario, row->scenario) != 0)
             continue;
-        const double a = mote_stored_number(cell, "tolerance");
-        const double b = mote_stored_number(other, "tolerance");
-        scenes = scenes || strcmp(other->fingerprint, cell->fingerprint) != 0;
-        questions = questions || strcmp(other->ask, cell->ask) != 0;
+        const double a = row->tolerance, b = other->tolerance;
+        scenes = scenes || strcmp(other->fingerprint, row->fingerprint) != 0;
+        questions = questions || strcmp(other->ask, row->ask) != 0;
         tolerances = tolerances || a < b || a > b || (a == a) != (b == b);
     }
     mote_text text = {0};
-    mote_text_add(&text, "%s", cell->scenario);
+    mote_text_add(&text, "%s", row->scenario);
     if (scenes)
-        mote_text_add(&text, " (scene %.*s)", SHOWN_DIGITS, cell->fingerprint);
+        mote_text_add(&text, " (scene %.*s)", SHOWN_DIGITS, row->fingerprint);
     if (questions)
-        mote_text_add(&text, " (asks for %s)", cell->ask[0] ? cell->ask : "anything");
+        mote_text_add(&text, " (asks for %s)", row->ask[0] ? row->ask : "anything");
     if (tolerances)
-        mote_text_add(&text, " (tolerance %g)", mote_stored_number(cell, "tolerance"));
+        mote_text_add(&text, " (tolerance %g)", row->tolerance);
     return text.data;
 }
 
@@ -226,7 +228,7 @@ mote_status mote_summary_make_whole(const char *directory, mote_text *damaged,
     make_rows(&made);
     qsort(made.rows, made.count, sizeof *made.rows, by_place);
     for (size_t i = 0; i < made.count; ++i)
-        made.rows[i].scene = name_scene(&made, made.rows[i].first);
+        made.rows[i].scene = name_scene(&made, &made.rows[i]);
     for (size_t i = 0; i < made.count; ++i)
         make_row_ratios(&made, &made.rows[i]);
     status = mote_scene_contacts_count(directory, made.rows, made.count);

@@ -9,12 +9,13 @@ typedef struct mote_overhead {
     double clock_ns; /* subtracted from every time */
     double left_ns;  /* what is left then */
     double share;    /* of that, at most, in the fastest median total; a frame has up to three
-                        timed    calls, with time 0 where there is none */
+                        timed calls, with time 0 where there is none */
 } mote_overhead;
 
 typedef struct mote_summary {
-    mote_stored stored;
-    mote_summary_row *rows; /* by scene (mote_stored_by_scene), frames, method, n */
+    mote_stored stored;     /* none where the rows were read from a summary.json */
+    json_t *document;       /* that file, in which the rows' texts are; else NULL */
+    mote_summary_row *rows; /* by scene (mote_summary_by_scene), frames, method, n */
     size_t count;
     double noise_floor; /* mote_summary_noise_floor in summary_quiet.h */
     mote_overhead overhead;

@@ -1,17 +1,22 @@
-/* Writes a summary into the files of a run's directory. */
+/* Writes a summary into the files of a run's directory, and reads a summary.json. */
 #ifndef MOTE_HARNESS_SUMMARY_JSON_H
 #define MOTE_HARNESS_SUMMARY_JSON_H
 
 #include "harness/summary/summary.h"
 
-/* A row as summary.json holds it: every column (column.h); NULL when memory ran out. */
-json_t *mote_summary_row_json(const mote_summary *summary, const mote_summary_row *row);
+/* A row as summary.json holds it: every column (column.h). The caller decrefs it. */
+json_t *mote_summary_row_json(const mote_summary_row *row);
 
-/* The summary as the object that summary.json holds; NULL when memory ran out. */
+/* The summary as the object that summary.json holds. The caller decrefs it. */
 json_t *mote_summary_json(const mote_summary *summary);
 
 /* Writes directory/summary.json, summary.csv (mote_table_csv), and fronts.csv and speed.csv
    (harness/summary/front.h). */
 mote_status mote_summary_write(const mote_summary *summary, const char *directory);
+
+/* Reads the rows of directory/name, a summary.json, also one of an older build. They have no
+   cells; what the file does not say is "", MOTE_NONE, 0 or true. MOTE_EIO or MOTE_EINVAL, with
+   the file, where it cannot be read or has no list of rows. The caller frees *summary. */
+mote_status mote_summary_read(const char *directory, const char *name, mote_summary *summary);
 
 #endif

@@ -81,8 +81,8 @@ void mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference
    in nanoseconds among ratios would be a change by a thousand. */
 static bool is_relative(const mote_summary_row *row)
 {
-    for (size_t r = 0; r < row->replicates; ++r) {
-        if (row->processes[r].ratio == row->processes[r].ratio)
+    for (size_t p = 0; p < row->process_count; ++p) {
+        if (row->processes[p].ratio == row->processes[p].ratio)
             return true;
     }
     return false;
@@ -94,9 +94,10 @@ static double half_of_processes(const mote_summary_row *row, uint32_t half)
     double sum = 0, count = 0;
     const bool relative = is_relative(row);
     const uint32_t last = last_replicate(row);
-    for (size_t r = 0; r < row->replicates; ++r) {
-        double value = relative ? row->processes[r].ratio : row->processes[r].median;
-        if (group_of(row->cells[r].replicate, last, 2) != half || !(value > 0))
+    for (size_t p = 0; p < row->process_count; ++p) {
+        const mote_process *process = &row->processes[p];
+        const double value = relative ? process->ratio : process->median;
+        if (group_of(process->replicate, last, 2) != half || !(value > 0))
             continue;
         sum += log(value);
         count += 1;
@@ -119,9 +120,9 @@ static double halves_differ(const mote_summary_row *row, const mote_summary_row 
 }
 
 /* Whether a row's times can be compared; the reference's ratio to itself is always 1. */
-static bool is_compared(const mote_summary_row *rows, size_t index)
+static bool is_compared(const mote_summary_row *row)
 {
-    return rows[index].ratio.to != index && rows[index].finished > 0 && rows[index].jobs <= 1;
+    return row->ratio.to != row && row->finished > 0 && row->times_comparable;
 }
 
 /* The value that 90 % of them stay below; MOTE_NONE of none. values are reordered. */
@@ -136,10 +137,9 @@ double mote_summary_noise_floor(const mote_summary_row *rows, size_t count)
     double *shares = mote_allocate(count, sizeof *shares);
     size_t known = 0;
     for (size_t i = 0; i < count; ++i) {
-        if (!is_compared(rows, i))
+        if (!is_compared(&rows[i]))
             continue;
-        const size_t to = rows[i].ratio.to;
-        const double share = halves_differ(&rows[i], to == SIZE_MAX ? NULL : &rows[to]);
+        const double share = halves_differ(&rows[i], rows[i].ratio.to);
         if (share == share)
             shares[known++] = share;
     }
@@ -153,7 +153,7 @@ static size_t comparable_logs(const mote_summary_row *row, double *logs)
 {
     size_t count = 0;
     bool quiet = row->finished >= MOTE_QUIET_REPLICATES, relative = is_relative(row);
-    size_t some = quiet ? MOTE_QUIET_GROUPS : row->replicates;
+    size_t some = quiet ? MOTE_QUIET_GROUPS : row->process_count;
     for (size_t i = 0; i < some; ++i) {
         const double ratio = quiet ? row->quiet.ratio[i] : row->processes[i].ratio;
         const double total = quiet ? row->quiet.total[i] : row->processes[i].median;
@@ -168,14 +168,14 @@ double mote_summary_smallest_change(mote_summary_row *rows, size_t count)
 {
     size_t compared = 0, known = 0, most = MOTE_QUIET_GROUPS;
     for (size_t i = 0; i < count; ++i) {
-        compared += is_compared(rows, i) ? 1 : 0;
+        compared += is_compared(&rows[i]) ? 1 : 0;
         most = rows[i].replicates > most ? rows[i].replicates : most;
     }
     double *logs = mote_allocate(most + count, sizeof *logs);
     double *changes = logs + most;
     for (size_t i = 0; i < count; ++i) {
         rows[i].smallest_change = MOTE_NONE;
-        if (is_compared(rows, i))
+        if (is_compared(&rows[i]))
             rows[i].smallest_change =
                 mote_statistics_detectable(logs, comparable_logs(&rows[i], logs), compared) - 1;
         if (rows[i].smallest_change == rows[i].smallest_change)

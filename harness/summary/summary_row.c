@@ -2,6 +2,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/base/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -252,52 +253,105 @@ static char *make_label(const mote_stored_cell *cell)
     return text.data;
 }
 
+/* The processes that ended well, and the sums of their counts. */
 static void make_processes(mote_summary_row *row)
 {
     size_t most = 0;
     for (size_t r = 0; r < row->replicates; ++r)
         most = row->cells[r].frames > most ? row->cells[r].frames : most;
     double *work = mote_allocate(most, sizeof *work);
-    row->processes = mote_allocate(row->replicates, sizeof *row->processes);
+    row->processes = mote_allocate(row->finished, sizeof *row->processes);
+    row->sums = mote_allocate(row->finished * row->count_count, sizeof *row->sums);
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *cell = &row->cells[r];
-        if (cell->frames > 0)
-            memcpy(work, cell->total_ns, cell->frames * sizeof *work);
-        row->processes[r].median = mote_statistics_median(work, cell->frames);
-        row->processes[r].ratio = MOTE_NONE;
+        if (!mote_stored_ran(cell))
+            continue;
+        memcpy(work, cell->total_ns, cell->frames * sizeof *work);
+        double *sums = row->sums + row->process_count * row->count_count;
+        for (size_t k = 0; k < row->count_count; ++k)
+            sums[k] = cell->counts[k].sum;
+        row->processes[row->process_count++] =
+            (mote_process){.replicate = cell->replicate,
+                           .median = mote_statistics_median(work, cell->frames),
+                           .ratio = MOTE_NONE,
+                           .sums = sums};
     }
     free(work);
 }
 
-bool mote_summary_row_measured(const mote_summary_row *row)
+static void make_counts(mote_summary_row *row)
 {
-    return row->status == MOTE_CELL_OK && row->jobs == 1 && row->total.median > 0;
+    row->count_count = row->finished > 0 ? MOTE_STORED_COUNTS : 0;
+    row->counts = mote_allocate(row->count_count, sizeof *row->counts);
+    for (size_t k = 0; k < row->count_count; ++k) {
+        double sum = 0, max = 0, frames = 0;
+        for (size_t r = 0; r < row->replicates; ++r) {
+            const mote_stored_cell *cell = &row->cells[r];
+            sum += cell->counts[k].sum;
+            max = cell->counts[k].max > max ? cell->counts[k].max : max;
+            frames += (double)cell->frames;
+        }
+        row->counts[k] = (mote_row_count){mote_stored_count_names[k], sum / frames, max};
+    }
 }
 
-const char *mote_summary_row_reason(const mote_summary_row *row)
+bool mote_summary_row_measured(const mote_summary_row *row)
 {
-    return json_string_value(json_object_get(row->first->json, "reason"));
+    return row->status == MOTE_CELL_OK && row->times_comparable && row->total.median > 0;
 }
 
 bool mote_summary_is_fcl(const mote_summary_row *row)
 {
-    return strncmp(row->first->method, "fcl-", 4) == 0;
+    return strncmp(row->method, "fcl-", 4) == 0;
+}
+
+static int by_number(double a, double b)
+{
+    if (a < b || a > b)
+        return a < b ? -1 : 1;
+    return (a == a) - (b == b);
+}
+
+int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b)
+{
+    int order = strcmp(a->scenario, b->scenario);
+    if (order == 0)
+        order = strcmp(b->cache, a->cache); /* hot, then evict */
+    if (order == 0)
+        order = strcmp(a->machine, b->machine);
+    if (order == 0)
+        order = strcmp(a->fingerprint, b->fingerprint);
+    if (order == 0)
+        order = strcmp(a->ask, b->ask);
+    return order ? order : by_number(a->tolerance, b->tolerance);
+}
+
+int mote_summary_by_frames(const mote_summary_row *a, const mote_summary_row *b)
+{
+    const int order =
+        (a->frame_range[0] > b->frame_range[0]) - (a->frame_range[0] < b->frame_range[0]);
+    return order ? order
+                 : (a->frame_range[1] < b->frame_range[1]) -
+                       (a->frame_range[1] > b->frame_range[1]);
 }
 
 bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *b)
 {
-    return mote_stored_by_scene(a->first, b->first) == 0 &&
-           mote_stored_by_frames(a->first, b->first) == 0;
+    return mote_summary_by_scene(a, b) == 0 && mote_summary_by_frames(a, b) == 0;
 }
 
 void mote_summary_row_free(mote_summary_row *row)
 {
-    free(row->label);
-    free(row->scene);
+    if (row->cells) { /* else these are in the document that it was read from */
+        free(row->label);
+        free(row->scene);
+    }
+    free(row->counts);
     free(row->processes);
+    free(row->sums);
 }
 
-static const mote_ratio no_ratio = {SIZE_MAX, MOTE_NONE, MOTE_NONE, MOTE_NONE};
+static const mote_ratio no_ratio = {NULL, MOTE_NONE, MOTE_NONE, MOTE_NONE};
 
 /* How bad an end is; 0: none. */
 static int badness(mote_cell_status status)
@@ -308,8 +362,57 @@ static int badness(mote_cell_status status)
 /* Whether the method was given the positions of all vertices at no charge. */
 static bool is_given(const mote_stored_cell *cell)
 {
-    const char *positions = json_string_value(json_object_get(cell->parameters, "positions"));
-    return positions && strcmp(positions, "given") == 0;
+    return strcmp(mote_text_at(cell->parameters, "positions"), "given") == 0;
+}
+
+static void read_two(const json_t *json, const char *key, uint32_t numbers[2])
+{
+    const json_t *list = json_object_get(json, key);
+    for (size_t k = 0; k < 2; ++k) {
+        const json_int_t number = json_integer_value(json_array_get(list, k));
+        numbers[k] = number >= 0 && number <= UINT32_MAX ? (uint32_t)number : 0;
+    }
+}
+
+/* Vertices of all bodies; 0: not known. */
+static double all_vertices(const mote_summary_row *row)
+{
+    const double total = mote_stored_number(row->first, "vertices_total"); /* of many bodies */
+    return total > 0 ? total : (double)row->vertices[0] + (double)row->vertices[1];
+}
+
+/* What was measured, as the row's first cell says. */
+static void describe(mote_summary_row *row)
+{
+    const mote_stored_cell *cell = row->first;
+    row->scenario = cell->scenario;
+    row->fingerprint = cell->fingerprint;
+    row->cache = cell->cache;
+    row->machine = cell->machine;
+    row->ask = cell->ask;
+    row->method = cell->method;
+    row->label = make_label(cell);
+    row->status = cell->status;
+    row->ending = mote_cell_status_names[cell->status];
+    row->reason = mote_text_at(cell->json, "reason");
+    row->given = is_given(cell);
+    row->accounting = row->given ? "given" : "charged";
+    row->parameters = cell->parameters;
+    row->n = mote_number_at(cell->parameters, "n");
+    row->tolerance = mote_stored_number(cell, "tolerance");
+    row->seed = cell->seed;
+    row->frame_range[0] = cell->first;
+    row->frame_range[1] = cell->last;
+    row->stride = cell->stride;
+    row->jobs = cell->jobs;
+    row->times_comparable = cell->jobs == 1;
+    read_two(cell->json, "triangles", row->triangles);
+    read_two(cell->json, "vertices", row->vertices);
+    row->bodies = cell->bodies;
+    const double shapes = mote_stored_number(cell, "shapes");
+    row->shapes = shapes >= 1 && shapes <= MOTE_BODIES_MAX ? (uint32_t)shapes : 0;
+    row->near_pairs_wanted = mote_stored_number(cell, "near_pairs_wanted");
+    row->frames = cell->frames;
 }
 
 mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t replicates)
@@ -322,21 +425,17 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
         else if (made.finished == 0 && worse)
             made.first = &cells[r];
     }
-    made.status = made.first->status;
-    made.frames = made.first->frames;
-    made.jobs = made.first->jobs;
-    made.given = is_given(made.first);
-    made.dominated_by = SIZE_MAX;
+    made.failed = replicates - made.finished;
+    describe(&made);
     made.smallest_change = made.near_pairs = MOTE_NONE;
-    made.contacts_of = SIZE_MAX;
-    made.label = make_label(made.first);
-    const json_t *n = json_object_get(made.first->parameters, "n");
-    made.n = json_is_number(n) ? json_number_value(n) : MOTE_NONE;
     made.ratio = made.ratio_given = made.ratio_best = no_ratio;
     made.heap_live_bytes = largest(&made, "heap_live_bytes");
     made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");
+    const double vertices = all_vertices(&made);
+    made.heap_bytes_per_vertex = vertices > 0 ? made.heap_live_bytes / vertices : MOTE_NONE;
     count_contacts(&made);
+    make_counts(&made);
     make_processes(&made);
     make_times(&made);
     make_error(&made, &made.error);
@@ -396,14 +495,17 @@ void mote_summary_ratio(const mote_summary_row *row, const mote_summary_row *oth
 void mote_summary_process_ratios(mote_summary_row *row, const mote_summary_row *other,
                                  mote_part part)
 {
+    mote_process *process = row->processes;
     for (size_t r = 0; r < row->replicates; ++r) {
         const mote_stored_cell *mine = &row->cells[r];
         const mote_stored_cell *theirs = mote_summary_replicate(other, mine->replicate);
-        if (!mote_stored_ran(mine) || !theirs)
+        if (!mote_stored_ran(mine))
             continue;
         double *ratios = mote_allocate(mine->frames, sizeof *ratios);
-        size_t count = pair_frames(mine, theirs, value_of_part(part), ratios);
-        row->processes[r].ratio = mote_statistics_median(ratios, count);
+        if (theirs)
+            process->ratio = mote_statistics_median(
+                ratios, pair_frames(mine, theirs, value_of_part(part), ratios));
+        ++process;
         free(ratios);
     }
 }

@@ -59,17 +59,15 @@ void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out)
 }
 
 /* "11920 and 11920 triangles", or "100 bodies of 1380 to 11920 triangles". */
-static const char *describe_bodies(const mote_stored_cell *cell, char *text, size_t size)
+static const char *describe_bodies(const mote_summary_row *row, char *text, size_t size)
 {
-    const json_t *triangles = json_object_get(cell->json, "triangles");
-    const int first = (int)json_integer_value(json_array_get(triangles, 0));
-    const int second = (int)json_integer_value(json_array_get(triangles, 1));
-    if (cell->bodies == 0)
-        (void)snprintf(text, size, "%d and %d triangles", first, second);
+    const uint32_t first = row->triangles[0], second = row->triangles[1];
+    if (row->bodies == 0)
+        (void)snprintf(text, size, "%u and %u triangles", first, second);
     else if (first == second)
-        (void)snprintf(text, size, "%u bodies of %d triangles", cell->bodies, first);
+        (void)snprintf(text, size, "%u bodies of %u triangles", row->bodies, first);
     else
-        (void)snprintf(text, size, "%u bodies of %d to %d triangles", cell->bodies, first,
+        (void)snprintf(text, size, "%u bodies of %u to %u triangles", row->bodies, first,
                        second);
     return text;
 }
@@ -91,49 +89,37 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
     for (size_t i = start; i < mote_table_block_end(summary, start); ++i) {
         const mote_summary_row *other = &summary->rows[i];
         frames = other->frames > frames ? other->frames : frames;
-        replicates = other->replicates > replicates ? other->replicates : replicates;
+        const size_t ran = other->finished + other->failed;
+        replicates = ran > replicates ? ran : replicates;
     }
     char what[96];
     const bool several = mote_summary_machines_differ(summary);
     return mote_format("%s: %s, %zu frames, %zu replicate%s, caches %s%s%s", row->scene,
-                       describe_bodies(row->first, what, sizeof what), frames, replicates,
-                       replicates == 1 ? "" : "s", row->first->cache, several ? ", on " : "",
-                       several ? row->first->machine : "");
-}
-
-bool mote_row_note(const mote_row_facts *facts, int i, char text[MOTE_ROW_NOTE])
-{
-    const bool applies[MOTE_ROW_NOTES] = {facts->stride > 1, facts->jobs > 1,
-                                          facts->replicates_failed > 0 &&
-                                              facts->replicates > 0};
-    if (applies[i] && i == 0)
-        (void)snprintf(text, MOTE_ROW_NOTE, "every %.0fth frame", facts->stride);
-    else if (applies[i] && i == 1)
-        (void)snprintf(text, MOTE_ROW_NOTE, "times not comparable: %.0f cells at once",
-                       facts->jobs);
-    else if (applies[i])
-        (void)snprintf(text, MOTE_ROW_NOTE, "%.0f of %.0f replicates ended badly",
-                       facts->replicates_failed, facts->replicates + facts->replicates_failed);
-    return applies[i];
+                       describe_bodies(row, what, sizeof what), frames, replicates,
+                       replicates == 1 ? "" : "s", row->cache, several ? ", on " : "",
+                       several ? row->machine : "");
 }
 
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
 {
-    const mote_row_facts facts = {.stride = row->first->stride,
-                                  .jobs = row->jobs,
-                                  .replicates = (double)row->finished,
-                                  .replicates_failed =
-                                      (double)(row->replicates - row->finished)};
-    return mote_row_note(&facts, i, text);
+    const bool applies[MOTE_ROW_NOTES] = {row->stride > 1, row->jobs > 1,
+                                          row->failed > 0 && row->finished > 0};
+    if (applies[i] && i == 0)
+        (void)snprintf(text, MOTE_ROW_NOTE, "every %uth frame", row->stride);
+    else if (applies[i] && i == 1)
+        (void)snprintf(text, MOTE_ROW_NOTE, "times not comparable: %u cells at once",
+                       row->jobs);
+    else if (applies[i])
+        (void)snprintf(text, MOTE_ROW_NOTE, "%zu of %zu replicates ended badly", row->failed,
+                       row->finished + row->failed);
+    return applies[i];
 }
 
 static void print_row(const mote_summary_row *row, int width, FILE *out)
 {
     (void)fprintf(out, "%-*s", width, row->label);
     if (row->status != MOTE_CELL_OK) {
-        const char *reason = mote_summary_row_reason(row);
-        (void)fprintf(out, " %s: %s\n", mote_cell_status_names[row->status],
-                      reason ? reason : "");
+        (void)fprintf(out, " %s: %s\n", row->ending, row->reason);
         return;
     }
     mote_table_values(MOTE_VIEW_TABLE, row, out);
@@ -153,17 +139,16 @@ static void print_foot(const mote_summary *summary, size_t start, size_t end, FI
         const mote_summary_row *row = NULL;
         for (size_t i = start; i < end; ++i) {
             const mote_summary_row *other = &summary->rows[i];
-            if (other->given == (given != 0) && other->ratio.to != SIZE_MAX &&
-                other->ratio_best.to != SIZE_MAX)
+            if (other->given == (given != 0) && other->ratio.to && other->ratio_best.to)
                 row = other;
         }
         if (row)
             (void)fprintf(
                 out, "%sfcl-aabb: %s; %sbest FCL: %s\n",
                 given ? "of positions=given, deformation charged to nobody: " : "",
-                summary->rows[row->ratio.to].label,
+                row->ratio.to->label,
                 given ? "" : "given: the same where nobody pays for deforming all vertices; ",
-                summary->rows[row->ratio_best.to].label);
+                row->ratio_best.to->label);
     }
 }
 
@@ -224,10 +209,10 @@ void mote_table_csv(const mote_summary *summary, mote_text *text)
             const mote_column *column = &mote_columns[k];
             if (!column->csv)
                 continue;
+            const char *shown = mote_column_text(column, &summary->rows[i]);
             mote_text_add(text, "%s", separator);
-            if (column->type == MOTE_COLUMN_TEXT)
-                mote_escape_csv(text, mote_column_text(column, summary, &summary->rows[i]),
-                                column->quoted);
+            if (column->type == MOTE_COLUMN_TEXT || column->type == MOTE_COLUMN_ROW)
+                mote_escape_csv(text, shown[0] ? shown : NULL, column->quoted);
             else
                 mote_csv_number(text, mote_column_number(column, &summary->rows[i]));
             separator = ",";

@@ -22,17 +22,11 @@ size_t mote_table_block_end(const mote_summary *summary, size_t start);
 void mote_table_heads(mote_view view, int width, FILE *out);
 void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out);
 
-/* What must be known of a row beside its figures: its columns of these names; MOTE_NONE: not
-   known. */
-typedef struct mote_row_facts {
-    double stride, jobs, replicates, replicates_failed;
-} mote_row_facts;
-
 #define MOTE_ROW_NOTES 3
 #define MOTE_ROW_NOTE 96
 
-/* Note i < MOTE_ROW_NOTES: "every 16th frame"; false, and no text, where it does not apply. */
-bool mote_row_note(const mote_row_facts *facts, int i, char text[MOTE_ROW_NOTE]);
+/* What must be known of a row beside its figures, i < MOTE_ROW_NOTES: "every 16th frame";
+   false, and no text, where it does not apply. */
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE]);
 
 /* A line of names, then one line a configuration, times in nanoseconds, an empty field for what

@@ -15,10 +15,9 @@ static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *ro
     size_t same = 0;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        same += strcmp(other->scene, row->scene) == 0 &&
-                strcmp(other->first->cache, row->first->cache) == 0 &&
-                strcmp(other->first->machine, row->first->machine) == 0 &&
-                strcmp(other->label, row->label) == 0;
+        same +=
+            strcmp(other->scene, row->scene) == 0 && strcmp(other->cache, row->cache) == 0 &&
+            strcmp(other->machine, row->machine) == 0 && strcmp(other->label, row->label) == 0;
     }
     return same > 1;
 }
@@ -30,14 +29,11 @@ static char *row_name(const mote_summary *summary, const mote_summary_row *row)
     bool several = mote_summary_machines_differ(summary);
     char apart[96] = "";
     if (is_ambiguous(summary, row)) {
-        const json_t *frames = json_object_get(row->first->json, "frames");
-        (void)snprintf(apart, sizeof apart, "/frames:%d-%d/stride:%u/seed:%" PRIu64,
-                       (int)json_integer_value(json_array_get(frames, 0)),
-                       (int)json_integer_value(json_array_get(frames, 1)), row->first->stride,
-                       row->first->seed);
+        (void)snprintf(apart, sizeof apart, "/frames:%u-%u/stride:%u/seed:%" PRIu64,
+                       row->frame_range[0], row->frame_range[1], row->stride, row->seed);
     }
-    return mote_format("%s/%s/%s%s%s%s", row->scene, row->label, row->first->cache, apart,
-                       several ? "/" : "", several ? row->first->machine : "");
+    return mote_format("%s/%s/%s%s%s%s", row->scene, row->label, row->cache, apart,
+                       several ? "/" : "", several ? row->machine : "");
 }
 
 /* Sets a member to what is known; leaves it out when there is nothing. */
@@ -102,7 +98,7 @@ json_t *mote_gbench_json(const mote_summary *summary, const json_t *manifest)
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
         size_t index = 0;
-        for (size_t r = 0; row->jobs == 1 && r < row->replicates; ++r) {
+        for (size_t r = 0; row->times_comparable && r < row->replicates; ++r) {
             if (row->cells[r].frames > 0)
                 (void)json_array_append_new(
                     benchmarks, gbench_replicate(row, &row->cells[r], name, index++));
@@ -119,7 +115,7 @@ json_t *mote_gha_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (row->status == MOTE_CELL_OK && row->jobs == 1) {
+        if (row->status == MOTE_CELL_OK && row->times_comparable) {
             json_t *entry = json_pack("{s:s, s:s, s:f}", "name", name, "unit", "ns", "value",
                                       row->total.median);
             char *range = mote_format("%.0f", (row->total.high - row->total.low) / 2);
@@ -139,7 +135,7 @@ json_t *mote_bencher_json(const mote_summary *summary)
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char *name = row_name(summary, row);
-        if (row->status == MOTE_CELL_OK && row->jobs == 1) {
+        if (row->status == MOTE_CELL_OK && row->times_comparable) {
             json_t *latency = json_pack("{s:f}", "value", row->total.median);
             if (row->total.low == row->total.low) {
                 (void)json_object_set_new(latency, "lower_value", json_real(row->total.low));

@@ -9,7 +9,7 @@
 static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
 {
     return mote_summary_same_block(a, b) && a->given == b->given &&
-           strcmp(a->first->method, b->first->method) == 0;
+           strcmp(a->method, b->method) == 0;
 }
 
 static bool is_right(const mote_summary_row *row)
@@ -21,7 +21,8 @@ static bool is_right(const mote_summary_row *row)
 static void compete(const mote_summary_row *row, mote_tuned *group)
 {
     /* A time that is not known is neither the smallest nor the largest. */
-    if (row->status != MOTE_CELL_OK || row->jobs > 1 || row->total.median != row->total.median)
+    if (row->status != MOTE_CELL_OK || !row->times_comparable ||
+        row->total.median != row->total.median)
         return;
     group->configurations++;
     bool right = is_right(row);
@@ -56,7 +57,7 @@ static json_t *row_json(const mote_tuned *group)
     return json_pack(
         "{s:s, s:s, s:s, s:s, s:s, s:s, s:O, s:b, s:i, s:i, s:o, s:o, s:o, s:o, s:{s:s, s:o}}",
         "scenario", best->first->scenario, "fingerprint", best->first->fingerprint,
-        "accounting", best->given ? "given" : "charged", "cache", best->first->cache, "method",
+        "accounting", best->given ? "given" : "charged", "cache", best->cache, "method",
         best->first->method, "configuration", best->label, "parameters",
         best->first->parameters, "right", (int)group->right, "configurations",
         (int)group->configurations, "stride", (int)best->first->stride, "total_ns",
@@ -117,7 +118,7 @@ void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out)
         const mote_summary_row *best = tuned[i].best;
         if (i == 0 || !mote_summary_same_block(tuned[i - 1].best, best))
             (void)fprintf(out, "%s%s, caches %s\n%-52s %11s %11s %11s %11s %9s\n",
-                          i ? "\n" : "", best->scene, best->first->cache, "best configuration",
+                          i ? "\n" : "", best->scene, best->cache, "best configuration",
                           "total us", "deform", "update", "query", "worst");
         (void)fprintf(out, "%-52s %11.2f %11.2f %11.2f %11.2f %8.2fx  of %zu%s\n", best->label,
                       best->total.median * 1e-3, best->deform.median * 1e-3,

@@ -143,7 +143,7 @@ class Block {
 
     update() {
         const filtered = this.filtered();
-        const visible = filtered.filter((row) => this.choice.all || row.stands);
+        const visible = filtered.filter((row) => this.choice.all || row.stands_for_method);
         this.lines.clear();
         this.body.replaceChildren(...this.order(visible).map((row) => this.line(row)));
         if (visible.length === 0)

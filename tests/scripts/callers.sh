@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 
 # Columns become documents in a test, which compares them; front_time is what tests see of a part
 # of the fronts.
-allowed='mote_columns_json mote_columns_markdown mote_columns_schema mote_front_time'
+allowed='mote_columns_markdown mote_columns_schema mote_front_time'
 
 find harness baselines -name '*.h' -o -name '*.hpp' | xargs grep -hvE 'static inline' |
     grep -oE '\bmote_[a-z0-9_]+\(' | tr -d '(' | sort -u > "$work/declared"

@@ -306,7 +306,8 @@ static void plant_cell(size_t row, size_t replicate, mote_stored_cell *cell)
 }
 
 /* Four frames of several bodies. */
-static void plant_scene_row(const scene_cell *of, mote_stored_cell *cell, mote_summary_row *row)
+static void plant_scene_row(const scene_cell *of, const mote_summary_row *first,
+                            mote_stored_cell *cell, mote_summary_row *row)
 {
     static double times[4] = {4e6, 1e6, 1e6, 1e6};
     const bool ours = strncmp(of->label, "particle", 8) == 0;
@@ -332,15 +333,22 @@ static void plant_scene_row(const scene_cell *of, mote_stored_cell *cell, mote_s
                               .finished = of->fails ? 0 : 1,
                               .first = cell,
                               .status = cell->status,
+                              .scenario = cell->scenario,
+                              .scene = (char *)(uintptr_t)of->scenario,
+                              .fingerprint = cell->fingerprint,
+                              .cache = cell->cache,
+                              .machine = cell->machine,
+                              .ask = cell->ask,
+                              .method = cell->method,
+                              .ending = mote_cell_status_names[cell->status],
+                              .reason = "",
+                              .bodies = of->bodies,
+                              .near_pairs_wanted = of->density,
                               .label = (char *)(uintptr_t)of->label,
                               .frames = cell->frames,
                               .active_total = {.mean = control ? 1e6 * planted.ratio : 1e6},
-                              .contacts_of = planted.body_alone || of->fails ? SIZE_MAX : 0,
+                              .contacts_of = planted.body_alone || of->fails ? NULL : first,
                               .missed = planted.body_missed && !ours ? 1 : 0,
-                              .ratio = {.to = SIZE_MAX},
-                              .ratio_given = {.to = SIZE_MAX},
-                              .ratio_best = {.to = SIZE_MAX},
-                              .dominated_by = SIZE_MAX,
                               .rss_peak_bytes = (double)planted.body_bytes};
 }
 
@@ -352,7 +360,8 @@ static void plant_scene_rows(mote_summary *summary)
     summary->stored.count = scene_count;
     need(summary->rows && summary->stored.cells);
     for (size_t i = 0; i < scene_count; ++i)
-        plant_scene_row(&scene_cells[i], &summary->stored.cells[i], &summary->rows[i]);
+        plant_scene_row(&scene_cells[i], summary->rows, &summary->stored.cells[i],
+                        &summary->rows[i]);
     scene_count = 0;
 }
 
@@ -385,8 +394,10 @@ PLANT(mote_summary_make, const char *directory, mote_summary *summary)
                                               .replicates = REPLICATES,
                                               .first = &cells[0],
                                               .status = MOTE_CELL_OK,
+                                              .scenario = timed[i].scenario,
+                                              .cache = timed[i].cache,
                                               .label = (char *)(uintptr_t)timed[i].label,
-                                              .jobs = 1};
+                                              .times_comparable = true};
     }
     return MOTE_OK;
 }

@@ -25,7 +25,7 @@ static const char *const labels[TRACKS] = {
 static size_t place_of(size_t track)
 {
     size_t i = 0;
-    while (strcmp(mote_report_cells(&report, i)->label, labels[track]) != 0)
+    while (strcmp(mote_report_row(&report, i)->label, labels[track]) != 0)
         ++i;
     return i;
 }
@@ -145,7 +145,7 @@ TEST(replay_json_holds_the_stored_answers)
     assert_int_equal(json_array_size(tracks), TRACKS);
     for (size_t t = 0; t < TRACKS; ++t) {
         const json_t *track = json_array_get(tracks, t);
-        const mote_stored_cell *cell = &mote_report_cells(&report, t)->cells[0];
+        const mote_stored_cell *cell = &mote_report_row(&report, t)->cells[0];
         assert_string_equal(json_string_value(json_object_get(track, "cell")), cell->id);
         json_t *answers = page_unpack_json(track, "answers");
         const json_t *errors = json_object_get(answers, "error");
@@ -174,7 +174,7 @@ TEST(replay_json_pairs_are_their_distance_apart)
     const json_t *track = json_array_get(json_object_get(scene, "tracks"), place_of(PAPER));
     json_t *answers = page_unpack_json(track, "answers");
     const double step = number_of(scene, "step");
-    const mote_stored_cell *cell = &mote_report_cells(&report, place_of(PAPER))->cells[0];
+    const mote_stored_cell *cell = &mote_report_row(&report, place_of(PAPER))->cells[0];
     const json_t *truth = json_object_get(world, "pair"),
                  *pair = json_object_get(answers, "pair");
     assert_int_equal(json_array_size(truth), 6 * FRAMES); /* apart in every frame */
@@ -228,7 +228,7 @@ TEST(replay_shows_the_replicate_with_the_largest_error)
                 "particle-paper:n=2,refine=no");
     assert_int_equal(mote_report_gather("several", &several), MOTE_OK);
     assert_int_equal(mote_replay_load(&several, 0, 1, &scene), MOTE_OK);
-    const mote_summary_row *row = mote_report_cells(&several, 0);
+    const mote_summary_row *row = mote_report_row(&several, 0);
     double largest[6], shown = 0;
     bool differ = false;
     for (size_t r = 0; r < 6; ++r) {
@@ -265,7 +265,7 @@ TEST(replay_write_of_any_budget_names_all_that_is_left_out)
     mote_replay_scene scene;
     json_t *data = NULL;
     size_t all = 0, least_tracks = TRACKS, least_sets = 2;
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene), MOTE_OK);
     assert_int_equal(mote_replay_write(&scene, 1u << 24, &data, &all), MOTE_OK);
     assert_int_equal(notes_with(data, "left out"), 0);
     json_decref(data);
@@ -295,7 +295,7 @@ TEST(replay_write_of_any_budget_names_all_that_is_left_out)
 TEST(replay_particles_of_tracked_begin_with_the_pair)
 {
     mote_replay_scene scene;
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene), MOTE_OK);
     const mote_replay_track *track = &scene.tracks[place_of(TRACKED)];
     assert_in_range(track->particles, 1, 9);
     assert_int_equal(track->rows, FRAMES);
@@ -310,7 +310,7 @@ TEST(replay_particles_of_tracked_begin_with_the_pair)
 TEST(replay_particles_of_other_answers_are_not_shown)
 {
     mote_replay_scene scene;
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene), MOTE_OK);
     mote_replay_track *track = &scene.tracks[place_of(PAPER)];
     assert_int_equal(track->particles, 3);
     free(track->place);
@@ -365,7 +365,7 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
                {"particle-paper:n=65,refine=no", "more than a picture shows", 1},
                {"particle-paper:n=1000000", "n", FRAMES}};
     mote_replay_scene scene;
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene), MOTE_OK);
+    assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene), MOTE_OK);
     for (size_t i = 0; i < sizeof odd / sizeof odd[0]; ++i) {
         char label[64];
         (void)snprintf(label, sizeof label, "%s", odd[i].label);
@@ -410,11 +410,11 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
 TEST(replay_load_of_a_frame_that_the_scenario_has_not_is_refused)
 {
     static const uint32_t numbers[] = {FRAMES + 1, 100000, UINT32_MAX};
-    uint32_t *last = &mote_report_cells(&report, place_of(CERTIFIED))->first->frame[FRAMES - 1];
+    uint32_t *last = &mote_report_row(&report, place_of(CERTIFIED))->first->frame[FRAMES - 1];
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
         mote_replay_scene scene;
         *last = numbers[i];
-        assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene),
+        assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene),
                          MOTE_EUNSUPPORTED);
         assert_non_null(strstr(mote_error_text(), "the scenario has frames 1-5"));
     }
@@ -428,7 +428,7 @@ TEST(replay_load_of_a_changed_scenario_is_refused)
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 100,\n"
         " \"warmup\": null, \"active\": null}\n";
     file_put("five.json", other);
-    assert_int_equal(mote_replay_load(&report, 0, report.cells.count, &scene),
+    assert_int_equal(mote_replay_load(&report, 0, report.summary.count, &scene),
                      MOTE_EUNSUPPORTED);
     assert_non_null(strstr(mote_error_text(), "moved or changed"));
     size_t shown;

@@ -531,6 +531,9 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
 }
 
 /* Runs with other densities than the three of the figure have no points in it. */
+/* A run without cells. */
+static const mote_summary no_cells;
+
 static const char other_density[] =
     "{\"schema\": 1, \"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
     "\"bodies\": 20, \"near_pairs_wanted\": 1.5, \"active_total_ns\": {\"mean\": 2500000}, "
@@ -538,7 +541,7 @@ static const char other_density[] =
 
 TEST(mote_figure_bodies_without_a_point_is_missing)
 {
-    const mote_figure_run run = {.directory = "other"};
+    const mote_figure_run run = {.directory = "other", .summary = &no_cells};
     mote_figure figure = {0};
     assert_int_equal(mote_directory_make("other"), MOTE_OK);
     assert_int_equal(
@@ -563,7 +566,7 @@ static const char stored[] =
 
 TEST(mote_figure_bodies_stored_rows_become_lines)
 {
-    const mote_figure_run run = {.directory = "stored"};
+    const mote_figure_run run = {.directory = "stored", .summary = &no_cells};
     mote_figure figure = {0};
     assert_int_equal(mote_directory_make("stored"), MOTE_OK);
     (void)remove("stored/summary.json");

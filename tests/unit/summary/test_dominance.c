@@ -68,8 +68,7 @@ static void make_summary(void)
 static const mote_summary_row *row_of(const char *method, bool given)
 {
     for (size_t i = 0; i < summary.count; ++i) {
-        if (strcmp(summary.rows[i].first->method, method) == 0 &&
-            summary.rows[i].given == given)
+        if (strcmp(summary.rows[i].method, method) == 0 && summary.rows[i].given == given)
             return &summary.rows[i];
     }
     fail_msg("no row of %s", method);
@@ -103,10 +102,10 @@ TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
         write_row((stored_cell){.method = "fast"}, cases[i].fast);
         make_summary();
         const mote_summary_row *slow = row_of("slow", false), *fast = row_of("fast", false);
-        if ((slow->dominated_by != SIZE_MAX) != cases[i].dominated ||
-            mote_on_front(slow) == cases[i].dominated || !mote_on_front(fast))
+        if ((slow->dominated_by != NULL) != cases[i].dominated ||
+            slow->on_front == cases[i].dominated || !fast->on_front)
             fail_msg("worse in %s: dominated %d, on the front %d and %d", cases[i].figure,
-                     slow->dominated_by != SIZE_MAX, mote_on_front(slow), mote_on_front(fast));
+                     slow->dominated_by != NULL, slow->on_front, fast->on_front);
         mote_summary_free(&summary);
     }
 }
@@ -121,9 +120,9 @@ TEST(distances_do_not_count_where_contacts_are_asked_for)
     write_row((stored_cell){.method = "slow", .more = contact},
               (answers){.query_ns = 1000, .error = 0.5, .inexact = 9});
     make_summary();
-    assert_true(mote_on_front(row_of("fast", false)));
-    assert_true(mote_on_front(row_of("wrong", false)));
-    assert_false(mote_on_front(row_of("slow", false)));
+    assert_true(row_of("fast", false)->on_front);
+    assert_true(row_of("wrong", false)->on_front);
+    assert_false(row_of("slow", false)->on_front);
     mote_summary_row silent = *row_of("fast", false);
     silent.error.p99 = silent.error.max = silent.error.exact_rate = MOTE_NONE;
     assert_true(mote_dominates(&silent, row_of("slow", false)));
@@ -165,7 +164,7 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
     assert_true(fabs(charged->ratio.value - 1002.0 / 120.2) < 0.1);
     assert_true(fabs(charged->ratio_given.value - 10) < 1e-9);
     /* Faster than all, and exact; yet it dominates only its like. */
-    assert_true(mote_on_front(charged) && mote_on_front(ours));
+    assert_true(charged->on_front && ours->on_front);
     mote_fronts fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < fronts.count; ++i) {
         if (&summary.rows[fronts.items[i].first] == ours)
@@ -188,10 +187,10 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
     assert_non_null(strstr(table, "\nof positions=given, deformation charged to nobody: "
                                   "fcl-aabb: fcl-aabb:positions"));
     free(table);
-    assert_true(&summary.rows[ours->ratio.to] == row_of("fcl-aabb", true));
+    assert_true(ours->ratio.to == row_of("fcl-aabb", true));
     assert_true(fabs(ours->ratio.value - 12.5) < 1e-9);
-    assert_true(&summary.rows[ours->ratio_best.to] == row_of("fcl-aabb", false));
-    assert_true(&summary.rows[row_of("ours", false)->ratio.to] == row_of("fcl-aabb", false));
+    assert_true(ours->ratio_best.to == row_of("fcl-aabb", false));
+    assert_true(row_of("ours", false)->ratio.to == row_of("fcl-aabb", false));
 }
 
 /* In three processes of five the fewer particles happen to be exact, in all together they are

@@ -85,7 +85,15 @@ static mote_summary_row row_of(const mote_stored_cell *cell)
                               .finished = cell->status == MOTE_CELL_OK,
                               .first = cell,
                               .status = cell->status,
-                              .contacts_of = SIZE_MAX,
+                              .scenario = cell->scenario,
+                              .fingerprint = cell->fingerprint,
+                              .cache = cell->cache,
+                              .machine = cell->machine,
+                              .ask = cell->ask,
+                              .method = cell->method,
+                              .parameters = cell->parameters,
+                              .frame_range = {cell->first, cell->last},
+                              .bodies = cell->bodies,
                               .missed = (double)NAN,
                               .near_pairs = (double)NAN};
 }
@@ -105,7 +113,7 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
     assert_int_equal(mote_scene_contacts_count(".", rows, 4), MOTE_OK);
     static const double missed[] = {2, 1, 1, 0}, wrong[] = {1, 0, 0, 0};
     for (int k = 0; k < 4; ++k) {
-        assert_int_equal(rows[k].contacts_of, 3);
+        assert_ptr_equal(rows[k].contacts_of, &rows[3]);
         assert_true(rows[k].missed == missed[k] && rows[k].false_contacts == wrong[k]);
         assert_true(rows[k].near_pairs == 3.5 && rows[k].contacts == 7);
     }
@@ -115,11 +123,11 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
     for (int k = 0; k < 3; ++k)
         rows[k] = row_of(&cells[k]);
     assert_int_equal(mote_scene_contacts_count(".", rows, 4), MOTE_OK);
-    assert_int_equal(rows[0].contacts_of, 1);
-    assert_int_equal(rows[2].contacts_of, 2);
+    assert_ptr_equal(rows[0].contacts_of, &rows[1]);
+    assert_ptr_equal(rows[2].contacts_of, &rows[2]);
     rows[0] = row_of(&cells[0]);
     assert_int_equal(mote_scene_contacts_count(".", rows, 1), MOTE_OK);
-    assert_int_equal(rows[0].contacts_of, SIZE_MAX);
+    assert_null(rows[0].contacts_of);
     assert_true(isnan(rows[0].missed));
     for (int k = 0; k < 4; ++k)
         json_decref(cells[k].json);
@@ -133,7 +141,7 @@ TEST(mote_scene_contacts_count_of_cells_that_failed_compares_nothing)
     cell.frames = 0;
     mote_summary_row row = row_of(&cell);
     assert_int_equal(mote_scene_contacts_count(".", &row, 1), MOTE_OK);
-    assert_int_equal(row.contacts_of, SIZE_MAX);
+    assert_null(row.contacts_of);
     assert_true(isnan(row.missed) && isnan(row.near_pairs));
     json_decref(cell.json);
 }

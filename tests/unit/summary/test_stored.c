@@ -372,7 +372,7 @@ TEST(summary_reference_is_of_the_same_frames_and_caches)
         const mote_summary_row *row = &summary.rows[i];
         const char *id = row->first->id;
         const char *to = strchr("aghi", id[0]) ? "i" : strchr("cjk", id[0]) ? "j" : "";
-        const char *is = row->ratio.to == SIZE_MAX ? "" : summary.rows[row->ratio.to].first->id;
+        const char *is = row->ratio.to ? row->ratio.to->first->id : "";
         if (strcmp(is, to) != 0)
             fail_msg("the ratio of %s is to \"%s\", not \"%s\"", id, is, to);
     }

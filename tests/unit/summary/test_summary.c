@@ -70,8 +70,8 @@ TEST(summary_of_other_questions_keeps_their_cells_apart)
     for (size_t i = 0; i < summary.count; ++i) {
         const mote_summary_row *row = &summary.rows[i];
         assert_int_equal(row->replicates, 1);
-        assert_true(row->ratio.to != SIZE_MAX);
-        assert_int_equal(row->first->id[1], summary.rows[row->ratio.to].first->id[1]);
+        assert_non_null(row->ratio.to);
+        assert_int_equal(row->first->id[1], row->ratio.to->first->id[1]);
     }
 }
 
@@ -105,9 +105,9 @@ TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
     }
     for (size_t i = 0; i < summary.count; ++i) {
         const char *id = summary.rows[i].first->id;
-        const size_t by = summary.rows[i].dominated_by;
-        assert_true((by == SIZE_MAX) == (id[0] == 'a'));
-        assert_true(by == SIZE_MAX || summary.rows[by].first->id[1] == id[1]);
+        const mote_summary_row *by = summary.rows[i].dominated_by;
+        assert_true(!by == (id[0] == 'a'));
+        assert_true(!by || by->first->id[1] == id[1]);
     }
     mote_fronts_free(&fronts);
 }
@@ -119,7 +119,7 @@ TEST(fronts_of_one_replicate_have_no_dominator)
     write_cell((stored_cell){.replicate = 1}, 11, 0);
     make_summary();
     for (size_t i = 0; i < 2; ++i)
-        assert_true(summary.rows[i].dominated_by == SIZE_MAX);
+        assert_null(summary.rows[i].dominated_by);
 }
 
 static const mote_summary_row *row_of(const char *id)
@@ -134,7 +134,7 @@ static const mote_summary_row *row_of(const char *id)
 
 static void refers_to(const char *id, const mote_ratio *ratio, const char *to, double value)
 {
-    const char *is = ratio->to == SIZE_MAX ? "" : summary.rows[ratio->to].first->id;
+    const char *is = ratio->to ? ratio->to->first->id : "";
     if (strcmp(is, to) != 0 || !(fabs(ratio->value - value) <= 1e-9 * value))
         fail_msg("%s: %g times to %s, not %g to %s", id, ratio->value, is, value, to);
 }
@@ -161,7 +161,7 @@ TEST(summary_ratios_are_of_rows_on_the_same_frames)
     refers_to("g", &row_of("g")->ratio, "e", 0.2);
     refers_to("g", &row_of("g")->ratio_best, "f", 1.0 / 500);
     assert_true(isnan(row_of("h")->ratio.value)); /* nobody has its frame */
-    assert_true(row_of("h")->ratio_best.to == SIZE_MAX);
+    assert_null(row_of("h")->ratio_best.to);
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
     mote_table_print(&summary, out);
