@@ -45,6 +45,9 @@
     X(compare, "BASE NEW",                                                                     \
       "tells whether a run is worse than another: exit 0 no, 1 yes, 3 undecided",              \
       mote_options_compare)                                                                    \
+    X(race, "A B SCENARIO... --method NAME[:key=value,...]",                                   \
+      "has two builds of mote measure in turn: is B slower? exit 0 no, 1 yes, 3 undecided",    \
+      mote_options_race)                                                                       \
     X(instructions, "SCENARIO --frames A-B --out DIR",                                         \
       "counts what each method's frames execute, by callgrind; writes DIR/instructions.json",  \
       mote_options_instructions)                                                               \

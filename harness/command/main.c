@@ -5,6 +5,7 @@
 #include "harness/base/wrap.h"
 #include "harness/base/json_memory.h"
 #include "harness/mesh/mesh_import.h"
+#include "harness/race/race_child.h"
 #include "harness/scene/fence.h"
 
 #include <signal.h>
@@ -168,6 +169,8 @@ int main(int argc, char **argv)
         return print_help();
     if (strcmp(argv[1], "--help-table") == 0)
         return print_table();
+    if (strcmp(argv[1], "race-child") == 0) /* for mote race: no command of users */
+        return mote_race_child(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0) {
         (void)printf("mote %s\n", MOTE_VERSION);
         return mote_command_finish(MOTE_EXIT_DONE);

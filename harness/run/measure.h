@@ -20,8 +20,8 @@ mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limi
 
 void mote_cell_result_free(mote_cell_result *result);
 
-/* A method built on a scenario of two bodies and measured one frame at a time, in any order,
-   by the same timed calls as a cell. */
+/* A method built on a scenario and measured one frame at a time, in any order, by the same
+   timed calls as a cell. */
 typedef struct mote_measurement mote_measurement;
 
 /* Builds the method of a cell; the cell is borrowed until close. MOTE_EINVAL and

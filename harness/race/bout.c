@@ -1,0 +1,347 @@
+#include "harness/race/bout.h"
+
+#include "harness/base/memory.h"
+#include "harness/base/options.h"
+#include "harness/process/child.h"
+#include "harness/race/paired.h"
+#include "harness/race/protocol.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A block takes about this long, or a pass where that is shorter: long enough to fill the
+   caches anew after the other process's turn (1 MiB from the last level: 0.2 ms), short beside
+   what changes on a machine. */
+#define BLOCK_NS 4e6
+/* Passes over the frames go on for this long, both sides together ... */
+#define CELL_NS 0.4e9
+/* ... within these bounds. */
+#define PASSES_LEAST 5
+#define PASSES_MOST 61
+
+/* A cell while it is measured. */
+typedef struct contest {
+    mote_bout *bout;
+    mote_bout_result *result;
+    uint32_t first, frames;
+    uint32_t block;                 /* frames in a block */
+    double length;                  /* L */
+    double *times[MOTE_RACE_SIDES]; /* [passes][frames] */
+    uint64_t hash[MOTE_RACE_SIDES]; /* of the last block's answers */
+    double spent[MOTE_RACE_SIDES];  /* ns, in the last pass */
+    size_t turn;                    /* blocks so far */
+    int leader;                     /* who began the last pair of blocks */
+} contest;
+
+mote_status mote_bout_start(const mote_bout_options *options, mote_bout *bout)
+{
+    mote_status status = MOTE_OK;
+    *bout = (mote_bout){.options = *options};
+    for (int side = 0; status == MOTE_OK && side < MOTE_RACE_SIDES; ++side)
+        status = mote_racer_start(options->program[side], options->core, options->timeout,
+                                  options->random, &bout->racer[side]);
+    return status;
+}
+
+void mote_bout_stop(mote_bout *bout)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side)
+        mote_racer_stop(&bout->racer[side]);
+}
+
+/* Notes why a side cannot go on. Whoever asked us to stop is obeyed. */
+static mote_status note(mote_status status, mote_race_side *side)
+{
+    if (status == MOTE_OK || mote_child_stop_asked())
+        return status;
+    side->refused = status == MOTE_EUNSUPPORTED;
+    side->failed = !side->refused;
+    (void)snprintf(side->reason, sizeof side->reason, "%s", mote_error_text());
+    return MOTE_OK;
+}
+
+static bool is_over(const mote_bout_result *result)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
+        if (result->side[side].refused || result->side[side].failed)
+            return true;
+    }
+    return false;
+}
+
+/* The next field of an answer, ended in place; NULL where there is none. */
+static char *next_field(char **rest, char separator)
+{
+    char *field = *rest;
+    char *end = field ? strchr(field, separator) : NULL;
+    if (end)
+        *end = '\0';
+    *rest = end ? end + 1 : NULL;
+    return field;
+}
+
+static mote_status unreadable(mote_racer *racer)
+{
+    const char *program = racer->program;
+    mote_racer_stop(racer);
+    return mote_fail(MOTE_EIO, "%s: an answer that cannot be read", program);
+}
+
+/* Opens a cell on one side. */
+static mote_status open_side(contest *c, const mote_race_cell *cell, int side, uint64_t *print)
+{
+    mote_racer *racer = &c->bout->racer[side];
+    char *answer = NULL;
+    uint64_t last = 0;
+    const mote_status status =
+        mote_racer_ask(racer, &answer, "cell\t%s\t%u\t%u\t%s\t%" PRIu64 "\t%d\t%s",
+                       cell->scenario, cell->first, cell->last, mote_cache_names[cell->cache],
+                       cell->seed, c->bout->options.check_scene, cell->method);
+    if (status != MOTE_OK)
+        return status;
+    const char *fingerprint = next_field(&answer, '\t'), *length = next_field(&answer, '\t');
+    const char *frame = next_field(&answer, '\t');
+    char *end = NULL;
+    if (!frame || !mote_read_real(length, 0, HUGE_VAL, &c->length) ||
+        !mote_read_unsigned(frame, cell->first, UINT32_MAX, &last))
+        return unreadable(racer);
+    *print = strtoull(fingerprint, &end, 16);
+    if (*end != '\0' || (side > 0 && c->frames != (uint32_t)last - cell->first + 1))
+        return *end ? unreadable(racer)
+                    : mote_fail(MOTE_EUNSUPPORTED, "the scenario has another number of frames");
+    c->first = cell->first;
+    c->frames = (uint32_t)last - cell->first + 1;
+    ++c->bout->cells[side];
+    return MOTE_OK;
+}
+
+static bool same_name(const mote_race_count *count, const char *name)
+{
+    return strcmp(count->name, name) == 0;
+}
+
+/* Adds "name=sum" of a side. A count that no frame has is not told, and is 0. */
+static bool add_count(mote_bout_result *result, int side, char *text)
+{
+    char *value = strchr(text, '=');
+    double sum;
+    if (!value)
+        return false;
+    *value = '\0';
+    if (!mote_read_real(value + 1, 0, HUGE_VAL, &sum) ||
+        strlen(text) >= sizeof result->counts[0].name)
+        return false;
+    size_t i = 0;
+    while (i < result->count_count && !same_name(&result->counts[i], text))
+        ++i;
+    if (i == MOTE_RACE_COUNTS)
+        return false;
+    mote_race_count *count = &result->counts[i];
+    if (i == result->count_count) {
+        *count = (mote_race_count){.sum = {0, 0}};
+        (void)snprintf(count->name, sizeof count->name, "%s", text);
+        ++result->count_count;
+    }
+    count->sum[side] += sum;
+    return true;
+}
+
+static bool add_counts(mote_bout_result *result, int side, char *text)
+{
+    if (strcmp(text, "-") == 0)
+        return true;
+    for (char *rest = text, *count; (count = next_field(&rest, ','));) {
+        if (!add_count(result, side, count))
+            return false;
+    }
+    return true;
+}
+
+/* Reads the times of a block of `count` frames from `at` on; their sum is added to what was
+   spent. */
+static bool read_times(contest *c, int side, char *text, size_t at, uint32_t count)
+{
+    char *rest = text;
+    for (uint32_t k = 0; k < count; ++k) {
+        const char *field = next_field(&rest, ',');
+        uint64_t ns;
+        if (!field || !mote_read_unsigned(field, 0, UINT64_MAX, &ns))
+            return false;
+        c->spent[side] += (double)ns;
+        c->times[side][at + k] = ns > 0 ? (double)ns : 1;
+    }
+    return rest == NULL;
+}
+
+/* One side's turn: frames first .. first + count - 1 of a pass; counted: its counts are kept.
+ */
+static mote_status run_block(contest *c, int side, uint32_t pass, uint32_t offset,
+                             uint32_t count, bool counted)
+{
+    mote_racer *racer = &c->bout->racer[side];
+    char *answer = NULL, *end = NULL;
+    mote_status status = mote_racer_ask(racer, &answer, "run\t%zu\t%u\t%u",
+                                        c->bout->cells[side] - 1, c->first + offset, count);
+    if (status != MOTE_OK)
+        return status;
+    const char *hash = next_field(&answer, '\t');
+    char *counts = next_field(&answer, '\t'), *times = next_field(&answer, '\t');
+    if (!times || !read_times(c, side, times, (size_t)pass * c->frames + offset, count) ||
+        (counted && !add_counts(c->result, side, counts)))
+        return unreadable(racer);
+    c->hash[side] = strtoull(hash, &end, 16);
+    return *end ? unreadable(racer) : MOTE_OK;
+}
+
+/* An answer as a racer tells it: "DISTANCE:CONTACT". */
+typedef struct told {
+    double distance; /* MOTE_NONE: none */
+    char contact;    /* '0', '1', or '-' for none */
+} told;
+
+/* The answers of a side's last block. */
+static mote_status ask_answers(contest *c, int side, told *answers, uint32_t count)
+{
+    mote_racer *racer = &c->bout->racer[side];
+    char *answer = NULL;
+    const mote_status status =
+        mote_racer_ask(racer, &answer, "answers\t%zu", c->bout->cells[side] - 1);
+    if (status != MOTE_OK)
+        return status;
+    for (uint32_t k = 0; k < count; ++k) {
+        const char *field = next_field(&answer, ',');
+        char *end = NULL;
+        answers[k].distance = field ? strtod(field, &end) : MOTE_NONE;
+        if (!field || end == field || *end != ':')
+            return unreadable(racer);
+        answers[k].contact = end[1];
+    }
+    return MOTE_OK;
+}
+
+/* In L; infinite where only one gives a distance, or they disagree about the contact. */
+static double apart(const contest *c, const told *a, const told *b)
+{
+    const bool has[] = {a->distance == a->distance, b->distance == b->distance};
+    if (a->contact != b->contact || has[0] != has[1])
+        return HUGE_VAL;
+    return has[0] ? fabs(a->distance - b->distance) / c->length : 0;
+}
+
+/* The answers of a block differ in their bits: by how much. */
+static mote_status compare_answers(contest *c, uint32_t offset, uint32_t count)
+{
+    mote_bout_result *result = c->result;
+    told *answers[MOTE_RACE_SIDES];
+    mote_status status = MOTE_OK;
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
+        answers[side] = mote_allocate(count, sizeof *answers[side]);
+        if (status == MOTE_OK)
+            status = note(ask_answers(c, side, answers[side], count), &result->side[side]);
+    }
+    for (uint32_t k = 0; status == MOTE_OK && !is_over(result) && k < count; ++k) {
+        const double now = apart(c, &answers[MOTE_RACE_A][k], &answers[MOTE_RACE_B][k]);
+        if (now > result->worst) {
+            result->worst = now;
+            result->worst_frame = c->first + offset + k;
+        }
+    }
+    free(answers[MOTE_RACE_A]);
+    free(answers[MOTE_RACE_B]);
+    return status;
+}
+
+/* Both sides' turns at a block. Who begins is drawn for every other block and reversed in
+   between: ABBA or BAAB. */
+static mote_status run_turns(contest *c, uint32_t pass, uint32_t offset, bool counted)
+{
+    const uint32_t left = c->frames - offset;
+    const uint32_t count = left < c->block ? left : c->block;
+    c->leader =
+        c->turn++ % 2 == 0 ? (int)mote_random_below(c->bout->options.random, 2) : 1 - c->leader;
+    for (int k = 0; k < MOTE_RACE_SIDES; ++k) {
+        const int side = k == 0 ? c->leader : 1 - c->leader;
+        const mote_status status =
+            note(run_block(c, side, pass, offset, count, counted), &c->result->side[side]);
+        if (status != MOTE_OK || is_over(c->result))
+            return status;
+    }
+    return c->hash[0] == c->hash[1] ? MOTE_OK : compare_answers(c, offset, count);
+}
+
+static mote_status run_pass(contest *c, uint32_t pass, bool counted)
+{
+    mote_status status = MOTE_OK;
+    c->spent[0] = c->spent[1] = 0;
+    for (uint32_t offset = 0; status == MOTE_OK && !is_over(c->result) && offset < c->frames;
+         offset += c->block)
+        status = run_turns(c, pass, offset, counted);
+    return status;
+}
+
+/* Sets the length of a block and how many passes follow, by what the first one took. */
+static uint32_t plan_passes(contest *c)
+{
+    const double both = c->spent[0] + c->spent[1], frame = 0.5 * both / c->frames;
+    const double block = ceil(BLOCK_NS / (frame > 1 ? frame : 1));
+    const double passes = both > 1 ? floor(CELL_NS / both) : PASSES_MOST;
+    c->block = block < c->block ? (uint32_t)block : c->block;
+    return passes < PASSES_LEAST  ? PASSES_LEAST
+           : passes > PASSES_MOST ? PASSES_MOST
+                                  : (uint32_t)passes;
+}
+
+static void make_room(contest *c, uint32_t passes)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side)
+        c->times[side] =
+            mote_resize(c->times[side], (size_t)passes * c->frames, sizeof *c->times[side]);
+}
+
+/* The first pass warms up and gives the counts; its times are not used. */
+static mote_status run_passes(contest *c)
+{
+    mote_bout_result *result = c->result;
+    const uint32_t most =
+        c->frames < MOTE_RACE_BLOCK_FRAMES ? c->frames : MOTE_RACE_BLOCK_FRAMES;
+    c->block = most;
+    make_room(c, 1);
+    mote_status status = run_pass(c, 0, true);
+    if (status != MOTE_OK || is_over(result))
+        return status;
+    result->passes = plan_passes(c);
+    make_room(c, result->passes);
+    c->turn = 0;
+    for (uint32_t pass = 0; status == MOTE_OK && !is_over(result) && pass < result->passes;
+         ++pass)
+        status = run_pass(c, pass, false);
+    result->frames = c->frames;
+    result->blocks = (uint32_t)c->turn;
+    if (status != MOTE_OK || is_over(result))
+        return status;
+    const mote_bout_times times = {c->times[MOTE_RACE_A], c->times[MOTE_RACE_B], result->passes,
+                                   c->frames};
+    result->log_ratio = mote_bout_log_ratio(&times, result->total_ns);
+    return MOTE_OK;
+}
+
+mote_status mote_bout_run(mote_bout *bout, const mote_race_cell *cell, mote_bout_result *result)
+{
+    contest c = {.bout = bout, .result = result};
+    uint64_t print[MOTE_RACE_SIDES] = {0, 0};
+    mote_status status = MOTE_OK;
+    *result = (mote_bout_result){.same_scene = true};
+    for (int side = 0; status == MOTE_OK && !is_over(result) && side < MOTE_RACE_SIDES; ++side)
+        status = note(open_side(&c, cell, side, &print[side]), &result->side[side]);
+    if (status != MOTE_OK || is_over(result))
+        return status;
+    result->same_scene = print[0] == print[1];
+    if (!result->same_scene)
+        return MOTE_OK;
+    status = run_passes(&c);
+    free(c.times[MOTE_RACE_A]);
+    free(c.times[MOTE_RACE_B]);
+    return status;
+}

@@ -1,0 +1,292 @@
+#include "harness/race/race.h"
+
+#include "harness/base/memory.h"
+#include "harness/process/child.h"
+#include "harness/race/protocol.h"
+#include "harness/run/cell_process.h"
+#include "harness/base/clock.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const mote_race_state_names[] = {"measured", "left out", "failed"};
+
+/* While it goes on. */
+typedef struct event {
+    const mote_race_options *options;
+    mote_race *race;
+    bool *done; /* [cells]: known well enough, or not to be measured */
+    mote_random random;
+    size_t order[MOTE_RACE_SIDES][MOTE_RACE_BUILDS]; /* of builds, shuffled */
+    double alpha;                                    /* of a look at a cell */
+    size_t next_look;                                /* pairs */
+    uint32_t looks;
+    uint64_t began;
+    double longest; /* pair, seconds */
+} event;
+
+static double seconds_since(uint64_t start)
+{
+    return (double)(mote_clock_ns() - start) * 1e-9;
+}
+
+mote_verdict mote_race_verdict(double ratio, mote_confidence interval, double real,
+                               double until)
+{
+    const double band = log1p(real + until);
+    if (!(interval.low <= interval.high))
+        return MOTE_VERDICT_UNDECIDED;
+    if (interval.low > 1 && ratio >= 1 + real)
+        return MOTE_VERDICT_SLOWER;
+    if (interval.high < 1 && ratio <= 1 / (1 + real))
+        return MOTE_VERDICT_FASTER;
+    return log(interval.low) >= -band && log(interval.high) <= band ? MOTE_VERDICT_SAME
+                                                                    : MOTE_VERDICT_UNDECIDED;
+}
+
+static void shuffle(size_t *items, size_t count, mote_random *random)
+{
+    for (size_t i = 0; i < count; ++i)
+        items[i] = i;
+    for (size_t i = count; i > 1; --i) {
+        const size_t j = (size_t)mote_random_below(random, i), kept = items[i - 1];
+        items[i - 1] = items[j];
+        items[j] = kept;
+    }
+}
+
+/* The builds of the next pair: all of a side's come before one comes again. */
+static void choose_builds(event *e, mote_bout_options *bout)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
+        const mote_race_builds *builds = e->options->builds[side];
+        const size_t turn = e->race->pairs % builds->count;
+        if (turn == 0)
+            shuffle(e->order[side], builds->count, &e->random);
+        bout->program[side] = builds->path[e->order[side][turn]];
+    }
+}
+
+/* Why a cell is not measured, from what its bout says; false where it was. */
+static bool rule_out(mote_race_row *row, const mote_bout_result *result)
+{
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
+        const mote_race_side *s = &result->side[side];
+        if (!s->refused && !s->failed)
+            continue;
+        row->state = s->failed ? MOTE_RACE_FAILED : MOTE_RACE_LEFT_OUT;
+        row->missing[side] = true;
+        (void)snprintf(row->reason, sizeof row->reason, "%s: %.399s", side ? "B" : "A",
+                       s->reason);
+        return true;
+    }
+    if (result->same_scene)
+        return false;
+    row->state = MOTE_RACE_LEFT_OUT;
+    (void)snprintf(row->reason, sizeof row->reason,
+                   "the scenario is not the same in both programs");
+    return true;
+}
+
+static void keep(mote_race_row *row, const mote_bout_result *result)
+{
+    if (row->pairs == 0) {
+        memcpy(row->counts, result->counts, sizeof row->counts);
+        memcpy(row->total_ns, result->total_ns, sizeof row->total_ns);
+        row->count_count = result->count_count;
+        row->frames = result->frames;
+    }
+    row->logs[row->pairs++] = result->log_ratio;
+    row->blocks += result->blocks;
+    if (result->worst > row->worst) {
+        row->worst = result->worst;
+        row->worst_frame = result->worst_frame;
+    }
+}
+
+/* Measures the cells of `order` from *place on, until all are done or a process has failed. */
+static mote_status run_bout(event *e, const mote_bout_options *options, const size_t *order,
+                            size_t *place)
+{
+    mote_bout bout;
+    mote_status status = mote_bout_start(options, &bout);
+    bool failed = false;
+    for (; status == MOTE_OK && !failed && *place < e->race->count; ++*place) {
+        mote_race_row *row = &e->race->rows[order[*place]];
+        mote_bout_result result;
+        const uint64_t start = mote_clock_ns();
+        if (e->done[order[*place]])
+            continue;
+        status = mote_bout_run(&bout, row->cell, &result);
+        row->seconds += seconds_since(start);
+        if (status != MOTE_OK)
+            break;
+        failed = result.side[0].failed || result.side[1].failed;
+        e->done[order[*place]] = rule_out(row, &result);
+        if (!e->done[order[*place]])
+            keep(row, &result);
+    }
+    mote_bout_stop(&bout);
+    return status;
+}
+
+/* One value a cell that is not done, in random order; new processes follow those that fail. */
+static mote_status run_pair(event *e)
+{
+    size_t order[MOTE_RACE_CELLS], place = 0;
+    mote_bout_options bout = {.core = mote_process_core(),
+                              .timeout = e->options->timeout,
+                              .check_scene = e->race->pairs == 0,
+                              .random = &e->random};
+    mote_status status = MOTE_OK;
+    const uint64_t start = mote_clock_ns();
+    choose_builds(e, &bout);
+    shuffle(order, e->race->count, &e->random);
+    while (status == MOTE_OK && place < e->race->count)
+        status = run_bout(e, &bout, order, &place);
+    ++e->race->pairs;
+    e->longest = fmax(e->longest, seconds_since(start));
+    return status;
+}
+
+static double spread(const mote_race_row *row)
+{
+    const double mean = mote_statistics_mean(row->logs, row->pairs);
+    double sum = 0;
+    for (size_t i = 0; i < row->pairs; ++i)
+        sum += (row->logs[i] - mean) * (row->logs[i] - mean);
+    return row->pairs > 1 ? sqrt(sum / (double)(row->pairs - 1)) : MOTE_NONE;
+}
+
+/* Looks at the cells that are not done; those known within `until` are done. */
+static void look(event *e, bool last)
+{
+    const mote_race_options *o = e->options;
+    ++e->looks;
+    for (size_t i = 0; i < e->race->count; ++i) {
+        mote_race_row *row = &e->race->rows[i];
+        if (e->done[i])
+            continue;
+        row->looks = e->looks;
+        row->spread = spread(row);
+        row->ratio = exp(mote_paired_centre(row->logs, row->pairs));
+        row->interval = mote_paired_interval(row->logs, row->pairs, e->alpha);
+        row->interval.low = exp(row->interval.low);
+        row->interval.high = exp(row->interval.high);
+        row->verdict = mote_race_verdict(row->ratio, row->interval, o->real, o->until);
+        const double reach =
+            fmax(row->interval.high / row->ratio, row->ratio / row->interval.low) - 1;
+        e->done[i] = last || reach <= o->until;
+    }
+    e->next_look += MOTE_RACE_STEP;
+}
+
+static bool all_done(const event *e)
+{
+    for (size_t i = 0; i < e->race->count; ++i) {
+        if (!e->done[i])
+            return false;
+    }
+    return true;
+}
+
+/* Whether another pair would end after the budget. */
+static bool is_late(const event *e)
+{
+    return e->options->budget > 0 && seconds_since(e->began) + e->longest > e->options->budget;
+}
+
+static mote_status run_pairs(event *e)
+{
+    mote_status status = MOTE_OK;
+    while (status == MOTE_OK && !all_done(e)) {
+        status = run_pair(e);
+        if (status != MOTE_OK)
+            break;
+        const bool late = is_late(e);
+        if (late || e->race->pairs == e->next_look)
+            look(e, late || e->looks + 1 == MOTE_RACE_LOOKS);
+    }
+    return status;
+}
+
+/* What a row's counts, answers and time say together. */
+static void judge(mote_race_row *row, const mote_race_options *options, mote_race *race)
+{
+    for (size_t i = 0; i < row->count_count; ++i) {
+        const mote_race_count *count = &row->counts[i];
+        row->counted = row->counted || fabs(count->sum[0] - count->sum[1]) > 0.5;
+    }
+    if (row->state != MOTE_RACE_MEASURED) {
+        const bool lost = row->missing[MOTE_RACE_B];
+        race->worse = race->worse || (lost && row->state == MOTE_RACE_FAILED);
+        race->undecided = race->undecided || lost;
+        return;
+    }
+    race->worse = race->worse || row->verdict == MOTE_VERDICT_SLOWER ||
+                  (row->worst > MOTE_RACE_EXACT && !options->allow_changes);
+    race->undecided = race->undecided || row->verdict == MOTE_VERDICT_UNDECIDED;
+}
+
+static mote_status check_rows(const mote_race *race)
+{
+    for (size_t i = 0; i < race->count; ++i) {
+        if (race->rows[i].pairs > 0 || race->rows[i].state == MOTE_RACE_FAILED)
+            return MOTE_OK;
+    }
+    return mote_fail(MOTE_EINVAL, "nothing to race: %s: %s", race->rows[0].name,
+                     race->rows[0].reason);
+}
+
+static void begin(const mote_race_options *options, mote_race *race)
+{
+    *race = (mote_race){.rows = mote_allocate(options->cell_count, sizeof *race->rows),
+                        .count = options->cell_count};
+    for (size_t i = 0; i < race->count; ++i) {
+        const mote_race_cell *cell = &options->cells[i];
+        mote_race_row *row = &race->rows[i];
+        row->cell = cell;
+        row->name = mote_format("%s/%s/%s", cell->scenario, cell->method,
+                                mote_cache_names[cell->cache]);
+        row->ratio = row->interval.low = row->interval.high = row->spread = MOTE_NONE;
+        row->instructions[0] = row->instructions[1] = MOTE_NONE;
+        row->verdict = MOTE_VERDICT_UNDECIDED;
+    }
+}
+
+mote_status mote_race_run(const mote_race_options *options, mote_race *race)
+{
+    mote_race made;
+    begin(options, &made);
+    const double alpha = MOTE_RACE_ALPHA / MOTE_RACE_LOOKS / (double)options->cell_count;
+    event e = {.options = options,
+               .race = &made,
+               .done = mote_allocate(made.count, sizeof *e.done),
+               .random = {options->seed},
+               .alpha = alpha,
+               .next_look = mote_paired_least(alpha),
+               .began = mote_clock_ns()};
+    mote_status status = run_pairs(&e);
+    if (status == MOTE_OK)
+        status = check_rows(&made);
+    for (size_t i = 0; i < made.count; ++i)
+        judge(&made.rows[i], options, &made);
+    made.seconds = seconds_since(e.began);
+    free(e.done);
+    if (status == MOTE_OK)
+        *race = made;
+    else
+        mote_race_free(&made);
+    return status;
+}
+
+void mote_race_free(mote_race *race)
+{
+    for (size_t i = 0; i < race->count; ++i) {
+        free(race->rows[i].name);
+        free(race->rows[i].what);
+    }
+    free(race->rows);
+    *race = (mote_race){0};
+}

@@ -1,0 +1,132 @@
+#include "harness/race/race_explain.h"
+
+#include "harness/base/record.h"
+#include "harness/process/spawn.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Frames that instructions are counted over. */
+#define INSTRUCTION_FRAMES 20
+/* Instructions are the same within this share: a few branches depend on addresses. */
+#define INSTRUCTIONS_SHARE 0.002
+
+/* Instructions a frame by one program; MOTE_NONE where they cannot be counted. */
+static double count_of(const char *program, const mote_race_row *row, const char *folder)
+{
+    const uint32_t most = row->cell->first + INSTRUCTION_FRAMES - 1;
+    const uint32_t last = row->cell->first + row->frames - 1;
+    char *frames = mote_format("%u-%u", row->cell->first, last < most ? last : most);
+    const char *const argv[] = {program,
+                                "instructions",
+                                row->cell->scenario,
+                                "--frames",
+                                frames,
+                                "--method",
+                                row->cell->method,
+                                "--out",
+                                folder,
+                                NULL};
+    json_t *counted = NULL;
+    double per_frame = MOTE_NONE;
+    if (mote_spawn_quiet(argv, NULL) == MOTE_OK &&
+        mote_record_read_json(folder, "instructions.json", &counted) == MOTE_OK) {
+        const json_t *rows = json_object_get(counted, "rows");
+        const json_t *value = json_object_get(json_array_get(rows, 0), "per_frame");
+        if (json_is_number(value))
+            per_frame = json_number_value(value);
+    }
+    json_decref(counted);
+    free(frames);
+    char *file = mote_format("%s/instructions.json", folder);
+    (void)unlink(file);
+    free(file);
+    return per_frame;
+}
+
+static const char *temporary(void)
+{
+    const char *folder = getenv("TMPDIR");
+    return folder && folder[0] ? folder : "/tmp";
+}
+
+void mote_race_count_instructions(const mote_race_options *options, mote_race *race)
+{
+    char *folder = mote_format("%s/mote-race-XXXXXX", temporary());
+    if (mkdtemp(folder)) {
+        for (size_t i = 0; i < race->count; ++i) {
+            mote_race_row *row = &race->rows[i];
+            const bool changed =
+                row->verdict == MOTE_VERDICT_FASTER || row->verdict == MOTE_VERDICT_SLOWER;
+            for (int side = 0; changed && side < MOTE_RACE_SIDES; ++side)
+                row->instructions[side] = count_of(options->builds[side]->path[0], row, folder);
+        }
+        (void)rmdir(folder);
+    }
+    free(folder);
+}
+
+static void say_change(mote_text *text, const char *name, double a, double b)
+{
+    const char *separator = text->size ? "; " : "";
+    if (a > 0)
+        mote_text_add(text, "%s%s %.6g to %.6g (%+.2g %%)", separator, name, a, b,
+                      100 * (b / a - 1));
+    else
+        mote_text_add(text, "%s%s %.6g to %.6g", separator, name, a, b);
+}
+
+static void say_answers(mote_text *text, const mote_race_row *row)
+{
+    const char *separator = text->size ? "; " : "";
+    if (row->worst > MOTE_RACE_EXACT && isfinite(row->worst))
+        mote_text_add(text, "%sanswers differ by up to %.2g L, at frame %u", separator,
+                      row->worst, row->worst_frame);
+    else if (row->worst > MOTE_RACE_EXACT)
+        mote_text_add(text, "%sanswers differ: contact or none, at frame %u", separator,
+                      row->worst_frame);
+    else if (row->worst > 0)
+        mote_text_add(text, "%sanswers differ by rounding (%.2g L)", separator, row->worst);
+}
+
+/* Why the time changed, as far as counts and instructions tell. */
+static void say_cause(mote_text *text, const mote_race_row *row)
+{
+    const double a = row->instructions[MOTE_RACE_A], b = row->instructions[MOTE_RACE_B];
+    const char *separator = text->size ? "; " : "";
+    const bool known = a > 0 && b > 0;
+    if (row->verdict != MOTE_VERDICT_FASTER && row->verdict != MOTE_VERDICT_SLOWER)
+        return;
+    if (known && fabs(b / a - 1) > INSTRUCTIONS_SHARE)
+        mote_text_add(text, "%sinstructions %.6g to %.6g (%+.2g %%), time for each %+.2g %%",
+                      separator, a, b, 100 * (b / a - 1), 100 * (row->ratio * a / b - 1));
+    else if (known)
+        mote_text_add(text,
+                      "%stime for the same instructions changed: memory, the layout of code, "
+                      "or the clock",
+                      separator);
+    else
+        mote_text_add(text, "%s%s", separator,
+                      row->counted ? "the time changed with the counts"
+                                   : "counts are the same: time for each of them changed");
+}
+
+void mote_race_explain(mote_race *race)
+{
+    for (size_t i = 0; i < race->count; ++i) {
+        mote_race_row *row = &race->rows[i];
+        mote_text text = {0};
+        say_answers(&text, row);
+        for (size_t k = 0; k < row->count_count; ++k) {
+            const mote_race_count *count = &row->counts[k];
+            if (fabs(count->sum[0] - count->sum[1]) > 0.5)
+                say_change(&text, count->name, count->sum[0], count->sum[1]);
+        }
+        say_cause(&text, row);
+        mote_text_add(&text, "%s%s", text.size && row->reason[0] ? "; " : "", row->reason);
+        free(row->what);
+        row->what = text.data;
+    }
+}

@@ -1,0 +1,193 @@
+/* The statistics of races, on synthetic series. */
+#include "tests/support/test.h"
+
+#include "core/base/random.h"
+#include "harness/race/race.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The share of all sign patterns of 1 .. count for which the interval leaves out 0: what the
+   interval's alpha promises, by enumeration. */
+static double misses_by_enumeration(size_t count, double alpha)
+{
+    size_t misses = 0;
+    const size_t patterns = (size_t)1 << count;
+    for (size_t p = 0; p < patterns; ++p) {
+        double values[16];
+        for (size_t i = 0; i < count; ++i) /* no two means of two are 0 but of opposite signs */
+            values[i] = (p >> i & 1 ? 1 : -1) * (double)(i + 1) * (1 + 1e-6 * (double)(i * i));
+        const mote_confidence interval = mote_paired_interval(values, count, alpha);
+        misses += interval.low > 0 || interval.high < 0;
+    }
+    return (double)misses / (double)patterns;
+}
+
+TEST(an_interval_misses_no_more_often_than_it_says)
+{
+    static const double alphas[] = {0.3, 0.1, 0.05, 0.02, 0.005};
+    for (size_t count = 3; count <= 12; ++count) {
+        for (size_t k = 0; k < ROWS_OF(alphas); ++k) {
+            test_row("%zu values, alpha %g", count, alphas[k]);
+            const double share = misses_by_enumeration(count, alphas[k]);
+            assert_true(share <= alphas[k]);
+            /* And is not wider than it has to be: one step narrower would miss too often. */
+            if (count == 12)
+                assert_true(share > 0.5 * alphas[k]);
+        }
+    }
+}
+
+TEST(the_fewest_values_that_give_an_interval)
+{
+    static const double alphas[] = {0.5, 0.1, 0.05, 0.01, 0.0025, 0.0002};
+    double values[MOTE_PAIRED_MAX];
+    for (size_t i = 0; i < MOTE_PAIRED_MAX; ++i)
+        values[i] = (double)i;
+    for (size_t k = 0; k < ROWS_OF(alphas); ++k) {
+        const size_t least = mote_paired_least(alphas[k]);
+        test_row("alpha %g: %zu", alphas[k], least);
+        assert_true(isfinite(mote_paired_interval(values, least, alphas[k]).low));
+        assert_true(isnan(mote_paired_interval(values, least - 1, alphas[k]).low));
+    }
+    assert_true(isnan(mote_paired_centre(values, 0)));
+}
+
+/* Symmetric and heavy-tailed: Student's t with two degrees of freedom, nearly. */
+static double heavy(mote_random *random)
+{
+    const double u = 2 * mote_random_unit(random) - 1;
+    return u / sqrt(1e-9 + (1 - u * u));
+}
+
+TEST(an_outlier_moves_centre_and_interval_little)
+{
+    mote_random random = {7};
+    double values[20];
+    for (size_t i = 0; i < 20; ++i)
+        values[i] = 0.02 + 0.004 * heavy(&random);
+    values[3] = 0.7;
+    assert_true(fabs(mote_paired_centre(values, 20) - 0.02) < 0.006);
+    const mote_confidence interval = mote_paired_interval(values, 20, 0.01);
+    assert_true(interval.low < 0.02 && interval.high > 0.02 && interval.high < 0.06);
+}
+
+/* Times of one frame set over passes, with drift that both sides share, neighbours' bursts that
+   last several passes, and interruptions of single frames. */
+#define PASSES 40
+#define FRAMES 50
+typedef struct series {
+    double a[PASSES * FRAMES], b[PASSES * FRAMES];
+} series;
+
+static void make_series(mote_random *random, double factor, series *s)
+{
+    double drift = 0, burst = 0;
+    for (size_t p = 0; p < PASSES; ++p) {
+        drift = 0.95 * drift + 0.02 * heavy(random);
+        burst = mote_random_unit(random) < 0.1 ? 0.3 : 0.7 * burst;
+        for (size_t f = 0; f < FRAMES; ++f) {
+            const double level = (1000 + 100 * (double)f) * exp(drift + burst);
+            s->a[p * FRAMES + f] = level * exp(0.005 * heavy(random));
+            s->b[p * FRAMES + f] = factor * level * exp(0.005 * heavy(random));
+            if (mote_random_unit(random) < 0.03)
+                s->a[p * FRAMES + f] += 20000;
+            if (mote_random_unit(random) < 0.03)
+                s->b[p * FRAMES + f] += 20000;
+        }
+    }
+}
+
+TEST(a_known_factor_is_found_through_drift_and_interruptions)
+{
+    static const double factors[] = {1, 1.02, 1.1, 0.97, 2};
+    series s;
+    mote_random random = {3};
+    for (size_t k = 0; k < ROWS_OF(factors); ++k) {
+        test_row("factor %g", factors[k]);
+        make_series(&random, factors[k], &s);
+        const mote_bout_times times = {s.a, s.b, PASSES, FRAMES};
+        double total[2];
+        const double ratio = mote_bout_log_ratio(&times, total);
+        assert_true(fabs(ratio - log(factors[k])) < 0.003);
+        assert_true(fabs(log(total[1] / total[0]) - ratio) < 1e-12);
+        const mote_bout_times exchanged = {s.b, s.a, PASSES, FRAMES};
+        assert_true(fabs(ratio + mote_bout_log_ratio(&exchanged, NULL)) < 1e-12);
+    }
+}
+
+TEST(a_frame_counts_with_its_share_of_the_total)
+{
+    /* Three frames of 1, 2 and 7: the last one takes half as long again. */
+    static const double a[] = {1, 2, 7, 1, 2, 7, 1, 2, 7};
+    static const double b[] = {1, 2, 10.5, 1, 2, 10.5, 1, 2, 10.5};
+    const mote_bout_times times = {a, b, 3, 3};
+    assert_true(fabs(mote_bout_log_ratio(&times, NULL) - log(13.5 / 10)) < 1e-12);
+}
+
+/* A race as harness/race/race.c plays it, of one row: may it look four times? Returns the
+   verdict of the last look. spread: of pairs of processes. */
+static mote_verdict simulate(mote_random *random, double change, double spread)
+{
+    const double alpha = MOTE_RACE_ALPHA / MOTE_RACE_LOOKS;
+    const size_t least = mote_paired_least(alpha);
+    double values[MOTE_PAIRED_MAX];
+    size_t count = 0;
+    mote_verdict verdict = MOTE_VERDICT_UNDECIDED;
+    for (size_t look = 0; look < MOTE_RACE_LOOKS; ++look) {
+        while (count < least + look * MOTE_RACE_STEP)
+            values[count++] = log1p(change) + spread * heavy(random);
+        const mote_confidence logs = mote_paired_interval(values, count, alpha);
+        const double ratio = exp(mote_paired_centre(values, count));
+        const mote_confidence interval = {exp(logs.low), exp(logs.high)};
+        verdict = mote_race_verdict(ratio, interval, 0.01, 0.01);
+        if (interval.high / ratio - 1 <= 0.01 && ratio / interval.low - 1 <= 0.01)
+            break;
+    }
+    return verdict;
+}
+
+/* With 4,000 races the share is known within 0.3 % around 1 %. */
+TEST(looking_again_does_not_inflate_false_alarms)
+{
+    static const double spreads[] = {0.002, 0.005, 0.01, 0.05};
+    mote_random random = {11};
+    for (size_t k = 0; k < ROWS_OF(spreads); ++k) {
+        size_t alarms = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const mote_verdict verdict = simulate(&random, 0, spreads[k]);
+            alarms += verdict == MOTE_VERDICT_SLOWER || verdict == MOTE_VERDICT_FASTER;
+        }
+        test_row("spread %g: %zu alarms of 4000", spreads[k], alarms);
+        assert_true(alarms <= 4000 * MOTE_RACE_ALPHA * 1.5);
+    }
+}
+
+TEST(two_per_cent_are_found_where_processes_differ_by_half_a_per_cent)
+{
+    mote_random random = {13};
+    size_t found = 0;
+    for (int i = 0; i < 400; ++i)
+        found += simulate(&random, 0.02, 0.003) == MOTE_VERDICT_SLOWER;
+    assert_true(found >= 360);
+}
+
+TEST(verdicts)
+{
+    static const struct {
+        double ratio, low, high;
+        mote_verdict verdict;
+    } rows[] = {
+        {1.02, 1.012, 1.028, MOTE_VERDICT_SLOWER}, {1.02, 0.999, 1.041, MOTE_VERDICT_UNDECIDED},
+        {1.008, 1.001, 1.015, MOTE_VERDICT_SAME}, /* significant, and smaller than is called */
+        {1.0, 0.985, 1.015, MOTE_VERDICT_SAME},    {1.0, 0.97, 1.03, MOTE_VERDICT_UNDECIDED},
+        {0.95, 0.93, 0.97, MOTE_VERDICT_FASTER},   {1.5, 1.2, 1.9, MOTE_VERDICT_SLOWER},
+        {1.0, NAN, NAN, MOTE_VERDICT_UNDECIDED},
+    };
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%zu", i);
+        const mote_confidence interval = {rows[i].low, rows[i].high};
+        assert_int_equal(mote_race_verdict(rows[i].ratio, interval, 0.01, 0.01),
+                         rows[i].verdict);
+    }
+}
