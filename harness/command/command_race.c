@@ -22,8 +22,10 @@
 
 const mote_option mote_options_race[] = {
     {"method", "NAME[:key=value,...]",
-     "a method that both measure; may be repeated, and key=a|b means both values"},
-    {"particles", "LIST", "numbers of particles for methods that have n: 1,2,4-8"},
+     "a method that both measure; may be repeated, and key=a|b means both values (default: "
+     "none, at least one is needed)"},
+    {"particles", "LIST",
+     "numbers of particles for methods that have n: 1,2,4-8 (default: their own)"},
     {"frames", "A-B", "measure these frames only, counted from 1 (default: all)"},
     {"cache", "hot|evict", "whether 32 MB are walked between frames (default: hot)"},
     {"until", "PERCENT",

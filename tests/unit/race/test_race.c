@@ -18,7 +18,7 @@
 
 /* Two small letters that pass each other. */
 #define SCENARIO "letters.json"
-#define QUICK SCENARIO " --method certified --frames 1-40 --budget 4 --until 20%% --real 10%%"
+#define QUICK SCENARIO " --method certified --frames 1-40 --budget 60 --until 20%% --real 10%%"
 
 static void put_program(const char *name, const char *text)
 {
@@ -156,7 +156,7 @@ TEST(builds_in_a_folder_take_turns)
     put_planted("builds/two", "slow:certified:0.9");
     file_put("builds/notes.txt", "no program");
     /* A mixture of equal speed and of nearly twice as slow differs from pair to pair. */
-    (void)mote("race builds/one builds " QUICK " --budget 1 --out race.json >/dev/null");
+    (void)mote("race builds/one builds " QUICK " --budget 3 --out race.json >/dev/null");
     char *json = file_text("race.json");
     const char *spread = strstr(json, "\"spread\":");
     assert_non_null(spread);
@@ -279,7 +279,7 @@ TEST(scenes_of_many_bodies_race_and_threads_do_not)
              "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]}}\n");
     mote_expect(0, "many.json/certified/hot",
                 "race %s %s many.json --method certified "
-                "--budget 4 --until 20%% --real 10%%",
+                "--budget 60 --until 20%% --real 10%%",
                 MOTE_PROGRAM, MOTE_PROGRAM);
     mote_expect(4, "leave threads and ahead out",
                 "race %s %s " SCENARIO " --method certified:threads=2", MOTE_PROGRAM,
