@@ -84,6 +84,7 @@ void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_giv
 {
     lazy->state = state;
     lazy->given = use_given ? state->vertices : NULL;
+    lazy->points = NULL;
     lazy->filled = 0;
     if (++lazy->stamp == 0) {
         clear_stamps(lazy);
@@ -91,6 +92,15 @@ void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_giv
     }
     if (lazy->singles && !lazy->given)
         round_weights(lazy);
+}
+
+void mote_lazy_begin_points(mote_lazy *lazy, const mote_positions *points)
+{
+    mote_lazy_begin(lazy, NULL, false);
+    if (!points->single && points->stride == sizeof(mote_vec3))
+        lazy->given = points->data;
+    else
+        lazy->points = points;
 }
 
 static uint32_t first_index(const mote_lazy *lazy, uint32_t vertex)
@@ -152,7 +162,9 @@ static bool grow_single(mote_lazy *lazy)
 
 mote_vec3 mote_lazy_fill(mote_lazy *lazy, uint32_t vertex, uint32_t index)
 {
-    const mote_vec3 position = mote_body_position(lazy->body, lazy->state, vertex);
+    const mote_vec3 position = lazy->points
+                                   ? mote_position_at(lazy->points, vertex)
+                                   : mote_body_position(lazy->body, lazy->state, vertex);
     ++lazy->evaluated;
     if (lazy->filled >= lazy->limit) {
         if (lazy->fixed || !grow(lazy))
@@ -255,7 +267,7 @@ static bool reserve(mote_lazy *lazy, uint32_t vertex, pending *p)
 
 void mote_lazy_fetch(mote_lazy *lazy, const uint32_t *vertices, size_t count)
 {
-    if (lazy->given || lazy->singles)
+    if (lazy->given || lazy->points || lazy->singles)
         return;
     pending p = {.count = 0};
     for (size_t i = 0; i < count && reserve(lazy, vertices[i], &p); ++i)
@@ -265,7 +277,7 @@ void mote_lazy_fetch(mote_lazy *lazy, const uint32_t *vertices, size_t count)
 
 void mote_lazy_fetch_rings(mote_lazy *lazy, const uint32_t *centres, size_t count)
 {
-    if (lazy->given || lazy->singles)
+    if (lazy->given || lazy->points || lazy->singles)
         return;
     const mote_mesh *mesh = lazy->body->mesh;
     pending p = {.count = 0};

@@ -5,6 +5,7 @@
 #define MOTE_CORE_LAZY_H
 
 #include "core/body/body.h"
+#include "core/body/positions.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,6 +27,7 @@ typedef struct mote_lazy {
     const mote_body *body;
     const mote_body_state *state;
     const mote_vec3 *given;         /* all vertices, already deformed by the caller, or NULL */
+    const mote_positions *points;   /* the same in another layout, or NULL */
     mote_lazy_slot *slots;          /* [mask + 1], a power of two; NULL in single precision */
     mote_lazy_slot_single *singles; /* [mask + 1] in single precision, else NULL */
     float *weights_single; /* x, y, z of the frame's weights rounded, [3][padded], or NULL */
@@ -49,6 +51,9 @@ void mote_lazy_free(mote_lazy *lazy);
 /* Starts a frame: forgets all positions. state is borrowed until the next call. With use_given,
    positions are read from state->vertices, which must not be NULL. Constant time. */
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given);
+
+/* The same with positions read from points, which are borrowed until the next call. */
+void mote_lazy_begin_points(mote_lazy *lazy, const mote_positions *points);
 
 /* The slow path of mote_lazy_position: evaluates and remembers (or, out of memory, only
    evaluates). */

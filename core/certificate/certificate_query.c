@@ -231,3 +231,26 @@ void mote_certificate_query(mote_certificate *c, const mote_frame *frame,
     prove(c);
     write_answer(c, evaluated, answer);
 }
+
+void mote_certificate_report(const mote_certificate_answer *found, mote_ask ask,
+                             double tolerance, bool decides, mote_answer *answer)
+{
+    const bool contact_only = ask == MOTE_ASK_CONTACT;
+    answer->distance = found->distance;
+    answer->lower = found->lower;
+    answer->witness[0] = found->witness[0];
+    answer->witness[1] = found->witness[1];
+    answer->contact = found->distance <= tolerance;
+    /* A contact question ends before the distance is known. */
+    answer->has_distance = !contact_only;
+    answer->has_witness = !contact_only || answer->contact;
+    answer->has_lower = true;
+    /* Where the tolerance lies between the bounds, contact is not decided. */
+    answer->has_contact =
+        answer->contact || found->lower > tolerance || (decides && !found->stopped);
+    mote_counters *sum = &answer->counters;
+#define ADD(name) sum->name += found->counters.name;
+    MOTE_COUNTERS(ADD)
+    MOTE_COUNTERS_MORE(ADD)
+#undef ADD
+}

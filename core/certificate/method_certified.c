@@ -142,23 +142,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     mote_certificate_answer found;
     mote_certificate_query(s->certificate, frame, first, contact_only ? s->tolerance : -1,
                            &found);
-    answer->distance = found.distance;
-    answer->lower = found.lower;
-    answer->witness[0] = found.witness[0];
-    answer->witness[1] = found.witness[1];
-    answer->contact = found.distance <= s->tolerance;
-    /* A contact question ends before the distance is known. */
-    answer->has_distance = !contact_only;
-    answer->has_witness = !contact_only || answer->contact;
-    answer->has_lower = true;
-    /* Where the tolerance lies between the bounds, contact is not decided. */
-    answer->has_contact =
-        answer->contact || found.lower > s->tolerance || (s->exact && !found.stopped);
-    mote_counters *sum = &answer->counters;
-#define ADD(name) sum->name += found.counters.name;
-    MOTE_COUNTERS(ADD)
-    MOTE_COUNTERS_MORE(ADD)
-#undef ADD
+    mote_certificate_report(&found, s->ask, s->tolerance, s->exact, answer);
     return MOTE_OK;
 }
 

@@ -14,7 +14,9 @@ for name in status mesh_create mesh_ring field_kinds field_evaluate field_sum cs
     potential site start far_cache particles triangle refine \
     certificate_query certificate_create certificate_build certificate_box certificate_fitted \
     certificate_fitted_build certificate_deform certificate_leaf certificate_row certificate_pair \
-    certificate_triangles certificate_search levels descent coherence pairs \
+    certificate_hulls certificate_triangles certificate_search leaf_order pool stream_boxes \
+    stream_descend stream_leaf stream_pair stream_query stream_search stream_traverse \
+    stream_tree levels descent coherence pairs \
     tracker_create tracker_query tracker_search; do
     sources="$sources $(ls core/*/$name.c)"
 done
@@ -36,7 +38,7 @@ check()
 {
     program="$work/test_portability"
     # shellcheck disable=SC2086 # lists of words
-    if "$1" $flags $2 $sources -lcmocka -lm -o "$program" && "$program" > "$work/log" 2>&1; then
+    if "$1" $flags $2 $sources -lcmocka -lpthread -lm -o "$program" && "$program" > "$work/log" 2>&1; then
         echo "same bits: $1 $2"
     else
         cat "$work/log"

@@ -8,7 +8,7 @@ objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
         wanted = split("mote_potential project_block deform_block mote_cert_row_boxes move_group " \
             "project_points mote_cert_near_pairs csrbf_estimate skin_convex_boxes skin_convex_project " \
             "skin_leaf_boxes skin_leaf_project morph_convex_boxes morph_convex_project " \
-            "morph_leaf_boxes morph_leaf_project convert face_rows", loops, " ")
+            "morph_leaf_boxes morph_leaf_project convert face_rows turn_leaf mote_stream_distances", loops, " ")
         for (k in loops)
             missing[loops[k]] = 1
     }

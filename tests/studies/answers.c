@@ -23,7 +23,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const methods[] = {"certified", "particle:n=8", "particle-paper:n=5"};
+static const char *const methods[] = {"certified", "stream", "particle:n=8",
+                                      "particle-paper:n=5"};
 /* Built in minutes, and ww again. */
 static const char *const large[] = {"ww-100k", "ww-1m", "ww-10m"};
 

@@ -9,6 +9,7 @@
 #include "core/particle/particles.h"
 #include "core/particle/refine.h"
 #include "core/particle/tracker.h"
+#include "core/stream/stream.h"
 #include "harness/base/hash.h"
 
 #include "tests/support/bodies.h"
@@ -210,6 +211,53 @@ TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
 }
 
 /* Tracked queries, counters included, of two bodies that come near, meet and jump. */
+/* Positions of a fixed body, each moved by chance. */
+static mote_vec3 *shaken_positions(const test_body *b, mote_vec3 offset, uint64_t *seed)
+{
+    mote_vec3 *made = malloc(b->mesh->vertex_count * sizeof *made);
+    assert_non_null(made);
+    for (uint32_t v = 0; v < b->mesh->vertex_count; ++v)
+        made[v] = mote_add(mote_add(b->mesh->positions[v], offset), random_vec3(seed, 0.01));
+    return made;
+}
+
+TEST(streamed_queries_of_fixed_bodies_have_the_committed_hash)
+{
+    uint64_t seed = 7;
+    uint64_t hash = MOTE_HASH_START;
+    test_body b[2];
+    for (int k = 0; k < 2; ++k)
+        test_body_init(&b[k], solid_to_mesh(solid_icosphere(4 - k)), 0, &seed);
+    const mote_body *bodies[2] = {&b[0].body, &b[1].body};
+    const mote_stream_options options = mote_default_stream_options(b[0].mesh->diagonal);
+    mote_stream *stream = NULL;
+    if (mote_stream_create(bodies, &options, &stream) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    for (int number = 1; number <= 40; ++number) {
+        mote_vec3 *at[2];
+        for (int k = 0; k < 2; ++k)
+            at[k] = shaken_positions(&b[k], mote_vec3_make(k * (2.6 - 0.02 * number), 0.1, 0),
+                                     &seed);
+        const mote_stream_frame frame = {
+            .positions = {mote_positions_of(at[0]), mote_positions_of(at[1])}};
+        mote_certificate_answer answer;
+        assert_int_equal(mote_stream_query(stream, &frame, -1, &answer), MOTE_OK);
+        hash = mote_hash_double(hash, answer.distance);
+        hash = mote_hash_double(hash, answer.lower);
+        hash_vec3(&hash, answer.witness[0]);
+        hash = mote_hash_word(hash, answer.counters.blocks);
+        hash = mote_hash_word(hash, answer.counters.box_tests);
+        hash = mote_hash_word(hash, answer.counters.leaf_pairs);
+        hash = mote_hash_word(hash, answer.counters.triangle_tests);
+        free(at[0]);
+        free(at[1]);
+    }
+    mote_stream_destroy(stream);
+    test_body_free(&b[0]);
+    test_body_free(&b[1]);
+    expect_hash(hash, 0x3dcb0e66beeff044u);
+}
+
 TEST(tracked_queries_of_fixed_bodies_have_the_committed_hash)
 {
     const int sizes[] = {0, 14, -3};

@@ -1,0 +1,106 @@
+/* Two leaves: directions that separate them, then their triangles. */
+#include "core/stream/stream_state.h"
+
+#include "core/body/triangle.h"
+
+#include <string.h>
+
+/* A face of a leaf, exactly. */
+typedef struct exact_face {
+    mote_vec3 corner[3];
+    const uint32_t *vertex; /* [3] */
+} exact_face;
+
+static exact_face place_face(const mote_stream_search *s, int side, uint32_t leaf, size_t place)
+{
+    const mote_stream_body *body = s->side[side].body;
+    const mote_stream_tree *tree = body->tree;
+    const size_t number = (size_t)leaf * MOTE_STREAM_LEAF + place;
+    exact_face face = {.vertex = tree->mesh->triangles[tree->order[number]]};
+    for (int k = 0; k < 3; ++k)
+        face.corner[k] = mote_position_at(&body->positions, face.vertex[k]);
+    return face;
+}
+
+/* The gap of two faces along the direction of the best witnesses, which changes with them. */
+static double gap_of(const mote_stream_search *s, const exact_face *a, const exact_face *b)
+{
+    double most = -HUGE_VAL, least = HUGE_VAL;
+    for (int k = 0; k < 3; ++k) {
+        const double p = mote_dot(mote_sub(a->corner[k], s->origin), s->toward);
+        const double q = mote_dot(mote_sub(b->corner[k], s->origin), s->toward);
+        most = p > most ? p : most;
+        least = q < least ? q : least;
+    }
+    return (least - most) * s->scale;
+}
+
+/* Measures two faces, and keeps them where they are the nearest so far. */
+static void measure(mote_stream_search *s, const exact_face *a, const exact_face *b)
+{
+    if (gap_of(s, a, b) >= s->limit)
+        return;
+    const double limit = s->limit / s->scale;
+    mote_vec3 p, q;
+    ++s->counters.triangle_tests;
+    const double squared =
+        mote_triangle_triangle_below(a->corner, b->corner, limit * limit, &p, &q);
+    if (!(squared < limit * limit && squared < s->best.squared))
+        return;
+    s->best.witness[0] = p;
+    s->best.witness[1] = q;
+    memcpy(s->best.triangle[0], a->vertex, sizeof s->best.triangle[0]);
+    memcpy(s->best.triangle[1], b->vertex, sizeof s->best.triangle[1]);
+    mote_stream_set_best(s, squared);
+}
+
+static void measure_near(mote_stream_search *s, const uint32_t leaf[2],
+                         const mote_cert_hulls *hulls)
+{
+    static const float facing[3] = {1, 0, 0}; /* about: the first of the gap's axes */
+    mote_cert_near near;
+    mote_cert_hulls_near(hulls, s->need, facing, &near);
+    for (; near.used && !s->done; near.used &= near.used - 1) {
+        const size_t i = mote_lowest_bit(near.used);
+        const exact_face a = place_face(s, 0, leaf[0], i);
+        for (uint32_t left = near.undecided[i]; left && !s->done; left &= left - 1) {
+            const exact_face b = place_face(s, 1, leaf[1], mote_lowest_bit(left));
+            measure(s, &a, &b);
+        }
+    }
+}
+
+static mote_cert_points points_of(const mote_stream_tree *tree, const mote_stream_slot *slot)
+{
+    return (mote_cert_points){.x = {slot->x[0], slot->x[1], slot->x[2]},
+                              .groups = slot->groups,
+                              .corners = (const uint8_t(*)[3])tree->corners +
+                                         (size_t)slot->leaf * MOTE_STREAM_LEAF,
+                              .faces = mote_stream_leaf_faces(tree, slot->leaf)};
+}
+
+void mote_stream_leaf_pair(mote_stream_search *s, const uint32_t leaf[2])
+{
+    mote_stream_slot *slot[2];
+    mote_cert_hulls hulls;
+    ++s->counters.leaf_pairs;
+    for (int k = 0; k < 2; ++k) {
+        slot[k] = mote_stream_leaf(s, k, leaf[k]);
+        hulls.leaf[k] = points_of(s->side[k].body->tree, slot[k]);
+    }
+    memcpy(hulls.loose, s->loose, sizeof hulls.loose);
+    if (s->has_direction && mote_cert_hulls_along(&hulls, s->direction, s->need))
+        return;
+    /* Where the gap is bounded by parallel faces, many leaves are exactly as far apart as the
+       witnesses, which single precision cannot tell from nearer. */
+    if (-(mote_stream_reach(s, 0, slot[0]) + mote_stream_reach(s, 1, slot[1])) >= s->limit)
+        return;
+    for (size_t k = 0; k < 3; ++k)
+        hulls.nearest[k] = slot[1]->x[k][0] - slot[0]->x[k][0];
+    if (mote_cert_hulls_search(&hulls, s->need)) {
+        memcpy(s->direction, hulls.nearest, sizeof s->direction);
+        s->has_direction = true;
+        return;
+    }
+    measure_near(s, leaf, &hulls);
+}

@@ -1,0 +1,144 @@
+/* Streamed queries of two bodies. */
+#include "core/stream/stream.h"
+
+#include "core/stream/stream_state.h"
+
+#include <stdlib.h>
+
+struct mote_stream {
+    mote_stream_tree *tree[2];
+    mote_stream_body body[2];
+    mote_stream_search search;
+    mote_stream_memory memory;
+    mote_pool *pool; /* or NULL */
+};
+
+mote_stream_options mote_default_stream_options(double length)
+{
+    return (mote_stream_options){
+        .length = length, .budget = UINT64_MAX, .coherent = true, .threads = 1};
+}
+
+void mote_stream_destroy(mote_stream *stream)
+{
+    if (!stream)
+        return;
+    mote_pool_destroy(stream->pool);
+    mote_stream_search_free(&stream->search);
+    for (int b = 0; b < 2; ++b) {
+        mote_stream_body_free(&stream->body[b]);
+        mote_stream_tree_destroy(stream->tree[b]);
+    }
+    free(stream);
+}
+
+static mote_status build(mote_stream *stream, const mote_body *const body[2],
+                         const mote_stream_options *options)
+{
+    uint32_t room[2] = {0, 0};
+    mote_status status = MOTE_OK;
+    if (options->threads != 1)
+        status = mote_pool_create(options->threads, &stream->pool);
+    for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
+        status = mote_stream_tree_create(body[b], &stream->tree[b]);
+        if (status == MOTE_OK)
+            status = mote_stream_body_init(&stream->body[b], stream->tree[b]);
+        if (status == MOTE_OK)
+            room[b] = stream->tree[b]->groups;
+    }
+    if (status == MOTE_OK)
+        status = mote_stream_search_init(&stream->search, options, body, room);
+    return status;
+}
+
+mote_status mote_stream_create(const mote_body *const body[2],
+                               const mote_stream_options *options, mote_stream **stream)
+{
+    mote_stream *made = aligned_alloc(64, (sizeof *made + 63) / 64 * 64);
+    if (!made)
+        return mote_fail(MOTE_ENOMEM, "no memory for a streamed query");
+    *made = (mote_stream){.pool = NULL};
+    mote_status status = build(made, body, options);
+    if (status == MOTE_OK)
+        *stream = made;
+    else
+        mote_stream_destroy(made);
+    return status;
+}
+
+size_t mote_stream_bytes(const mote_stream *stream)
+{
+    size_t bytes = sizeof *stream + mote_stream_search_bytes(&stream->search);
+    for (int b = 0; b < 2; ++b)
+        bytes +=
+            mote_stream_tree_bytes(stream->tree[b]) + mote_stream_body_bytes(&stream->body[b]);
+    return bytes;
+}
+
+/* Takes a frame's positions; boxes of other positions are void. */
+static mote_status take_positions(mote_stream *stream, const mote_stream_frame *frame)
+{
+    for (int b = 0; b < 2; ++b) {
+        mote_status status = mote_stream_check(&frame->positions[b], b);
+        if (status != MOTE_OK)
+            return status;
+    }
+    for (int b = 0; b < 2; ++b) {
+        mote_stream_body *body = &stream->body[b];
+        body->positions = frame->positions[b];
+        body->placed = body->placed && frame->unchanged[b];
+        body->checked = body->checked && frame->unchanged[b];
+    }
+    return MOTE_OK;
+}
+
+/* Looks at every position that no pass will look at. */
+static mote_status check_positions(mote_stream *stream)
+{
+    for (int b = 0; b < 2; ++b) {
+        mote_status status = mote_stream_finite(&stream->body[b], b);
+        if (status != MOTE_OK)
+            return status;
+    }
+    return MOTE_OK;
+}
+
+/* Boxes bodies that moved, or whose boxes have another scale. */
+static mote_status pass(mote_stream *stream)
+{
+    mote_stream_search *s = &stream->search;
+    mote_stream_choose(s);
+    for (int b = 0; b < 2; ++b) {
+        mote_stream_body *body = &stream->body[b];
+        if (body->placed && !(body->scale < s->scale || body->scale > s->scale))
+            continue;
+        mote_status status = mote_stream_pass(body, s->origin, s->scale, stream->pool, b);
+        if (status != MOTE_OK)
+            return status;
+        s->counters.positions += body->tree->mesh->vertex_count;
+    }
+    return MOTE_OK;
+}
+
+mote_status mote_stream_query(mote_stream *stream, const mote_stream_frame *frame,
+                              double enough, mote_certificate_answer *answer)
+{
+    mote_stream_search *s = &stream->search;
+    mote_stream_body *const body[2] = {&stream->body[0], &stream->body[1]};
+    mote_status status = take_positions(stream, frame);
+    if (status != MOTE_OK)
+        return status;
+    const bool near = mote_stream_seed(s, body, &stream->memory, enough);
+    if (!isfinite(s->upper) || s->done)
+        status = check_positions(stream);
+    if (status == MOTE_OK && !isfinite(s->upper))
+        status =
+            mote_fail(MOTE_EINVAL, "the bodies are too far apart to square their distance");
+    if (status == MOTE_OK && !s->done)
+        status = pass(stream);
+    if (status == MOTE_OK && !s->done)
+        status = mote_stream_prove(s, !near);
+    if (status == MOTE_OK)
+        mote_stream_write(s, &stream->memory, answer);
+    return status;
+}
