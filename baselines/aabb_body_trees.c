@@ -59,7 +59,7 @@ static mote_status create(const mote_body_trees_setup *setup, void **state)
     if (!s->shapes || !s->place)
         status = mote_fail(MOTE_ENOMEM, "no memory for aabb-tree");
     for (uint32_t i = 0; i < setup->shape_count && status == MOTE_OK; ++i)
-        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i]);
+        status = mote_box_tree_init(&s->shapes[i].rest, setup->shapes[i], false);
     if (status == MOTE_OK)
         *state = s;
     else

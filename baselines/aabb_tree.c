@@ -4,6 +4,7 @@
 #include "baselines/aabb_tree.h"
 #include "baselines/box_tree.h"
 #include "baselines/input.h"
+#include "core/body/sample_split.h"
 #include "baselines/wide_triangle.h"
 #include "core/base/clones.h"
 #include "core/method/method.h"
@@ -11,7 +12,7 @@
 
 #include <stdlib.h>
 
-enum { SEED, ARITHMETIC, POSITIONS, PARAMETER_COUNT };
+enum { SEED, ARITHMETIC, POSITIONS, BUILD, PARAMETER_COUNT };
 
 static const mote_parameter parameters[PARAMETER_COUNT] = {
     [SEED] = {"seed", MOTE_PARAMETER_CHOICE, 0, 0, "none|previous", "previous",
@@ -21,6 +22,8 @@ static const mote_parameter parameters[PARAMETER_COUNT] = {
          "of triangle distances: double, or 113 bits, 100 times slower, for disputes"},
     [POSITIONS] = {"positions", MOTE_PARAMETER_CHOICE, 0, 0, "deform|given", "deform",
                    "deform: pay for deforming all vertices; given: they come free of charge"},
+    [BUILD] = {"build", MOTE_PARAMETER_CHOICE, 0, 0, MOTE_BUILD_CHOICES, "rest",
+               MOTE_BUILD_HELP},
 };
 
 /* Bodies farther from the origin than this times L get a new origin. */
@@ -80,6 +83,7 @@ static mote_traits traits(const double *values)
     return (mote_traits){.needs_vertices = !given,
                          .given_vertices = given,
                          .keeps_state = values[SEED] > 0,
+                         .samples = values[BUILD] > 0,
                          .exact = true};
 }
 
@@ -106,7 +110,7 @@ static mote_status create(const mote_setup *setup, void **state)
     s->wide = setup->values[ARITHMETIC] > 0;
     s->scale = ldexp(1, -ilogb(setup->length));
     for (int b = 0; b < 2 && status == MOTE_OK; b++)
-        status = mote_box_tree_init(&s->tree[b], setup->body[b]);
+        status = mote_box_tree_init(&s->tree[b], setup->body[b], setup->values[BUILD] > 0);
     if (status != MOTE_OK) {
         destroy(s);
         return status;

@@ -79,7 +79,7 @@ static bool allocate(mote_box_tree *tree)
            tree->position;
 }
 
-mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body)
+mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body, bool samples)
 {
     const mote_mesh *mesh = body->mesh;
     *tree = (mote_box_tree){.mesh = mesh};
@@ -88,7 +88,10 @@ mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body)
     if (!allocate(tree))
         return mote_fail(MOTE_ENOMEM, "no memory for a tree of %u triangles",
                          mesh->triangle_count);
-    mote_status status = mote_leaf_order(body, MOTE_BOX_LEAF, tree->order);
+    mote_body ordered = *body;
+    if (!samples)
+        ordered.sample_count = 0;
+    mote_status status = mote_leaf_order(&ordered, MOTE_BOX_LEAF, tree->order);
     if (status != MOTE_OK)
         return status;
     list_vertices(tree);

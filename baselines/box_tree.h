@@ -42,9 +42,10 @@ typedef struct mote_box_tree {
     mote_box root;
 } mote_box_tree;
 
-/* Builds the tree over the rest pose and the body's sample poses: MOTE_ENOMEM. Cost O(t log t).
-   Boxes are unset until the first refit. Free with mote_box_tree_free, also after a failure. */
-mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body);
+/* Builds the tree over the rest pose; with samples, over it and the body's sample poses
+   (core/body/sample_split.h). MOTE_ENOMEM. Cost O(t log t). Boxes are unset until the first
+   refit. Free with mote_box_tree_free, also after a failure. */
+mote_status mote_box_tree_init(mote_box_tree *tree, const mote_body *body, bool samples);
 
 void mote_box_tree_free(mote_box_tree *tree);
 

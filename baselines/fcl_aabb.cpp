@@ -4,9 +4,12 @@
 namespace
 {
 
-constexpr mote_parameter parameters[] = {
-    mote_fcl::update_parameter("refit-bottom-up"), mote_fcl::queue_parameter,
-    mote_fcl::seed_parameter, mote_fcl::call_parameter, mote_fcl::positions_parameter};
+constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-bottom-up"),
+                                         mote_fcl::queue_parameter,
+                                         mote_fcl::seed_parameter,
+                                         mote_fcl::call_parameter,
+                                         mote_fcl::positions_parameter,
+                                         mote_fcl::build_parameter};
 
 } // namespace
 

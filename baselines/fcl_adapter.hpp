@@ -21,6 +21,7 @@
 
 #include "baselines/fcl_parameters.hpp"
 #include "baselines/input.h"
+#include "baselines/sample_splitter.hpp"
 #include "core/body/triangle.h"
 
 #include <algorithm>
@@ -107,6 +108,36 @@ template <class Node> class EarlyNode : public Node
     double enough;
 };
 
+/* Splits FCL's trees by sample poses. */
+template <class BV> class SampleSplitter : public fcl::detail::BVSplitterBase<BV>
+{
+  public:
+    explicit SampleSplitter(const mote_body &body) : sides(body)
+    {
+    }
+
+    void set(Vector *, fcl::Triangle *, fcl::BVHModelType) override
+    {
+    }
+
+    void computeRule(const BV &, unsigned *triangles, int count) override
+    {
+        sides.choose(triangles, static_cast<uint32_t>(count));
+    }
+
+    bool apply(const Vector &) const override
+    {
+        return sides.next();
+    }
+
+    void clear() override
+    {
+    }
+
+  private:
+    mote_samples::Sides sides;
+};
+
 /* An upper bound on the distance, scaled, with the points that attain it. */
 struct Bound {
     double distance = std::numeric_limits<double>::infinity();
@@ -182,6 +213,8 @@ template <class Volume> mote_status Pair<Volume>::build(const mote_setup *setup)
             const uint32_t *t = mesh->triangles[i];
             triangles[i].set(t[0], t[1], t[2]);
         }
+        if (options.samples)
+            model[b].bv_splitter = std::make_shared<SampleSplitter<BV>>(*setup->body[b]);
         int code = model[b].beginModel(static_cast<int>(mesh->triangle_count),
                                        static_cast<int>(mesh->vertex_count));
         if (code == fcl::BVH_OK)
@@ -404,6 +437,7 @@ template <class Volume> struct Adapter {
         traits.needs_vertices = vertices && !options.given;
         traits.given_vertices = vertices && options.given;
         traits.keeps_state = options.seeded;
+        traits.samples = options.samples;
         traits.exact = Pair<Volume>::has_distance &&
                        (Volume::bottom_up_encloses || options.update != REFIT_BOTTOM_UP);
         return traits;
@@ -422,6 +456,9 @@ template <class Volume> struct Adapter {
         if (options.api && options.queue != 2)
             return mote_fail(MOTE_EUNSUPPORTED,
                              "FCL's public functions have no queue; queue=2 or call=node");
+        if (options.update == REBUILD && options.samples)
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "update=rebuild splits by the vertices of each frame; build=rest");
         if (options.update != NO_UPDATE)
             return MOTE_OK;
         if (!Volume::oriented)

@@ -113,9 +113,12 @@ struct ObbVolume {
     static constexpr unsigned first_triangle_tests = 0;
 };
 
-constexpr mote_parameter parameters[] = {
-    mote_fcl::update_parameter("refit-top-down"), mote_fcl::queue_parameter,
-    mote_fcl::seed_parameter, mote_fcl::call_parameter, mote_fcl::positions_parameter};
+constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
+                                         mote_fcl::queue_parameter,
+                                         mote_fcl::seed_parameter,
+                                         mote_fcl::call_parameter,
+                                         mote_fcl::positions_parameter,
+                                         mote_fcl::build_parameter};
 
 } // namespace
 

@@ -2,22 +2,24 @@
 #ifndef MOTE_BASELINES_FCL_PARAMETERS_HPP
 #define MOTE_BASELINES_FCL_PARAMETERS_HPP
 
+#include "core/body/sample_split.h"
 #include "core/method/method.h"
 
 namespace mote_fcl
 {
 
 /* In the order of the table below. */
-enum ParameterIndex { UPDATE, QUEUE, SEED, CALL, POSITIONS, PARAMETER_COUNT };
+enum ParameterIndex { UPDATE, QUEUE, SEED, CALL, POSITIONS, BUILD, PARAMETER_COUNT };
 
 enum UpdateMode { REFIT_BOTTOM_UP, REFIT_TOP_DOWN, REBUILD, NO_UPDATE };
 
 struct Options {
     UpdateMode update;
-    int queue;   /* 2: depth first; more: entries of FCL's priority queue */
-    bool seeded; /* start from the last query's triangle pair */
-    bool api;    /* fcl::distance and fcl::collide instead of their traversal nodes */
-    bool given;  /* deforming the vertices is not charged */
+    int queue;    /* 2: depth first; more: entries of FCL's priority queue */
+    bool seeded;  /* start from the last query's triangle pair */
+    bool api;     /* fcl::distance and fcl::collide instead of their traversal nodes */
+    bool given;   /* deforming the vertices is not charged */
+    bool samples; /* the tree is split by sample poses too */
 };
 
 inline Options read_options(const double *values)
@@ -28,6 +30,7 @@ inline Options read_options(const double *values)
     options.seeded = values[SEED] == 1;
     options.api = values[CALL] == 1;
     options.given = values[POSITIONS] == 1;
+    options.samples = values[BUILD] == 1;
     return options;
 }
 
@@ -55,6 +58,8 @@ constexpr mote_parameter call_parameter =
 constexpr mote_parameter positions_parameter =
     choice("positions", "deform|given", "deform",
            "deform: pay for deforming all vertices; given: they come free of charge");
+constexpr mote_parameter build_parameter =
+    choice("build", MOTE_BUILD_CHOICES, "rest", MOTE_BUILD_HELP);
 
 } // namespace mote_fcl
 

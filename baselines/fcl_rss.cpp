@@ -15,9 +15,12 @@ struct RssVolume {
     static constexpr unsigned first_triangle_tests = 1;
 };
 
-constexpr mote_parameter parameters[] = {
-    mote_fcl::update_parameter("refit-top-down"), mote_fcl::queue_parameter,
-    mote_fcl::seed_parameter, mote_fcl::call_parameter, mote_fcl::positions_parameter};
+constexpr mote_parameter parameters[] = {mote_fcl::update_parameter("refit-top-down"),
+                                         mote_fcl::queue_parameter,
+                                         mote_fcl::seed_parameter,
+                                         mote_fcl::call_parameter,
+                                         mote_fcl::positions_parameter,
+                                         mote_fcl::build_parameter};
 
 } // namespace
 

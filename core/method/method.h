@@ -74,6 +74,7 @@ typedef struct mote_traits {
     bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */
     bool exact;          /* claims the exact distance (checked to 1e-12 L) */
     bool hulls;          /* answers for the hulls of convex parts, not for the surfaces */
+    bool samples;        /* builds by the bodies' sample poses; see mote_body */
 } mote_traits;
 
 typedef struct mote_method {

@@ -3,6 +3,7 @@
 #include "core/base/frame_queue.h"
 #include "harness/base/clock.h"
 #include "harness/base/memory.h"
+#include "harness/scene/sample_poses.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -20,6 +21,8 @@
 struct mote_measurement {
     const mote_cell *cell;
     mote_engine *engine;
+    mote_sample_poses *samples;           /* NULL: the method builds without them */
+    mote_body body[2];                    /* of two: the scenario's, with samples */
     uint32_t ahead;                       /* 0: motion and queries take turns in one thread */
     mote_subject_frame frames[AHEAD_MAX]; /* [ahead], at least 1 */
     uint64_t motion_ns[AHEAD_MAX];        /* of each frame that is in the queue */
@@ -33,6 +36,19 @@ struct mote_measurement {
 
 typedef mote_measurement session;
 
+/* Gives two bodies sample poses where the method builds by these. */
+static void add_samples(session *s, mote_engine_setup *setup)
+{
+    const mote_method_choice *choice = s->cell->choice;
+    const mote_scenario *scenario = s->cell->subject->scenario;
+    if (!scenario || !mote_method_traits(choice->method, choice->values).samples)
+        return;
+    s->samples = mote_sample_poses_create(scenario);
+    mote_sample_poses_bodies(s->samples, scenario, s->body);
+    setup->shapes[0] = &s->body[0];
+    setup->shapes[1] = &s->body[1];
+}
+
 /* Everything that is charged to no method. */
 static mote_status prepare(session *s)
 {
@@ -41,6 +57,7 @@ static mote_status prepare(session *s)
     mote_engine_setup setup = mote_subject_engine(cell->subject);
     setup.seed = mote_replicate_seed(cell->seed, cell->fixed_seed, cell->replicate);
     setup.clock_ns = mote_clock_cost_ns();
+    add_samples(s, &setup);
     s->ahead = (uint32_t)cell->choice->scene[MOTE_SCENE_AHEAD];
     const mote_status status = mote_engine_create(&setup, cell->choice, &s->engine);
     if (status != MOTE_OK)
@@ -228,6 +245,7 @@ static mote_status run(session *s)
 static void close_session(session *s)
 {
     mote_engine_destroy(s->engine);
+    mote_sample_poses_destroy(s->samples);
     for (uint32_t i = 0; i < AHEAD_MAX; ++i)
         mote_subject_frame_free(&s->frames[i]);
     free((void *)(uintptr_t)s->evict);

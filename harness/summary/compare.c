@@ -1,5 +1,6 @@
 #include "harness/summary/compare.h"
 
+#include "core/method/method.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/summary/column.h"
@@ -26,13 +27,35 @@ void mote_comparison_free(mote_comparison *comparison)
     *comparison = none;
 }
 
+/* Whether each parameter of row a has the same value in row b, or is unknown there, as in a run
+   of before it was added, and has its default in a. */
+static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
+{
+    const mote_method *method = mote_method_find(a->method);
+    const char *key;
+    json_t *value;
+    json_object_foreach(a->parameters, key, value)
+    {
+        const json_t *other = json_object_get(b->parameters, key);
+        bool same = other && json_equal(value, other);
+        for (size_t i = 0; !other && method && i < method->parameter_count; ++i) {
+            const mote_parameter *known = &method->parameters[i];
+            same = same || (json_is_string(value) && strcmp(known->key, key) == 0 &&
+                            strcmp(known->fallback, json_string_value(value)) == 0);
+        }
+        if (!same)
+            return false;
+    }
+    return true;
+}
+
 /* Rows are of one configuration when all of this is equal. */
 static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->scenario, b->scenario) == 0 &&
            strcmp(a->fingerprint, b->fingerprint) == 0 && strcmp(a->method, b->method) == 0 &&
-           strcmp(a->cache, b->cache) == 0 && json_equal(a->parameters, b->parameters) &&
-           a->stride == b->stride && a->seed == b->seed && a->frames == b->frames;
+           strcmp(a->cache, b->cache) == 0 && a->stride == b->stride && a->seed == b->seed &&
+           a->frames == b->frames && has_parameters(a, b) && has_parameters(b, a);
 }
 
 /* The row of that configuration, on the same machine where there is one. */

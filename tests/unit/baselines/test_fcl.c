@@ -67,6 +67,8 @@ static const variant distance_variants[] = {
     {"fcl-aabb", "call=api,seed=previous,positions=given"},
     {"fcl-aabb", "update=refit-top-down"},
     {"fcl-aabb", "update=rebuild"},
+    {"fcl-aabb", "build=samples"},
+    {"fcl-obbrss", "build=samples,seed=previous"},
     {"fcl-obbrss", ""},
     {"fcl-obbrss", "queue=64"},
     {"fcl-obbrss", "seed=previous"},
@@ -96,6 +98,7 @@ static const variant contact_variants[] = {
     {"fcl-kdop18", ""},
     {"fcl-kdop18", "call=api"},
     {"fcl-kdop18", "update=rebuild"},
+    {"fcl-kdop18", "build=samples"},
     {"fcl-kdop18", "update=refit-top-down"},
     {"fcl-aabb", ""},
     {"fcl-aabb", "call=api"},
@@ -310,7 +313,7 @@ TEST(create_of_what_fcl_lacks_is_unsupported)
         {"fcl-obb", "call=api"},         {"fcl-kdop18", ""},
         {"fcl-kdop18", "seed=previous"}, {"fcl-obb", "update=none"},
         {"fcl-aabb", "update=none"},     {"fcl-aabb", "call=api,queue=64"},
-        {"fcl-obbrss", "update=none"}};
+        {"fcl-obbrss", "update=none"},   {"fcl-aabb", "build=samples,update=rebuild"}};
     scene s;
     scene_init(&s, 6, 4, 1, true);
     mote_setup setup = scene_setup(&s, MOTE_ASK_DISTANCE, 0, NULL);

@@ -14,6 +14,7 @@ static const variant variants[] = {
     {"aabb-tree", "seed=none"},
     {"aabb-tree", "positions=given"},
     {"aabb-tree", "arithmetic=wide"},
+    {"aabb-tree", "build=samples"},
 };
 
 enum { VARIANTS = sizeof variants / sizeof *variants };

@@ -250,6 +250,32 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
     remove_beside();
 }
 
+/* A run of before a parameter was added had its default. */
+TEST(compare_of_rows_with_a_parameter_that_is_new_finds_the_default)
+{
+    static const struct {
+        const char *parameters; /* of the new run */
+        int status;
+    } cases[] = {{"'build': 'rest'", 0},
+                 {"'build': 'samples'", 4},
+                 {"'build': 3", 4},
+                 {"'never': 'rest'", 4}};
+    for (size_t i = 0; i < ROWS_OF(cases); ++i) {
+        char members[128];
+        write_run("old", &usual, 1);
+        write_run("new", &usual, -1);
+        change_row("old", "summary.json",
+                   "{'method': 'aabb-tree', 'parameters': {'seed': 'none'}}");
+        (void)snprintf(members, sizeof members,
+                       "{'method': 'aabb-tree', 'parameters': {'seed': 'none', %s}}",
+                       cases[i].parameters);
+        change_row("new", "summary.json", members);
+        const char *text = cases[i].status ? "no configuration in common" : "same or better";
+        expect("", cases[i].status, text);
+        mote_expect(cases[i].status, text, "compare new old"); /* the other way about */
+    }
+}
+
 /* Of one configuration on three machines, that of the same machine is compared, or else the
    first. */
 TEST(compare_prefers_the_row_of_the_same_machine)
