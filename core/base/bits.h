@@ -18,4 +18,15 @@ static inline size_t mote_lowest_bit(uint32_t bits)
 #endif
 }
 
+/* The same of a word of 64 bits. */
+static inline size_t mote_lowest_bit_of_64(uint64_t bits)
+{
+#if defined(__GNUC__)
+    return (size_t)__builtin_ctzll(bits);
+#else
+    const uint32_t low = (uint32_t)bits;
+    return low ? mote_lowest_bit(low) : 32 + mote_lowest_bit((uint32_t)(bits >> 32));
+#endif
+}
+
 #endif

@@ -55,8 +55,8 @@ typedef struct mote_cert_bounds {
      */
     void (*face)(mote_cert_side *side);
 
-    /* The boxes of a block along the plane's normal: writes middle, slant, loose and
-       leaf_margin of the node and calls mote_cert_finish_projection (certificate_project.h). */
+    /* The boxes of a block along the plane's normal: calls mote_cert_project_lane for each lane
+       (certificate_project.h), sets leaf_margin, and calls mote_cert_finish_projection. */
     void (*project)(const mote_cert_side *side, const mote_cert_block *block,
                     mote_cert_node *node);
 

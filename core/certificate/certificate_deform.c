@@ -26,11 +26,12 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->translation[1] = (float)t.y;
     side->translation[2] = (float)t.z;
     side->world = (largest(pose->translation) + largest(moved)) * tree->scale;
-    tree->bounds->begin(side);
+    side->project = tree->bounds->project;
     side->node_count = 0;
     side->reached = NULL;
     for (size_t i = 0; i < MOTE_CERT_HULLS; ++i)
         side->hulls[i].leaf = NULL;
+    tree->bounds->begin(side);
 }
 
 void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshold)
@@ -44,17 +45,17 @@ void mote_cert_side_face(mote_cert_side *side, mote_vec3 facing, double threshol
     side->facing_world[1] = (float)facing.y;
     side->facing_world[2] = (float)facing.z;
     side->shift = (float)mote_dot(side->exact_translation, facing);
-    side->tree->bounds->face(side);
     side->threshold = threshold;
     side->threshold_f = (float)threshold;
+    side->tree->bounds->face(side);
 }
 
 /* Projects a node onto the plane's normal. */
 static mote_cert_node *face_node(mote_certificate *c, int s, mote_cert_node *node)
 {
     const mote_cert_side *side = &c->side[s];
-    side->tree->bounds->project(side, node->block, node);
     node->generation = c->generation;
+    side->project(side, node->block, node);
     return node;
 }
 

@@ -30,14 +30,26 @@
 
 typedef mote_cert_row row;
 
-/* The weights of a frame, each array as long as the field is padded. */
+/* The weights of a frame, in the tree's units: seven arrays, each as long as the field is
+   padded. The first is of weights along facing, for functions in the tree's scale; then come x,
+   y and z of these weights, and the same for the functions as they are. */
 typedef struct fitted_frame {
-    float *weight[3]; /* in the tree's units, for the functions in the tree's scale */
-    float *along;     /* the same along facing */
-    float *single[3]; /* in the tree's units, for the functions as they are */
     float single_sum[3];
-    float numbers[];
+    uint32_t padded;
+    float along[];
 } fitted_frame;
+
+#define ARRAYS 7
+
+static inline float *weights_of(const fitted_frame *frame, size_t coordinate)
+{
+    return (float *)(uintptr_t)(frame->along + (1 + coordinate) * frame->padded);
+}
+
+static inline float *singles_of(const fitted_frame *frame, size_t coordinate)
+{
+    return weights_of(frame, 3 + coordinate);
+}
 
 static const fitted_frame *frame_of(const mote_cert_side *side)
 {
@@ -62,19 +74,7 @@ static float rounded_up(double x)
 
 static size_t fitted_frame_bytes(const mote_cert_tree *tree)
 {
-    return sizeof(fitted_frame) + (size_t)7 * tree->body->field->padded * sizeof(float);
-}
-
-static fitted_frame *lay_out(mote_cert_side *side)
-{
-    const size_t padded = side->tree->body->field->padded;
-    fitted_frame *frame = side->frame;
-    for (size_t c = 0; c < 3; ++c) {
-        frame->weight[c] = frame->numbers + c * padded;
-        frame->single[c] = frame->numbers + (3 + c) * padded;
-    }
-    frame->along = frame->numbers + 6 * padded;
-    return frame;
+    return sizeof(fitted_frame) + (size_t)ARRAYS * tree->body->field->padded * sizeof(float);
 }
 
 /* Bounds and margins of the frame; field: a bound of what the field adds to any box. */
@@ -92,48 +92,80 @@ static void set_margins(mote_cert_side *side, mote_vec3 field)
     side->leaf_margin = rounded_up(32 * FLOAT_ROUNDING * side->bound);
 }
 
+/* What the weights of one coordinate add up to: of their sizes for the functions as they are,
+   and of the field's bounds. */
+typedef struct amounts {
+    double sum, field;
+} amounts;
+
+/* Converts the weights of one coordinate. The sums are in ascending order. */
+MOTE_INLINE amounts convert(const double *restrict weights, const mote_cert_scales *scales,
+                            uint32_t padded, float *restrict weight, float *restrict single)
+{
+    amounts all = {0, 0};
+    for (uint32_t j = 0; j < padded; j += MOTE_LANES) {
+        double sum[MOTE_LANES], field[MOTE_LANES];
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const double w = weights[j + l] * scales->unit[j + l];
+            const double own = w * scales->scale[j + l];
+            weight[j + l] = (float)w;
+            single[j + l] = (float)own;
+            sum[l] = fabs(own);
+            field[l] = fabs(w) * scales->bound[j + l];
+        }
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            all.sum += sum[l];
+            all.field += field[l];
+        }
+    }
+    return all;
+}
+
+MOTE_CLONES
+static void convert_all(const mote_weights *w, const mote_cert_scales *scales,
+                        fitted_frame *frame, amounts all[3])
+{
+    const uint32_t n = frame->padded;
+    all[0] = convert(w->x, scales, n, weights_of(frame, 0), singles_of(frame, 0));
+    all[1] = convert(w->y, scales, n, weights_of(frame, 1), singles_of(frame, 1));
+    all[2] = convert(w->z, scales, n, weights_of(frame, 2), singles_of(frame, 2));
+}
+
 static void fitted_begin(mote_cert_side *side)
 {
     const mote_cert_tree *tree = side->tree;
-    const mote_cert_scales *scales = tree->fixed;
-    const mote_weights *weights = &side->state->weights;
-    fitted_frame *frame = lay_out(side);
-    mote_vec3 field = {0, 0, 0};
-    mote_vec3 sum = {0, 0, 0};
-    const uint32_t functions = tree->body->field->count;
-    for (uint32_t j = 0; j < functions; ++j) {
-        const double own = scales[j].scale;
-        const double scale = scales[j].unit;
-        const mote_vec3 w = {weights->x[j] * scale, weights->y[j] * scale,
-                             weights->z[j] * scale};
-        frame->weight[0][j] = (float)w.x;
-        frame->weight[1][j] = (float)w.y;
-        frame->weight[2][j] = (float)w.z;
-        frame->single[0][j] = (float)(w.x * own);
-        frame->single[1][j] = (float)(w.y * own);
-        frame->single[2][j] = (float)(w.z * own);
-        sum = mote_add(sum, mote_vec3_make(fabs(w.x) * own, fabs(w.y) * own, fabs(w.z) * own));
-        field.x += fabs(w.x) * scales[j].bound;
-        field.y += fabs(w.y) * scales[j].bound;
-        field.z += fabs(w.z) * scales[j].bound;
+    fitted_frame *frame = side->frame;
+    amounts all[3] = {{0, 0}, {0, 0}, {0, 0}};
+    frame->padded = tree->body->field->padded;
+    if (frame->padded > 0) {
+        const mote_cert_scales scales = mote_cert_scales_of(tree);
+        convert_all(&side->state->weights, &scales, frame, all);
     }
-    set_margins(side, field);
-    frame->single_sum[0] = rounded_up(sum.x);
-    frame->single_sum[1] = rounded_up(sum.y);
-    frame->single_sum[2] = rounded_up(sum.z);
+    set_margins(side, mote_vec3_make(all[0].field, all[1].field, all[2].field));
+    for (size_t c = 0; c < 3; ++c)
+        frame->single_sum[c] = rounded_up(all[c].sum);
+}
+
+MOTE_CLONES
+static void project_weights(const mote_weights *w, const double *restrict unit, mote_vec3 n,
+                            uint32_t padded, float *restrict along)
+{
+    for (uint32_t j = 0; j < padded; j += MOTE_LANES) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l) {
+            const double push = w->x[j + l] * n.x + w->y[j + l] * n.y + w->z[j + l] * n.z;
+            along[j + l] = (float)(unit[j + l] * push);
+        }
+    }
 }
 
 static void fitted_face(mote_cert_side *side)
 {
-    const mote_cert_tree *tree = side->tree;
-    const mote_cert_scales *scales = tree->fixed;
-    const mote_weights *w = &side->state->weights;
-    const mote_vec3 facing = side->facing;
     fitted_frame *frame = side->frame;
-    for (uint32_t j = 0; j < tree->body->field->count; ++j) {
-        const double push = w->x[j] * facing.x + w->y[j] * facing.y + w->z[j] * facing.z;
-        frame->along[j] = (float)(scales[j].unit * push);
-    }
+    if (frame->padded > 0)
+        project_weights(&side->state->weights, mote_cert_scales_of(side->tree).unit,
+                        side->facing, frame->padded, frame->along);
 }
 
 /* Coordinates of a block's boxes towards the other body. */
@@ -177,11 +209,8 @@ static void project_block(const mote_cert_side *restrict side,
             block->half[1][0][l] * x + block->half[1][1][l] * y + block->half[1][2][l] * z;
         axis2[l] +=
             block->half[2][0][l] * x + block->half[2][1][l] * y + block->half[2][2][l] * z;
-        node->middle[l] = middle[l];
-        node->slant[0][l] = axis0[l];
-        node->slant[1][l] = axis1[l];
-        node->slant[2][l] = axis2[l];
-        node->loose[l] = width[l] + margin;
+        const float axes[3] = {axis0[l], axis1[l], axis2[l]};
+        mote_cert_project_lane(block, node, l, middle[l], axes, width[l] + margin);
     }
     node->leaf_margin = side->leaf_margin;
     mote_cert_finish_projection(side, block, node, true);
@@ -215,8 +244,9 @@ MOTE_INLINE void add_field(const mote_cert_side *restrict side,
 {
     const row *rows = rows_of(side->tree, block);
     const uint16_t *active = side->tree->active + block->first_active;
-    const float *const weight[3] = {frame_of(side)->weight[0], frame_of(side)->weight[1],
-                                    frame_of(side)->weight[2]};
+    const fitted_frame *frame = frame_of(side);
+    const float *const weight[3] = {weights_of(frame, 0), weights_of(frame, 1),
+                                    weights_of(frame, 2)};
     float cx[WIDTH] = {0}, cy[WIDTH] = {0}, cz[WIDTH] = {0};
     float ax[WIDTH] = {0}, ay[WIDTH] = {0}, az[WIDTH] = {0};
     float bx[WIDTH] = {0}, by[WIDTH] = {0}, bz[WIDTH] = {0};
@@ -319,7 +349,8 @@ static bool fitted_hull(const mote_cert_side *side, const mote_cert_node *node, 
     const mote_cert_block *block = node->block;
     const mote_cert_leaf *leaf = hull->leaf;
     const fitted_frame *frame = frame_of(side);
-    const float *const single[3] = {frame->single[0], frame->single[1], frame->single[2]};
+    const float *const single[3] = {singles_of(frame, 0), singles_of(frame, 1),
+                                    singles_of(frame, 2)};
     (void)lane;
     if (body->field->count > 0 && !body->field->kind->estimate)
         return false;

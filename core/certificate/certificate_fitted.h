@@ -21,12 +21,20 @@ typedef struct mote_cert_row {
     mote_cert_strip residual;
 } mote_cert_row;
 
-/* Of each basis function, kept in tree->fixed. */
+/* Of each basis function, as long as the field is padded. tree->fixed holds the three arrays
+   side by side. */
 typedef struct mote_cert_scales {
-    double scale; /* a power of two */
-    double unit;  /* of weights: the tree's scale divided by that, a power of two too */
-    double bound; /* of |f| + |g_1| + |g_2| + |g_3| + m in any row */
+    double *scale; /* a power of two */
+    double *unit;  /* of weights: the tree's scale divided by that, a power of two too */
+    double *bound; /* of |f| + |g_1| + |g_2| + |g_3| + m in any row */
 } mote_cert_scales;
+
+static inline mote_cert_scales mote_cert_scales_of(const mote_cert_tree *tree)
+{
+    double *first = (double *)tree->fixed;
+    const size_t padded = tree->body->field->padded;
+    return (mote_cert_scales){first, first + padded, first + 2 * padded};
+}
 
 /* mote_cert_bounds.start, fit, store and stop of mote_cert_fitted. */
 mote_status mote_cert_fitted_start(mote_cert_tree *tree, bool linear_fits, void **fitter);

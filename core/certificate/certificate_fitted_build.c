@@ -54,8 +54,9 @@ void mote_cert_fitted_stop(void *state)
 }
 
 /* Powers of two that bring the largest value of every basis function near 1. */
-static void scale_basis(const fitter *f, const mote_cert_tree *tree, mote_cert_scales *scales)
+static void scale_basis(const fitter *f, const mote_cert_tree *tree)
 {
+    const mote_cert_scales scales = mote_cert_scales_of(tree);
     const mote_body *body = tree->body;
     const mote_field *field = body->field;
     for (uint32_t v = 0; v < body->mesh->vertex_count; ++v) {
@@ -68,13 +69,13 @@ static void scale_basis(const fitter *f, const mote_cert_tree *tree, mote_cert_s
             field->kind->basis(field, body->mesh, v, value);
         }
         for (uint32_t i = 0; i < count; ++i) {
-            double *most = &scales[field->kind->sparse ? f->at_vertex[i] : i].scale;
+            double *most = &scales.scale[field->kind->sparse ? f->at_vertex[i] : i];
             *most = fabs(value[i]) > *most ? fabs(value[i]) : *most;
         }
     }
     for (uint32_t j = 0; j < f->functions; ++j) {
-        scales[j].scale = scales[j].scale > 0 ? ldexp(1, -ilogb(scales[j].scale)) : 1;
-        scales[j].unit = tree->scale / scales[j].scale;
+        scales.scale[j] = scales.scale[j] > 0 ? ldexp(1, -ilogb(scales.scale[j])) : 1;
+        scales.unit[j] = tree->scale / scales.scale[j];
     }
 }
 
@@ -104,13 +105,13 @@ mote_status mote_cert_fitted_start(mote_cert_tree *tree, bool linear_fits, void 
     f->linear = linear_fits;
     f->functions = field->count;
     if (f->functions > 0) {
-        tree->fixed_bytes = f->functions * sizeof(mote_cert_scales);
-        tree->fixed = calloc(f->functions, sizeof(mote_cert_scales));
+        tree->fixed_bytes = 3 * (size_t)field->padded * sizeof(double);
+        tree->fixed = calloc(field->padded, 3 * sizeof(double));
         if (!tree->fixed || !allocate(f, field)) {
             mote_cert_fitted_stop(f);
             return mote_fail(MOTE_ENOMEM, "no memory to fit %u basis functions", field->count);
         }
-        scale_basis(f, tree, tree->fixed);
+        scale_basis(f, tree);
         for (uint32_t j = 0; j < f->functions; ++j)
             f->function[j] = j;
         f->count = f->functions;
@@ -151,11 +152,11 @@ static void list_functions(fitter *f, const mote_cert_tree *tree, const mote_cer
 static void scaled_basis(const fitter *f, const mote_cert_tree *tree, uint32_t vertex)
 {
     const mote_field *field = tree->body->field;
-    const mote_cert_scales *scales = tree->fixed;
+    const double *scale = mote_cert_scales_of(tree).scale;
     if (!field->kind->sparse) {
         field->kind->basis(field, tree->body->mesh, vertex, f->phi);
         for (uint32_t j = 0; j < f->functions; ++j)
-            f->phi[j] *= scales[j].scale;
+            f->phi[j] *= scale[j];
         return;
     }
     memset(f->phi, 0, f->count * sizeof *f->phi);
@@ -163,7 +164,7 @@ static void scaled_basis(const fitter *f, const mote_cert_tree *tree, uint32_t v
         field->kind->sparse(field, tree->body->mesh, vertex, f->at_vertex, f->value);
     for (uint32_t k = 0; k < count; ++k) {
         const uint32_t j = f->at_vertex[k];
-        f->phi[f->place[j]] = f->value[k] * scales[j].scale;
+        f->phi[f->place[j]] = f->value[k] * scale[j];
     }
 }
 
@@ -225,7 +226,7 @@ static float rounded_up(double x)
 
 /* Writes the child's lane of a function's row. */
 static void write_lane(fitter *f, uint32_t function, const fit *own, size_t lane,
-                       mote_cert_scales *scales)
+                       double *largest)
 {
     mote_cert_row *row = &f->row[function];
     if (!f->is_active[function]) {
@@ -244,15 +245,15 @@ static void write_lane(fitter *f, uint32_t function, const fit *own, size_t lane
         bound += fabs(own->slope[k]);
     }
     bound += (double)row->residual[lane];
-    scales->bound = bound > scales->bound ? bound : scales->bound;
+    *largest = bound > *largest ? bound : *largest;
 }
 
 void mote_cert_fitted_fit(void *state, mote_cert_tree *tree, const mote_cert_part *part)
 {
     fitter *f = state;
-    mote_cert_scales *scales = tree->fixed;
     if (f->functions == 0)
         return;
+    double *bounds = mote_cert_scales_of(tree).bound;
     if (tree->body->field->kind->sparse)
         list_functions(f, tree, part);
     for (uint32_t j = 0; j < f->count; ++j)
@@ -263,7 +264,7 @@ void mote_cert_fitted_fit(void *state, mote_cert_tree *tree, const mote_cert_par
     for (uint32_t j = 0; j < f->count; ++j) {
         const uint32_t function = f->function[j];
         if (f->fits[j].active)
-            write_lane(f, function, &f->fits[j], part->lane, &scales[function]);
+            write_lane(f, function, &f->fits[j], part->lane, &bounds[function]);
     }
 }
 

@@ -7,19 +7,6 @@
 /* Steps of the search for a direction that separates two leaves. */
 #define STEPS 3
 
-/* The largest of eight, in a fixed order. */
-MOTE_INLINE float largest_of(const float x[WIDTH])
-{
-    float four[4], two[2];
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < 4; ++l)
-        four[l] = x[l] > x[l + 4] ? x[l] : x[l + 4];
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < 2; ++l)
-        two[l] = four[l] > four[l + 2] ? four[l] : four[l + 2];
-    return two[0] > two[1] ? two[0] : two[1];
-}
-
 /* The largest coordinate along a direction in each lane of a hull, and the group that it is in;
    returns the largest of all. */
 MOTE_INLINE float reach_along(const mote_cert_points *restrict hull, const float d[3],
@@ -38,7 +25,7 @@ MOTE_INLINE float reach_along(const mote_cert_points *restrict hull, const float
             most[l] = p > most[l] ? p : most[l];
         }
     }
-    return largest_of(most);
+    return mote_cert_largest(most);
 }
 
 /* A vertex that attains the largest coordinate. */
@@ -154,11 +141,8 @@ static void test_gathered(const mote_cert_hulls *p, float need, gathered *pairs,
     mote_cert_face_lanes lanes[2];
     if (pairs->count == 0)
         return;
-    for (int s = 0; s < 2; ++s) {
-        for (uint32_t l = pairs->count; l < MOTE_CERT_FACE_LANES; ++l)
-            pairs->face[s][l] = pairs->face[s][0];
-        mote_cert_load_faces(&p->leaf[s], pairs->face[s], &lanes[s]);
-    }
+    for (int s = 0; s < 2; ++s)
+        mote_cert_load_faces(&p->leaf[s], pairs->face[s], pairs->count, &lanes[s]);
     uint32_t left =
         mote_cert_near_pairs(&lanes[0], &lanes[1], (1u << pairs->count) - 1, need, p->loose);
     for (; left; left &= left - 1) {

@@ -10,10 +10,24 @@
 #define MOTE_CORE_CERTIFICATE_HULLS_H
 
 #include "core/base/bits.h"
+#include "core/base/clones.h"
 #include "core/certificate/certificate_tree.h"
 
 #include <float.h>
 #include <math.h>
+
+/* The largest of eight, in a fixed order. */
+MOTE_INLINE float mote_cert_largest(const float x[MOTE_CERT_WIDTH])
+{
+    float four[4], two[2];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 4; ++l)
+        four[l] = x[l] > x[l + 4] ? x[l] : x[l + 4];
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < 2; ++l)
+        two[l] = four[l] > four[l + 2] ? four[l] : four[l + 2];
+    return two[0] > two[1] ? two[0] : two[1];
+}
 
 /* A leaf's points and faces. */
 typedef struct mote_cert_points {
@@ -87,9 +101,9 @@ typedef struct mote_cert_face_lanes {
     float corner[3][3][MOTE_CERT_FACE_LANES]; /* [corner][coordinate][lane] */
 } mote_cert_face_lanes;
 
-/* Loads the corners of faces of a leaf, given by their numbers. */
-void mote_cert_load_faces(const mote_cert_points *leaf,
-                          const uint8_t faces[MOTE_CERT_FACE_LANES],
+/* Loads the corners of count faces of a leaf, 1 to MOTE_CERT_FACE_LANES, given by their
+   numbers, and fills up with copies of the first. */
+void mote_cert_load_faces(const mote_cert_points *leaf, const uint8_t *faces, uint32_t count,
                           mote_cert_face_lanes *lanes);
 
 /* Which of the lanes in `undecided` are not proven to be at least `need` apart. loose: by how

@@ -22,19 +22,6 @@ static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
     return &tree->leaves[~node->block->child[lane]];
 }
 
-/* The largest of eight, in a fixed order. */
-MOTE_INLINE float largest_of(const float x[WIDTH])
-{
-    float four[4], two[2];
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < 4; ++l)
-        four[l] = x[l] > x[l + 4] ? x[l] : x[l + 4];
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < 2; ++l)
-        two[l] = four[l] > four[l + 2] ? four[l] : four[l + 2];
-    return two[0] > two[1] ? two[0] : two[1];
-}
-
 /* base + sum over k of z_k a_k for a group's vertices. */
 MOTE_INLINE void add_up(const mote_cert_group *restrict group, float base, const float a[3],
                         float sum[WIDTH])
@@ -45,22 +32,35 @@ MOTE_INLINE void add_up(const mote_cert_group *restrict group, float base, const
     }
 }
 
-/* base + sum_k z_k slant_k of a leaf's vertices; returns the largest. */
+/* Which of eight are not at most a limit. */
+MOTE_INLINE uint32_t bits_above(const float x[WIDTH], float limit)
+{
+    uint32_t bits = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        bits |= x[l] <= limit ? 0 : 1u << l;
+    return bits;
+}
+
+/* base + sum_k z_k slant_k of a leaf's vertices; returns the largest. Bit i of *above: vertex i
+   is not at most a limit. */
 MOTE_CLONES
 static float place_along(const mote_cert_group *restrict groups, uint32_t count, float base,
-                         const float slant[3], float at[MOTE_CERT_LEAF_VERTICES])
+                         const float slant[3], float limit, uint64_t *above)
 {
     float most[WIDTH];
-    add_up(&groups[0], base, slant, at);
-    memcpy(most, at, sizeof most);
+    add_up(&groups[0], base, slant, most);
+    uint64_t bits = bits_above(most, limit);
     for (uint32_t g = 1; g < count; ++g) {
-        float *more = at + g * WIDTH;
+        float more[WIDTH];
         add_up(&groups[g], base, slant, more);
+        bits |= (uint64_t)bits_above(more, limit) << (g * WIDTH);
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l)
             most[l] = most[l] > more[l] ? most[l] : more[l];
     }
-    return largest_of(most);
+    *above = bits;
+    return mote_cert_largest(most);
 }
 
 /* The same, only the largest. */
@@ -77,7 +77,7 @@ static float farthest_along(const mote_cert_group *restrict groups, uint32_t cou
         for (size_t l = 0; l < WIDTH; ++l)
             most[l] = most[l] > more[l] ? most[l] : more[l];
     }
-    return largest_of(most);
+    return mote_cert_largest(most);
 }
 
 MOTE_CLONES
@@ -203,23 +203,21 @@ bool mote_cert_leaf_clear(mote_certificate *c, int s, const mote_cert_node *node
     const mote_cert_side *side = &c->side[s];
     const mote_cert_leaf *leaf = leaf_of(side->tree, node, lane);
     const float slant[3] = {node->slant[0][lane], node->slant[1][lane], node->slant[2][lane]};
-    float at[MOTE_CERT_LEAF_VERTICES];
+    const double loose = (double)(node->loose[lane] + node->leaf_margin);
+    const float doubtful = (float)(side->threshold - loose) - node->leaf_margin;
+    uint64_t left;
     const double most =
         (double)place_along(side->tree->groups + leaf->first_group, mote_cert_group_count(leaf),
-                            node->middle[lane], slant, at);
-    const double loose = (double)(node->loose[lane] + node->leaf_margin);
+                            node->middle[lane], slant, doubtful, &left);
     *reach = most + loose;
     if (*reach <= side->threshold)
         return true;
     if (most - loose > side->threshold)
         return false;
-    const float doubtful = (float)(side->threshold - loose) - node->leaf_margin;
     const uint32_t *vertices = side->tree->leaf_vertices + leaf->first_vertex;
     double farthest = side->threshold;
-    for (uint32_t i = 0; i < leaf->vertex_count; ++i) {
-        if (at[i] <= doubtful)
-            continue;
-        const double exact = exact_reach(c, s, vertices[i]);
+    for (left &= ((uint64_t)1 << leaf->vertex_count) - 1; left; left &= left - 1) {
+        const double exact = exact_reach(c, s, vertices[mote_lowest_bit_of_64(left)]);
         if (exact > side->threshold + c->noise)
             return false;
         farthest = exact > farthest ? exact : farthest;

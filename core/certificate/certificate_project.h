@@ -21,34 +21,40 @@ MOTE_INLINE uint32_t mote_cert_bits_at_most(const float x[MOTE_CERT_WIDTH], floa
     return bits;
 }
 
-/* From middle, slant and loose of a node: reach, extent, clear and crossing. tight: what is
-   loose is small, and counts as crossing the plane like the rest of the box. Else it does not:
-   a box that is much larger than what it holds often crosses a plane that nothing inside it
-   reaches. */
+/* Writes lane l of a projected node: middle, slant and loose as they are given, and from them
+   reach and extent. */
+MOTE_INLINE void mote_cert_project_lane(const mote_cert_block *restrict block,
+                                        mote_cert_node *restrict node, size_t l, float middle,
+                                        const float axis[3], float loose)
+{
+    const float size0 = fabsf(axis[0]);
+    const float size1 = fabsf(axis[1]);
+    const float size2 = fabsf(axis[2]);
+    const float empty01 = (float)mote_cert_cut_of(block->cut[0][l], axis[0], axis[1]) *
+                          (size0 < size1 ? size0 : size1);
+    const float empty02 = (float)mote_cert_cut_of(block->cut[1][l], axis[0], axis[2]) *
+                          (size0 < size2 ? size0 : size2);
+    const float empty12 = (float)mote_cert_cut_of(block->cut[2][l], axis[1], axis[2]) *
+                          (size1 < size2 ? size1 : size2);
+    const float empty0 = empty01 > empty02 ? empty01 : empty02;
+    const float empty = (empty0 > empty12 ? empty0 : empty12) * (1.0F / 255);
+    const float half = ((size0 + size1 + size2) - empty) + loose;
+    node->middle[l] = middle;
+    node->slant[0][l] = axis[0];
+    node->slant[1][l] = axis[1];
+    node->slant[2][l] = axis[2];
+    node->loose[l] = loose;
+    node->reach[l] = middle + half;
+    node->extent[l] = 2 * half;
+}
+
+/* From reach, extent and loose of a node: clear and crossing. tight: what is loose is small,
+   and counts as crossing the plane like the rest of the box. Else it does not: a box that is
+   much larger than what it holds often crosses a plane that nothing inside it reaches. */
 MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side,
                                              const mote_cert_block *restrict block,
                                              mote_cert_node *restrict node, bool tight)
 {
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
-        const float axis0 = node->slant[0][l];
-        const float axis1 = node->slant[1][l];
-        const float axis2 = node->slant[2][l];
-        const float size0 = fabsf(axis0);
-        const float size1 = fabsf(axis1);
-        const float size2 = fabsf(axis2);
-        const float empty01 = (float)mote_cert_cut_of(block->cut[0][l], axis0, axis1) *
-                              (size0 < size1 ? size0 : size1);
-        const float empty02 = (float)mote_cert_cut_of(block->cut[1][l], axis0, axis2) *
-                              (size0 < size2 ? size0 : size2);
-        const float empty12 = (float)mote_cert_cut_of(block->cut[2][l], axis1, axis2) *
-                              (size1 < size2 ? size1 : size2);
-        const float empty0 = empty01 > empty02 ? empty01 : empty02;
-        const float empty = (empty0 > empty12 ? empty0 : empty12) * (1.0F / 255);
-        const float half = ((size0 + size1 + size2) - empty) + node->loose[l];
-        node->reach[l] = node->middle[l] + half;
-        node->extent[l] = 2 * half;
-    }
     const float threshold = side->threshold_f;
     float excess[MOTE_CERT_WIDTH];
     MOTE_LANE_LOOP

@@ -57,6 +57,17 @@ static size_t farthest_child(const mote_cert_node *node)
     return best;
 }
 
+/* How far that child reaches. All but the root have eight. */
+static float farthest_reach(const mote_cert_node *node)
+{
+    if (node->block->children == WIDTH)
+        return mote_cert_largest(node->reach);
+    float most = -FLT_MAX;
+    for (size_t l = 0; l < node->block->children; ++l)
+        most = node->reach[l] > most ? node->reach[l] : most;
+    return most;
+}
+
 /* Whether all of a node is clear of the plane. *reach is its reach in either case. Where the
    first crossing ends the pass, the child that reaches farthest is opened first. */
 static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_t depth,
@@ -71,10 +82,7 @@ static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_
     }
     for (; left && !c->crossed; left &= left - 1)
         open_child(c, s, node, mote_lowest_bit(left), depth);
-    float most = -FLT_MAX;
-    for (size_t l = 0; l < node->block->children; ++l)
-        most = node->reach[l] > most ? node->reach[l] : most;
-    *reach = most;
+    *reach = farthest_reach(node);
     return node->clear == node->block->mask;
 }
 

@@ -58,6 +58,8 @@ typedef struct mote_cert_side {
     float translation[3];
     void *frame; /* what the tree's bounds keep of the frame [frame_bytes], aligned to 64 */
     size_t frame_bytes;
+    /* mote_cert_bounds.project of the tree, which is called for every block */
+    void (*project)(const struct mote_cert_side *, const mote_cert_block *, mote_cert_node *);
     mote_vec3 exact_translation; /* relative to the origin, in the trees' units */
     double exact;                /* rounding error of positions in double precision */
     double bound;                /* bound on every coordinate that occurs */

@@ -5,17 +5,21 @@
 #define WIDTH MOTE_CERT_WIDTH
 #define LANES MOTE_CERT_FACE_LANES
 
-void mote_cert_load_faces(const mote_cert_points *leaf,
-                          const uint8_t faces[MOTE_CERT_FACE_LANES],
-                          mote_cert_face_lanes *lanes)
+void mote_cert_load_faces(const mote_cert_points *restrict leaf, const uint8_t *restrict faces,
+                          uint32_t count, mote_cert_face_lanes *restrict lanes)
 {
-    for (size_t k = 0; k < 3; ++k) {
-        size_t place[LANES];
-        for (size_t l = 0; l < LANES; ++l)
-            place[l] = leaf->corners[faces[l]][k];
-        for (size_t r = 0; r < 3; ++r) {
-            for (size_t l = 0; l < LANES; ++l)
-                lanes->corner[k][r][l] = leaf->x[r][place[l]];
+    const float *const x[3] = {leaf->x[0], leaf->x[1], leaf->x[2]};
+    for (size_t l = 0; l < count; ++l) {
+        const uint8_t *places = leaf->corners[faces[l]];
+        for (size_t k = 0; k < 3; ++k) {
+            for (size_t r = 0; r < 3; ++r)
+                lanes->corner[k][r][l] = x[r][places[k]];
+        }
+    }
+    for (size_t l = count; l < LANES; ++l) {
+        for (size_t k = 0; k < 3; ++k) {
+            for (size_t r = 0; r < 3; ++r)
+                lanes->corner[k][r][l] = lanes->corner[k][r][0];
         }
     }
 }

@@ -186,12 +186,12 @@ MOTE_INLINE void convex_project(const mote_cert_side *restrict side,
                                 mote_cert_node *restrict node)
 {
     const float margin = convex_margin(side, block);
-    memset(node->slant, 0, sizeof node->slant);
-    convex_along(side, block, &box, mote_skin_frame_of(side)->along, node->middle,
-                 node->slant[0]);
+    float middle[WIDTH], half[WIDTH];
+    convex_along(side, block, &box, mote_skin_frame_of(side)->along, middle, half);
     MOTE_LANE_LOOP
     for (size_t l = 0; l < WIDTH; ++l)
-        node->loose[l] = margin;
+        mote_cert_project_lane(block, node, l, middle[l], (const float[3]){half[l], 0, 0},
+                               margin);
     node->leaf_margin = side->leaf_margin;
     mote_cert_finish_projection(side, block, node, false);
 }
@@ -317,9 +317,11 @@ MOTE_INLINE void leaf_project(const mote_cert_side *restrict side,
     fitted f;
     leaf_along(side, block, &box, mote_skin_frame_of(side)->along, leaf_margin(side, block),
                &f);
-    memcpy(node->middle, f.middle, sizeof f.middle);
-    memcpy(node->slant, f.axis, sizeof f.axis);
-    memcpy(node->loose, f.width, sizeof f.width);
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        mote_cert_project_lane(block, node, l, f.middle[l],
+                               (const float[3]){f.axis[0][l], f.axis[1][l], f.axis[2][l]},
+                               f.width[l]);
     node->leaf_margin =
         side->leaf_margin * (1 + 2 * head_of(side, block)->reach) * (1 + 0x1p-20F);
     mote_cert_finish_projection(side, block, node, false);

@@ -5,7 +5,7 @@
 set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '
     BEGIN {
-        wanted = split("mote_potential project_block deform_block mote_cert_row_boxes move_group " \
+        wanted = split("mote_potential project_block deform_block convert_all mote_cert_row_boxes move_group " \
             "project_points mote_cert_near_pairs csrbf_estimate skin_convex_boxes skin_convex_project " \
             "skin_leaf_boxes skin_leaf_project morph_convex_boxes morph_convex_project " \
             "morph_leaf_boxes morph_leaf_project convert face_rows turn_leaf mote_stream_distances", loops, " ")
