@@ -21,6 +21,19 @@ void mote_character_free_arrays(mote_character *character)
 #undef FREE
 }
 
+void mote_character_set_arrays(mote_character *character, mote_character *from)
+{
+    mote_character_free_arrays(character);
+#define MOVE(type, name)                                                                       \
+    character->name = from->name;                                                              \
+    character->name##_count = from->name##_count;                                              \
+    character->name##_capacity = from->name##_capacity;                                        \
+    from->name = NULL;                                                                         \
+    from->name##_count = from->name##_capacity = 0;
+    MOTE_CHARACTER_ARRAYS(MOVE)
+#undef MOVE
+}
+
 void mote_character_draft_free(mote_character_draft *draft)
 {
     mote_soup_free(&draft->soup);

@@ -18,6 +18,9 @@ void mote_character_draft_free(mote_character_draft *draft);
 /* Frees start, bone, weight, shift_start, target and shift. */
 void mote_character_free_arrays(mote_character *character);
 
+/* Replaces these arrays by those of another one, which are then its own no more. */
+void mote_character_set_arrays(mote_character *character, mote_character *from);
+
 /* Reads meshes, nodes, bones, weights, morph targets and clips by assimp. Vertices are as many
    as in the file, their weights as given. Call it in a child process with limits. */
 mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft);

@@ -199,10 +199,7 @@ static void set_arrays(mote_character_draft *draft)
         made.start[v + 1] = (uint32_t)made.bone_count;
         made.shift_start[v + 1] = (uint32_t)made.target_count;
     }
-    made.rig = old->rig;
-    old->rig = (mote_rig){0};
-    mote_character_free_arrays(old);
-    *old = made;
+    mote_character_set_arrays(old, &made);
 }
 
 mote_status mote_character_weld(const char *path, mote_character_draft *draft)

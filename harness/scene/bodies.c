@@ -139,15 +139,21 @@ void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
     state->pose = *pose;
     if (count == 0)
         return;
+    double *x = frame->weights + (state->weights.x - frame->weights);
+    const size_t padded = state->weights.padded;
+    const double shown = mote_bodies_deformation(bodies, i, number);
+    if (shape->motion.player) {
+        mote_player_weights(shape->motion.player, shown, &pose->rotation, x, x + padded,
+                            x + 2 * padded);
+        return;
+    }
     mote_vec3 *w = frame->scratch;
-    mote_motion_displacements(&shape->motion, mote_bodies_deformation(bodies, i, number), w);
+    mote_motion_displacements(&shape->motion, shown, w);
     if (shape->motion.fit) {
         mote_status status = mote_csrbf_fit_solve(shape->motion.fit, w, w);
         assert(status == MOTE_OK); /* every number of a scenario was range-checked */
         (void)status;
     }
-    double *x = frame->weights + (state->weights.x - frame->weights);
-    const size_t padded = state->weights.padded;
     for (uint32_t j = 0; j < count; ++j) {
         const mote_vec3 turned = mote_rotate(&pose->rotation, w[j]);
         x[j] = turned.x;

@@ -42,9 +42,12 @@ static void draw_path(placing *p, uint32_t i)
     path->axis = mote_random_direction(&p->random);
     path->degrees = 360 * mote_random_unit(&p->random);
     path->spin = p->wish->spin;
-    /* Deformations by keys end with the last key, so their bodies have no time offset. */
+    /* Deformations by keys end with the last key, and clips that are no loop with the clip, so
+       their bodies have no time offset. */
     const double time = floor(1e6 * mote_random_unit(&p->random));
-    path->time = p->bodies->shapes[p->bodies->shape_of[i]].motion.keyed ? 0 : time;
+    const mote_body_motion *motion = &p->bodies->shapes[p->bodies->shape_of[i]].motion;
+    const bool ends = motion->keyed || (motion->player && !motion->player->loop);
+    path->time = ends ? 0 : time;
 }
 
 static void place_body(placing *p, uint32_t i)

@@ -17,13 +17,18 @@ static mote_status read_shape(const mote_json *node, mote_bodies_shape *shape)
 {
     mote_mesh *mesh = NULL;
     mote_field *field = NULL;
-    mote_status status = mote_json_object(node, "letter|triangles|file|scale|field");
+    mote_character *character = NULL;
+    mote_status status =
+        mote_json_object(node, "letter|triangles|file|scale|field|" MOTE_CHARACTER_KEYS);
     if (status == MOTE_OK)
-        status = mote_scenario_read_mesh(node, &mesh);
+        status = mote_scenario_read_mesh(node, &mesh, &character);
     shape->body.mesh = mesh;
     if (status == MOTE_OK)
-        status = mote_scenario_read_field(node, mesh, &field, &shape->motion);
+        status = mote_scenario_read_field(node, mesh, character, &field, &shape->motion);
     shape->body.field = field;
+    mote_player *player = shape->motion.player;
+    if (status == MOTE_OK && player)
+        mote_scenario_set_samples(player, 1, 1 + mote_player_frames(player), &shape->body);
     if (status != MOTE_OK)
         return status;
     shape->motion.centre = mote_mesh_centre(mesh);

@@ -1,6 +1,7 @@
 #include "harness/scene/motion.h"
 
 #include "core/base/random.h"
+#include "harness/base/memory.h"
 #include "harness/scene/turn.h"
 
 #include <math.h>
@@ -77,11 +78,24 @@ mote_pose mote_motion_pose(const mote_body_motion *motion, double frame)
     return pose;
 }
 
+static void displace_character(const mote_player *player, double frame, mote_vec3 *weights)
+{
+    static const mote_mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const size_t padded = player->field->padded;
+    double *x = mote_allocate(3 * padded, sizeof *x), *y = x + padded, *z = y + padded;
+    mote_player_weights(player, frame, &identity, x, y, z);
+    for (uint32_t j = 0; j < player->field->count; ++j)
+        weights[j] = mote_vec3_make(x[j], y[j], z[j]);
+    free(x);
+}
+
 void mote_motion_displacements(const mote_body_motion *motion, double frame,
                                mote_vec3 *displacement)
 {
     _Static_assert(sizeof(mote_vec3) == 3 * sizeof(double), "three numbers, no gaps");
-    if (motion->keyed)
+    if (motion->player)
+        displace_character(motion->player, frame, displacement);
+    else if (motion->keyed)
         mote_curve_evaluate(motion->keyed, frame, &displacement[0].x);
     else
         memset(displacement, 0, motion->control_count * sizeof *displacement);
@@ -100,6 +114,7 @@ void mote_body_motion_free(mote_body_motion *motion)
     mote_curve_destroy(motion->rotation);
     mote_curve_destroy(motion->keyed);
     mote_csrbf_fit_destroy(motion->fit);
+    mote_player_destroy(motion->player);
     free(motion->waves);
     *motion = (mote_body_motion){0};
 }

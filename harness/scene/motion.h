@@ -6,6 +6,7 @@
 #include "core/body/csrbf_fit.h"
 #include "core/base/quaternion.h"
 #include "harness/base/curve.h"
+#include "harness/scene/player.h"
 
 /* Rotation by degrees about an axis (any length > 0), right-handed. */
 mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees);
@@ -29,6 +30,7 @@ typedef struct mote_body_motion {
     uint32_t wave_count;
     uint32_t control_count; /* J; 0: nothing deforms */
     mote_csrbf_fit *fit;    /* NULL: displacements are the weights (J is 0, or no CSRBF) */
+    mote_player *player;    /* of a character, instead of controls; or NULL */
     bool has_velocity, has_spin;
     mote_vec3 velocity; /* of the centre at frame 1, absolute, a frame */
     mote_vec3 spin;     /* angular, at frame 1, radians a frame, world axes */
@@ -53,7 +55,8 @@ void mote_quaternions_align(mote_quaternion *keys, uint32_t count);
 /* Pose of the body's rest points at a frame (any real number). */
 mote_pose mote_motion_pose(const mote_body_motion *motion, double frame);
 
-/* Displacements of the control points, rest axes: displacement[control_count]. */
+/* Displacements of the control points, rest axes: displacement[control_count]. Of a character
+   its weights, one for each function of its field. */
 void mote_motion_displacements(const mote_body_motion *motion, double frame,
                                mote_vec3 *displacement);
 

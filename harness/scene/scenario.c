@@ -80,7 +80,15 @@ static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer
     state->weights = (mote_weights){NULL, NULL, NULL, field->count, field->padded};
     if (field->count == 0)
         return;
+    double *x = buffer->weights[i], *y = x + field->padded, *z = y + field->padded;
+    state->weights.x = x;
+    state->weights.y = y;
+    state->weights.z = z;
     mote_motion_displacements(motion, place, buffer->displacement[i]);
+    if (motion->player) {
+        mote_player_weights(motion->player, place, &state->pose.rotation, x, y, z);
+        return;
+    }
     const mote_vec3 *solution = buffer->displacement[i];
     if (motion->fit) {
         mote_status status =
@@ -89,18 +97,12 @@ static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer
         (void)status;
         solution = buffer->solution[i];
     }
-    double *x = buffer->weights[i];
-    double *y = x + field->padded;
-    double *z = y + field->padded;
     for (uint32_t j = 0; j < field->count; ++j) {
         const mote_vec3 w = mote_rotate(&state->pose.rotation, solution[j]);
         x[j] = w.x;
         y[j] = w.y;
         z[j] = w.z;
     }
-    state->weights.x = x;
-    state->weights.y = y;
-    state->weights.z = z;
 }
 
 static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,

@@ -245,8 +245,15 @@ static mote_status read_csrbf(const mote_json *node, const mote_mesh *mesh, mote
 }
 
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,
-                                     mote_field **field, mote_body_motion *motion)
+                                     mote_character *character, mote_field **field,
+                                     mote_body_motion *motion)
 {
+    if (character) {
+        const mote_status clip = mote_scenario_read_clip(body, mesh, character, field, motion);
+        if (!motion->player)
+            mote_character_destroy(character);
+        return clip;
+    }
     mote_json node = mote_json_member(body, "field");
     if (!node.value)
         return mote_field_create_static(field);

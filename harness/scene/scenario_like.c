@@ -69,7 +69,8 @@ static bool move_files(json_t *root, const char *path)
     json_t *list = json_is_object(bodies) ? json_object_get(bodies, "shapes") : bodies;
     bool moved = move_name(bodies, "poses", path);
     for (size_t i = 0; i < json_array_size(list) && moved; ++i)
-        moved = move_name(json_array_get(list, i), "file", path);
+        moved = move_name(json_array_get(list, i), "file", path) &&
+                move_name(json_array_get(list, i), "character", path);
     return moved;
 }
 

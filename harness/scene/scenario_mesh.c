@@ -26,18 +26,27 @@ static mote_status read_letter(const mote_json *letter, const mote_json *body, m
     return mote_json_blame(letter, status);
 }
 
-/* A path that is not absolute starts from the scenario's folder, or from the working directory
-   where no file named it. */
-static mote_status read_file(const mote_json *file, mote_mesh **mesh)
+mote_status mote_scenario_file_path(const mote_json *file, char **path)
 {
     const char *name;
     mote_status status = mote_json_string(file, &name);
     if (status != MOTE_OK)
         return status;
     const bool own = file->file->own;
-    char *path = own ? mote_format("%s", name) : mote_path_beside(file->file->path, name);
-    status = own ? MOTE_OK : mote_fence_check(file->file->path, path);
+    char *made = own ? mote_format("%s", name) : mote_path_beside(file->file->path, name);
+    status = own ? MOTE_OK : mote_fence_check(file->file->path, made);
+    if (status == MOTE_OK)
+        *path = made;
+    else
+        free(made);
+    return status;
+}
+
+static mote_status read_file(const mote_json *file, mote_mesh **mesh)
+{
+    char *path = NULL;
     mote_import import;
+    mote_status status = mote_scenario_file_path(file, &path);
     if (status == MOTE_OK)
         status = mote_mesh_import(path, mesh, &import);
     if (status == MOTE_OK)
@@ -46,19 +55,18 @@ static mote_status read_file(const mote_json *file, mote_mesh **mesh)
     return mote_json_blame(file, status);
 }
 
-/* Replaces *mesh by itself with each coordinate multiplied. */
-static mote_status scale_mesh(const mote_json *scale, mote_mesh **mesh)
+static mote_status read_scale(const mote_json *scale, mote_vec3 *factor)
 {
-    mote_vec3 factor = {1, 1, 1};
-    mote_status status;
-    if (json_is_number(scale->value)) {
-        status = mote_json_real(scale, 1e-15, 1e15, &factor.x);
-        factor.y = factor.z = factor.x;
-    } else {
-        status = mote_json_vec3(scale, 1e-15, 1e15, &factor);
-    }
-    if (status != MOTE_OK)
-        return status;
+    if (!json_is_number(scale->value))
+        return mote_json_vec3(scale, 1e-15, 1e15, factor);
+    const mote_status status = mote_json_real(scale, 1e-15, 1e15, &factor->x);
+    factor->y = factor->z = factor->x;
+    return status;
+}
+
+/* Replaces *mesh by itself with each coordinate multiplied. */
+static mote_status scale_mesh(mote_vec3 factor, mote_mesh **mesh)
+{
     const mote_mesh *old = *mesh;
     double *xyz = mote_allocate((size_t)3 * old->vertex_count, sizeof *xyz);
     for (uint32_t v = 0; v < old->vertex_count; ++v) {
@@ -67,32 +75,50 @@ static mote_status scale_mesh(const mote_json *scale, mote_mesh **mesh)
         xyz[3 * (size_t)v + 2] = old->positions[v].z * factor.z;
     }
     mote_mesh *scaled;
-    status = mote_mesh_create(xyz, old->vertex_count, &old->triangles[0][0],
-                              old->triangle_count, &scaled);
+    const mote_status status = mote_mesh_create(xyz, old->vertex_count, &old->triangles[0][0],
+                                                old->triangle_count, &scaled);
     free(xyz);
     if (status != MOTE_OK)
-        return mote_json_blame(scale, status);
+        return status;
     mote_mesh_destroy(*mesh);
     *mesh = scaled;
     return MOTE_OK;
 }
 
-mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh)
+/* A mesh that is no character. */
+static mote_status read_plain(const mote_json *body, mote_mesh **mesh)
 {
     mote_json letter = mote_json_member(body, "letter");
     mote_json file = mote_json_member(body, "file");
-    mote_json scale = mote_json_member(body, "scale");
-    mote_mesh *made = NULL;
     if (!letter.value == !file.value)
-        return mote_json_fail(body, "needs either letter or file, not %s",
+        return mote_json_fail(body, "needs either letter, file or character, not %s",
                               letter.value ? "both" : "neither");
-    mote_status status =
-        file.value ? read_file(&file, &made) : read_letter(&letter, body, &made);
-    if (status == MOTE_OK && made && scale.value)
-        status = scale_mesh(&scale, &made);
-    if (status == MOTE_OK)
-        *mesh = made;
-    else
+    return file.value ? read_file(&file, mesh) : read_letter(&letter, body, mesh);
+}
+
+mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh,
+                                    mote_character **character)
+{
+    mote_json scale = mote_json_member(body, "scale");
+    mote_vec3 factor = {1, 1, 1};
+    mote_mesh *made = NULL;
+    mote_character *moving = NULL;
+    mote_status status = mote_scenario_read_character(body, &moving);
+    if (status == MOTE_OK && !moving)
+        status = read_plain(body, &made);
+    if (status == MOTE_OK && scale.value)
+        status = read_scale(&scale, &factor);
+    if (status == MOTE_OK && scale.value)
+        status = mote_json_blame(&scale, moving ? mote_character_scale(moving, factor)
+                                                : scale_mesh(factor, &made));
+    if (status != MOTE_OK) {
         mote_mesh_destroy(made);
-    return status;
+        mote_character_destroy(moving);
+        return status;
+    }
+    *character = moving;
+    *mesh = moving ? moving->mesh : made;
+    if (moving)
+        moving->mesh = NULL;
+    return MOTE_OK;
 }

@@ -4,11 +4,15 @@
 #include "datasets/obj_write.h"
 #include "harness/base/data.h"
 #include "harness/base/file.h"
-#include "harness/mesh/mesh_import.h"
+#include "harness/mesh/character.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+/* The largest file of a character that is copied. */
+#define CHARACTER_BYTES ((size_t)1 << 32)
 
 /* The folder of a file, without links and without a '/' at its end; the caller frees it. */
 static mote_status folder_of(const char *file, char **folder)
@@ -51,8 +55,40 @@ static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body,
     return status;
 }
 
-/* *name: what the mesh at path (of body number `body`) is called in a scenario at `to`. */
-static mote_status new_name(const char *path, const char *to, size_t body, char **name)
+/* Copies the file of a character beside `to`, and reads the copy: a format may keep parts of it
+   in other files. */
+static mote_status copy_character(const char *old, const char *to, size_t body, char **name)
+{
+    const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
+    const char *dot = strrchr(old, '.');
+    char *path = mote_format("%.*s-body%zu%s", (int)(strlen(to) - ending), to, body,
+                             dot && !strchr(dot, '/') ? dot : "");
+    char *data = NULL;
+    size_t size = 0;
+    mote_character *copy = NULL;
+    mote_status status = mote_file_read(old, CHARACTER_BYTES, &data, &size);
+    if (status == MOTE_OK)
+        status = mote_file_write(path, data, size);
+    if (status == MOTE_OK && mote_character_import_file(path, &copy, NULL) != MOTE_OK) {
+        (void)unlink(path);
+        status = mote_fail(MOTE_EIO,
+                           "%s: cannot be copied alone (%s); give it in one file, as GLB, or "
+                           "write to its folder",
+                           old, mote_error_text());
+    }
+    mote_character_destroy(copy);
+    if (status == MOTE_OK) {
+        const char *slash = strrchr(path, '/');
+        *name = mote_format("%s", slash ? slash + 1 : path);
+    }
+    free(path);
+    free(data);
+    return status;
+}
+
+/* *name: what the file at path (of body number `body`) is called in a scenario at `to`. */
+static mote_status new_name(const char *path, const char *key, const char *to, size_t body,
+                            char **name)
 {
     char *folder = NULL, *datasets = mote_format("%s/datasets", mote_data_directory());
     char *known = realpath(datasets, NULL);
@@ -70,7 +106,8 @@ static mote_status new_name(const char *path, const char *to, size_t body, char 
         else if (inside)
             *name = mote_format("%s", inside);
         else
-            status = copy_mesh(whole, to, body, name);
+            status = strcmp(key, "file") == 0 ? copy_mesh(whole, to, body, name)
+                                              : copy_character(whole, to, body, name);
     }
     free(folder);
     free(datasets);
@@ -92,17 +129,38 @@ static bool same_folder(const mote_json_file *file, const char *to)
     return same;
 }
 
-static mote_status move_mesh(const mote_json_file *file, json_t *body, size_t number,
-                             const char *to)
+/* key: "file" or "character". */
+static mote_status move_file(const mote_json_file *file, json_t *body, const char *key,
+                             size_t number, const char *to)
 {
-    const char *old = json_string_value(json_object_get(body, "file"));
+    const char *old = json_string_value(json_object_get(body, key));
     char *path = file->own ? mote_format("%s", old) : mote_path_beside(file->path, old);
     char *name = NULL;
-    mote_status status = new_name(path, to, number, &name);
-    if (status == MOTE_OK && json_object_set_new(body, "file", json_string(name)) != 0)
+    mote_status status = new_name(path, key, to, number, &name);
+    if (status == MOTE_OK && json_object_set_new(body, key, json_string(name)) != 0)
         status = mote_fail(MOTE_EINVAL, "%s: not UTF-8; rename it", name);
     free(path);
     free(name);
+    return status;
+}
+
+/* The files that the bodies name by a key. Bodies that share one with the first still do so
+   afterwards. */
+static mote_status move_files(const mote_json_file *file, json_t *bodies, const char *key,
+                              const char *to)
+{
+    json_t *first = json_array_get(bodies, 0);
+    json_t *first_file = json_deep_copy(json_object_get(first, key));
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < json_array_size(bodies) && status == MOTE_OK; ++i) {
+        json_t *body = json_array_get(bodies, i);
+        json_t *named = json_object_get(body, key);
+        if (i > 0 && named && json_equal(named, first_file))
+            (void)json_object_set(body, key, json_object_get(first, key));
+        else if (json_is_string(named))
+            status = move_file(file, body, key, i, to);
+    }
+    json_decref(first_file);
     return status;
 }
 
@@ -113,18 +171,6 @@ mote_status mote_scenario_move(mote_json_file *file, const char *to)
         bodies = json_object_get(bodies, "shapes");
     if (same_folder(file, to))
         return MOTE_OK;
-    json_t *first = json_array_get(bodies, 0);
-    json_t *first_file = json_deep_copy(json_object_get(first, "file"));
-    mote_status status = MOTE_OK;
-    for (size_t i = 0; i < json_array_size(bodies) && status == MOTE_OK; ++i) {
-        json_t *body = json_array_get(bodies, i);
-        json_t *named = json_object_get(body, "file");
-        /* Bodies that share a mesh still do so afterwards. */
-        if (i > 0 && named && json_equal(named, first_file))
-            (void)json_object_set(body, "file", json_object_get(first, "file"));
-        else if (named)
-            status = move_mesh(file, body, i, to);
-    }
-    json_decref(first_file);
-    return status;
+    const mote_status status = move_files(file, bodies, "file", to);
+    return status == MOTE_OK ? move_files(file, bodies, "character", to) : status;
 }

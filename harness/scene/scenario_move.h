@@ -4,11 +4,12 @@
 
 #include "harness/base/json_read.h"
 
-/* Rewrites the names of meshes in an opened scenario so that they are right in a file at `to`.
-   Meshes in the folder of `to`, or in the datasets of this program, are named where they are. A
-   scenario may not name any others: they are copied beside `to`, as TO-body0.obj and so on.
-   Where `to` is a stream (/dev/stdout), nothing is copied and the names are absolute.
-   MOTE_EIO when a mesh is not there, or a copy cannot be written. */
+/* Rewrites the names of meshes and characters in an opened scenario so that they are right in a
+   file at `to`. Meshes in the folder of `to`, or in the datasets of this program, are named
+   where they are. A scenario may not name any others: they are copied beside `to`, as
+   TO-body0.obj and so on; of a character its file as it is. Where `to` is a stream
+   (/dev/stdout), nothing is copied and the names are absolute. MOTE_EIO when a mesh is not
+   there, or a copy cannot be written. */
 mote_status mote_scenario_move(mote_json_file *file, const char *to);
 
 #endif

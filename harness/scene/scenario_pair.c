@@ -5,7 +5,7 @@
 #include "harness/scene/scenario_read.h"
 
 #include "harness/base/options.h"
-#include "harness/mesh/mesh_import.h"
+#include "harness/mesh/character.h"
 #include "harness/scene/pair_motion.h"
 #include "harness/scene/spread.h"
 
@@ -95,11 +95,21 @@ static json_t *turn_json(double x, double y, double z, double degrees)
     return keys;
 }
 
-static json_t *body_json(const char *path, uint32_t controls, int seed, json_t *motion)
+/* A body that deforms: a character with a clip plays it; a mesh gets control points. */
+typedef struct pair_body {
+    uint32_t clip;     /* from 1; 0: no character */
+    uint32_t controls; /* of a mesh */
+} pair_body;
+
+static json_t *body_json(const char *path, pair_body body, int seed, json_t *motion)
 {
+    if (body.clip > 0)
+        return json_pack("{s:s, s:i, s:o}", "character", path, "clip", (int)body.clip, "motion",
+                         motion);
     return json_pack("{s:s, s:{s:i, s:f, s:{s:{s:i, s:f, s:[i,i]}}}, s:o}", "file", path,
-                     "field", "count", (int)controls, "support", 0.5, "displacement", "random",
-                     "seed", seed, "amplitude", 0.05, "periods", 250, 600, "motion", motion);
+                     "field", "count", (int)body.controls, "support", 0.5, "displacement",
+                     "random", "seed", seed, "amplitude", 0.05, "periods", 250, 600, "motion",
+                     motion);
 }
 
 /* How many control points a mesh has places for: a cube of eight vertices has eight. */
@@ -115,22 +125,37 @@ static mote_status count_controls(const char *path, uint32_t *count)
     return status;
 }
 
+/* A character's first clip that takes time; a mesh's control points. */
+static mote_status look_at(const char *path, pair_body *body)
+{
+    mote_character *character = NULL;
+    const mote_status status = mote_character_import_file(path, &character, NULL);
+    *body = (pair_body){0, 0};
+    if (status != MOTE_OK && status != MOTE_EUNSUPPORTED)
+        return status;
+    for (size_t k = 0; character && k < character->rig.clips_count && body->clip == 0; ++k) {
+        if (character->rig.clips[k].seconds > 0)
+            body->clip = (uint32_t)k + 1;
+    }
+    mote_character_destroy(character);
+    return body->clip > 0 ? MOTE_OK : count_controls(path, &body->controls);
+}
+
 /* The scenario without the positions of body 1. */
 static mote_status make_file(const char *name, const pair_name *pair, mote_json_file *file)
 {
-    uint32_t controls[2];
+    pair_body body[2];
     for (int i = 0; i < 2; ++i) {
-        mote_status status = count_controls(pair->file[i], &controls[i]);
+        mote_status status = look_at(pair->file[i], &body[i]);
         if (status != MOTE_OK)
             return status;
     }
     file->own = true;
-    file->root =
-        json_pack("{s:s, s:i, s:s, s:[o,o]}", "purpose",
-                  "Two meshes that approach, touch and part, turning and deforming.", "frames",
-                  FRAMES, "ask", "distance", "bodies",
-                  body_json(pair->file[0], controls[0], 1, turn_json(0.3, 1, 0.2, 200)),
-                  body_json(pair->file[1], controls[1], 2, turn_json(1, 0.4, 0.6, -200)));
+    file->root = json_pack("{s:s, s:i, s:s, s:[o,o]}", "purpose",
+                           "Two meshes that approach, touch and part, turning and deforming.",
+                           "frames", FRAMES, "ask", "distance", "bodies",
+                           body_json(pair->file[0], body[0], 1, turn_json(0.3, 1, 0.2, 200)),
+                           body_json(pair->file[1], body[1], 2, turn_json(1, 0.4, 0.6, -200)));
     if (!file->root)
         return mote_fail(MOTE_EINVAL, "%s, %s: names that are not UTF-8; rename them",
                          pair->file[0], pair->file[1]);

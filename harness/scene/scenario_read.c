@@ -83,7 +83,8 @@ mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scena
 /* Whether two bodies of a file name the same mesh, which is then made once. */
 static bool same_mesh(const mote_json *a, const mote_json *b)
 {
-    static const char *const keys[] = {"letter", "triangles", "file", "scale"};
+    static const char *const keys[] = {"letter", "triangles", "file",
+                                       "scale",  "character", "subdivide"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         json_t *x = json_object_get(a->value, keys[i]);
         json_t *y = json_object_get(b->value, keys[i]);
@@ -93,40 +94,69 @@ static bool same_mesh(const mote_json *a, const mote_json *b)
     return true;
 }
 
+/* The meshes of both bodies; characters[i] that of body i, or NULL. */
+static mote_status read_meshes(const mote_json body[2], mote_scenario *scenario,
+                               mote_character *characters[2])
+{
+    const bool same = same_mesh(&body[0], &body[1]);
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
+        mote_mesh *mesh = NULL;
+        const bool is_read = i == 0 || !same || mote_json_member(&body[1], "character").value;
+        if (is_read)
+            status = mote_scenario_read_mesh(&body[i], &mesh, &characters[i]);
+        if (i == 1 && same) {
+            mote_mesh_destroy(mesh);
+            scenario->body[1].mesh = scenario->body[0].mesh;
+        } else {
+            scenario->body[i].mesh = mesh;
+        }
+    }
+    return status;
+}
+
+/* Field and motion of a body whose mesh is known. */
+static mote_status read_body(const mote_json *body, size_t i, mote_character *character,
+                             mote_scenario *scenario)
+{
+    const mote_mesh *mesh = scenario->body[i].mesh;
+    mote_motion *motion = scenario->motion;
+    mote_body_motion *own = &motion->body[i];
+    const double place = motion->start + (scenario->frames - 1.0) * motion->pace;
+    mote_field *field = NULL;
+    mote_status status = mote_scenario_read_field(body, mesh, character, &field, own);
+    scenario->body[i].field = field;
+    if (status == MOTE_OK)
+        status = mote_scenario_read_motion(body, mesh, scenario->length,
+                                           (uint32_t)fmin(ceil(place), MOTE_FRAMES_MAX), own);
+    if (status == MOTE_OK && own->player)
+        mote_scenario_set_samples(own->player, motion->start, place, &scenario->body[i]);
+    return status;
+}
+
 static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
 {
     mote_json bodies = mote_json_member(root, "bodies");
     mote_json body[2];
+    mote_character *characters[2] = {NULL, NULL};
     size_t size;
     mote_status status = mote_json_array(&bodies, 2, 2, &size);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         body[i] = mote_json_element(&bodies, i);
-        status = mote_json_object(&body[i],
-                                  "letter|triangles|file|scale|field|motion|velocity|spin");
+        status = mote_json_object(
+            &body[i],
+            "letter|triangles|file|scale|field|motion|velocity|spin|" MOTE_CHARACTER_KEYS);
     }
-    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
-        mote_mesh *mesh = NULL;
-        if (i == 1 && same_mesh(&body[0], &body[1])) {
-            scenario->body[1].mesh = scenario->body[0].mesh;
-            break;
-        }
-        status = mote_scenario_read_mesh(&body[i], &mesh);
-        scenario->body[i].mesh = mesh;
-    }
-    if (status != MOTE_OK)
-        return status;
-    scenario->length = fmax(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
-    const double place =
-        ceil(scenario->motion->start + (scenario->frames - 1.0) * scenario->motion->pace);
-    const uint32_t last = place < MOTE_FRAMES_MAX ? (uint32_t)place : MOTE_FRAMES_MAX;
-    for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
-        const mote_mesh *mesh = scenario->body[i].mesh;
-        mote_body_motion *motion = &scenario->motion->body[i];
-        mote_field *field = NULL;
-        status = mote_scenario_read_field(&body[i], mesh, &field, motion);
-        scenario->body[i].field = field;
+    if (status == MOTE_OK)
+        status = read_meshes(body, scenario, characters);
+    if (status == MOTE_OK)
+        scenario->length =
+            fmax(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
+    for (size_t i = 0; i < 2; ++i) {
         if (status == MOTE_OK)
-            status = mote_scenario_read_motion(&body[i], mesh, scenario->length, last, motion);
+            status = read_body(&body[i], i, characters[i], scenario);
+        else
+            mote_character_destroy(characters[i]);
     }
     return status;
 }

@@ -46,14 +46,40 @@ bool mote_scenario_is_pair(const char *name);
 mote_status mote_scenario_make_pair(const char *name, mote_json_file *file,
                                     mote_scenario **scenario);
 
-/* Reads a body's mesh: {"letter", "triangles"} or {"file"}, and "scale". */
-mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh);
+/* Reads a body's mesh: {"letter", "triangles"}, {"file"} or {"character"}, and "scale".
+   *character: that of the last kind, without its mesh, or NULL; for mote_scenario_read_field,
+   or to be destroyed. */
+mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh,
+                                    mote_character **character);
+
+/* The keys of a character. */
+#define MOTE_CHARACTER_KEYS "character|clip|start|speed|loop|subdivide"
+
+/* Reads "character" and "subdivide"; *character is NULL without the former. */
+mote_status mote_scenario_read_character(const mote_json *body, mote_character **character);
+
+/* Reads "clip", "start", "speed" and "loop": the field of a character, and the player, which
+   takes the character over, into motion. On failure the character is still the caller's unless
+   motion has a player. */
+mote_status mote_scenario_read_clip(const mote_json *body, const mote_mesh *mesh,
+                                    mote_character *character, mote_field **field,
+                                    mote_body_motion *motion);
+
+/* Makes a player's poses between two frames the sample poses of its body. */
+void mote_scenario_set_samples(mote_player *player, double first, double last, mote_body *body);
+
+/* The path of a file that a scenario names: from the scenario's folder unless it is absolute,
+   or from the working directory where no file named it. MOTE_EINVAL where the scenario may not
+   name it. The caller frees *path. */
+mote_status mote_scenario_file_path(const mote_json *file, char **path);
 
 /* Reads "field" (absent: static) of a body whose mesh is known: the field, and the displacement
-   of its control points into motion. On failure, what was made stays in *field and *motion for
-   the caller to free. */
+   of its control points into motion. Of a character (or NULL), which it takes over: its skin
+   and its clip. On failure, what was made stays in *field and *motion for the caller to free.
+ */
 mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mesh,
-                                     mote_field **field, mote_body_motion *motion);
+                                     mote_character *character, mote_field **field,
+                                     mote_body_motion *motion);
 
 /* Reads "motion" (absent: at rest at the origin). length: L of the pair; frames: the last
    point of the path that is shown. */

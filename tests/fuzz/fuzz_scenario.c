@@ -15,6 +15,7 @@ static bool is_costly(json_t *value)
     json_object_foreach(value, key, member)
     {
         costly = costly || strcmp(key, "file") == 0 || strcmp(key, "like") == 0 ||
+                 strcmp(key, "character") == 0 ||
                  (strcmp(key, "triangles") == 0 && json_number_value(member) > 500) ||
                  is_costly(member);
     }

@@ -1,0 +1,126 @@
+/* The character of a body, and the clip that it plays. */
+#include "harness/scene/scenario_read.h"
+
+#include "harness/base/file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A clip is cut off here: nobody plays for longer than a year. */
+#define SECONDS_MAX 1e7
+
+#define SUBDIVIDE_MAX 8
+
+static const char *const own_keys[] = {"clip", "start", "speed", "loop", "subdivide"};
+
+static mote_status check_keys(const mote_json *body)
+{
+    static const char *const others[] = {"letter", "triangles", "file", "field"};
+    const bool is_character = mote_json_member(body, "character").value != NULL;
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i) {
+        const mote_json key = mote_json_member(body, others[i]);
+        if (is_character && key.value)
+            return mote_json_fail(&key,
+                                  "a character has no %s: its file says how it looks and "
+                                  "deforms; take it away",
+                                  others[i]);
+    }
+    for (size_t i = 0; i < sizeof own_keys / sizeof own_keys[0]; ++i) {
+        const mote_json key = mote_json_member(body, own_keys[i]);
+        if (!is_character && key.value)
+            return mote_json_fail(&key, "%s without a character; add \"character\": FILE",
+                                  own_keys[i]);
+    }
+    return MOTE_OK;
+}
+
+static mote_status import(const mote_json *node, mote_character **character)
+{
+    char *path = NULL;
+    mote_character_import facts;
+    mote_status status = mote_scenario_file_path(node, &path);
+    if (status == MOTE_OK)
+        status = mote_character_import_file(path, character, &facts);
+    if (status == MOTE_OK)
+        mote_import_tell_split(path, &facts.mesh);
+    free(path);
+    return mote_json_blame(node, status);
+}
+
+mote_status mote_scenario_read_character(const mote_json *body, mote_character **character)
+{
+    const mote_json node = mote_json_member(body, "character");
+    mote_json key = mote_json_member(body, "subdivide");
+    int64_t times = 0;
+    *character = NULL;
+    mote_status status = check_keys(body);
+    if (status != MOTE_OK || !node.value)
+        return status;
+    if (key.value)
+        status = mote_json_integer(&key, 0, SUBDIVIDE_MAX, &times);
+    if (status == MOTE_OK)
+        status = import(&node, character);
+    if (status == MOTE_OK)
+        status = mote_json_blame(&key, mote_character_subdivide(*character, (uint32_t)times));
+    return status;
+}
+
+void mote_scenario_set_samples(mote_player *player, double first, double last, mote_body *body)
+{
+    mote_player_sample(player, first, last);
+    body->samples = player->samples;
+    body->sample_count = MOTE_PLAYER_SAMPLES;
+}
+
+/* "clip": a name, or a number from 1; the first one without it. */
+static mote_status read_clip(const mote_json *body, mote_player *player)
+{
+    const mote_json key = mote_json_member(body, "clip");
+    const mote_json at = key.value ? key : mote_json_member(body, "character");
+    char *name = NULL;
+    mote_status status = MOTE_OK;
+    if (json_is_number(key.value)) {
+        name = mote_format("%.17g", json_number_value(key.value));
+    } else if (key.value) {
+        const char *text;
+        status = mote_json_string(&key, &text);
+        name = mote_format("%s", status == MOTE_OK ? text : "");
+    } else {
+        name = mote_format("1");
+    }
+    if (status == MOTE_OK)
+        status = mote_json_blame(
+            &at, mote_character_find_clip(player->character, name, &player->clip));
+    free(name);
+    return status;
+}
+
+static mote_status read_play(const mote_json *body, mote_player *player)
+{
+    mote_status status = read_clip(body, player);
+    mote_json key = mote_json_member(body, "start");
+    if (status == MOTE_OK && key.value)
+        status = mote_json_real(&key, -SECONDS_MAX, SECONDS_MAX, &player->start);
+    key = mote_json_member(body, "speed");
+    if (status == MOTE_OK && key.value)
+        status = mote_json_real(&key, -1e3, 1e3, &player->speed);
+    key = mote_json_member(body, "loop");
+    if (status == MOTE_OK && key.value && !json_is_boolean(key.value))
+        status = mote_json_fail(&key, "not true or false");
+    if (status == MOTE_OK && key.value)
+        player->loop = json_is_true(key.value);
+    return status;
+}
+
+mote_status mote_scenario_read_clip(const mote_json *body, const mote_mesh *mesh,
+                                    mote_character *character, mote_field **field,
+                                    mote_body_motion *motion)
+{
+    const mote_json node = mote_json_member(body, "character");
+    const mote_status status =
+        mote_json_blame(&node, mote_player_create(character, mesh, field, &motion->player));
+    if (status != MOTE_OK)
+        return status;
+    motion->control_count = (*field)->count;
+    return read_play(body, motion->player);
+}
