@@ -80,7 +80,7 @@ static void add_result(mote_approaches *sum, const mote_simulation_result *r)
     sum->energy_drift = fmax(sum->energy_drift, r->energy_drift);
     sum->momentum_drift = fmax(sum->momentum_drift, r->momentum_drift);
     sum->angular_momentum_drift = fmax(sum->angular_momentum_drift, r->angular_drift);
-    sum->query_ns += r->query_ns * (r->steps + 1.0);
+    sum->query_ns += r->query_ns * ((double)r->steps + 1);
 }
 
 mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,

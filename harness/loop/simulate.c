@@ -247,7 +247,7 @@ static mote_status loop(simulation *s, mote_rigid_state *trace)
 static mote_simulation_result result_of(simulation *s)
 {
     mote_simulation_result result = s->result;
-    const double length = s->simulator->bodies.length, steps = result.steps + 1.0;
+    const double length = s->simulator->bodies.length, steps = (double)result.steps + 1;
     mote_contact_runs_end(&s->runs);
     result.contact_steps = s->runs.contact_steps;
     result.missed_steps = s->runs.missed_steps;

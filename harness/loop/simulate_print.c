@@ -2,51 +2,142 @@
 
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
+#include "harness/base/statistics.h"
 
 #include <inttypes.h>
-#include <stdio.h>
+#include <stddef.h>
 #include <stdlib.h>
 
-static void put_count(json_t *root, const char *key, uint64_t value)
+/* How the figures of replicates become one. */
+typedef enum joining {
+    SUM,     /* of counts */
+    LARGEST, /* of counts */
+    DEEPEST, /* the largest of reals, of which one may be missing */
+    MEAN     /* a step */
+} joining;
+
+typedef struct figure {
+    const char *key;
+    size_t offset; /* in mote_simulation_result: a uint64_t for counts, else a double */
+    joining joining;
+} figure;
+
+#define FIGURE(key, name, joining)                                                             \
+    {                                                                                          \
+        key, offsetof(mote_simulation_result, name), joining                                   \
+    }
+
+static const figure figures[] = {
+    FIGURE("steps", steps, SUM),
+    FIGURE("approaches", approaches, SUM),
+    FIGURE("passes_through", passes, SUM),
+    FIGURE("deep_passes_through", deep_passes, SUM),
+    FIGURE("max_penetration", depth_max, DEEPEST),
+    FIGURE("max_penetration_passes", depth_passes, DEEPEST),
+    FIGURE("contact_steps", contact_steps, SUM),
+    FIGURE("missed_steps", missed_steps, SUM),
+    FIGURE("false_steps", false_steps, SUM),
+    FIGURE("responses", responses, SUM),
+    FIGURE("bounces", bounces, SUM),
+    FIGURE("delay_sum", delay_sum, SUM),
+    FIGURE("delay_max", delay_max, LARGEST),
+    FIGURE("truth_asked", truth_asked, SUM),
+    FIGURE("near_pairs", near_pairs, MEAN),
+    FIGURE("query_ns", query_ns, MEAN),
+    FIGURE("energy_drift", energy_drift, DEEPEST),
+    FIGURE("momentum_drift", momentum_drift, DEEPEST),
+    FIGURE("angular_momentum_drift", angular_drift, DEEPEST),
+};
+#define FIGURES (sizeof figures / sizeof figures[0])
+
+/* A stored count above this cannot be right. */
+#define COUNT_MAX ((json_int_t)1 << 53)
+
+static bool is_count(const figure *f)
 {
-    (void)json_object_set_new(root, key, json_integer((json_int_t)value));
+    return f->joining == SUM || f->joining == LARGEST;
 }
 
-static void put_figure(json_t *root, const char *key, double value)
+static uint64_t *count_of(mote_simulation_result *result, const figure *f)
 {
-    (void)json_object_set_new(root, key, isnan(value) ? json_null() : json_real(value));
+    return (uint64_t *)(void *)((char *)result + f->offset);
 }
 
-mote_status mote_simulation_json(const char *scenario, uint32_t bodies,
-                                 const mote_method_choice *choice,
-                                 const mote_simulation_result *result, FILE *out)
+static double *real_of(mote_simulation_result *result, const figure *f)
 {
-    json_t *root = json_pack("{s:s, s:s}", "scenario", scenario, "method", choice->text);
-    put_count(root, "bodies", bodies);
-    put_count(root, "steps", result->steps);
-    put_count(root, "approaches", result->approaches);
-    put_count(root, "passes_through", result->passes);
-    put_count(root, "deep_passes_through", result->deep_passes);
-    put_figure(root, "max_penetration", result->depth_max);
-    put_figure(root, "max_penetration_passes", result->depth_passes);
-    put_count(root, "contact_steps", result->contact_steps);
-    put_count(root, "missed_steps", result->missed_steps);
-    put_count(root, "false_steps", result->false_steps);
-    put_count(root, "responses", result->responses);
-    put_count(root, "bounces", result->bounces);
-    put_count(root, "delay_sum", result->delay_sum);
-    put_count(root, "delay_max", result->delay_max);
-    put_count(root, "truth_asked", result->truth_asked);
-    put_figure(root, "near_pairs", result->near_pairs);
-    put_figure(root, "query_ns", result->query_ns);
-    put_figure(root, "energy_drift", result->energy_drift);
-    put_figure(root, "momentum_drift", result->momentum_drift);
-    put_figure(root, "angular_momentum_drift", result->angular_drift);
-    if (!root)
+    return (double *)(void *)((char *)result + f->offset);
+}
+
+json_t *mote_simulation_json(const char *scenario, uint32_t bodies,
+                             const mote_method_choice *choice,
+                             const mote_simulation_result *result)
+{
+    mote_simulation_result values = *result;
+    json_t *root = json_pack("{s:s, s:s, s:I}", "scenario", scenario, "method", choice->text,
+                             "bodies", (json_int_t)bodies);
+    for (size_t k = 0; k < FIGURES; ++k) {
+        const figure *f = &figures[k];
+        if (is_count(f)) {
+            const json_int_t count = (json_int_t)*count_of(&values, f);
+            (void)json_object_set_new(root, f->key, json_integer(count));
+            continue;
+        }
+        const double value = *real_of(&values, f);
+        (void)json_object_set_new(root, f->key, isnan(value) ? json_null() : json_real(value));
+    }
+    return root;
+}
+
+bool mote_simulation_read(const json_t *object, mote_simulation_result *result)
+{
+    mote_simulation_result read = {0};
+    bool whole = true;
+    for (size_t k = 0; k < FIGURES && whole; ++k) {
+        const figure *f = &figures[k];
+        const json_t *value = json_object_get(object, f->key);
+        const json_int_t count = json_integer_value(value);
+        if (is_count(f)) {
+            whole = json_is_integer(value) && count >= 0 && count <= COUNT_MAX;
+            *count_of(&read, f) = (uint64_t)count;
+        } else {
+            whole = json_is_number(value) || json_is_null(value);
+            *real_of(&read, f) = json_is_null(value) ? MOTE_NONE : json_number_value(value);
+        }
+    }
+    if (whole)
+        *result = read;
+    return whole;
+}
+
+void mote_simulation_add(mote_simulation_result *sum, const mote_simulation_result *replicate)
+{
+    mote_simulation_result one = *replicate;
+    const double before = (double)sum->steps, weight = (double)one.steps;
+    if (sum->steps == 0) {
+        *sum = one;
+        return;
+    }
+    for (size_t k = 0; k < FIGURES; ++k) {
+        const figure *f = &figures[k];
+        if (f->joining == SUM)
+            *count_of(sum, f) += *count_of(&one, f);
+        else if (f->joining == LARGEST && *count_of(&one, f) > *count_of(sum, f))
+            *count_of(sum, f) = *count_of(&one, f);
+        else if (f->joining == DEEPEST)
+            *real_of(sum, f) = fmax(*real_of(sum, f), *real_of(&one, f));
+        else if (f->joining == MEAN)
+            *real_of(sum, f) =
+                (*real_of(sum, f) * before + *real_of(&one, f) * weight) / (before + weight);
+    }
+}
+
+mote_status mote_simulation_put(json_t *object, FILE *out)
+{
+    if (!object)
         return mote_fail(MOTE_EINVAL, "a name to be printed is not UTF-8; rename what has it");
     mote_text text = {0};
-    mote_json_print(root, 17, &text);
-    json_decref(root);
+    mote_json_print(object, 17, &text);
+    json_decref(object);
     (void)fputs(text.data, out);
     free(text.data);
     return MOTE_OK;
@@ -56,8 +147,8 @@ void mote_simulation_print(const char *scenario, uint32_t bodies,
                            const mote_method_choice *choice,
                            const mote_simulation_result *result, FILE *out)
 {
-    (void)fprintf(out, "%s, %s: %u bodies, %u steps, %.3g us each for the method\n", scenario,
-                  choice->text, bodies, result->steps, result->query_ns / 1e3);
+    (void)fprintf(out, "%s, %s: %u bodies, %" PRIu64 " steps, %.3g us each for the method\n",
+                  scenario, choice->text, bodies, result->steps, result->query_ns / 1e3);
     (void)fprintf(out,
                   "approaches %" PRIu64 ", passes through %" PRIu64 " (%" PRIu64
                   " of them with a vertex inside)\n",

@@ -63,7 +63,7 @@ typedef struct mote_simulation_start {
 
 /* Steps are counted once for each pair that is in contact or reported to be. */
 typedef struct mote_simulation_result {
-    uint32_t steps;         /* made */
+    uint64_t steps;         /* made */
     uint64_t contact_steps; /* truth is a contact */
     uint64_t missed_steps;  /* of them the method said none */
     uint64_t false_steps;   /* the method reported a contact, the truth is none */
