@@ -7,6 +7,7 @@
 #   make test-page                                    the report's page, in headless Chromium
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
+#   make engines [OUT=DIR]                           other engines and ours, asked the same
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
@@ -103,6 +104,11 @@ bench: build page
 .PHONY: sweep
 sweep: build
 	@harness/scripts/bench.sh $(MOTE) sweep $(call out,sweep)
+
+# Other engines and ours, asked for contacts and for distances of the same frames (docs/peers.md).
+.PHONY: engines
+engines: build
+	@harness/scripts/bench.sh $(MOTE) engines $(call out,engines)
 
 oracle: program-oracle
 	@mkdir -p $(OUT)

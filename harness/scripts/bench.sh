@@ -6,6 +6,7 @@ mote=$1
 profile=$2
 out=$3
 . "$(dirname "$0")/measure.sh"
+. "$(dirname "$0")/engines.sh"
 
 # FCL as its users call it, and at the best setting that we know of for coherent scenes.
 plain=fcl-aabb:seed=none,queue=2
@@ -24,6 +25,19 @@ sizes() {
             --method $plain --method $tuned $oriented --method aabb-tree \
             --method particle:n=8 --method certified --method particle-paper:n=8
     done
+}
+
+# engines REPLICATES: other engines and ours, asked for contacts and for distances of the same
+# frames.
+engines() {
+    for scenario in ww-contact mv-contact tt-distance; do
+        measure $scenario --replicates "$1" --method $plain --method aabb-tree --method certified
+    done
+    for scenario in ww-contact mv-contact tt; do
+        measure_contacts $scenario --replicates "$1"
+    done
+    for scenario in ww mv tt-distance; do measure_distances $scenario --replicates "$1"; done
+    for scenario in tt tt-distance; do measure_rigid $scenario --replicates "$1"; done
 }
 
 # The claims into the same directory, once for each build; whether this implementation meets its
@@ -65,6 +79,7 @@ paper)
         --method aabb-tree:positions=given
     measure tt --replicates 5 --method fcl-obb:update=none --method fcl-obbrss:update=none
     for scenario in ww tt mv; do measure_best $scenario --replicates 5; done
+    engines 5
     measure ww --replicates 5 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method particle-paper --particles 5,8
@@ -76,6 +91,7 @@ full)
         --particles 1-8,12,16,24,32,48,64
     measure tt --replicates 10 --method fcl-obb:update=none --method fcl-obbrss:update=none
     for scenario in ww tt mv; do measure_best $scenario --replicates 10; done
+    engines 10
     measure ww tt mv --replicates 10 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
         --method 'particle-paper:refine=no|near' --particles 5,8,16
@@ -90,8 +106,11 @@ full)
 sweep)
     sizes
     ;;
+engines)
+    engines 3
+    ;;
 *)
-    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full or sweep" >&2
+    echo "bench.sh: unknown profile '$profile'; choose quick, paper, full, sweep or engines" >&2
     exit 2
     ;;
 esac

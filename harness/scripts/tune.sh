@@ -1,12 +1,13 @@
 #!/bin/sh
 # tune.sh MOTE PROFILE OUT: every useful configuration of every baseline on every scenario of the
-# paper and on a scene of many bodies, into one run directory; ends with the best of each. A run that was stopped goes on where
-# it stopped. quick: 100 frames of each scenario, once; full: all frames, three times.
+# paper, for both questions, and on a scene of many bodies, into one run directory; ends with the
+# best of each. A run that was stopped goes on where it stopped. quick: 100 frames of each scenario, once; full: all frames, three times.
 set -eu
 mote=$1
 profile=$2
 out=$3
 . "$(dirname "$0")/measure.sh"
+. "$(dirname "$0")/engines.sh"
 
 case $profile in
 quick) replicates=1 ;;
@@ -21,7 +22,7 @@ esac
 frames() {
     [ "$profile" = quick ] || return 0
     case $1 in
-    ww) echo --frames 1201-1300 ;;
+    ww*) echo --frames 1201-1300 ;;
     letters) echo --frames 1-10 ;;
     *) echo --frames 201-300 ;;
     esac
@@ -35,7 +36,7 @@ for scenario in ww tt mv; do
         --method 'fcl-aabb:call=api,seed=none|previous' \
         --method 'fcl-kdop18:update=refit-bottom-up|refit-top-down|rebuild' \
         --method 'hybrid-fcl:n=3|8|16,refine=no|always,queue=2|64' \
-        --method 'aabb-tree:seed=none|previous' \
+        --method 'aabb-tree:seed=none|previous,build=rest|samples' \
         --method 'ccd-convex:support=climb|scan' \
         --method 'particle-paper:refine=no|near|always,start=random|fps' --particles 3,5,8,16
     for volume in obb rss obbrss kios; do
@@ -53,6 +54,22 @@ for scenario in ww tt mv; do
             --method 'fcl-rss:update=none' --method 'fcl-obbrss:update=none,call=node|api' \
             --method 'fcl-kios:update=none,call=node|api'
     fi
+done
+
+# The engines, on these frames, asked for a contact and for a distance.
+for scenario in ww mv tt-distance; do
+    # shellcheck disable=SC2046
+    measure_distances $scenario --replicates $replicates $(frames $scenario)
+done
+for scenario in ww-contact mv-contact tt; do
+    # shellcheck disable=SC2046
+    set -- $scenario --replicates $replicates $(frames $scenario)
+    measure "$@" --method certified --method 'aabb-tree:seed=none|previous,build=rest|samples'
+    measure_contacts "$@"
+done
+for scenario in tt tt-distance; do
+    # shellcheck disable=SC2046
+    measure_rigid $scenario --replicates $replicates $(frames $scenario)
 done
 
 # shellcheck disable=SC2046

@@ -1,5 +1,5 @@
 /* The baselines that answer for contact alone, those of them that were built, against brute
-   force: Embree, ODE and Bullet. */
+   force: Embree, ODE, Bullet and Coal. */
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -21,6 +21,9 @@ static const engine engines[] = {
     {"bullet-gimpact", "", false, false},
     {"bullet-gimpact", "stop=yes", false, false},
     {"bullet-gimpact", "update=none", false, true},
+    {"coal-obb", "", false, false},
+    {"coal-obb", "call=api", false, false},
+    {"coal-obb", "update=none", false, true},
 };
 #define ENGINES (sizeof engines / sizeof engines[0])
 enum { VALUES_MAX = 8 };
