@@ -35,7 +35,7 @@ mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
         body->mesh = setup->body[b]->mesh;
         body->centre =
             mote_add(mote_scale(body->mesh->low, 0.5), mote_scale(body->mesh->high, 0.5));
-        body->rigid = setup->body[b]->field->count == 0;
+        body->rigid = mote_body_is_rigid(setup->body[b]);
         body->rotation = identity();
         if (update == MOTE_ENGINE_NONE && !body->rigid)
             return mote_fail(MOTE_EUNSUPPORTED,

@@ -161,7 +161,7 @@ template <class Volume> class Pair
           tolerance(setup->tolerance * scale)
     {
         for (int b = 0; b < 2; ++b) {
-            rigid[b] = setup->body[b]->field->count == 0;
+            rigid[b] = mote_body_is_rigid(setup->body[b]);
             transform[b] = Transform::Identity();
             refit_pose[b] = mote_pose{};
         }
@@ -467,7 +467,7 @@ template <class Volume> struct Adapter {
                 "update=none needs a volume that FCL transforms in place; this one "
                 "is rebuilt at every transform");
         for (int b = 0; b < 2; ++b) {
-            if (setup->body[b]->field->count > 0)
+            if (!mote_body_is_rigid(setup->body[b]))
                 return mote_fail(MOTE_EUNSUPPORTED,
                                  "update=none needs rigid bodies; body %d deforms", b);
         }

@@ -3,6 +3,8 @@
 mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
                              uint32_t vertex)
 {
+    if (mote_body_is_given(body))
+        return state->vertices[vertex];
     const mote_vec3 rigid = mote_pose_apply(&state->pose, body->mesh->positions[vertex]);
     if (body->field->count == 0)
         return rigid;

@@ -21,13 +21,29 @@ typedef struct mote_body {
     uint32_t sample_count;
 } mote_body;
 
-/* World vertex i = rotation * x_i + translation + sum_j phi_j(x_i) w_j. */
+/* Whether all that is known of the body is where its vertices are in each frame
+   (mote_field_create_given). */
+static inline bool mote_body_is_given(const mote_body *body)
+{
+    return body->field->kind->given;
+}
+
+/* Whether the body moves by its poses alone. */
+static inline bool mote_body_is_rigid(const mote_body *body)
+{
+    return body->field->count == 0 && !body->field->kind->given;
+}
+
+/* World vertex i = rotation * x_i + translation + sum_j phi_j(x_i) w_j. Of a body whose
+   positions are given it is vertices[i], and the pose only says how the body's axes turn with
+   it: methods may use it to tell a turn from a deformation, and answer right whatever it is. */
 typedef struct mote_body_state {
     mote_pose pose;
     mote_weights weights;      /* in world axes, field->padded long; see mote_weights */
     const mote_vec3 *vertices; /* [vertex_count] world positions, or NULL when not provided */
-    bool shape_changed;        /* the weights differ from those of the previous frame */
-    bool pose_changed;         /* the pose does; both are true in the first frame */
+    bool shape_changed; /* the weights, or the positions that are given, differ from those
+                           of the previous frame */
+    bool pose_changed;  /* the pose does; both are true in the first frame */
 } mote_body_state;
 
 typedef struct mote_frame {
@@ -38,9 +54,9 @@ typedef struct mote_frame {
 /* A vertex in pose 0, at rest, or in pose 1 .. sample_count, in a sample pose. */
 mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex);
 
-/* World position of one vertex, evaluated from the field (never from state->vertices). Full
-   deformation and lazy positions give these same bits. vertex < vertex_count. No allocation;
-   any thread. Cost O(J) for J basis functions. */
+/* World position of one vertex, evaluated from the field; read from state->vertices only where
+   the body's positions are given. Full deformation and lazy positions give these same bits.
+   vertex < vertex_count. No allocation; any thread. Cost O(J) for J basis functions. */
 mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
                              uint32_t vertex);
 

@@ -96,8 +96,9 @@ double mote_coherence_motion(mote_coherence *coherence, const mote_frame *frame,
     double motion = pose_motion(coherence, frame);
     for (int b = 0; b < 2; ++b) {
         mote_stance *stance = &coherence->stance[b];
-        motion += use_given ? probes_motion(stance, &frame->body[b])
-                            : weights_motion(stance, &frame->body[b]);
+        motion += use_given || mote_body_is_given(coherence->body[b])
+                      ? probes_motion(stance, &frame->body[b])
+                      : weights_motion(stance, &frame->body[b]);
     }
     const bool known = coherence->known;
     coherence->known = true;

@@ -39,8 +39,9 @@ mote_status mote_coherence_init(mote_coherence *coherence, const mote_body *cons
 void mote_coherence_free(mote_coherence *coherence);
 
 /* Estimates how far any point of one body has moved relative to the other body since the last
-   call, deformation included; L of the pair at the first call. use_given: the shape is taken
-   from state->vertices, otherwise from the weights. Cost: linear in the weights or probes. */
+   call, deformation included; L of the pair at the first call. use_given, or a body whose
+   positions are given: the shape is taken from state->vertices, otherwise from the weights.
+   Cost: linear in the weights or probes. */
 double mote_coherence_motion(mote_coherence *coherence, const mote_frame *frame,
                              bool use_given);
 

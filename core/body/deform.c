@@ -12,7 +12,7 @@ struct mote_deform {
     uint32_t blocks;
     uint32_t tabulated; /* basis functions in the table: padded, or 0 */
     size_t stride;      /* doubles in a block */
-    double *table;      /* [blocks][stride] */
+    double *table;      /* [blocks][stride]; NULL, with no blocks, where positions are given */
 };
 
 /* Whether displacements are evaluated rather than summed over a table. */
@@ -48,6 +48,10 @@ mote_status mote_deform_create(const mote_body *body, mote_deform **deform)
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory to deform a body");
     made->body = body;
+    if (mote_body_is_given(body)) {
+        *deform = made;
+        return MOTE_OK;
+    }
     made->blocks = (body->mesh->vertex_count + MOTE_LANES - 1) / MOTE_LANES;
     made->tabulated = evaluated(body->field) ? 0 : body->field->padded;
     made->stride = (size_t)MOTE_LANES * (3 + made->tabulated);
@@ -153,6 +157,10 @@ void mote_deform_all(const mote_deform *deform, const mote_body_state *state, mo
     const uint32_t count = deform->body->mesh->vertex_count;
     const uint32_t padded = deform->tabulated;
     const bool evaluate = evaluated(deform->body->field);
+    if (mote_body_is_given(deform->body)) {
+        memcpy(world, state->vertices, count * sizeof *world);
+        return;
+    }
     for (uint32_t b = 0; b < deform->blocks; ++b) {
         const double *block = deform->table + b * deform->stride;
         double p[3][MOTE_LANES];

@@ -13,13 +13,15 @@ extern "C" {
 typedef struct mote_deform mote_deform;
 
 /* Tabulates the basis of a body's field: vertex_count * field->padded doubles, none of a sparse
-   field. The body is borrowed. Cost O(vertex_count * padded). */
+   field, and no numbers at all where positions are given. The body is borrowed. Cost
+   O(vertex_count * padded). */
 mote_status mote_deform_create(const mote_body *body, mote_deform **deform);
 
 /* NULL is allowed. */
 void mote_deform_destroy(mote_deform *deform);
 
-/* Writes world[vertex_count], each equal bit for bit to mote_body_position. No allocation. */
+/* Writes world[vertex_count], each equal bit for bit to mote_body_position; of a body whose
+   positions are given, a copy of state->vertices. No allocation. */
 void mote_deform_all(const mote_deform *deform, const mote_body_state *state, mote_vec3 *world);
 
 size_t mote_deform_bytes(const mote_deform *deform);

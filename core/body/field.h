@@ -6,6 +6,7 @@
    The kinds that are built in:
 
    - static: J = 0, nothing is evaluated;
+   - given: J = 0 and no field is known: every frame brings the positions of all vertices;
    - csrbf: phi_j is Wendland's C2 function of |x - c_j| / support (paper section 4);
    - modes: displacement vectors of all vertices with one scalar weight s for each mode. A mode
      is three basis functions, its x, y and z column, with the weights (s, 0, 0), (0, s, 0) and
@@ -102,6 +103,9 @@ typedef struct mote_field_kind {
        by linear fits of the basis functions, which serve any field. */
     const struct mote_cert_bounds *bounds;
 
+    /* Nothing is known but the positions that each frame brings (mote_body_state.vertices). */
+    bool given;
+
     void (*destroy)(mote_field *field);
 } mote_field_kind;
 
@@ -121,6 +125,11 @@ struct mote_field {
 /* A field that never deforms. MOTE_ENOMEM. The caller destroys *field, as of all fields below.
  */
 mote_status mote_field_create_static(mote_field **field);
+
+/* The field of a body whose deformation is not known: cloth, finite elements, what was
+   captured. mote_body_state.vertices then holds its world positions in every frame, and is
+   never NULL. MOTE_ENOMEM. */
+mote_status mote_field_create_given(mote_field **field);
 
 /* Compactly supported radial basis functions, Wendland C2: (1-r)^4 (4r+1) for r < 1, else 0.
    centres: count (1 .. MOTE_FIELD_MAX) positions in rest space, copied; support > 0.

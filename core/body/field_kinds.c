@@ -57,6 +57,17 @@ mote_status mote_field_create_static(mote_field **field)
     return mote_field_allocate(&static_kind, 0, field);
 }
 
+static const mote_field_kind given_kind = {.name = "given",
+                                           .basis = no_basis,
+                                           .gradient = no_gradient,
+                                           .given = true,
+                                           .destroy = free_plain};
+
+mote_status mote_field_create_given(mote_field **field)
+{
+    return mote_field_allocate(&given_kind, 0, field);
+}
+
 void mote_field_destroy(mote_field *field)
 {
     if (field)

@@ -83,7 +83,8 @@ static void clear_stamps(mote_lazy *lazy)
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given)
 {
     lazy->state = state;
-    lazy->given = use_given ? state->vertices : NULL;
+    const bool reads = use_given || (state && mote_body_is_given(lazy->body));
+    lazy->given = reads ? state->vertices : NULL;
     lazy->points = NULL;
     lazy->filled = 0;
     if (++lazy->stamp == 0) {

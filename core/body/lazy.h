@@ -49,7 +49,8 @@ mote_status mote_lazy_init_single(mote_lazy *lazy, const mote_body *body, uint32
 void mote_lazy_free(mote_lazy *lazy);
 
 /* Starts a frame: forgets all positions. state is borrowed until the next call. With use_given,
-   positions are read from state->vertices, which must not be NULL. Constant time. */
+   or where the body's positions are given, they are read from state->vertices, which must not
+   be NULL then. Constant time. */
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given);
 
 /* The same with positions read from points, which are borrowed until the next call. */

@@ -70,7 +70,8 @@ typedef struct certified_state {
 
 static mote_traits traits(const double *values)
 {
-    return (mote_traits){.keeps_state = (int)values[P_SEED] != SEED_NONE,
+    return (mote_traits){.needs_field = true,
+                         .keeps_state = (int)values[P_SEED] != SEED_NONE,
                          .exact = !(values[P_SLACK] > 0) && isinf(values[P_BUDGET])};
 }
 

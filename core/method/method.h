@@ -69,6 +69,8 @@ typedef struct mote_answer {
 
 /* What a parameterised method needs and keeps. */
 typedef struct mote_traits {
+    bool needs_field; /* computes with the field itself: no body may be one whose positions are
+                         all that is known */
     bool needs_vertices; /* wants every vertex of the frame in mote_body_state.vertices */
     bool given_vertices; /* wants them too, but nobody is charged for them (positions=given) */
     bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */
@@ -122,8 +124,9 @@ typedef struct mote_method {
 extern const mote_method *const mote_methods[];
 
 /* Call the method's own functions, or do the default where it has none: no traits, a state
-   that is a copy of the setup. Errors are the method's; MOTE_ENOMEM. A state is for one
-   thread at a time; the caller destroys it. */
+   that is a copy of the setup. MOTE_EUNSUPPORTED for a method that needs a field and a body
+   that has none. Other errors are the method's; MOTE_ENOMEM. A state is for one thread at a
+   time; the caller destroys it. */
 mote_traits mote_method_traits(const mote_method *method, const double *values);
 mote_status mote_method_create(const mote_method *method, const mote_setup *setup,
                                void **state);

@@ -36,7 +36,9 @@ static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
         mote_method_traits(choice->method, choice->values).keeps_state ? 1 : last;
     for (uint32_t k = first; k <= last && status == MOTE_OK; ++k) {
         mote_engine_cost cost;
-        mote_subject_frame_set(subject, k, k == first ? 0 : k - 1, &frame);
+        status = mote_subject_frame_set(subject, k, k == first ? 0 : k - 1, &frame);
+        if (status != MOTE_OK)
+            break;
         if (subject->bodies) {
             mote_engine_show(engine, frame.states);
             status = mote_engine_ask(engine, &cost);
@@ -142,8 +144,7 @@ static mote_status write_meshes(const mote_subject *subject, const request *wish
 {
     const mote_engine_setup setup = mote_subject_engine(subject);
     mote_subject_frame frame = mote_subject_frame_create(subject);
-    mote_status status = MOTE_OK;
-    mote_subject_frame_set(subject, (uint32_t)wish->frame, 0, &frame);
+    mote_status status = mote_subject_frame_set(subject, (uint32_t)wish->frame, 0, &frame);
     for (uint32_t i = 0; i < setup.count && status == MOTE_OK; ++i) {
         char *path = mesh_path(wish->directory, setup.count, i);
         status = write_mesh(setup.shapes[setup.shape_of[i]], &frame.states[i], path);

@@ -68,7 +68,8 @@ mote_status mote_engine_build(mote_engine *engine);
 /* Bytes of what two bodies are deformed with, where the method is charged for that; else 0. */
 int64_t mote_engine_deform_bytes(const mote_engine *engine);
 
-/* The bodies of a frame [count], borrowed until the next one; their vertices may be NULL.
+/* The bodies of a frame [count], borrowed until the next one; their vertices may be NULL
+   where they have fields.
    Deforms two bodies for a method that is given their positions and charged nothing. */
 void mote_engine_show(mote_engine *engine, const mote_body_state *states);
 
@@ -96,7 +97,8 @@ mote_status mote_engine_open_distance(const mote_body *bodies, const char *metho
                                       mote_engine **engine);
 
 /* Deforms what the method needs, updates it and asks it: its own answer, as it gives it. The
-   frame's vertices may be NULL; whether it says that anything has changed does not matter. */
+   frame's vertices may be NULL where its body has a field; whether it says that anything has
+   changed does not matter. frame NULL: the failure of mote_scenario_frame is passed on. */
 mote_status mote_engine_answer(mote_engine *engine, const mote_frame *frame,
                                mote_answer *answer);
 

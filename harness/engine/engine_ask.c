@@ -64,9 +64,11 @@ void mote_engine_destroy(mote_engine *engine)
 int64_t mote_engine_deform_bytes(const mote_engine *engine)
 {
     size_t bytes = 0;
-    for (int i = 0; i < 2 && engine->world[0] && !engine->traits.given_vertices; ++i)
-        bytes += mote_deform_bytes(engine->deform[i]) +
-                 engine->setup.shapes[i]->mesh->vertex_count * sizeof(mote_vec3);
+    for (int i = 0; i < 2 && !engine->traits.given_vertices; ++i) {
+        if (engine->world[i])
+            bytes += mote_deform_bytes(engine->deform[i]) +
+                     engine->setup.shapes[i]->mesh->vertex_count * sizeof(mote_vec3);
+    }
     return (int64_t)bytes;
 }
 

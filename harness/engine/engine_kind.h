@@ -53,7 +53,7 @@ struct mote_engine {
     const mote_engine_kind *kind;
     const mote_body_state *states; /* of the frame that is shown */
     mote_pair_list now, before;
-    mote_deform *deform[MOTE_ENGINE_SHAPES_MAX];
+    mote_deform *deform[MOTE_ENGINE_SHAPES_MAX]; /* NULL: not needed, or positions are given */
 
     /* Two bodies: */
     mote_frame frame; /* as the method sees it: what it keeps of it outlives the call */

@@ -16,6 +16,8 @@ static mote_status make_vertices(mote_engine *e)
 {
     for (int i = 0; i < 2; ++i) {
         const mote_body *body = e->setup.shapes[i];
+        if (mote_body_is_given(body))
+            continue;
         e->world[i] = mote_allocate(body->mesh->vertex_count, sizeof(mote_vec3));
         const mote_status status = mote_deform_create(body, &e->deform[i]);
         if (status != MOTE_OK)
@@ -63,6 +65,8 @@ static void deform(mote_engine *e)
 {
     for (int i = 0; i < 2; ++i) {
         mote_body_state *body = &e->frame.body[i];
+        if (!e->deform[i])
+            continue; /* the frame brings its vertices */
         if (body->shape_changed || body->pose_changed)
             mote_deform_all(e->deform[i], body, e->world[i]);
         body->vertices = e->world[i];
@@ -202,10 +206,14 @@ mote_status mote_engine_answer(mote_engine *engine, const mote_frame *frame,
                                mote_answer *answer)
 {
     mote_engine *e = engine;
+    if (!frame)
+        return mote_error_status();
     const mote_method *method = e->choice.method;
     mote_answer given = {0};
     e->frame = *frame;
-    for (int i = 0; i < 2 && e->world[0]; ++i) {
+    for (int i = 0; i < 2; ++i) {
+        if (!e->deform[i])
+            continue;
         mote_deform_all(e->deform[i], &e->frame.body[i], e->world[i]);
         e->frame.body[i].vertices = e->world[i];
     }

@@ -37,6 +37,13 @@ mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scen
         if (strcmp(text, cell->fingerprint) != 0 || last > scene->scenario->frames)
             status = mote_fail(MOTE_EINVAL, "%s: other frames than those measured", name);
     }
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        if (mote_body_is_given(&scene->scenario->body[i]))
+            status = mote_fail(MOTE_EUNSUPPORTED,
+                               "%s: the figure shows control points, and of "
+                               "body %d only positions are given",
+                               name, i);
+    }
     if (status == MOTE_OK)
         scene->buffer = mote_frame_buffer_create(scene->scenario);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i) {

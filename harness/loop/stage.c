@@ -31,6 +31,14 @@ mote_status mote_stage_create(const mote_subject *subject, const mote_method_cho
                               mote_stage **stage)
 {
     mote_engine_setup setup = mote_subject_engine(subject);
+    for (uint32_t k = 0; k < setup.shape_count; ++k) {
+        if (mote_body_is_given(setup.shapes[k]))
+            return mote_fail(
+                MOTE_EUNSUPPORTED,
+                "a closed loop needs fields, and of body %u only positions are given; "
+                "measure it with `mote run`",
+                k);
+    }
     setup.ask = MOTE_ASK_DISTANCE;
     setup.tolerance = options->tolerance * setup.length;
     if (setup.tolerance > setup.near)

@@ -99,6 +99,13 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
 /* Cells may be damaged files, so their frames are checked to lie within the scenario. */
 static mote_status check_frames(const mote_replay_scene *scene)
 {
+    for (int i = 0; i < 2; ++i) {
+        if (mote_body_is_given(&scene->scenario->body[i]))
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "%s: the page deforms by fields, and of a body only positions are "
+                             "given",
+                             scene->tracks[0].cell->scenario);
+    }
     if (scene->last <= scene->scenario->frames)
         return MOTE_OK;
     return mote_fail(MOTE_EUNSUPPORTED, "%s: a cell has frame %u; the scenario has frames 1-%u",

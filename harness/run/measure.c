@@ -27,6 +27,8 @@ struct mote_measurement {
     mote_subject_frame frames[AHEAD_MAX]; /* [ahead], at least 1 */
     uint64_t motion_ns[AHEAD_MAX];        /* of each frame that is in the queue */
     mote_frame_queue *queue;
+    mote_status moved; /* whether the thread that moves could */
+    char moved_text[512];
     volatile unsigned char *evict; /* NULL when caches stay hot */
     size_t rows;                   /* to be measured */
     uint64_t began;                /* when the first frame began */
@@ -181,21 +183,24 @@ static bool is_over(const session *s)
             s->result->row_count >= MOTE_CELL_LEAST_FRAMES);
 }
 
-/* Moves the bodies to the frame of a row; returns the time. */
-static uint64_t move(const session *s, size_t row, mote_subject_frame *frame)
+/* Moves the bodies to the frame of a row, and says how long that took. */
+static mote_status move(const session *s, size_t row, mote_subject_frame *frame, uint64_t *ns)
 {
     const uint64_t from = mote_clock_ns();
-    mote_subject_frame_set(s->cell->subject, number_of(s, row),
-                           row > 0 ? number_of(s, row - 1) : 0, frame);
-    return mote_clock_ns() - from;
+    const mote_status status = mote_subject_frame_set(
+        s->cell->subject, number_of(s, row), row > 0 ? number_of(s, row - 1) : 0, frame);
+    *ns = mote_clock_ns() - from;
+    return status;
 }
 
 static mote_status run_in_turn(session *s)
 {
     mote_status status = MOTE_OK;
     while (status == MOTE_OK && !is_over(s)) {
-        const uint64_t motion_ns = move(s, s->result->row_count, &s->frames[0]);
-        status = ask_next(s, &s->frames[0], motion_ns);
+        uint64_t motion_ns = 0;
+        status = move(s, s->result->row_count, &s->frames[0], &motion_ns);
+        if (status == MOTE_OK)
+            status = ask_next(s, &s->frames[0], motion_ns);
     }
     return status;
 }
@@ -205,7 +210,11 @@ static void *move_ahead(void *context)
     session *s = context;
     size_t place;
     for (size_t row = 0; row < s->rows && mote_frame_queue_reserve(s->queue, &place); ++row) {
-        s->motion_ns[place] = move(s, row, &s->frames[place]);
+        s->moved = move(s, row, &s->frames[place], &s->motion_ns[place]);
+        if (s->moved != MOTE_OK) {
+            (void)snprintf(s->moved_text, sizeof s->moved_text, "%s", mote_error_text());
+            break;
+        }
         mote_frame_queue_commit(s->queue);
     }
     mote_frame_queue_close(s->queue);
@@ -231,7 +240,8 @@ static mote_status run_ahead(session *s)
     mote_frame_queue_cancel(s->queue);
     (void)pthread_join(mover, NULL);
     mote_frame_queue_destroy(s->queue);
-    return status;
+    return status == MOTE_OK && s->moved != MOTE_OK ? mote_fail(s->moved, "%s", s->moved_text)
+                                                    : status;
 }
 
 static mote_status run(session *s)
@@ -321,8 +331,9 @@ mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t numbe
                                    uint32_t previous, mote_cell_row *row)
 {
     mote_subject_frame *frame = &measurement->frames[0];
-    mote_subject_frame_set(measurement->cell->subject, number, previous, frame);
-    return ask(measurement, number, frame, 0, row);
+    const mote_status status =
+        mote_subject_frame_set(measurement->cell->subject, number, previous, frame);
+    return status == MOTE_OK ? ask(measurement, number, frame, 0, row) : status;
 }
 
 void mote_measurement_close(mote_measurement *measurement)

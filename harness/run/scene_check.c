@@ -7,7 +7,9 @@ static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
     mote_status status = MOTE_OK;
     for (uint32_t k = 1; k <= frames && status == MOTE_OK; ++k) {
         mote_engine_cost cost;
-        mote_subject_frame_set(subject, k, k - 1, frame);
+        status = mote_subject_frame_set(subject, k, k - 1, frame);
+        if (status != MOTE_OK)
+            break;
         mote_engine_show(engine, frame->states);
         status = mote_engine_ask(engine, &cost);
         if (status != MOTE_OK)

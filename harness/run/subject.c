@@ -114,14 +114,18 @@ void mote_subject_frame_free(mote_subject_frame *frame)
     *frame = (mote_subject_frame){.pair = NULL};
 }
 
-void mote_subject_frame_set(const mote_subject *subject, uint32_t number, uint32_t previous,
-                            mote_subject_frame *frame)
+mote_status mote_subject_frame_set(const mote_subject *subject, uint32_t number,
+                                   uint32_t previous, mote_subject_frame *frame)
 {
     if (subject->bodies) {
         mote_bodies_frame_set(subject->bodies, number, &frame->scene);
         frame->states = frame->scene.states;
     } else {
-        frame->states =
-            mote_scenario_frame(subject->scenario, frame->pair, number, previous)->body;
+        const mote_frame *shown =
+            mote_scenario_frame(subject->scenario, frame->pair, number, previous);
+        if (!shown)
+            return mote_error_status();
+        frame->states = shown->body;
     }
+    return MOTE_OK;
 }

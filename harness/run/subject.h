@@ -45,7 +45,8 @@ mote_engine_setup mote_subject_engine(const mote_subject *subject);
 
 /* The bodies of one frame, with the memory of their weights. */
 typedef struct mote_subject_frame {
-    const mote_body_state *states; /* [bodies], of the frame set last; vertices are NULL */
+    const mote_body_state *states; /* [bodies], of the frame set last; vertices are NULL but
+                                      where positions are given */
     mote_frame_buffer *pair;
     mote_bodies_frame scene;
 } mote_subject_frame;
@@ -54,8 +55,9 @@ mote_subject_frame mote_subject_frame_create(const mote_subject *subject);
 void mote_subject_frame_free(mote_subject_frame *frame);
 
 /* Poses and weights of all bodies at a frame (1 .. frames). previous: the frame that the method
-   was asked about last, 0 for none, which tells what has changed. */
-void mote_subject_frame_set(const mote_subject *subject, uint32_t number, uint32_t previous,
-                            mote_subject_frame *frame);
+   was asked about last, 0 for none, which tells what has changed. Errors of
+   mote_scenario_frame. */
+mote_status mote_subject_frame_set(const mote_subject *subject, uint32_t number,
+                                   uint32_t previous, mote_subject_frame *frame);
 
 #endif

@@ -115,7 +115,10 @@ static mote_status solve(approach *a, mote_frame_buffer *buffer, uint32_t k,
 {
     const mote_body_motion *motion = a->scenario->motion->body;
     double offset = 0;
-    a->frame = *mote_scenario_frame(a->scenario, buffer, a->plan->frames[k], 0);
+    const mote_frame *frame = mote_scenario_frame(a->scenario, buffer, a->plan->frames[k], 0);
+    if (!frame)
+        return mote_error_status();
+    a->frame = *frame;
     a->frame.number = k + 1;
     a->still = mote_scale(mote_rotate(&a->frame.body[1].pose.rotation, motion[1].centre), -1);
     mote_status status = solve_frame(a, a->plan->gaps[k], &offset);
@@ -129,6 +132,11 @@ static mote_status solve(approach *a, mote_frame_buffer *buffer, uint32_t k,
 mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approach_plan *plan,
                                 mote_vec3 *positions)
 {
+    if (mote_body_is_given(&scenario->body[1]))
+        return mote_fail(
+            MOTE_EUNSUPPORTED,
+            "only a body with a field or a rigid one can be moved along, and of body "
+            "1 positions are given; exchange the bodies");
     const double smaller =
         fmin(scenario->body[0].mesh->diagonal, scenario->body[1].mesh->diagonal);
     approach a = {.scenario = scenario,

@@ -115,6 +115,7 @@ void mote_body_motion_free(mote_body_motion *motion)
     mote_curve_destroy(motion->keyed);
     mote_csrbf_fit_destroy(motion->fit);
     mote_player_destroy(motion->player);
+    mote_sequence_destroy(motion->sequence);
     free(motion->waves);
     *motion = (mote_body_motion){0};
 }

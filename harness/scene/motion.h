@@ -7,6 +7,7 @@
 #include "core/base/quaternion.h"
 #include "harness/base/curve.h"
 #include "harness/scene/player.h"
+#include "harness/sequence/sequence.h"
 
 /* Rotation by degrees about an axis (any length > 0), right-handed. */
 mote_quaternion mote_quaternion_about(mote_vec3 axis, double degrees);
@@ -28,9 +29,10 @@ typedef struct mote_body_motion {
     mote_curve *keyed;    /* width 3 J, displacement of each control point; or NULL */
     mote_wave *waves;     /* added to it */
     uint32_t wave_count;
-    uint32_t control_count; /* J; 0: nothing deforms */
-    mote_csrbf_fit *fit;    /* NULL: displacements are the weights (J is 0, or no CSRBF) */
-    mote_player *player;    /* of a character, instead of controls; or NULL */
+    uint32_t control_count;  /* J; 0: nothing deforms */
+    mote_csrbf_fit *fit;     /* NULL: displacements are the weights (J is 0, or no CSRBF) */
+    mote_player *player;     /* of a character, instead of controls; or NULL */
+    mote_sequence *sequence; /* positions in place of a field; owned, or NULL */
     bool has_velocity, has_spin;
     mote_vec3 velocity; /* of the centre at frame 1, absolute, a frame */
     mote_vec3 spin;     /* angular, at frame 1, radians a frame, world axes */

@@ -4,6 +4,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
 #include "harness/scene/motion.h"
+#include "harness/sequence/playback.h"
 
 #include <assert.h>
 #include <math.h>
@@ -16,6 +17,7 @@ struct mote_frame_buffer {
     mote_vec3 *displacement[2]; /* [J], rest axes */
     mote_vec3 *before[2];       /* those of the previous frame given */
     mote_vec3 *solution[2];     /* [J], weights in rest axes */
+    mote_playback *playback[2]; /* of a body without a field, else NULL */
 };
 
 void mote_scenario_destroy(mote_scenario *scenario)
@@ -41,6 +43,8 @@ mote_frame_buffer *mote_frame_buffer_create(const mote_scenario *scenario)
     mote_frame_buffer *made = mote_allocate(1, sizeof *made);
     for (int i = 0; i < 2; ++i) {
         const mote_field *field = scenario->body[i].field;
+        if (scenario->motion->body[i].sequence)
+            made->playback[i] = mote_playback_create(scenario->motion->body[i].sequence);
         if (field->count == 0)
             continue;
         made->weights[i] = mote_allocate((size_t)3 * field->padded, sizeof(double));
@@ -60,6 +64,7 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
         free(buffer->displacement[i]);
         free(buffer->before[i]);
         free(buffer->solution[i]);
+        mote_playback_destroy(buffer->playback[i]);
     }
     free(buffer);
 }
@@ -106,7 +111,7 @@ static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer
 }
 
 static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,
-                        uint32_t previous)
+                        double now, uint32_t previous)
 {
     const mote_body_motion *motion = &scenario->motion->body[i];
     mote_body_state *state = &buffer->frame.body[i];
@@ -117,6 +122,10 @@ static void set_changes(const mote_scenario *scenario, mote_frame_buffer *buffer
     const double before = path_place(scenario, previous);
     const mote_pose pose = mote_motion_pose(motion, before);
     state->pose_changed = memcmp(&pose, &state->pose, sizeof pose) != 0;
+    if (buffer->playback[i]) {
+        state->shape_changed = before != now;
+        return;
+    }
     const uint32_t count = scenario->body[i].field->count;
     if (count > 0)
         mote_motion_displacements(motion, before, buffer->before[i]);
@@ -133,7 +142,10 @@ static const mote_frame *set_frame(const mote_scenario *scenario, mote_frame_buf
         state->pose = mote_motion_pose(&scenario->motion->body[i], place);
         state->vertices = NULL;
         set_weights(scenario, buffer, i, place);
-        set_changes(scenario, buffer, i, previous);
+        set_changes(scenario, buffer, i, place, previous);
+        if (buffer->playback[i] && mote_playback_at(buffer->playback[i], place, &state->pose,
+                                                    &state->vertices) != MOTE_OK)
+            return NULL;
     }
     return &buffer->frame;
 }
@@ -181,12 +193,15 @@ void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *vel
     *spin = motion->has_spin ? motion->spin : rotation_between(&from.rotation, &to.rotation);
 }
 
-static uint64_t hash_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
-                            mote_deform *const deform[2], mote_vec3 *world)
+static mote_status hash_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
+                               mote_deform *const deform[2], mote_vec3 *world,
+                               uint64_t *fingerprint)
 {
     uint64_t hash = MOTE_HASH_START;
     for (uint32_t number = 1; number <= scenario->frames; ++number) {
         const mote_frame *frame = mote_scenario_frame(scenario, buffer, number, 0);
+        if (!frame)
+            return mote_error_status();
         for (int i = 0; i < 2; ++i) {
             mote_deform_all(deform[i], &frame->body[i], world);
             for (uint32_t v = 0; v < scenario->body[i].mesh->vertex_count; ++v) {
@@ -196,7 +211,8 @@ static uint64_t hash_frames(const mote_scenario *scenario, mote_frame_buffer *bu
             }
         }
     }
-    return hash;
+    *fingerprint = hash;
+    return MOTE_OK;
 }
 
 mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint)
@@ -210,7 +226,7 @@ mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *f
     for (int i = 0; i < 2 && status == MOTE_OK; ++i)
         status = mote_deform_create(&scenario->body[i], &deform[i]);
     if (status == MOTE_OK)
-        *fingerprint = hash_frames(scenario, buffer, deform, world);
+        status = hash_frames(scenario, buffer, deform, world, fingerprint);
     mote_deform_destroy(deform[0]);
     mote_deform_destroy(deform[1]);
     mote_frame_buffer_destroy(buffer);

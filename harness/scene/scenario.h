@@ -43,14 +43,17 @@ typedef struct mote_frame_buffer mote_frame_buffer;
 mote_frame_buffer *mote_frame_buffer_create(const mote_scenario *scenario);
 void mote_frame_buffer_destroy(mote_frame_buffer *buffer); /* NULL is allowed */
 
-/* Poses and weights of frame number (1 .. frames); vertices are NULL. shape_changed and
+/* Poses and weights of frame number (1 .. frames), and the vertices of a body whose positions
+   are given (its file's "positions"); vertices are NULL else. NULL, with mote_error_status and
+   mote_error_text, where these positions cannot be read; never in a scenario without them.
+   Where they are the frame's file is read, now. shape_changed and
    pose_changed compare with frame previous, the one that the method was given last (0: none, so
    everything changed). The frame lives in the buffer until the next call. */
 const mote_frame *mote_scenario_frame(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                       uint32_t number, uint32_t previous);
 
 /* The state between frames: place 1 .. frames, any real number, where place k is frame k.
-   Number 0; everything changed. */
+   Number 0; everything changed. NULL likewise. */
 const mote_frame *mote_scenario_frame_at(const mote_scenario *scenario,
                                          mote_frame_buffer *buffer, double place);
 
@@ -61,7 +64,9 @@ void mote_scenario_velocity(const mote_scenario *scenario, int i, mote_vec3 *vel
                             mote_vec3 *spin);
 
 /* 64-bit FNV-1a hash over the bits of every frame's deformed vertices of both bodies, frame by
-   frame, body by body, x y z, in little-endian order. */
+   frame, body by body, x y z, in little-endian order. Errors of mote_scenario_frame, so that
+   whatever positions a scenario names have been read once, and were right, when this is known.
+ */
 mote_status mote_scenario_fingerprint(const mote_scenario *scenario, uint64_t *fingerprint);
 
 #endif

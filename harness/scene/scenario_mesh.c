@@ -85,8 +85,13 @@ static mote_status scale_mesh(mote_vec3 factor, mote_mesh **mesh)
     return MOTE_OK;
 }
 
-/* A mesh that is no character. */
-static mote_status read_plain(const mote_json *body, mote_mesh **mesh)
+mote_status mote_scenario_scale(const mote_json *scale, mote_mesh **mesh, mote_vec3 *factor)
+{
+    const mote_status status = read_scale(scale, factor);
+    return status == MOTE_OK ? mote_json_blame(scale, scale_mesh(*factor, mesh)) : status;
+}
+
+mote_status mote_scenario_read_plain(const mote_json *body, mote_mesh **mesh)
 {
     mote_json letter = mote_json_member(body, "letter");
     mote_json file = mote_json_member(body, "file");
@@ -105,7 +110,7 @@ mote_status mote_scenario_read_mesh(const mote_json *body, mote_mesh **mesh,
     mote_character *moving = NULL;
     mote_status status = mote_scenario_read_character(body, &moving);
     if (status == MOTE_OK && !moving)
-        status = read_plain(body, &made);
+        status = mote_scenario_read_plain(body, &made);
     if (status == MOTE_OK && scale.value)
         status = read_scale(&scale, &factor);
     if (status == MOTE_OK && scale.value)

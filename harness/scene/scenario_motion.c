@@ -134,8 +134,10 @@ static mote_status read_velocities(const mote_json *body, double length,
 mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *mesh,
                                       double length, uint32_t frames, mote_body_motion *motion)
 {
-    motion->centre = mote_mesh_centre(mesh);
     mote_json node = mote_json_member(body, "motion");
+    /* Positions without a motion stay where their files have them. */
+    if (node.value || !motion->sequence)
+        motion->centre = mote_mesh_centre(mesh);
     mote_status status = read_velocities(body, length, motion);
     if (status != MOTE_OK || !node.value)
         return status;

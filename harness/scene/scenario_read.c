@@ -85,6 +85,8 @@ static bool same_mesh(const mote_json *a, const mote_json *b)
 {
     static const char *const keys[] = {"letter", "triangles", "file",
                                        "scale",  "character", "subdivide"};
+    if (mote_json_member(a, "positions").value || mote_json_member(b, "positions").value)
+        return false; /* their meshes keep what others weld */
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         json_t *x = json_object_get(a->value, keys[i]);
         json_t *y = json_object_get(b->value, keys[i]);
@@ -92,6 +94,14 @@ static bool same_mesh(const mote_json *a, const mote_json *b)
             return false;
     }
     return true;
+}
+
+/* The last frame of the path that is shown, rounded up where the pace has fractions. */
+static uint32_t last_frame(const mote_scenario *scenario)
+{
+    const mote_motion *motion = scenario->motion;
+    const double place = motion->start + (scenario->frames - 1.0) * motion->pace;
+    return (uint32_t)fmin(ceil(place), MOTE_FRAMES_MAX);
 }
 
 /* The meshes of both bodies; characters[i] that of body i, or NULL. */
@@ -102,8 +112,12 @@ static mote_status read_meshes(const mote_json body[2], mote_scenario *scenario,
     mote_status status = MOTE_OK;
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         mote_mesh *mesh = NULL;
+        mote_body_motion *motion = &scenario->motion->body[i];
         const bool is_read = i == 0 || !same || mote_json_member(&body[1], "character").value;
-        if (is_read)
+        if (mote_json_member(&body[i], "positions").value)
+            status = mote_scenario_read_positions(&body[i], last_frame(scenario), &mesh,
+                                                  &motion->sequence);
+        else if (is_read)
             status = mote_scenario_read_mesh(&body[i], &mesh, &characters[i]);
         if (i == 1 && same) {
             mote_mesh_destroy(mesh);
@@ -124,11 +138,13 @@ static mote_status read_body(const mote_json *body, size_t i, mote_character *ch
     mote_body_motion *own = &motion->body[i];
     const double place = motion->start + (scenario->frames - 1.0) * motion->pace;
     mote_field *field = NULL;
-    mote_status status = mote_scenario_read_field(body, mesh, character, &field, own);
+    mote_status status = own->sequence
+                             ? mote_field_create_given(&field)
+                             : mote_scenario_read_field(body, mesh, character, &field, own);
     scenario->body[i].field = field;
     if (status == MOTE_OK)
-        status = mote_scenario_read_motion(body, mesh, scenario->length,
-                                           (uint32_t)fmin(ceil(place), MOTE_FRAMES_MAX), own);
+        status =
+            mote_scenario_read_motion(body, mesh, scenario->length, last_frame(scenario), own);
     if (status == MOTE_OK && own->player)
         mote_scenario_set_samples(own->player, motion->start, place, &scenario->body[i]);
     return status;
@@ -143,9 +159,8 @@ static mote_status read_bodies(const mote_json *root, mote_scenario *scenario)
     mote_status status = mote_json_array(&bodies, 2, 2, &size);
     for (size_t i = 0; i < 2 && status == MOTE_OK; ++i) {
         body[i] = mote_json_element(&bodies, i);
-        status = mote_json_object(
-            &body[i],
-            "letter|triangles|file|scale|field|motion|velocity|spin|" MOTE_CHARACTER_KEYS);
+        status = mote_json_object(&body[i], "letter|triangles|file|positions|scale|field|"
+                                            "motion|velocity|spin|" MOTE_CHARACTER_KEYS);
     }
     if (status == MOTE_OK)
         status = read_meshes(body, scenario, characters);

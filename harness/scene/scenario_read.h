@@ -73,6 +73,17 @@ void mote_scenario_set_samples(mote_player *player, double first, double last, m
    name it. The caller frees *path. */
 mote_status mote_scenario_file_path(const mote_json *file, char **path);
 
+/* The same of a mesh that is no character, without "scale". */
+mote_status mote_scenario_read_plain(const mote_json *body, mote_mesh **mesh);
+
+/* Replaces *mesh by itself with each coordinate times *factor, which "scale" says. */
+mote_status mote_scenario_scale(const mote_json *scale, mote_mesh **mesh, mote_vec3 *factor);
+
+/* Reads a body that has "positions": its mesh and its sequence. last: the last frame that is
+   shown. On failure, what was made stays in *mesh and *sequence for the caller to free. */
+mote_status mote_scenario_read_positions(const mote_json *body, uint32_t last, mote_mesh **mesh,
+                                         mote_sequence **sequence);
+
 /* Reads "field" (absent: static) of a body whose mesh is known: the field, and the displacement
    of its control points into motion. Of a character (or NULL), which it takes over: its skin
    and its clip. On failure, what was made stays in *field and *motion for the caller to free.
@@ -81,8 +92,8 @@ mote_status mote_scenario_read_field(const mote_json *body, const mote_mesh *mes
                                      mote_character *character, mote_field **field,
                                      mote_body_motion *motion);
 
-/* Reads "motion" (absent: at rest at the origin). length: L of the pair; frames: the last
-   point of the path that is shown. */
+/* Reads "motion" (absent: at rest at the origin, or where given positions are). length: L of
+   the pair; frames: the last point of the path that is shown. */
 mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *mesh,
                                       double length, uint32_t frames, mote_body_motion *motion);
 

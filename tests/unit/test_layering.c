@@ -32,8 +32,8 @@ typedef struct house {
 static const house houses[] = {
     {"core", {"base", "body", "method", "particle", "certificate", "skin", "stream", "motion"}},
     {"harness",
-     {"base", "process", "engine", "mesh", "scene", "run", "loop", "summary", "race", "figure",
-      "study", "report", "command"}},
+     {"base", "process", "engine", "mesh", "sequence", "scene", "run", "loop", "summary",
+      "race", "figure", "study", "report", "command"}},
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 

@@ -1,0 +1,155 @@
+/* The positions of a Wavefront OBJ, quickly: a sequence has thousands of such files. The
+   grammar is that of mesh_obj.c, whose reader made the mesh of the first one. */
+#include "harness/sequence/frame_file.h"
+
+#include "harness/mesh/mesh_text.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Powers of ten that a double holds exactly. */
+static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                              1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                              1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+#define TENS_MAX 22
+#define EXACT_MAX ((uint64_t)1 << 53)
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+/* strtod. Where digits make an integer below 2^53 and the power of ten is exact, one
+   multiplication or division rounds as strtod does, in a fifth of its time. */
+static double read_number(const char *at, const char **end)
+{
+    const char *p = at + (*at == '-' || *at == '+');
+    uint64_t digits = 0;
+    int count = 0, power = 0;
+    for (; is_digit(*p) && count < 18; ++p, ++count)
+        digits = 10 * digits + (uint64_t)(*p - '0');
+    if (*p == '.') {
+        for (++p; is_digit(*p) && count < 18; ++p, ++count, --power)
+            digits = 10 * digits + (uint64_t)(*p - '0');
+    }
+    if (count > 0 && (*p == 'e' || *p == 'E') &&
+        (is_digit(p[1]) || ((p[1] == '-' || p[1] == '+') && is_digit(p[2])))) {
+        const bool negative = p[1] == '-';
+        int exponent = 0;
+        for (p += is_digit(p[1]) ? 1 : 2; is_digit(*p) && exponent < 1000; ++p)
+            exponent = 10 * exponent + (*p - '0');
+        power += negative ? -exponent : exponent;
+    }
+    const bool ends = *p == ' ' || *p == '\n' || *p == '\r' || *p == '\t' || *p == '\0';
+    if (count == 0 || !ends || digits > EXACT_MAX || power < -TENS_MAX || power > TENS_MAX) {
+        char *stop;
+        const double value = strtod(at, &stop);
+        *end = stop;
+        return value;
+    }
+    const double whole = (double)digits;
+    const double value = power < 0 ? whole / tens[-power] : whole * tens[power];
+    *end = p;
+    return *at == '-' ? -value : value;
+}
+
+static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_frame_file *file)
+{
+    double xyz[3];
+    for (int i = 0; i < 3; ++i) {
+        const char *end;
+        at = mote_mesh_next_word(reader, at);
+        if (mote_is_end(*at))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: a vertex without three numbers; write v x y z",
+                             reader->path, reader->line);
+        xyz[i] = read_number(at, &end);
+        if (end == at || !mote_mesh_word_ends(reader, end))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: a vertex without three numbers; write v x y z",
+                             reader->path, reader->line);
+        if (!isfinite(xyz[i]))
+            return mote_fail(
+                MOTE_EINVAL,
+                "%s:%zu: a coordinate is not a finite double; give a smaller number",
+                reader->path, reader->line);
+        at = end;
+    }
+    if (file->count < file->room)
+        memcpy(file->xyz + 3 * file->count, xyz, sizeof xyz);
+    ++file->count;
+    return MOTE_OK;
+}
+
+/* "7", "7/1", "7//2" or "-1/..." as a vertex from 0; *index is what no file has where it is
+   something else. */
+static const char *read_corner(mote_mesh_reader *reader, const char *at, size_t count,
+                               uint64_t *index)
+{
+    const bool negative = *at == '-';
+    const char *p = at + (negative || *at == '+');
+    uint64_t number = 0;
+    *index = UINT64_MAX;
+    for (; is_digit(*p) && number < UINT32_MAX; ++p)
+        number = 10 * number + (uint64_t)(*p - '0');
+    if (number >= 1 && number <= count && (mote_mesh_word_ends(reader, p) || *p == '/'))
+        *index = negative ? count - number : number - 1;
+    while (!mote_mesh_word_ends(reader, p))
+        ++p;
+    return mote_mesh_next_word(reader, p);
+}
+
+static mote_status read_face(mote_mesh_reader *reader, const char *at, mote_frame_file *file)
+{
+    uint64_t corners = 0, hash = file->topology;
+    at = mote_mesh_next_word(reader, at);
+    for (; !mote_is_end(*at); ++corners) {
+        uint64_t index;
+        at = read_corner(reader, at, file->count, &index);
+        if (index == UINT64_MAX)
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: a face of something else than vertices that came before; "
+                             "write f 1 2 3, with numbers from 1 to %zu",
+                             reader->path, reader->line, file->count);
+        hash = mote_frame_file_hash(hash, index);
+    }
+    file->topology = mote_frame_file_hash(hash, corners);
+    return MOTE_OK;
+}
+
+/* The line after this one and those joined to it. A comment ends with its line, even with a
+   backslash there. */
+static const char *next_line(const char *at, size_t *line)
+{
+    for (;;) {
+        const char *end = strchr(at, '\n');
+        ++*line;
+        if (!end)
+            return at + strlen(at);
+        const bool returned = end > at && end[-1] == '\r';
+        const char *last = end - returned;
+        const bool joined =
+            last > at && last[-1] == '\\' && !memchr(at, '#', (size_t)(last - at));
+        at = end + 1;
+        if (!joined)
+            return at;
+    }
+}
+
+mote_status mote_frame_file_read_obj(const char *path, const char *text, mote_frame_file *file)
+{
+    mote_mesh_reader reader = {.path = path, .continues = true};
+    mote_status status = MOTE_OK;
+    size_t line = 1;
+    for (const char *at = mote_skip_mark(text); *at && status == MOTE_OK;
+         at = next_line(at, &line)) {
+        reader.line = line;
+        const char *word = mote_mesh_next_word(&reader, at);
+        if (word[0] == 'v' && mote_mesh_word_ends(&reader, word + 1))
+            status = read_vertex(&reader, word + 1, file);
+        else if (word[0] == 'f' && mote_mesh_word_ends(&reader, word + 1))
+            status = read_face(&reader, word + 1, file);
+    }
+    return status;
+}
