@@ -14,6 +14,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
+#   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
@@ -61,7 +62,7 @@ SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTION
 .DEFAULT_GOAL := build
 .NOTPARALLEL: # JOBS is for what runs inside a target
 .PHONY: deps build build-tests bench test figures perf-check perf-accept test-perf test-kill \
-    test-statistics oracle tune ingredients ablation certify soak reliability extremes dynamics claims \
+    test-statistics oracle tune ingredients ablation certify streamed soak reliability extremes dynamics claims \
     format lint clean
 
 # packages.txt lists what building and running mote needs, cmake/packages-NAME.txt what deps-NAME adds.
@@ -133,6 +134,11 @@ ablation: build
 certify: program-certify
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
+	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
+
+streamed: program-streamed
+	@mkdir -p $(OUT)
+	@$(BUILD)/tests/streamed --out $(OUT)/streamed.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
 # PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table

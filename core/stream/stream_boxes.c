@@ -87,9 +87,12 @@ mote_status mote_stream_check(const mote_positions *positions, int number)
 
 mote_status mote_stream_finite(mote_stream_body *body, int number)
 {
-    const uint32_t count = body->checked ? 0 : body->tree->mesh->vertex_count;
-    for (uint32_t v = 0; v < count; ++v) {
-        const mote_vec3 p = mote_position_at(&body->positions, v);
+    const uint32_t count = body->tree->mesh->vertex_count;
+    const mote_positions *from = &body->positions;
+    body->checked = body->checked ||
+                    (from->single ? sums_up_float(from, count) : sums_up_double(from, count));
+    for (uint32_t v = 0; !body->checked && v < count; ++v) {
+        const mote_vec3 p = mote_position_at(from, v);
         if (!(isfinite(p.x) && isfinite(p.y) && isfinite(p.z)))
             return mote_fail(MOTE_EINVAL,
                              "body %d: vertex %u is at %g, %g, %g; positions must be finite",

@@ -184,3 +184,30 @@ static bool OF(box_strided)(const mote_stream_body *body, size_t first, size_t e
         finite = OF(box_block)(body, (uint32_t)i, body->positions.stride) && finite;
     return finite;
 }
+
+/* Whether every coordinate is finite; false also where their sum overflows. */
+MOTE_CLONES
+static bool OF(sums_up)(const mote_positions *positions, size_t count)
+{
+    const char *base = positions->data;
+    const size_t stride = positions->stride;
+    const bool packed = stride == 3 * sizeof(SCALAR);
+    const SCALAR *numbers = positions->data;
+    const size_t whole = packed ? 3 * count / (4 * RUN) * (4 * RUN) : 0;
+    SCALAR sum[4 * RUN] = {0};
+    for (size_t i = 0; i < whole; i += 4 * RUN) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < 4 * RUN; ++l)
+            sum[l] += numbers[i + l];
+    }
+    for (size_t i = whole; packed && i < 3 * count; ++i)
+        sum[0] += numbers[i];
+    for (size_t v = 0; !packed && v < count; ++v) {
+        const SCALAR *p = (const SCALAR *)(const void *)(base + v * stride);
+        sum[v % RUN] += (p[0] + p[1]) + p[2];
+    }
+    SCALAR all = 0;
+    for (size_t l = 0; l < 4 * RUN; ++l)
+        all += sum[l];
+    return isfinite(all);
+}

@@ -6,37 +6,96 @@
 
 #define WIDTH MOTE_STREAM_WIDTH
 
-/* Exact positions of a leaf, by coordinate, filled up with copies of the last. */
+/* Points that are turned at a time: as many floats as the widest vectors hold. */
+#define TURN (2 * WIDTH)
+
+/* Positions of a leaf relative to the origin, filled up to a multiple of TURN with copies of
+   the last. The fourth number of each is no coordinate. */
 typedef struct gathered {
-    double x[3][MOTE_CERT_POINTS];
+    float point[MOTE_CERT_POINTS][4];
 } gathered;
 
-static void gather(const mote_stream_body *body, const uint32_t *vertices, uint32_t count,
-                   uint32_t padded, gathered *to)
+/* Four numbers are read and converted at once where the mesh has a vertex after this one. */
+#define GATHER(from, vertex, last, origin, scale, to)                                          \
+    do {                                                                                       \
+        const size_t wanted = (vertex) < (last) ? 4 : 3;                                       \
+        if (wanted == 4) {                                                                     \
+            MOTE_LANE_LOOP                                                                     \
+            for (size_t k = 0; k < 4; ++k)                                                     \
+                (to)[k] = (float)(((double)(from)[k] - (origin)[k]) * (scale));                \
+        } else {                                                                               \
+            for (size_t k = 0; k < 3; ++k)                                                     \
+                (to)[k] = (float)(((double)(from)[k] - (origin)[k]) * (scale));                \
+            (to)[3] = 0;                                                                       \
+        }                                                                                      \
+    } while (0)
+
+MOTE_CLONES
+static void gather(const mote_stream_search *restrict s, const mote_stream_body *restrict body,
+                   const uint32_t *restrict vertices, uint32_t count, gathered *restrict to)
 {
-    for (uint32_t i = 0; i < count; ++i) {
-        const mote_vec3 p = mote_position_at(&body->positions, vertices[i]);
-        to->x[0][i] = p.x;
-        to->x[1][i] = p.y;
-        to->x[2][i] = p.z;
+    const char *data = body->positions.data;
+    const size_t stride = body->positions.stride;
+    const uint32_t last = body->tree->mesh->vertex_count - 1;
+    const double origin[4] = {s->origin.x, s->origin.y, s->origin.z, 0};
+    const double scale = s->scale;
+    for (uint32_t i = 0; !body->positions.single && i < count; ++i) {
+        const void *at = data + vertices[i] * stride;
+        const double *p = at;
+        GATHER(p, vertices[i], last, origin, scale, to->point[i]);
     }
-    for (uint32_t i = count; i < padded; ++i) {
-        for (size_t k = 0; k < 3; ++k)
-            to->x[k][i] = to->x[k][count - 1];
+    for (uint32_t i = 0; body->positions.single && i < count; ++i) {
+        const void *at = data + vertices[i] * stride;
+        const float *p = at;
+        GATHER(p, vertices[i], last, origin, scale, to->point[i]);
+    }
+    for (uint32_t i = count; i % TURN; ++i) {
+        for (size_t k = 0; k < 4; ++k)
+            to->point[i][k] = to->point[count - 1][k];
     }
 }
 
-/* The least and the largest of eight numbers. */
-MOTE_INLINE void fold(float least[WIDTH], float most[WIDTH], float *low, float *high)
+/* The least and the largest of the first 2 * width numbers, in the first `width`. */
+MOTE_INLINE void halve(float *restrict least, float *restrict most, size_t width)
 {
-    for (size_t width = WIDTH / 2; width > 0; width /= 2) {
-        for (size_t l = 0; l < width; ++l) {
-            least[l] = least[l + width] < least[l] ? least[l + width] : least[l];
-            most[l] = most[l + width] > most[l] ? most[l + width] : most[l];
-        }
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < width; ++l) {
+        least[l] = least[l + width] < least[l] ? least[l + width] : least[l];
+        most[l] = most[l + width] > most[l] ? most[l + width] : most[l];
     }
-    *low = least[0];
-    *high = most[0];
+}
+
+/* The points along one axis, with the least and the largest. */
+typedef struct along {
+    float least[TURN], most[TURN];
+} along;
+
+MOTE_INLINE void start(along *a)
+{
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < TURN; ++l) {
+        a->least[l] = HUGE_VALF;
+        a->most[l] = -HUGE_VALF;
+    }
+}
+
+MOTE_INLINE void finish(along *a, float *low, float *high)
+{
+    halve(a->least, a->most, 8);
+    halve(a->least, a->most, 4);
+    halve(a->least, a->most, 2);
+    *low = a->least[1] < a->least[0] ? a->least[1] : a->least[0];
+    *high = a->most[1] > a->most[0] ? a->most[1] : a->most[0];
+}
+
+/* One coordinate of the positions. */
+MOTE_INLINE void pick(const gathered *restrict from, size_t count, size_t k, float *restrict to)
+{
+    for (size_t g = 0; g < count; g += TURN) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < TURN; ++l)
+            to[g + l] = from->point[g + l][k];
+    }
 }
 
 /* Turns the positions into the gap's axes, and boxes them. */
@@ -44,28 +103,27 @@ MOTE_CLONES
 static void turn_leaf(const mote_stream_search *restrict s, const gathered *restrict from,
                       mote_stream_slot *restrict to)
 {
-    const double origin[3] = {s->origin.x, s->origin.y, s->origin.z};
+    const size_t count = to->groups * WIDTH;
+    float x[MOTE_CERT_POINTS], y[MOTE_CERT_POINTS], z[MOTE_CERT_POINTS];
+    pick(from, count, 0, x);
+    pick(from, count, 1, y);
+    pick(from, count, 2, z);
     for (size_t r = 0; r < 3; ++r) {
-        const double x = s->axes[r][0] * s->scale;
-        const double y = s->axes[r][1] * s->scale;
-        const double z = s->axes[r][2] * s->scale;
-        float least[WIDTH], most[WIDTH];
-        for (size_t l = 0; l < WIDTH; ++l) {
-            least[l] = HUGE_VALF;
-            most[l] = -HUGE_VALF;
-        }
-        for (size_t g = 0; g < to->groups * WIDTH; g += WIDTH) {
+        const float ax = s->turn[r][0];
+        const float ay = s->turn[r][1];
+        const float az = s->turn[r][2];
+        along a;
+        start(&a);
+        for (size_t g = 0; g < count; g += TURN) {
             MOTE_LANE_LOOP
-            for (size_t l = 0; l < WIDTH; ++l) {
-                const float p = (float)((from->x[0][g + l] - origin[0]) * x +
-                                        (from->x[1][g + l] - origin[1]) * y +
-                                        (from->x[2][g + l] - origin[2]) * z);
+            for (size_t l = 0; l < TURN; ++l) {
+                const float p = x[g + l] * ax + y[g + l] * ay + z[g + l] * az;
                 to->x[r][g + l] = p;
-                least[l] = p < least[l] ? p : least[l];
-                most[l] = p > most[l] ? p : most[l];
+                a.least[l] = p < a.least[l] ? p : a.least[l];
+                a.most[l] = p > a.most[l] ? p : a.most[l];
             }
         }
-        fold(least, most, &to->low[r], &to->high[r]);
+        finish(&a, &to->low[r], &to->high[r]);
     }
 }
 
@@ -83,7 +141,7 @@ mote_stream_slot *mote_stream_leaf(mote_stream_search *s, int side, uint32_t lea
     slot->reach_stamp = 0;
     slot->groups = (count + WIDTH - 1) / WIDTH;
     gathered points;
-    gather(of->body, tree->leaf_vertices + first, count, slot->groups * WIDTH, &points);
+    gather(s, of->body, tree->leaf_vertices + first, count, &points);
     turn_leaf(s, &points, slot);
     s->counters.positions += count;
     return slot;

@@ -15,8 +15,8 @@
 /* Coordinates of a query are below this. */
 #define FARTHEST 0x1p60
 
-/* u B 16, and the least B that is reckoned with: see stream_state.h. */
-#define MARGIN 0x1p-20
+/* 32 u, and the least B that is reckoned with: see stream_state.h. */
+#define MARGIN 0x1p-19
 #define LEAST_BOUND 0x1p-6
 
 /* Positions kept while sliding, where they are not an array of vectors. */
@@ -166,7 +166,10 @@ static void set_axes(mote_stream_search *s)
     const mote_vec3 v = perpendicular(u);
     const mote_vec3 w = mote_cross(u, v);
     const double rows[3][3] = {{u.x, u.y, u.z}, {v.x, v.y, v.z}, {w.x, w.y, w.z}};
-    memcpy(s->axes, rows, sizeof rows);
+    for (size_t r = 0; r < 3; ++r) {
+        for (size_t k = 0; k < 3; ++k)
+            s->turn[r][k] = (float)rows[r][k];
+    }
 }
 
 /* Pairs whose bound is at least the limit are skipped, so that the distance is proven to 1e-13

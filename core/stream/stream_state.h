@@ -8,16 +8,18 @@
    - A box of a group has numbers that are wrong by u B each, and u B in all three together
      (stream_boxes.c); moved to the other body's origin, by 2 u B more in each: the vector from
      one box to another is wrong by at most 2 u B + 4 sqrt(3) u B < 9 u B.
-   - A leaf's points are computed in double precision from exact differences, with errors of
-     2^-50 B, and rounded to floats, by which each point moves by at most u B: the vector from
-     one leaf's box, or point, to another's is wrong by at most 3 u B.
-   - Sums over the points along a direction w: 3 u B |w| for each leaf (Cauchy-Schwarz on the
-     absolute values), and 2 u B |w| for their sum: with the points' own, 12 u B |w|.
-   margin is 16 u B: boxes are tested against the limit plus margin, points with loose = margin
-   in each coordinate, since sum |w_k| >= |w|. Rounding of the last operations of each test is
-   relative, and covered by factors of 1 + 2^-20 (of certificate_hulls.h: 1 + 2^-18). B is taken
-   to be at least 2^-6, so that no square that decides is subnormal, and a query with B of 2^60
-   or more is refused, so that none overflows. */
+   - A leaf's points are exact differences rounded to floats, which moves each by at most u B,
+     and turned in single precision: three products and two sums a coordinate, wrong by at most
+     3 u B each (Cauchy-Schwarz on the absolute values). The vector between two leaves' boxes,
+   or points, is wrong by at most 2 (1 + 3 sqrt(3)) u B < 13 u B. The axes are rounded too,
+   which changes the length of a turned vector by at most 2 u of itself.
+   - Sums over the points along a direction w: 3 u B |w| for each leaf, and 2 u B |w| for their
+     sum: with the points' own, 21 u B |w|.
+   margin is 32 u B: boxes are tested against the limit plus margin, points with loose = margin
+   in each coordinate, since sum |w_k| >= |w|. Rounding of the axes and of the last operations
+   of each test is relative, and covered by factors of 1 + 2^-20 (of certificate_hulls.h: 1 +
+   2^-18). B is taken to be at least 2^-6, so that no square that decides is subnormal, and a
+   query with B of 2^60 or more is refused, so that none overflows. */
 #ifndef MOTE_CORE_STREAM_STATE_H
 #define MOTE_CORE_STREAM_STATE_H
 
@@ -80,8 +82,8 @@ typedef struct mote_stream_search {
     double slack;  /* absolute */
     double scale;
     mote_vec3 origin;
-    double axes[3][3]; /* unit vectors, by row */
-    mote_vec3 toward;  /* the first as it was set last: from witness 0 to witness 1 */
+    float turn[3][3]; /* the gap's axes, by row: unit vectors, rounded */
+    mote_vec3 toward; /* a unit vector from witness 0 to witness 1, about the first axis */
     double margin;
     double noise;  /* rounding error of coordinates in double precision */
     double limit;  /* to be proven, in the query's coordinates: no pair is nearer */
