@@ -23,6 +23,9 @@
 #   make dynamics [PROFILE=quick|full] [OUT=DIR]     do n particles let a body pass? the closed loop
 #   make bodies [PROFILE=quick|full] [OUT=DIR]       several bodies: time, memory, missed contacts
 #   make perf-check                                 measure again, compare with results/reference
+#   make perf-counts                                the same without times: counts, bytes, accuracy
+#   make perf-ab [BASE=REVISION]                    two revisions side by side: is this one slower?
+#   make perf-study [RACES=200] [PLANTED=40] [OUT=]  how often perf-ab's verdicts are wrong; hours
 #   make test-perf                                  plant changes: are they caught, and nothing else?
 #   make test-kill                                  200 random kill -9 of a sweep: is a cell lost?
 #   make test-statistics                            what intervals cover on simulated runs
@@ -197,6 +200,24 @@ dynamics: build
 perf-check: build deps-valgrind
 	@harness/scripts/perf.sh check $(MOTE) results/perf-check
 
+.PHONY: perf-counts perf-ab perf-study
+perf-counts: build deps-valgrind
+	@harness/scripts/perf.sh counts $(MOTE) results/perf-counts
+
+# BASE: by default the commit of the accepted reference. CHANGED=1: answers may differ.
+BASE ?=
+CHANGED ?=
+perf-ab: build deps-valgrind
+	@CHANGED=$(CHANGED) harness/scripts/perf_ab.sh $(BUILD) $(call out,perf-ab) $(call quoted,$(BASE))
+
+# As many races of a build against itself, and of each planted slowdown; hours for all, and what was
+# raced stays in OUT/races.csv. RECORD=1: into results/reference.
+RACES ?= 200
+PLANTED ?= 40
+perf-study: program-race_study program-race_planted
+	@harness/scripts/perf_study.sh $(BUILD) $(call out,perf-study) $(RACES) $(PLANTED) \
+	    $(if $(RECORD),record)
+
 test-perf: program-perf_planted
 	@$(BUILD)/tests/perf_planted results/test-perf
 
@@ -300,7 +321,7 @@ valgrind: program-metamorphic deps-valgrind
 	@$(VALGRIND) $(BUILD)/tests/metamorphic --queries 200 > /dev/null
 
 clean:
-	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz
+	rm -rf build build-asan build-debug build-tsan build-coverage build-fuzz build-perf-ab
 
 .PHONY: test-library test-stranger test-cluster test-exports install
 

@@ -1,4 +1,6 @@
 #!/bin/sh
+# perf.sh counts MOTE OUT: the same without times, which perf_ab.sh compares: counts, bytes, accuracy and
+#   instructions alone are judged.
 # perf.sh check MOTE OUT: measures a fixed set into OUT and compares it with results/reference. Fails
 #   only where something is worse twice, measured anew, and names what stays undecided. perf.sh
 # accept MOTE OUT WHY: measures it and makes it the reference, with a line in the history.
@@ -7,6 +9,12 @@ action=$1
 mote=$2
 out=$3
 reference=results/reference
+replicates=30
+floor=0.05
+if [ "$action" = counts ]; then
+    replicates=3
+    floor=10 # a time would have to be eleven times as long
+fi
 
 ours="--method particle-paper:start=fps --method aabb-tree --method particle --method certified"
 measure() {
@@ -14,7 +22,7 @@ measure() {
     # One seed: replicates differ by the machine only.
     for set in 'ww --frames 950-1149' 'mv --frames 300-499'; do
         # shellcheck disable=SC2086
-        "$mote" run $set --replicates 30 --seed 1 --fixed-seed --stride 1 --particles 5,16 \
+        "$mote" run $set --replicates "$replicates" --seed 1 --fixed-seed --stride 1 --particles 5,16 \
             --method fcl-aabb $ours --out "$out" >/dev/null
     done
     if command -v valgrind >/dev/null; then
@@ -28,21 +36,21 @@ measure() {
 # Exit code of the comparison.
 compare() {
     status=0
-    "$mote" compare "$reference" "$out" --floor 0.05 || status=$?
+    "$mote" compare "$reference" "$out" --floor "$floor" || status=$?
 }
 
 measure
 case $action in
-check)
+check | counts)
     compare
     if [ "$status" = 1 ]; then
-        echo "perf-check: something is worse: measured once more, to be sure" >&2
+        echo "perf-$action: something is worse: measured once more, to be sure" >&2
         measure
         compare
     fi
     case $status in
     0) ;;
-    3) echo "perf-check: warning: undecided, see above" >&2 ;;
+    3) echo "perf-$action: warning: undecided, see above" >&2 ;;
     *) exit "$status" ;;
     esac
     ;;

@@ -1,29 +1,35 @@
 #!/bin/sh
-# relink.sh BUILD COUNT OUT: links the program of a build folder COUNT times with its object files in
-# random orders, into OUT/mote-NN. Where functions lie in memory changes their times by about a per
+# relink.sh BUILD COUNT OUT [PROGRAM]: links a program of a build folder (by default mote; tests/NAME for
+# one of the tests') COUNT times with its object files in random orders, into OUT/PROGRAM-NN. Where functions lie in memory changes their times by about a per
 # cent, so that two builds can only be compared over several such orders (mote race A B, each a folder).
 # What is there and newer than the build is kept.
 set -eu
 build=$1
 count=$2
+program=${4:-mote}
+name=$(basename "$program")
 mkdir -p "$3"
 out=$(cd "$3" && pwd)
 cd "$build"
+built=$PWD/$program
 
-# The command that makes a file: from CMake's makefiles, or from Ninja.
+# The command that makes the file $1 of the target $3 in the folder $2: from CMake's makefiles, which run
+# it there, or from Ninja, which runs it here.
 command_of() {
-    if [ -f "CMakeFiles/$2.dir/link.txt" ]; then
-        head -1 "CMakeFiles/$2.dir/link.txt"
+    if [ -f "$2/CMakeFiles/$3.dir/link.txt" ]; then
+        head -1 "$2/CMakeFiles/$3.dir/link.txt"
     else
         ninja -t commands "$1" | tail -1
     fi
 }
 
 libraries="mote_harness mote_baselines mote_datasets mote_core"
-link=$(command_of mote mote | tr ' ' '\n' | grep -vx -e ':' -e '&&' -e '.*libmote_[a-z]*\.a')
+place=$(dirname "$program")
+link=$(command_of "$program" "$place" "$name" | tr ' ' '\n' | grep -vx -e ':' -e '&&' -e '.*libmote_[a-z]*\.a')
 objects=$(for library in $libraries; do
-    command_of "lib$library.a" "$library" | tr ' ' '\n' | grep '\.o$'
+    command_of "lib$library.a" . "$library" | tr ' ' '\n' | grep '\.o$' | sed "s|^|$PWD/|"
 done)
+[ ! -f "$place/CMakeFiles/$name.dir/link.txt" ] || cd "$place"
 
 # $1: a seed. The order depends on nothing else.
 shuffled() {
@@ -35,16 +41,16 @@ shuffled() {
 relink() {
     set -- "$1" "$(printf '%s\n' "$link" | awk '
         skip { skip = 0; next } $0 == "-o" { skip = 1; next } { print }')" "$(shuffled "$1")"
-    # shellcheck disable=SC2086
+    # shellcheck disable=SC2046,SC2086
     set -- "$1" $(printf '%s\n' "$2" | sed -n '1p') $3 $(printf '%s\n' "$2" | sed '1d')
     number=$(printf '%02d' "$1")
     shift
     "$@" -o "$out/.linking-$number"
-    mv "$out/.linking-$number" "$out/mote-$number"
+    mv "$out/.linking-$number" "$out/$name-$number"
 }
 
 is_kept() {
-    [ -f "$out/mote-$1" ] && [ "$out/mote-$1" -nt mote ]
+    [ -n "$(find "$out/$name-$1" -newer "$built" 2>/dev/null)" ]
 }
 
 for seed in $(seq "$count"); do

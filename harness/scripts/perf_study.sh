@@ -1,0 +1,17 @@
+#!/bin/sh
+# perf_study.sh BUILD OUT RACES PLANTED [record]: how often the verdicts of races are wrong (make perf-study).
+# What stands in OUT/races.csv is not raced again. record: into results/reference.
+set -eu
+build=$1
+out=$2
+mkdir -p "$out"
+harness/scripts/relink.sh "$build" 12 "$out/programs" tests/race_planted
+"$build/tests/race_study" run "$out/programs" "$out" "$3" "$4"
+if [ "${5:-}" = record ]; then
+    cp "$out/races.csv" results/reference/races.csv
+    out=results/reference
+fi
+"$build/tests/race_study" table "$out/races.csv" "$out/power" | tee "$out/power.md"
+grep -q '^[0-9]' "$out/power.dat" || exit 0 # nothing planted yet
+gnuplot -c plots/draw.gp plots power "$out/power" "How small a slowdown a race finds" "" svg
+[ "$out" != results/reference ] || rm "$out/power.dat"

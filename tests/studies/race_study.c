@@ -1,0 +1,368 @@
+/* make perf-study: how often the verdicts of a race are wrong, and how long they take.
+
+   race_study run PROGRAMS OUT RACES PLANTED   races builds of race_planted (PROGRAMS: a folder
+   of them, linked in different orders) against each other: RACES times unchanged, and PLANTED
+   times with each slowdown; each on the machine as it is and beside a compiler on the other
+   core. A line a race is added to OUT/races.csv; what has its line is not raced again.
+   race_study table RACES.csv BASE             prints the shares as a table, and writes BASE.dat
+   for plots/power.gp */
+#include "harness/base/clock.h"
+#include "harness/base/file.h"
+#include "harness/base/memory.h"
+#include "harness/base/options.h"
+#include "harness/process/child.h"
+#include "harness/process/load.h"
+#include "harness/process/spawn.h"
+#include "harness/race/race.h"
+#include "harness/run/cell_process.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define HEADER                                                                                 \
+    "place,plant,per_cent,number,slower,faster,same,undecided,named_alone,ratio,ci_low,"       \
+    "ci_high,pairs,seconds,busy_cores\n"
+#define FILE_LIMIT ((size_t)1 << 26)
+#define UNCHANGED_A_ROUND 5 /* races for each planted one of a kind: 200 and 40 */
+
+static const char *const places[] = {"idle", "compiler"};
+#define PLACES 2
+static const int sizes[] = {1, 2, 3, 5, 10}; /* per cent */
+#define SIZES (sizeof sizes / sizeof sizes[0])
+
+/* What is slowed down, and the row that has to be named. */
+typedef struct kind {
+    const char *name, *plant;
+    size_t row;
+    bool slows_all; /* the other row, too */
+} kind;
+static const kind kinds[] = {{"certified query", "slow:certified", 0, false},
+                             {"particle sweep", "slow:particle-paper", 1, false},
+                             {"clock path", "clock", 0, true}};
+#define KINDS (sizeof kinds / sizeof kinds[0])
+
+static const mote_race_cell cells[] = {
+    {.scenario = "ww", .method = "certified", .first = 950, .last = 1149, .seed = 1},
+    {.scenario = "ww",
+     .method = "particle-paper:start=fps,n=5",
+     .first = 950,
+     .last = 1149,
+     .seed = 1}};
+#define CELLS (sizeof cells / sizeof cells[0])
+/* A frame of the certified query on ww takes this long where it was tried: what a share of the
+   clock path is a share of. The ratio that a race finds stands beside it. */
+#define CERTIFIED_NS 10200.0
+
+typedef struct study {
+    const char *programs, *out;
+    mote_text lines; /* of races.csv */
+    uint64_t start;
+} study;
+
+/* A folder of wrappers that run the programs with something planted; returns its path. */
+static mote_status make_racers(const study *s, const char *name, const char *plant,
+                               mote_race_builds *builds)
+{
+    mote_race_builds programs;
+    mote_status status = mote_race_builds_find(s->programs, &programs);
+    char *folder = mote_format("%s/racers/%s", s->out, name);
+    if (status == MOTE_OK)
+        status = mote_directory_make(folder);
+    for (size_t i = 0; status == MOTE_OK && i < programs.count; ++i) {
+        char *path = mote_format("%s/%02zu", folder, i);
+        char *text =
+            mote_format("#!/bin/sh\nMOTE_PLANT=%s exec '%s' \"$@\"\n", plant, programs.path[i]);
+        status = mote_file_write(path, text, strlen(text));
+        if (status == MOTE_OK && chmod(path, 0755) != 0)
+            status = mote_fail(MOTE_EIO, "%s: cannot be made a program", path);
+        free(path);
+        free(text);
+    }
+    if (status == MOTE_OK)
+        status = mote_race_builds_find(folder, builds);
+    free(folder);
+    mote_race_builds_free(&programs);
+    return status;
+}
+
+/* What the compiler does on the other core, again and again. */
+static mote_status compile(void *context, int output)
+{
+    static const char *const argv[] = {"cc",
+                                       "-std=c17",
+                                       "-O3",
+                                       "-D_POSIX_C_SOURCE=200809L",
+                                       "-I" MOTE_SOURCE_DIR,
+                                       "-c",
+                                       "-o",
+                                       "/dev/null",
+                                       MOTE_SOURCE_DIR "/core/certificate/certificate_query.c",
+                                       NULL};
+    (void)context;
+    (void)output;
+    mote_status status = MOTE_OK;
+    if (mote_process_core() > 0)
+        mote_process_pin(mote_process_core() - 1);
+    while (status == MOTE_OK)
+        status = mote_spawn_quiet(argv, NULL);
+    return status;
+}
+
+/* The line of a race: key, verdicts of both rows, the named row's ratio. */
+static void add_line(study *s, const char *key, const mote_race *race, size_t named,
+                     double busy)
+{
+    size_t verdicts[4] = {0};
+    for (size_t i = 0; i < race->count; ++i)
+        ++verdicts[race->rows[i].verdict];
+    const mote_race_row *row = &race->rows[named];
+    const bool alone =
+        row->verdict == MOTE_VERDICT_SLOWER && verdicts[MOTE_VERDICT_SLOWER] == 1;
+    mote_text_add(&s->lines, "%s,%zu,%zu,%zu,%zu,%d,%.5f,%.5f,%.5f,%zu,%.1f,%.2f\n", key,
+                  verdicts[MOTE_VERDICT_SLOWER], verdicts[MOTE_VERDICT_FASTER],
+                  verdicts[MOTE_VERDICT_SAME], verdicts[MOTE_VERDICT_UNDECIDED],
+                  row->verdict == MOTE_VERDICT_SLOWER ? 1 + alone : 0, row->ratio,
+                  row->interval.low, row->interval.high, race->pairs, race->seconds, busy);
+}
+
+/* Races once, unless its line is there. size 0: unchanged. */
+static mote_status race_once(study *s, size_t place, const kind *k, int size, uint64_t number)
+{
+    char *key =
+        mote_format("%s,%s,%d,%" PRIu64, places[place], size ? k->name : "none", size, number);
+    char *begins = mote_format("\n%s,", key);
+    char *plant = strcmp(k->plant, "clock") == 0
+                      ? mote_format("clock:%.0f", 0.01 * size * CERTIFIED_NS)
+                      : mote_format("%s:%.3f", k->plant, 0.01 * size);
+    char *none = mote_format("%s:0", k->plant);
+    const bool known = strstr(s->lines.data, begins) != NULL;
+    mote_race_builds builds[MOTE_RACE_SIDES] = {{.count = 0}, {.count = 0}};
+    mote_child compiler = {.pid = 0};
+    mote_race race;
+    mote_status status = MOTE_OK;
+    if (!known)
+        status = make_racers(s, "a", none, &builds[0]);
+    if (!known && status == MOTE_OK)
+        status = make_racers(s, "b", plant, &builds[1]);
+    const double busy = known ? 0 : mote_busy_cores();
+    if (!known && place == 1 && status == MOTE_OK)
+        status = mote_child_start(compile, NULL, (mote_child_limits){.seconds = 0}, &compiler);
+    const mote_race_options options = {.builds = {&builds[0], &builds[1]},
+                                       .cells = cells,
+                                       .cell_count = CELLS,
+                                       .until = 0.01,
+                                       .real = 0.01,
+                                       .budget = 300,
+                                       .timeout = 120,
+                                       .seed = mote_clock_ns()};
+    if (!known && status == MOTE_OK)
+        status = mote_race_run(&options, &race);
+    mote_child_stop(&compiler, 1);
+    mote_child_release(&compiler);
+    if (!known && status == MOTE_OK) {
+        char *path = mote_format("%s/races.csv", s->out);
+        add_line(s, key, &race, k->row, busy);
+        status = mote_file_write(path, s->lines.data, s->lines.size);
+        (void)printf("%s: %s %.4f, %zu pairs, %.0f s\n", key,
+                     mote_verdict_names[race.rows[k->row].verdict], race.rows[k->row].ratio,
+                     race.pairs, race.seconds);
+        (void)fflush(stdout);
+        free(path);
+        mote_race_free(&race);
+    }
+    for (int side = 0; side < MOTE_RACE_SIDES; ++side)
+        mote_race_builds_free(&builds[side]);
+    free(key);
+    free(begins);
+    free(plant);
+    free(none);
+    return status;
+}
+
+/* In rounds, so that a study that is stopped has as much of everything. */
+static mote_status run_rounds(study *s, uint64_t races, uint64_t planted)
+{
+    mote_status status = MOTE_OK;
+    const uint64_t enough = (races + UNCHANGED_A_ROUND - 1) / UNCHANGED_A_ROUND;
+    const uint64_t rounds = planted > enough ? planted : enough;
+    for (uint64_t round = 0; round < rounds; ++round) {
+        for (size_t place = 0; place < PLACES; ++place) {
+            for (uint64_t i = round * UNCHANGED_A_ROUND;
+                 status == MOTE_OK && i < (round + 1) * UNCHANGED_A_ROUND && i < races; ++i)
+                status = race_once(s, place, &kinds[0], 0, i + 1);
+            for (size_t k = 0; round < planted && k < KINDS * SIZES && status == MOTE_OK; ++k)
+                status = race_once(s, place, &kinds[k / SIZES], sizes[k % SIZES], round + 1);
+        }
+    }
+    return status;
+}
+
+static mote_status read_lines(const char *path, mote_text *lines)
+{
+    char *data = NULL;
+    size_t size = 0;
+    if (access(path, F_OK) != 0) {
+        mote_text_add(lines, HEADER);
+        return MOTE_OK;
+    }
+    mote_status status = mote_file_read(path, FILE_LIMIT, &data, &size);
+    if (status == MOTE_OK && strncmp(data, HEADER, strlen(HEADER)) != 0)
+        status = mote_fail(MOTE_EINVAL, "%s:1: not the header of races", path);
+    if (status == MOTE_OK)
+        mote_text_add(lines, "%s", data);
+    free(data);
+    return status;
+}
+
+static mote_status run(const char *programs, const char *out, uint64_t races, uint64_t planted)
+{
+    study s = {.programs = programs, .out = out};
+    char *path = mote_format("%s/races.csv", out);
+    mote_status status = mote_directory_make(out);
+    mote_child_heed_signals();
+    if (status == MOTE_OK)
+        status = read_lines(path, &s.lines);
+    if (status == MOTE_OK)
+        status = run_rounds(&s, races, planted);
+    free(path);
+    free(s.lines.data);
+    return status;
+}
+
+/* The races of one kind in one place. */
+typedef struct tally {
+    size_t races, slower, alone, changed, same;
+    double *seconds, *ratios;
+} tally;
+
+static tally count_races(const char *lines, const char *place, const char *plant, int size)
+{
+    tally t = {.races = 0};
+    size_t most = 0;
+    for (const char *c = lines; *c; ++c)
+        most += *c == '\n';
+    t.seconds = mote_allocate(most, sizeof *t.seconds);
+    t.ratios = mote_allocate(most, sizeof *t.ratios);
+    char *begins = mote_format("\n%s,%s,%d,", place, plant, size);
+    for (const char *at = lines; (at = strstr(at, begins)); ++at) {
+        size_t slower, faster, same, undecided, named, number;
+        double ratio, seconds;
+        if (sscanf(at + strlen(begins), "%zu,%zu,%zu,%zu,%zu,%zu,%lf,%*f,%*f,%*u,%lf", &number,
+                   &slower, &faster, &same, &undecided, &named, &ratio, &seconds) != 8)
+            continue;
+        t.seconds[t.races] = seconds;
+        t.ratios[t.races++] = ratio;
+        t.slower += named > 0;
+        t.alone += named > 1;
+        t.changed += slower + faster > 0;
+        t.same += same == CELLS;
+    }
+    free(begins);
+    return t;
+}
+
+static void print_share(size_t successes, size_t trials)
+{
+    const mote_confidence c = mote_statistics_share_interval(successes, trials);
+    if (trials == 0)
+        (void)printf(" - |");
+    else
+        (void)printf(" %zu of %zu (%.0f to %.0f %%) |", successes, trials, 100 * c.low,
+                     100 * c.high);
+}
+
+static void print_seconds(const tally *t)
+{
+    if (t->races == 0)
+        (void)printf(" - |");
+    else
+        (void)printf(" %.0f s |", mote_statistics_median(t->seconds, t->races));
+}
+
+static void print_unchanged(const char *lines)
+{
+    (void)printf("| | races | called faster or slower | both rows called same | median time |\n"
+                 "| --- | ---: | --- | --- | ---: |\n");
+    for (size_t place = 0; place < PLACES; ++place) {
+        tally t = count_races(lines, places[place], "none", 0);
+        (void)printf("| unchanged, %s | %zu |", place ? "beside a compiler" : "idle", t.races);
+        print_share(t.changed, t.races);
+        print_share(t.same, t.races);
+        print_seconds(&t);
+        (void)printf("\n");
+        free(t.seconds);
+        free(t.ratios);
+    }
+}
+
+/* A line of the table and of the figure's block: size, share, its interval, per cent. */
+static void print_planted(const char *lines, size_t place, const kind *k, int size,
+                          mote_text *data)
+{
+    tally t = count_races(lines, places[place], k->name, size);
+    const mote_confidence c = mote_statistics_share_interval(t.slower, t.races);
+    (void)printf("| %s, %s | %d %% |", k->name, place ? "beside a compiler" : "idle", size);
+    print_share(t.slower, t.races);
+    if (k->slows_all)
+        (void)printf(" slows both |");
+    else
+        print_share(t.alone, t.races);
+    print_seconds(&t);
+    if (t.races > 0) {
+        (void)printf(" %+.1f %% |\n", 100 * (mote_statistics_median(t.ratios, t.races) - 1));
+        mote_text_add(data, "%d %.2f %.2f %.2f\n", size,
+                      100 * (double)t.slower / (double)t.races, 100 * c.low, 100 * c.high);
+    } else {
+        (void)printf(" - |\n");
+    }
+    free(t.seconds);
+    free(t.ratios);
+}
+
+static mote_status print_table(const char *path, const char *base)
+{
+    mote_text lines = {0}, data = {0};
+    mote_status status = read_lines(path, &lines);
+    if (status != MOTE_OK)
+        return status;
+    print_unchanged(lines.data);
+    (void)printf("\n| planted | size | called slower | and nothing else was | median time | "
+                 "measured |\n| --- | ---: | --- | --- | ---: | ---: |\n");
+    for (size_t place = 0; place < PLACES; ++place) {
+        for (size_t k = 0; k < KINDS; ++k) {
+            mote_text_add(&data, "\"%s, %s\"\n", kinds[k].name,
+                          place ? "beside a compiler" : "idle");
+            for (size_t i = 0; i < SIZES; ++i)
+                print_planted(lines.data, place, &kinds[k], sizes[i], &data);
+            mote_text_add(&data, "\n\n");
+        }
+    }
+    char *file = mote_format("%s.dat", base);
+    status = mote_file_write(file, data.data, data.size);
+    free(file);
+    free(lines.data);
+    free(data.data);
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    uint64_t races, planted;
+    mote_status status;
+    if (argc == 6 && strcmp(argv[1], "run") == 0 &&
+        mote_read_unsigned(argv[4], 0, 100000, &races) &&
+        mote_read_unsigned(argv[5], 0, 100000, &planted)) {
+        status = run(argv[2], argv[3], races, planted);
+    } else if (argc == 4 && strcmp(argv[1], "table") == 0) {
+        status = print_table(argv[2], argv[3]);
+    } else {
+        (void)fprintf(stderr, "usage: race_study run PROGRAMS OUT RACES PLANTED\n"
+                              "       race_study table RACES.csv BASE\n");
+        return MOTE_EXIT_USAGE;
+    }
+    return status == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
+}
