@@ -80,6 +80,8 @@ static json_t *row_data(const mote_summary_row *row)
     json_t *data = mote_summary_row_json(row);
     for (size_t k = 0; k < sizeof unused / sizeof unused[0]; ++k)
         (void)json_object_del(data, unused[k]);
+    set(data, "right", json_boolean(mote_summary_row_right(row)));
+    set(data, "contacts_right", json_boolean(mote_summary_contacts_right(row)));
     set(data, "notes", notes_data(row));
     set(data, "cells", cells_data(row));
     return data;
@@ -95,20 +97,25 @@ static void set_rows(const mote_report *report, json_t *data)
     for (size_t first = 0; first < report->summary.count;) {
         const size_t end = mote_report_block_end(report, first);
         const mote_report_glance glance = mote_report_block_glance(report, first, end);
-        append(blocks, json_pack("{s:I, s:I, s:o, s:o}", "first", (json_int_t)first, "end",
-                                 (json_int_t)end, "right", index_or_null(glance.right),
-                                 "fastest", index_or_null(glance.fastest)));
+        char *heading = mote_table_heading(&report->summary, first);
+        append(blocks, json_pack("{s:s, s:I, s:I, s:o, s:o}", "heading", heading, "first",
+                                 (json_int_t)first, "end", (json_int_t)end, "right",
+                                 index_or_null(glance.right), "fastest",
+                                 index_or_null(glance.fastest)));
+        free(heading);
         for (size_t i = first; i < end; ++i)
             append(rows, row_data(mote_report_row(report, i)));
         first = end;
     }
     set(data, "columns", columns);
+    set(data, "time", column_data(mote_column_find("total_ns", "median")));
+    set(data, "error", column_data(mote_column_find("error", "p99")));
+    set(data, "best", column_data(mote_column_find("ratio_best", "value")));
     set(data, "blocks", blocks);
     set(data, "rows", rows);
     const double floor = report->summary.noise_floor;
-    if (report->has_summary && floor == floor)
+    if (floor == floor && report->has_summary)
         set(data, "noise_floor", json_real(floor));
-    set(data, "machines_differ", json_boolean(mote_summary_machines_differ(&report->summary)));
 }
 
 /* The drawing of a figure, packed; an animation is linked and not shown. */

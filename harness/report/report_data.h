@@ -5,16 +5,22 @@
 
 #include "harness/report/report.h"
 
-/* {"scenarios": [[name, purpose]], "commands": [[when, command]], "machine": [[key, value]],
-    "damaged": [text], "missing": [text], "noise_floor", "machines_differ",
-    "columns": [as mote_column_json, with "path": [key...], and "extra": whether the column is
-                shown with all columns only],
-    "blocks": [{"first", "end", "right", "fastest"}]: rows first .. end - 1 are one table,
-    "rows": [a row of summary.json, with "notes": [text] and "cells": [[replicate, id,
-   status]]], "claims", "requirements": as their files, "claims_folder", "figures": [{"file",
-   "title", "caption", "animation", "drawing": packed SVG}], "defects": Markdown}. What the run
-   does not have is left out. MOTE_EIO when a figure cannot be read. The caller decrefs *data.
- */
+/* A column is as mote_column_json has it, with "path": [key...] in a row, and "extra": whether
+   it is shown with all columns only. What the run does not have is left out.
+
+   {"scenarios": [[name, purpose]], "commands": [[when, command]], "machine": [[key, value]],
+    "damaged": [text], "missing": [text], "noise_floor",
+    "columns": [column], of the tables,
+    "time", "error", "best": the columns of a front's axes, and of the ratio to the best FCL,
+    "blocks": [{"heading", "first", "end", "right", "fastest"}]: rows first .. end - 1 are one
+              table; the last two are rows to name first, or null,
+    "rows": [a row of summary.json, with "right", "contacts_right" (mote_summary_row_right),
+             "notes": [text], "cells": [[replicate, id, status]]],
+    "claims", "requirements": as their files, "claims_folder",
+    "figures": [{"file", "title", "caption", "animation", "drawing": packed SVG}],
+    "defects": Markdown}
+
+   MOTE_EIO when a figure cannot be read. The caller decrefs *data. */
 mote_status mote_report_data(const mote_report *report, json_t **data);
 
 #endif

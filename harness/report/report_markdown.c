@@ -250,18 +250,13 @@ static bool all_stand(const mote_report *report, size_t first, size_t end)
 static void add_block(const mote_report *report, size_t first, size_t end, mote_text *text)
 {
     const mote_summary_row *row = mote_report_row(report, first);
-    char shown[2][MOTE_NUMBER_TEXT];
+    char *heading = mote_table_heading(&report->summary, first);
     mote_text_add(text, "\n### ");
     mote_escape_markdown(text, row->scene);
-    mote_text_add(text, ", caches ");
-    mote_escape_markdown(text, row->cache);
-    if (mote_summary_machines_differ(&report->summary)) {
-        mote_text_add(text, ", on ");
-        mote_escape_markdown(text, row->machine);
-    }
-    mote_text_add(text, ": %s and %s triangles\n\n",
-                  mote_show_whole(row->triangles[0], shown[0]),
-                  mote_show_whole(row->triangles[1], shown[1]));
+    mote_text_add(text, ": ");
+    mote_escape_markdown(text, heading);
+    mote_text_add(text, "\n\n");
+    free(heading);
     add_tables(report, first, end, false, text);
     if (all_stand(report, first, end))
         return;

@@ -35,13 +35,6 @@ size_t mote_report_block_end(const mote_report *report, size_t first)
     return end;
 }
 
-/* Whether a row has no missed contact, no false one, and, if it gives distances, only exact
-   ones. */
-static bool is_right(const mote_summary_row *row)
-{
-    return row->missed == 0 && row->false_contacts == 0 && !(row->error.max > MOTE_EXACT_ERROR);
-}
-
 /* The median total time of a row that can be compared with others; else infinity. */
 static double time_of(const mote_summary_row *row)
 {
@@ -90,7 +83,7 @@ mote_report_glance mote_report_block_glance(const mote_report *report, size_t fi
             continue;
         if (glance.fastest == SIZE_MAX)
             glance.fastest = i;
-        if (is_right(row))
+        if (mote_summary_row_right(row))
             glance.right = i;
     }
     if (glance.fastest == glance.right)

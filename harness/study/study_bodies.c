@@ -1,8 +1,10 @@
 #include "harness/study/study_bodies.h"
 
+#include "harness/base/escape.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/figure/figures.h"
+#include "harness/summary/column.h"
 #include "harness/summary/screen.h"
 #include "harness/summary/summary_json.h"
 #include "harness/run/run.h"
@@ -274,13 +276,36 @@ static json_t *gains(const study *s)
 }
 
 /* The median over the frames but the first of a column of a row's first cell. */
-static double column_median(const mote_summary_row *row, int column, double *work)
+static double cell_median(const mote_summary_row *row, int column)
 {
     const mote_stored_cell *cell = row->first;
+    double *values = mote_allocate(cell->frames, sizeof *values);
     size_t count = 0;
     for (size_t k = cell->frames > 1 ? 1 : 0; k < cell->frames; ++k)
-        work[count++] = cell->scene[column][k];
-    return mote_statistics_median(work, count);
+        values[count++] = cell->scene[column][k];
+    const double median = mote_statistics_median(values, count);
+    free(values);
+    return median;
+}
+
+static double bounds_of(const mote_summary_row *row)
+{
+    return cell_median(row, MOTE_SCENE_COLUMN_bounds_ns);
+}
+
+static double broad_of(const mote_summary_row *row)
+{
+    return cell_median(row, MOTE_SCENE_COLUMN_broad_ns);
+}
+
+static double motion_of(const mote_summary_row *row)
+{
+    return cell_median(row, MOTE_SCENE_COLUMN_motion_ns);
+}
+
+static double near_pairs_of(const mote_summary_row *row)
+{
+    return row->near_pairs / row->bodies;
 }
 
 /* The time of the row that a row's contacts are compared with, over its own. */
@@ -289,41 +314,58 @@ static double ratio_of(const mote_summary_row *row)
     return row->contacts_of ? mean_of(row->contacts_of) / mean_of(row) : MOTE_NONE;
 }
 
+/* The figures of bodies.csv: columns of the summary, or figures of this study. */
+static const struct csv_figure {
+    const char *name, *object, *key;
+    double (*own)(const mote_summary_row *row);
+} csv_figures[] = {{"near_pairs_a_body", .own = near_pairs_of},
+                   {"steps", NULL, "frames", NULL},
+                   {"step_mean_ns", "active_total_ns", "mean", NULL},
+                   {"step_ns", "active_total_ns", "median", NULL},
+                   {"step_p95_ns", "active_total_ns", "p95", NULL},
+                   {"bounds_ns", .own = bounds_of},
+                   {"deform_ns", "deform_ns", "median", NULL},
+                   {"update_ns", "update_ns", "median", NULL},
+                   {"broad_ns", .own = broad_of},
+                   {"query_ns", "query_ns", "median", NULL},
+                   {"motion_ns", .own = motion_of},
+                   {"wall_ns", .own = wall_of},
+                   {"heap_live_bytes", NULL, "heap_live_bytes", NULL},
+                   {"heap_peak_bytes", NULL, "heap_peak_bytes", NULL},
+                   {"rss_peak_bytes", NULL, "rss_peak_bytes", NULL},
+                   {"contacts", NULL, "contacts", NULL},
+                   {"missed", NULL, "missed", NULL},
+                   {"false_contacts", NULL, "false_contacts", NULL},
+                   {"ratio", .own = ratio_of}};
+enum { CSV_FIGURES = sizeof csv_figures / sizeof csv_figures[0] };
+
+static double value_of(const struct csv_figure *figure, const mote_summary_row *row)
+{
+    return figure->own ? figure->own(row)
+                       : mote_column_number(mote_column_find(figure->object, figure->key), row);
+}
+
 static void add_csv_row(const mote_summary_row *row, mote_text *text)
 {
-    double *work = mote_allocate(row->frames, sizeof *work);
-    mote_text_add(text, "%s,\"%s\",%u,", row->scenario, row->label, row->bodies);
-    if (row->finished > 0)
-        mote_text_add(
-            text,
-            "%.6g,%zu,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%g,",
-            row->near_pairs / row->bodies, row->frames, mean_of(row), row->active_total.median,
-            row->active_total.p95, column_median(row, MOTE_SCENE_COLUMN_bounds_ns, work),
-            row->deform.median, row->update.median,
-            column_median(row, MOTE_SCENE_COLUMN_broad_ns, work), row->query.median,
-            column_median(row, MOTE_SCENE_COLUMN_motion_ns, work), wall_of(row),
-            row->heap_live_bytes, row->heap_peak_bytes, row->rss_peak_bytes, row->contacts);
-    else
-        mote_text_add(text, ",,,,,,,,,,,,,,,,");
-    if (row->contacts_of)
-        mote_text_add(text, "%g,%g,", row->missed, row->false_contacts);
-    else
-        mote_text_add(text, ",,");
-    if (!isnan(ratio_of(row)))
-        mote_text_add(text, "%.6g", ratio_of(row));
-    mote_text_add(text, ",%s\n", mote_cell_status_names[row->status]);
-    free(work);
+    mote_escape_csv(text, row->scenario, false);
+    mote_text_add(text, ",");
+    mote_escape_csv(text, row->label, true);
+    mote_text_add(text, ",%u", row->bodies);
+    for (int k = 0; k < CSV_FIGURES; ++k) {
+        mote_text_add(text, ",");
+        if (row->finished > 0)
+            mote_csv_number(text, value_of(&csv_figures[k], row));
+    }
+    mote_text_add(text, ",%s\n", row->ending);
 }
 
 static mote_status write_csv(const study *s)
 {
     mote_text text = {0};
-    mote_text_add(
-        &text,
-        "scenario,method,bodies,near_pairs_a_body,steps,step_mean_ns,step_ns,step_p95_ns,"
-        "bounds_ns,deform_ns,update_ns,broad_ns,query_ns,motion_ns,wall_ns,"
-        "heap_live_bytes,heap_peak_bytes,rss_peak_bytes,contacts,missed,"
-        "false_contacts,ratio,status\n");
+    mote_text_add(&text, "scenario,method,bodies");
+    for (int k = 0; k < CSV_FIGURES; ++k)
+        mote_text_add(&text, ",%s", csv_figures[k].name);
+    mote_text_add(&text, ",status\n");
     for (size_t k = 0; k < s->summary.count; ++k)
         add_csv_row(&s->summary.rows[k], &text);
     return mote_record_text(s->directory, "bodies.csv", &text);

@@ -1,5 +1,7 @@
 #include "harness/summary/column.h"
 
+#include <string.h>
+
 /* Arguments are initialisers, members and parts of texts.
    NOLINTBEGIN(bugprone-macro-parentheses) */
 /* Of a count that is never 0. */
@@ -434,6 +436,20 @@ const mote_column mote_columns[] = {
      AT(quiet.ratio)},
 };
 const size_t mote_column_count = sizeof mote_columns / sizeof mote_columns[0];
+
+static bool same_name(const char *a, const char *b)
+{
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+const mote_column *mote_column_find(const char *object, const char *key)
+{
+    for (size_t i = 0; i < mote_column_count; ++i) {
+        if (same_name(mote_columns[i].object, object) && strcmp(mote_columns[i].key, key) == 0)
+            return &mote_columns[i];
+    }
+    return NULL;
+}
 
 size_t mote_column_view(mote_view view, const mote_column *columns[MOTE_VIEW_MAX])
 {

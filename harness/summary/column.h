@@ -68,6 +68,9 @@ typedef struct mote_column {
 extern const mote_column mote_columns[];
 extern const size_t mote_column_count;
 
+/* row[object][key], or row[key] where object is NULL; NULL where there is no such column. */
+const mote_column *mote_column_find(const char *object, const char *key);
+
 /* The value of a number or flag in a row, or MOTE_NONE; the text of a text, or "". */
 double mote_column_number(const mote_column *column, const mote_summary_row *row);
 const char *mote_column_text(const mote_column *column, const mote_summary_row *row);

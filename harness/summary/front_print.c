@@ -2,6 +2,7 @@
 #include "harness/base/escape.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
+#include "harness/summary/column.h"
 #include "harness/summary/dominance.h"
 
 #include <stdlib.h>
@@ -158,11 +159,19 @@ static void add_numbers(const double *numbers, size_t count, mote_text *text)
     }
 }
 
-static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
+/* The numbers of fronts.csv, and the column that each is. */
+static const struct number {
+    const char *name, *object, *key;
+} row_numbers[] = {{"n", NULL, "n"},
+                   {"error_p99", "error", "p99"},
+                   {"total_ns", "total_ns", "median"},
+                   {"total_ci_low", "total_ns", "ci_low"},
+                   {"total_ci_high", "total_ns", "ci_high"}};
+enum { ROW_NUMBERS = sizeof row_numbers / sizeof row_numbers[0] };
+
+static void add_row(const mote_summary_row *row, mote_text *text)
 {
-    const mote_summary_row *row = &fronts->summary->rows[index];
-    const double numbers[] = {row->n, row->error.p99, row->total.median, row->total.low,
-                              row->total.high};
+    double numbers[ROW_NUMBERS];
     char title[MOTE_FRONT_TITLE];
     if (!mote_summary_row_measured(row) || row->error.p99 != row->error.p99)
         return;
@@ -170,7 +179,10 @@ static void add_row(const mote_fronts *fronts, size_t index, mote_text *text)
     add_family(row, title, text);
     mote_text_add(text, ",");
     mote_escape_csv(text, row->label, true);
-    add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
+    for (int k = 0; k < ROW_NUMBERS; ++k)
+        numbers[k] = mote_column_number(
+            mote_column_find(row_numbers[k].object, row_numbers[k].key), row);
+    add_numbers(numbers, ROW_NUMBERS, text);
     mote_text_add(text, ",");
     mote_escape_csv(text, row->dominated_by ? row->dominated_by->label : "", true);
     mote_text_add(text, ",%d,%s\n", row->on_front, row->fingerprint);
@@ -191,10 +203,12 @@ static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mot
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
 {
     mote_text rows = {0}, speeds = {0};
-    mote_text_add(&rows, "scenario,cache,family,label,n,error_p99,total_ns,total_ci_low,"
-                         "total_ci_high,dominated_by,on_front,fingerprint\n");
+    mote_text_add(&rows, "scenario,cache,family,label");
+    for (int k = 0; k < ROW_NUMBERS; ++k)
+        mote_text_add(&rows, ",%s", row_numbers[k].name);
+    mote_text_add(&rows, ",dominated_by,on_front,fingerprint\n");
     for (size_t i = 0; i < fronts->summary->count; ++i)
-        add_row(fronts, i, &rows);
+        add_row(&fronts->summary->rows[i], &rows);
     mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high,"
                            "fingerprint\n");
     for (size_t i = 0; i < fronts->count; ++i) {

@@ -5,7 +5,7 @@
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
-#include "harness/summary/summary.h"
+#include "harness/summary/column.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -14,10 +14,6 @@
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)1 << 28)
-#define HEADER                                                                                 \
-    "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
-    "error_p99\n"
-#define FIELDS 11
 enum { FIELD_DATE, FIELD_COMMIT, FIELD_WHY, FIELD_ROW, FIELD_TOTAL, FIELD_RATIO };
 
 /* A smaller change than this share counts as none. */
@@ -31,18 +27,29 @@ static void add_plain(mote_text *text, const char *value)
         mote_text_add(text, "%c", strchr(",\"\n\r", *value) ? ';' : *value);
 }
 
-static void add_number(mote_text *text, double value)
+/* The figures of a row, and the column that each is; without a key, the mean of a count. */
+static const struct figure {
+    const char *name, *object, *key;
+} figures[] = {{"total_ns", "total_ns", "median"}, {"ratio", "ratio", "value"},
+               {"positions", NULL, NULL},          {"box_tests", NULL, NULL},
+               {"triangle_tests", NULL, NULL},     {"heap_live_bytes", NULL, "heap_live_bytes"},
+               {"error_p99", "error", "p99"}};
+enum { FIGURES = sizeof figures / sizeof figures[0], FIELDS = FIELD_TOTAL + FIGURES };
+
+static void add_header(mote_text *text)
 {
-    if (value == value)
-        mote_text_add(text, ",%.10g", value);
-    else
-        mote_text_add(text, ",");
+    mote_text_add(text, "date,commit,why,row");
+    for (int i = 0; i < FIGURES; ++i)
+        mote_text_add(text, ",%s", figures[i].name);
+    mote_text_add(text, "\n");
 }
 
-static double mean_count(const mote_summary_row *row, const char *name)
+static double value_of(const struct figure *figure, const mote_summary_row *row)
 {
+    if (figure->key)
+        return mote_column_number(mote_column_find(figure->object, figure->key), row);
     for (size_t k = 0; k < row->count_count; ++k) {
-        if (strcmp(row->counts[k].name, name) == 0)
+        if (strcmp(row->counts[k].name, figure->name) == 0)
             return row->counts[k].mean;
     }
     return MOTE_NONE;
@@ -61,19 +68,22 @@ static void add_row(mote_text *text, const char *date, const char *commit, const
     mote_text_add(text, "/");
     add_plain(text, row->label);
     mote_text_add(text, "/%s", row->cache);
-    add_number(text, row->total.median);
-    add_number(text, row->ratio.value);
-    add_number(text, mean_count(row, "positions"));
-    add_number(text, mean_count(row, "box_tests"));
-    add_number(text, mean_count(row, "triangle_tests"));
-    add_number(text, row->heap_live_bytes);
-    add_number(text, row->error.p99);
+    for (int i = 0; i < FIGURES; ++i) {
+        const double value = value_of(&figures[i], row);
+        mote_text_add(text, ",");
+        if (value == value)
+            mote_text_add(text, "%.10g", value);
+    }
     mote_text_add(text, "\n");
 }
 
 static mote_status check_header(const char *file, const char *text)
 {
-    if (strncmp(text, HEADER, strlen(HEADER)) == 0)
+    mote_text header = {0};
+    add_header(&header);
+    const bool begins = strncmp(text, header.data, header.size) == 0;
+    free(header.data);
+    if (begins)
         return MOTE_OK;
     return mote_fail(
         MOTE_EINVAL,
@@ -84,7 +94,7 @@ static mote_status check_header(const char *file, const char *text)
 static mote_status begin_text(const char *file, mote_text *text)
 {
     if (access(file, F_OK) != 0) {
-        mote_text_add(text, "%s", HEADER);
+        add_header(text);
         return MOTE_OK;
     }
     char *data = NULL;

@@ -164,10 +164,12 @@ void mote_screen_print(const mote_summary *summary, FILE *out)
 {
     for (size_t start = 0; start < summary->count;) {
         const size_t end = mote_table_block_end(summary, start);
-        char *heading = mote_table_heading(summary, start);
+        char *what = mote_table_heading(summary, start);
+        char *heading = mote_format("%s: %s", summary->rows[start].scene, what);
         (void)fprintf(out, "%s", start ? "\n" : "");
         mote_print_wrapped(heading, 0, INDENT, MOTE_SCREEN_WIDTH, out);
         free(heading);
+        free(what);
         for (int given = 0; given < 2; ++given) {
             const choice c = choose(summary, start, end, given != 0);
             print_choice(&c, given != 0, out);

@@ -300,6 +300,16 @@ bool mote_summary_row_measured(const mote_summary_row *row)
     return row->status == MOTE_CELL_OK && row->times_comparable && row->total.median > 0;
 }
 
+bool mote_summary_contacts_right(const mote_summary_row *row)
+{
+    return row->missed == 0 && row->false_contacts == 0;
+}
+
+bool mote_summary_row_right(const mote_summary_row *row)
+{
+    return mote_summary_contacts_right(row) && !(row->error.max > MOTE_EXACT_ERROR);
+}
+
 bool mote_summary_is_fcl(const mote_summary_row *row)
 {
     return strncmp(row->method, "fcl-", 4) == 0;

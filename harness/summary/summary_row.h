@@ -134,6 +134,11 @@ bool mote_summary_is_fcl(const mote_summary_row *row);
 /* Whether a row has a time that may be compared with those of other rows. */
 bool mote_summary_row_measured(const mote_summary_row *row);
 
+/* Whether a row has no missed and no false contact; and whether, besides, each distance that it
+   gives is exact. */
+bool mote_summary_contacts_right(const mote_summary_row *row);
+bool mote_summary_row_right(const mote_summary_row *row);
+
 /* The order of scenes: by scenario, caches (hot first), machine, fingerprint and question. 0:
    the same frames, asked the same on one machine. What is of two scenes is never compared. */
 int mote_summary_by_scene(const mote_summary_row *a, const mote_summary_row *b);

@@ -58,18 +58,20 @@ void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out)
     }
 }
 
-/* "11920 and 11920 triangles", or "100 bodies of 1380 to 11920 triangles". */
-static const char *describe_bodies(const mote_summary_row *row, char *text, size_t size)
+/* "11,920 and 11,920 triangles", or "100 bodies of 4 shapes, 1,380 to 11,920 triangles". */
+static void describe_bodies(const mote_summary_row *row, mote_text *text)
 {
-    const uint32_t first = row->triangles[0], second = row->triangles[1];
+    char first[MOTE_NUMBER_TEXT], second[MOTE_NUMBER_TEXT], bodies[MOTE_NUMBER_TEXT];
+    (void)mote_show_whole(row->triangles[0], first);
+    (void)mote_show_whole(row->triangles[1], second);
+    (void)mote_show_whole(row->bodies, bodies);
     if (row->bodies == 0)
-        (void)snprintf(text, size, "%u and %u triangles", first, second);
-    else if (first == second)
-        (void)snprintf(text, size, "%u bodies of %u triangles", row->bodies, first);
+        mote_text_add(text, "%s and %s triangles", first, second);
+    else if (row->shapes > 1 && strcmp(first, second) != 0)
+        mote_text_add(text, "%s bodies of %u shapes, %s to %s triangles", bodies, row->shapes,
+                      first, second);
     else
-        (void)snprintf(text, size, "%u bodies of %u to %u triangles", row->bodies, first,
-                       second);
-    return text;
+        mote_text_add(text, "%s bodies of %s triangles", bodies, second);
 }
 
 size_t mote_table_block_end(const mote_summary *summary, size_t start)
@@ -92,12 +94,15 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
         const size_t ran = other->finished + other->failed;
         replicates = ran > replicates ? ran : replicates;
     }
-    char what[96];
-    const bool several = mote_summary_machines_differ(summary);
-    return mote_format("%s: %s, %zu frames, %zu replicate%s, caches %s%s%s", row->scene,
-                       describe_bodies(row, what, sizeof what), frames, replicates,
-                       replicates == 1 ? "" : "s", row->cache, several ? ", on " : "",
-                       several ? row->machine : "");
+    char shown[MOTE_NUMBER_TEXT];
+    mote_text text = {0};
+    describe_bodies(row, &text);
+    mote_text_add(&text, ", %s frames, %zu replicate%s, caches %s",
+                  mote_show_whole((double)frames, shown), replicates,
+                  replicates == 1 ? "" : "s", row->cache);
+    if (mote_summary_machines_differ(summary))
+        mote_text_add(&text, ", on %s", row->machine);
+    return text.data;
 }
 
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
@@ -179,7 +184,8 @@ void mote_table_print(const mote_summary *summary, FILE *out)
     for (size_t start = 0; start < summary->count;) {
         const size_t end = mote_table_block_end(summary, start);
         char *heading = mote_table_heading(summary, start);
-        (void)fprintf(out, "%s%s\n", start ? "\n" : "", heading);
+        (void)fprintf(out, "%s%s: %s\n", start ? "\n" : "", summary->rows[start].scene,
+                      heading);
         free(heading);
         mote_table_heads(MOTE_VIEW_TABLE, width, out);
         for (size_t i = start; i < end; ++i)

@@ -10,8 +10,8 @@
 /* A block a scenario and caches, a line a configuration. */
 void mote_table_print(const mote_summary *summary, FILE *out);
 
-/* "ww: 11920 and 11920 triangles, 1984 frames, 3 replicates, caches hot": the heading of the
-   block that begins at row start. The caller frees it. */
+/* "11,920 and 11,920 triangles, 1,984 frames, 3 replicates, caches hot": what was measured of
+   the scene of the block that begins at row start. The caller frees it. */
 char *mote_table_heading(const mote_summary *summary, size_t start);
 
 /* One after the last row of that block. */

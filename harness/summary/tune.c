@@ -2,6 +2,7 @@
 
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
+#include "harness/summary/column.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,11 +13,6 @@ static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
            strcmp(a->method, b->method) == 0;
 }
 
-static bool is_right(const mote_summary_row *row)
-{
-    return row->missed == 0 && row->false_contacts == 0 && !(row->error.max > MOTE_EXACT_ERROR);
-}
-
 /* Lets a row compete in its group. */
 static void compete(const mote_summary_row *row, mote_tuned *group)
 {
@@ -25,7 +21,7 @@ static void compete(const mote_summary_row *row, mote_tuned *group)
         row->total.median != row->total.median)
         return;
     group->configurations++;
-    bool right = is_right(row);
+    bool right = mote_summary_row_right(row);
     if (group->right && !right)
         return;
     /* The first configuration that is right replaces those that are not. */
@@ -51,21 +47,31 @@ mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count)
     return groups;
 }
 
+/* What tune.json says of the best row, and by which name. */
+static const struct told {
+    const char *name, *object, *key; /* the column */
+} told[] = {{"scenario", NULL, "scenario"},       {"fingerprint", NULL, "fingerprint"},
+            {"accounting", NULL, "accounting"},   {"cache", NULL, "cache"},
+            {"method", NULL, "method"},           {"configuration", NULL, "label"},
+            {"parameters", NULL, "parameters"},   {"stride", NULL, "stride"},
+            {"total_ns", "total_ns", "median"},   {"deform_ns", "deform_ns", "median"},
+            {"update_ns", "update_ns", "median"}, {"query_ns", "query_ns", "median"}};
+
 static json_t *row_json(const mote_tuned *group)
 {
-    const mote_summary_row *best = group->best;
-    return json_pack(
-        "{s:s, s:s, s:s, s:s, s:s, s:s, s:O, s:b, s:i, s:i, s:o, s:o, s:o, s:o, s:{s:s, s:o}}",
-        "scenario", best->first->scenario, "fingerprint", best->first->fingerprint,
-        "accounting", best->given ? "given" : "charged", "cache", best->cache, "method",
-        best->first->method, "configuration", best->label, "parameters",
-        best->first->parameters, "right", (int)group->right, "configurations",
-        (int)group->configurations, "stride", (int)best->first->stride, "total_ns",
-        mote_json_number(best->total.median), "deform_ns",
-        mote_json_number(best->deform.median), "update_ns",
-        mote_json_number(best->update.median), "query_ns", mote_json_number(best->query.median),
-        "worst", "configuration", group->worst->label, "total_ns",
-        mote_json_number(group->worst->total.median));
+    json_t *row = json_object();
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; ++i) {
+        const mote_column *column = mote_column_find(told[i].object, told[i].key);
+        json_t *value = mote_column_write(column, group->best);
+        (void)json_object_set_new(row, told[i].name, value ? value : json_null());
+    }
+    json_t *rest =
+        json_pack("{s:b, s:i, s:{s:s, s:o}}", "right", (int)group->right, "configurations",
+                  (int)group->configurations, "worst", "configuration", group->worst->label,
+                  "total_ns", mote_json_number(group->worst->total.median));
+    (void)json_object_update(row, rest);
+    json_decref(rest);
+    return row;
 }
 
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count)

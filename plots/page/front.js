@@ -11,16 +11,13 @@ function svg(name, attributes = {}, ...children) {
     return element;
 }
 
-// What a point says of its row.
-function pointLines(row) {
-    const total = row.total_ns;
-    const lines = [`${show("time", total.median)} a query`];
-    if (isNumber(total.ci_low)) lines[0] += ` (${intervalText("time", total.ci_low, total.ci_high)})`;
-    lines.push(`error ${show("error", row.error.p99)} L at p99, ${show("error", row.error.max)} L at most`);
-    lines.push(`${show("percent", row.error.exact_rate)} of frames exact`);
-    lines.push(`${show("count", row.missed)} contacts missed, ${show("count", row.false_contacts)} false`);
-    lines.push(`${show("bytes", row.heap_live_bytes)} of heap`);
-    return lines;
+// What a point says of its row: the columns that its table shows at first.
+function pointLines(row, columns) {
+    return columns.filter((column) => !column.extra).map((column) => {
+        const interval = intervalOf(row, column);
+        return `${column.group} ${column.head}: ${show(column.show, valueAt(row, column.path))}` +
+            (interval ? ` (${interval})` : "");
+    });
 }
 
 // "n 5, law log, ...": every parameter, defaults too.
@@ -28,10 +25,13 @@ const parametersText = (row) =>
     Object.entries(row.parameters ?? {}).map(([key, value]) => `${key} ${value}`).join(", ");
 
 class Front {
-    // colourOf(method): a class name. onPoint(row, entered) is told where the pointer is.
-    constructor(rows, colourOf, onPoint) {
+    // data: the page's. colourOf(row): a class name. onPoint(row, entered) is told where the pointer is.
+    constructor(data, rows, colourOf, onPoint) {
+        this.columns = data.columns;
+        this.timeOf = (row) => valueAt(row, data.time.path);
+        this.errorOf = (row) => valueAt(row, data.error.path);
         this.rows = rows.filter((row) =>
-            row.status === "ok" && isNumber(row.error?.p99) && row.total_ns?.median > 0);
+            row.status === "ok" && isNumber(this.errorOf(row)) && this.timeOf(row) > 0);
         this.colourOf = colourOf;
         this.onPoint = onPoint;
         this.tip = el("div", { class: "tip", role: "status", hidden: true });
@@ -67,8 +67,8 @@ class Front {
 
     // Axes over all rows, so that a filter moves no point.
     scale(width, height) {
-        const times = this.rows.map((row) => row.total_ns.median / 1e3);
-        const errors = this.rows.map((row) => Math.max(row.error.p99, EXACT));
+        const times = this.rows.map((row) => this.timeOf(row) / 1e3);
+        const errors = this.rows.map((row) => Math.max(this.errorOf(row), EXACT));
         const decades = (values, low, high) =>
             [Math.log10(Math.min(...values)) - low, Math.log10(Math.max(...values)) + high];
         const [left, right] = decades(times, 0.15, 0.15);
@@ -106,13 +106,13 @@ class Front {
 
     // The steps of the front of these rows.
     line(rows) {
-        const order = rows.filter((row) => row.accounting !== "given").sort((a, b) => a.total_ns.median - b.total_ns.median);
+        const order = rows.filter((row) => row.accounting !== "given").sort((a, b) => this.timeOf(a) - this.timeOf(b));
         let least = Infinity;
         let path = "";
         for (const row of order) {
-            const error = Math.max(row.error.p99, EXACT);
+            const error = Math.max(this.errorOf(row), EXACT);
             if (error >= least) continue;
-            const [x, y] = [this.x(row.total_ns.median / 1e3), this.y(error)];
+            const [x, y] = [this.x(this.timeOf(row) / 1e3), this.y(error)];
             path += path ? `H${x}V${y}` : `M${x} ${y}`;
             least = error;
         }
@@ -121,8 +121,8 @@ class Front {
     }
 
     point(row) {
-        const [x, y] = [this.x(row.total_ns.median / 1e3), this.y(row.error.p99)];
-        const text = [row.label, ...pointLines(row)].join("; ");
+        const [x, y] = [this.x(this.timeOf(row) / 1e3), this.y(this.errorOf(row))];
+        const text = [row.label, ...pointLines(row, this.columns)].join("; ");
         const point = svg("circle", {
             class: `point ${this.colourOf(row)}${row.accounting === "given" ? " given" : ""}`, cx: x, cy: y, r: 6, tabindex: 0, role: "img", "aria-label": text,
         });
@@ -136,7 +136,7 @@ class Front {
 
     enter(row, x, y) {
         this.tip.replaceChildren(el("strong", {}, row.label),
-            ...pointLines(row).map((line) => el("span", {}, line)),
+            ...pointLines(row, this.columns).map((line) => el("span", {}, line)),
             el("span", { class: "parameters" }, parametersText(row)));
         this.tip.hidden = false;
         const room = this.canvas.clientWidth - this.tip.offsetWidth;

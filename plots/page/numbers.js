@@ -65,6 +65,13 @@ function intervalText(kind, low, high) {
 // row[path[0]][path[1]]...; undefined where there is none.
 const valueAt = (row, path) => path.reduce((value, key) => value?.[key], row);
 
+// The interval of a column's value in a row; "" where it has none.
+function intervalOf(row, column) {
+    if (!column.interval || valueAt(row, column.path) === 0) return "";
+    const { ci_low: low, ci_high: high } = valueAt(row, column.path.slice(0, -1)) ?? {};
+    return isNumber(low) && isNumber(high) ? intervalText(column.show, low, high) : "";
+}
+
 // An element with attributes, texts and elements. Texts are never read as HTML.
 function el(name, attributes = {}, ...children) {
     const element = document.createElement(name);

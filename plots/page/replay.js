@@ -142,7 +142,8 @@ async function chooseScene(index) {
     parts.notes.querySelector("ul").replaceChildren(
         ...scene.notes.map((note) => Object.assign(document.createElement("li"), { textContent: note })),
     );
-    frame = Math.max(scene.first, scene.active[0]);
+    const [begins] = scene.active; // the run may have measured other frames only
+    frame = begins >= scene.first && begins <= scene.last ? begins : scene.first;
     await chooseTrack(firstTrack());
 }
 

@@ -4,17 +4,15 @@
 
 const COLOURS = 10; // classes c0 .. c9 of report.css
 
-// Is the row's every answer right? Methods that tell no distance are judged by their contacts.
-const noWrongContact = (row) => row.missed === 0 && row.false_contacts === 0;
-const isExact = (row) =>
-    noWrongContact(row) && (isNumber(row.error?.exact_rate) ? row.error.exact_rate === 1 : true);
-
 const EXACTNESS = {
     any: ["any", () => true],
-    exact: ["exact in every frame", isExact],
-    contacts: ["no wrong contact", noWrongContact],
-    inexact: ["not exact", (row) => !isExact(row)],
+    exact: ["exact in every frame", (row) => row.right],
+    contacts: ["no wrong contact", (row) => row.contacts_right],
+    inexact: ["not exact", (row) => !row.right],
 };
+
+// Wrong contacts, which are marked.
+const isOfContacts = (column) => column.group === "contacts";
 
 class Block {
     constructor(data, block, choice, colourOf) {
@@ -25,13 +23,14 @@ class Block {
         this.body = el("tbody");
         this.lines = new Map();
         this.heads = [];
-        this.front = new Front(this.rows, colourOf, (row, entered) =>
+        this.front = new Front(data, this.rows, colourOf, (row, entered) =>
             this.lines.get(row)?.classList.toggle("pointed", entered));
         this.count = el("p", { class: "count" });
         this.wide = el("div", { class: "wide results", tabindex: 0, role: "region",
             "aria-label": `Results, ${this.rows[0].scene}` },
         el("table", {}, this.head(), this.body));
-        this.element = el("div", { class: "block" }, this.caption(), this.glance(block), this.front.element,
+        const title = el("h3", {}, textOf(this.rows[0].scene), " ", el("span", { class: "aside" }, block.heading));
+        this.element = el("div", { class: "block" }, title, this.glance(block), this.front.element,
             this.count, this.wide);
         this.update();
     }
@@ -40,38 +39,26 @@ class Block {
         return this.data.columns.filter((column) => this.choice.extra || !column.extra);
     }
 
-    caption() {
-        const row = this.rows[0];
-        const most = (key) => Math.max(...this.rows.map((other) => other[key] ?? 0));
-        const [a, b] = listOf(row.triangles).map(wholeText);
-        const shapes = row.shapes === 1 ? `${b} triangles each` : `${wholeText(row.shapes)} shapes, ${a} to ${b} triangles`;
-        const bodies = row.bodies ? `${wholeText(row.bodies)} bodies: ${shapes}` : `${a} and ${b} triangles`;
-        const parts = [bodies, `${wholeText(most("frames"))} frames`,
-            `${most("replicates")} replicate${most("replicates") === 1 ? "" : "s"}`, `caches ${textOf(row.cache)}`];
-        if (this.data.machines_differ) parts.push(`on ${row.machine}`);
-        return el("h3", {}, textOf(row.scene), " ", el("span", { class: "aside" }, parts.join(", ")));
-    }
-
     // What to know first.
     glance(block) {
+        const { rows, columns, time, error, best } = this.data;
         const parts = [];
-        const right = this.data.rows[block.right];
-        const fastest = this.data.rows[block.fastest];
+        const said = (row, column) => show(column.show, valueAt(row, column.path));
+        const [right, fastest] = [rows[block.right], rows[block.fastest]];
         if (right) {
             parts.push("Fastest without a wrong answer in any frame: ", el("code", {}, right.label),
-                `, ${show("time", right.total_ns.median)} a ${right.bodies ? "frame" : "query"}`);
-            const best = right.ratio_best;
-            if (best?.to && best.to !== right.label)
-                parts.push("; the best FCL, ", el("code", {}, best.to),
-                    `, takes ${show("ratio", best.value)} times as long`);
+                `, ${said(right, time)} a ${right.bodies ? "frame" : "query"}`);
+            const { to } = valueAt(right, best.path.slice(0, -1)) ?? {};
+            if (to && to !== right.label)
+                parts.push("; the best FCL, ", el("code", {}, to), `, takes ${said(right, best)} times as long`);
             parts.push(". ");
         }
         if (fastest) {
-            parts.push("Fastest of all: ", el("code", {}, fastest.label), `, ${show("time", fastest.total_ns.median)}`);
-            if (isNumber(fastest.error?.p99))
-                parts.push(`, with an error of ${show("error", fastest.error.p99)}${NARROW}L at the 99th percentile`);
-            parts.push(`; ${show("count", fastest.missed)} contacts missed, `,
-                `${show("count", fastest.false_contacts)} false.`);
+            parts.push("Fastest of all: ", el("code", {}, fastest.label), `, ${said(fastest, time)}`);
+            if (isNumber(valueAt(fastest, error.path)))
+                parts.push(`, with an error of ${said(fastest, error)}${NARROW}L at the 99th percentile`);
+            const wrong = columns.filter(isOfContacts).map((column) => `${said(fastest, column)} ${column.head}`);
+            parts.push(`; contacts: ${wrong.join(", ")}.`);
         }
         return el("p", {}, parts);
     }
@@ -176,12 +163,9 @@ class Block {
     cell(row, column, address) {
         const value = valueAt(row, column.path);
         if (!isNumber(value)) return el("td", {}, NONE);
-        const wrong = value > 0 && column.group === "contacts";
-        const around = row[column.path[0]];
-        const interval = column.interval && value !== 0 && isNumber(around.ci_low) && isNumber(around.ci_high)
-            ? el("small", {}, intervalText(column.show, around.ci_low, around.ci_high)) : null;
-        return el("td", { class: wrong ? "wrong" : undefined },
-            el("a", { tabindex: -1, href: address }, show(column.show, value)), interval);
+        const interval = intervalOf(row, column);
+        return el("td", { class: value > 0 && isOfContacts(column) ? "wrong" : undefined },
+            el("a", { tabindex: -1, href: address }, show(column.show, value)), interval && el("small", {}, interval));
     }
 }
 

@@ -328,6 +328,13 @@ async function testOthers(browser) {
         truth(Number(await shown(page, "truth")) > 0, "no replay");
         await page.close();
     });
+    await check("a run of other frames than the scenario's interval of interest begins with its first", async () => {
+        const page = await open(browser, `${work}/several`);
+        await settled(page);
+        equal(await frameOf(page), 1, "frame");
+        equal(page.troubles.join("; "), "", "messages");
+        await page.close();
+    });
     await check("the worst frame is that of all replicates", async () => {
         const page = await open(browser, `${work}/several`);
         await settled(page);
@@ -341,7 +348,7 @@ async function testOthers(browser) {
     await check("many bodies are told by their number and shapes, their times are of a frame", async () => {
         const page = await open(browser, `${work}/letters`);
         const text = await page.locator(".block").textContent();
-        truth(text.includes("100 bodies: 4 shapes, 1,380 to 11,920 triangles"), `the head of ${text}`);
+        truth(text.includes("100 bodies of 4 shapes, 1,380 to 11,920 triangles"), `the head of ${text}`);
         truth(/certified, [0-9.]+.ms a frame/.test(text), `the time in ${text}`);
         equal(page.troubles.join("; "), "", "messages");
         await page.close();

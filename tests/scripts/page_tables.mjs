@@ -137,7 +137,7 @@ async function testFront(page, { check, equal, truth }, run) {
         truth(await tip.isHidden(), "a tip before anything is pointed at");
         await point(row.label).hover();
         const text = await tip.textContent();
-        for (const part of [row.label, "n 5", `law ${row.parameters.law}`, row.error.p99.toExponential(1), "of heap"])
+        for (const part of [row.label, "n 5", `law ${row.parameters.law}`, row.error.p99.toExponential(1), "heap live: "])
             truth(text.includes(part), `no ${part} in ${text}`);
         equal(await block.locator("tr.pointed th a").textContent(), row.label, "row that is marked");
         const box = await tip.boundingBox();

@@ -15,21 +15,6 @@
 
 static mote_summary summary;
 
-static bool same_name(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
-/* row[object][key], or row[key] where object is NULL; NULL where there is no such column. */
-static const mote_column *column_of(const char *object, const char *key)
-{
-    for (size_t i = 0; i < mote_column_count; ++i) {
-        if (same_name(mote_columns[i].object, object) && strcmp(mote_columns[i].key, key) == 0)
-            return &mote_columns[i];
-    }
-    return NULL;
-}
-
 static int make_run(void)
 {
     for (int r = 1; r <= 2; ++r) {
@@ -69,7 +54,7 @@ TEST(columns_have_names_that_differ_and_a_member_each)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {
         const mote_column *column = &mote_columns[i];
-        assert_ptr_equal(column_of(column->object, column->key), column);
+        assert_ptr_equal(mote_column_find(column->object, column->key), column);
         assert_true(column->offset > 0 && column->size > 0);
         assert_non_null(column->unit);
         assert_true(column->meaning ||
@@ -117,9 +102,9 @@ TEST(rows_hold_the_values_of_their_columns)
         assert_true(known > 5);
         json_decref(row);
     }
-    const mote_column *max = column_of("error", "max");
+    const mote_column *max = mote_column_find("error", "max");
     assert_true(mote_column_number(max, &summary.rows[0]) == 0.1);
-    assert_null(column_of(NULL, "max"));
+    assert_null(mote_column_find(NULL, "max"));
 }
 
 /* What a row says is all in summary.json: read back, it says it again, to the last bit. */
@@ -231,7 +216,7 @@ TEST(columns_as_data_say_where_a_value_is_and_how_it_is_shown)
         json_t *entry = mote_column_json(&mote_columns[i]);
         const char *object = json_string_value(json_object_get(entry, "object"));
         const char *key = json_string_value(json_object_get(entry, "key"));
-        assert_ptr_equal(column_of(object, key), &mote_columns[i]);
+        assert_ptr_equal(mote_column_find(object, key), &mote_columns[i]);
         assert_int_equal(json_is_string(json_object_get(entry, "show")),
                          mote_columns[i].show != NULL);
         json_decref(entry);
