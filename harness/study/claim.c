@@ -11,22 +11,18 @@ static const char *const verdict_names[] = {"holds", "holds within limits", "doe
 
 static const char *const bound_names[] = {NULL, "at most", "at least"};
 
-mote_status mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
-                           const char *unit, const char *format, ...)
+void mote_claim_add(mote_claim *claim, mote_estimate estimate, const char *unit,
+                    const char *format, ...)
 {
     claim->values =
         mote_reserve(claim->values, claim->count + 1, &claim->capacity, sizeof *claim->values);
     mote_claim_value *made = &claim->values[claim->count++];
-    *made = (mote_claim_value){.value = value,
-                               .interval = interval,
-                               .unit = unit,
-                               .holds = MOTE_NONE,
-                               .limits = MOTE_NONE};
+    *made = (mote_claim_value){
+        .estimate = estimate, .unit = unit, .holds = MOTE_NONE, .limits = MOTE_NONE};
     va_list arguments;
     va_start(arguments, format);
     (void)vsnprintf(made->name, sizeof made->name, format, arguments);
     va_end(arguments);
-    return MOTE_OK;
 }
 
 void mote_claim_require(mote_claim *claim, mote_bound bound, double holds, double limits)
@@ -40,8 +36,8 @@ void mote_claim_require(mote_claim *claim, mote_bound bound, double holds, doubl
 bool mote_claim_met(const mote_claim_value *value, double threshold)
 {
     const bool most = value->bound == MOTE_AT_MOST;
-    const double end = most ? value->interval.high : value->interval.low;
-    const double decides = end == end ? end : value->value;
+    const double end = most ? value->estimate.interval.high : value->estimate.interval.low;
+    const double decides = end == end ? end : value->estimate.value;
     return most ? decides <= threshold : decides >= threshold;
 }
 
@@ -84,8 +80,9 @@ static json_t *threshold_json(const mote_claim_value *value)
 static json_t *value_json(const mote_claim_value *value)
 {
     return json_pack("{s:s, s:o, s:o, s:s, s:o}", "name", value->name, "value",
-                     mote_json_number(value->value), "interval", interval_json(value->interval),
-                     "unit", value->unit, "threshold", threshold_json(value));
+                     mote_json_number(value->estimate.value), "interval",
+                     interval_json(value->estimate.interval), "unit", value->unit, "threshold",
+                     threshold_json(value));
 }
 
 json_t *mote_claim_json(const mote_claim *claim)
@@ -113,9 +110,10 @@ json_t *mote_claim_json(const mote_claim *claim)
 
 static void print_value(const mote_claim_value *value)
 {
-    (void)printf("     %-62s %10.4g %-3s", value->name, value->value, value->unit);
-    if (value->interval.low == value->interval.low)
-        (void)printf(" [%.4g, %.4g]", value->interval.low, value->interval.high);
+    (void)printf("     %-62s %10.4g %-3s", value->name, value->estimate.value, value->unit);
+    if (value->estimate.interval.low == value->estimate.interval.low)
+        (void)printf(" [%.4g, %.4g]", value->estimate.interval.low,
+                     value->estimate.interval.high);
     if (value->bound != MOTE_BOUND_NONE) {
         (void)printf("  %s", bound_names[value->bound]);
         if (value->holds == value->holds)

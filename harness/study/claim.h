@@ -7,6 +7,18 @@
 
 #include <jansson.h>
 
+/* A value with its 95 % interval, or MOTE_NONE for both ends. */
+typedef struct mote_estimate {
+    double value;
+    mote_confidence interval;
+} mote_estimate;
+
+/* A value that has no interval. */
+static inline mote_estimate mote_estimate_alone(double value)
+{
+    return (mote_estimate){value, {MOTE_NONE, MOTE_NONE}};
+}
+
 typedef enum mote_bound {
     MOTE_BOUND_NONE, /* reported, but decides nothing */
     MOTE_AT_MOST,
@@ -16,10 +28,9 @@ typedef enum mote_bound {
 /* One measured value. A threshold is met when the whole interval is on its right side, or,
    without an interval, when the value is. */
 typedef struct mote_claim_value {
-    char name[112];           /* "n = 3, 95th percentile" */
-    double value;             /* MOTE_NONE: not measured; meets no threshold */
-    mote_confidence interval; /* 95 %, or MOTE_NONE */
-    const char *unit;         /* "L", "us", "" */
+    char name[112];         /* "n = 3, 95th percentile" */
+    mote_estimate estimate; /* value MOTE_NONE: not measured; meets no threshold */
+    const char *unit;       /* "L", "us", "" */
     mote_bound bound;
     double holds;  /* threshold for "holds"; MOTE_NONE: not needed for it */
     double limits; /* threshold for "holds within limits"; MOTE_NONE: not needed for it */
@@ -41,8 +52,8 @@ typedef enum mote_claim_verdict {
 } mote_claim_verdict;
 
 /* Adds a figure, the first being the headline; name as printf. */
-mote_status mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
-                           const char *unit, const char *format, ...) MOTE_PRINTF(5, 6);
+void mote_claim_add(mote_claim *claim, mote_estimate estimate, const char *unit,
+                    const char *format, ...) MOTE_PRINTF(4, 5);
 
 /* Thresholds of the figure added last (there is one). */
 void mote_claim_require(mote_claim *claim, mote_bound bound, double holds, double limits);

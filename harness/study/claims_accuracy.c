@@ -77,12 +77,11 @@ mote_status mote_claim_contact_point(mote_study *study, mote_claim *claim)
             values[1][s] = quantile[1];
         }
         for (int q = 1; q >= 0 && status == MOTE_OK; --q) {
-            const mote_estimate e = mote_estimate_make(values[q], study->seeds);
-            status = mote_claim_add(claim, e.value, e.interval, "L", "%s, %s", cases[c].name,
-                                    q ? "95th percentile" : "median");
-            if (status == MOTE_OK && q && cases[c].p95 == cases[c].p95)
+            mote_claim_add(claim, mote_estimate_make(values[q], study->seeds), "L", "%s, %s",
+                           cases[c].name, q ? "95th percentile" : "median");
+            if (q && cases[c].p95 == cases[c].p95)
                 mote_claim_require(claim, MOTE_AT_MOST, cases[c].p95, MOTE_NONE);
-            if (status == MOTE_OK && !q && cases[c].median == cases[c].median)
+            if (!q && cases[c].median == cases[c].median)
                 mote_claim_require(claim, MOTE_AT_MOST, cases[c].median, cases[c].median);
         }
     }
@@ -120,20 +119,20 @@ static void watch_episodes(const mote_subject *subject, const mote_cell_result *
     }
 }
 
-static mote_status add_episodes(mote_claim *claim, const char *name, bool decides, episodes *e)
+static void add_episodes(mote_claim *claim, const char *name, bool decides, episodes *e)
 {
-    const double share = (double)e->unseen / (double)e->count;
-    mote_status status =
-        mote_claim_add(claim, share, mote_statistics_share_interval(e->unseen, e->count), "",
-                       "%s: share of %zu contacts never seen", name, e->count);
-    if (status == MOTE_OK && decides)
+    const mote_estimate share = {(double)e->unseen / (double)e->count,
+                                 mote_statistics_share_interval(e->unseen, e->count)};
+    mote_claim_add(claim, share, "", "%s: share of %zu contacts never seen", name, e->count);
+    if (decides)
         mote_claim_require(claim, MOTE_AT_MOST, 0.05, 0.2);
-    if (status != MOTE_OK || e->delays == 0)
-        return status;
+    if (e->delays == 0)
+        return;
     mote_statistics_sort(e->delay, e->delays);
-    return mote_claim_add(claim, mote_statistics_quantile(e->delay, e->delays, 0.95),
-                          mote_statistics_sign_interval(e->delay, e->delays), "fr.",
-                          "%s: delay of those seen, 95th percentile [median's]", name);
+    const mote_estimate delay = {mote_statistics_quantile(e->delay, e->delays, 0.95),
+                                 mote_statistics_sign_interval(e->delay, e->delays)};
+    mote_claim_add(claim, delay, "fr.", "%s: delay of those seen, 95th percentile [median's]",
+                   name);
 }
 
 mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
@@ -168,7 +167,7 @@ mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
             }
         }
         if (status == MOTE_OK)
-            status = add_episodes(claim, cases[c].name, cases[c].decides, &e);
+            add_episodes(claim, cases[c].name, cases[c].decides, &e);
         free(e.delay);
     }
     return status;
@@ -246,18 +245,14 @@ static mote_status measure_shape(mote_study *study, const shape *s, mote_text *c
     mote_text_add(curve, "%s\"%s, %u parts\"\n", curve->size ? "\n\n" : "", s->title, parts);
     if (status == MOTE_OK)
         status = sweep_shape(study, subject, parts, curve, &enough);
-    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, twice.value, twice.interval, "",
-                                "%s: share tracked at n = %u, twice %u parts", s->title,
-                                2 * parts, parts);
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_LEAST, ENOUGH_TRACKED, 0.8);
-    if (status == MOTE_OK)
-        status =
-            mote_claim_add(claim, enough ? enough / (double)parts : MOTE_NONE, none, "",
-                           "%s: least n / parts from which on the share is 0.95", s->title);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    mote_claim_add(claim, twice, "", "%s: share tracked at n = %u, twice %u parts", s->title,
+                   2 * parts, parts);
+    mote_claim_require(claim, MOTE_AT_LEAST, ENOUGH_TRACKED, 0.8);
+    mote_claim_add(claim, mote_estimate_alone(enough ? enough / (double)parts : MOTE_NONE), "",
+                   "%s: least n / parts from which on the share is 0.95", s->title);
+    return MOTE_OK;
 }
 
 mote_status mote_claim_convex_parts(mote_study *study, mote_claim *claim)

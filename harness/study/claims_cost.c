@@ -87,14 +87,12 @@ static mote_status add_exponent(mote_claim *claim, const cost_points *points, do
         large.x[large.count] = points->x[i];
         large.us[large.count++] = points->us[i];
     }
-    double exponent;
-    mote_confidence interval;
-    mote_status status =
-        mote_statistics_exponent(large.x, large.us, large.count, &exponent, &interval);
-    if (status != MOTE_OK)
-        return status;
-    return mote_claim_add(claim, exponent, interval, "", "exponent over %s, %s", over,
-                          pace_title);
+    mote_estimate exponent;
+    const mote_status status = mote_statistics_exponent(large.x, large.us, large.count,
+                                                        &exponent.value, &exponent.interval);
+    if (status == MOTE_OK)
+        mote_claim_add(claim, exponent, "", "exponent over %s, %s", over, pace_title);
+    return status;
 }
 
 /* Over n, on W-W of 11,920 triangles. */
@@ -153,10 +151,9 @@ static mote_status measure_sizes(mote_study *study, mote_claim *claim, mote_text
             continue;
         const mote_estimate most =
             mote_estimate_ratio(&points[p].us[(count - 1) * COST_SEEDS], COST_SEEDS);
-        status =
-            mote_claim_add(claim, most.value, most.interval, "us",
-                           "median query, %zu triangles, %s", sizes[count - 1], paces[p].title);
-        if (status == MOTE_OK && p + 1 < PACES)
+        mote_claim_add(claim, most, "us", "median query, %zu triangles, %s", sizes[count - 1],
+                       paces[p].title);
+        if (p + 1 < PACES)
             mote_claim_require(claim, MOTE_AT_MOST, 1000, 1000);
     }
     return status;
@@ -215,22 +212,16 @@ static mote_status measure_cache(const mote_subject *subject, cache_case *c)
 }
 
 /* Noticeable: a tenth faster, for an error that grows by no more than 0.01 L. */
-static mote_status add_cache(const cache_case *c, bool few, mote_claim *claim)
+static void add_cache(const cache_case *c, bool few, mote_claim *claim)
 {
     const double holds = few ? 1.1 : MOTE_NONE, limits = few ? MOTE_NONE : 1.1;
-    mote_status status = mote_claim_add(
-        claim, c->ratio.value, c->ratio.interval, "x",
-        "best of n %s: n = %u, %s moves, far_cache = %g: faster", few ? "<= 16" : ">= 64", c->n,
-        c->options[0] ? "surface" : "vertex", c->part);
-    if (status != MOTE_OK)
-        return status;
+    mote_claim_add(
+        claim, c->ratio, "x", "best of n %s: n = %u, %s moves, far_cache = %g: faster",
+        few ? "<= 16" : ">= 64", c->n, c->options[0] ? "surface" : "vertex", c->part);
     mote_claim_require(claim, MOTE_AT_LEAST, holds, limits);
-    status = mote_claim_add(claim, c->change.value, c->change.interval, "L",
-                            "  change of the error's 95th percentile");
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_MOST, holds > 0 ? 0.01 : MOTE_NONE,
-                           limits > 0 ? 0.01 : MOTE_NONE);
-    return status;
+    mote_claim_add(claim, c->change, "L", "  change of the error's 95th percentile");
+    mote_claim_require(claim, MOTE_AT_MOST, holds > 0 ? 0.01 : MOTE_NONE,
+                       limits > 0 ? 0.01 : MOTE_NONE);
 }
 
 /* Blocks "n ratio low high change" for the curve, one a kind of moves and part; the best case
@@ -281,12 +272,11 @@ mote_status mote_claim_distant_cache(mote_study *study, mote_claim *claim)
     mote_status status = mote_study_scene(study, "ww", &subject);
     if (status == MOTE_OK)
         status = sweep_cache(study, subject, &curve, &few, &many);
-    if (status == MOTE_OK)
-        status = add_cache(&few, true, claim);
-    if (status == MOTE_OK)
-        status = add_cache(&many, false, claim);
-    if (status == MOTE_OK)
+    if (status == MOTE_OK) {
+        add_cache(&few, true, claim);
+        add_cache(&many, false, claim);
         status = mote_study_plot(study, "claim_h", &curve);
+    }
     free(curve.data);
     return status;
 }

@@ -39,7 +39,7 @@ mote_status mote_claim_closed_loop(mote_study *study, mote_claim *claim)
         if (failure)
             status = mote_fail(MOTE_ENUMERIC, "%s, %s: %s", row->scene, row->method, failure);
         if (status == MOTE_OK)
-            status = mote_dynamics_claim_add(claim, row);
+            mote_dynamics_claim_add(claim, row);
     }
     free(rows);
     return status;

@@ -141,18 +141,17 @@ mote_status mote_claim_deformed_parts(mote_study *study, mote_claim *claim)
                                 growth + first, l * PART_SEEDS, &rest[l]);
     for (size_t a = first; a < AMPLITUDES && status == MOTE_OK; ++a) {
         const mote_estimate e = mote_estimate_make(growth[a], LETTERS * PART_SEEDS);
-        status = mote_claim_add(claim, e.value, e.interval, "",
-                                "growth at %g L, four letters, three deformations each",
-                                amplitude[a]);
+        mote_claim_add(claim, e, "", "growth at %g L, four letters, three deformations each",
+                       amplitude[a]);
         /* The smallest deformation shows how much the decomposition itself varies. */
-        if (status == MOTE_OK && a + 1 < AMPLITUDES)
+        if (a + 1 < AMPLITUDES)
             mote_claim_require(claim, MOTE_AT_MOST, 1.25, 2);
         mote_text_add(&curve, "%g\t%g\t%g\t%g\n", amplitude[a], e.value, e.interval.low,
                       e.interval.high);
     }
-    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
     for (size_t l = 0; l < LETTERS && status == MOTE_OK; ++l)
-        status = mote_claim_add(claim, rest[l], none, "", "parts of %c at rest", letters[l]);
+        mote_claim_add(claim, mote_estimate_alone(rest[l]), "", "parts of %c at rest",
+                       letters[l]);
     if (status == MOTE_OK)
         status = mote_study_plot(study, "claim_m", &curve);
     free(curve.data);

@@ -125,40 +125,29 @@ static mote_status measure_size(const mote_subject *subject, size_t sizes, route
 static mote_status add_exponent(mote_claim *claim, const route_data *d, const double *steps,
                                 const char *name)
 {
-    double exponent;
-    mote_confidence interval;
-    mote_status status =
-        mote_statistics_exponent(d->vertices, steps, d->count, &exponent, &interval);
-    if (status != MOTE_OK)
-        return status;
-    return mote_claim_add(claim, exponent, interval, "", "exponent of %s over vertices", name);
+    mote_estimate exponent;
+    const mote_status status = mote_statistics_exponent(d->vertices, steps, d->count,
+                                                        &exponent.value, &exponent.interval);
+    if (status == MOTE_OK)
+        mote_claim_add(claim, exponent, "", "exponent of %s over vertices", name);
+    return status;
 }
 
 static mote_status fill_route(mote_claim *claim, const route_data *d)
 {
     const mote_estimate mean = mote_estimate_make(d->cold_ratio, ROUTE_SEEDS);
-    const mote_estimate root = mote_estimate_make(d->root_ratio, ROUTE_SEEDS);
-    const mote_estimate most = mote_estimate_make(d->most_ratio, ROUTE_SEEDS);
-    mote_status status =
-        mote_claim_add(claim, mean.value, mean.interval, "",
-                       "cold steps (95th percentile) / longest route, mean over sizes");
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_MOST, 1, 2);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, mean.value, mean.interval, "",
-                                "the same, from below: a bound that is not needlessly large");
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, most.value, most.interval, "",
-                                "the longest cold query / longest route, worst size");
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_MOST, 1.5, MOTE_NONE);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, root.value, root.interval, "",
-                                "cold steps / sqrt(vertices), our default N_max");
-    if (status == MOTE_OK)
-        status = add_exponent(claim, d, d->cold, "cold steps");
+    mote_claim_add(claim, mean, "",
+                   "cold steps (95th percentile) / longest route, mean over sizes");
+    mote_claim_require(claim, MOTE_AT_MOST, 1, 2);
+    mote_claim_add(claim, mean, "",
+                   "the same, from below: a bound that is not needlessly large");
+    mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
+    mote_claim_add(claim, mote_estimate_make(d->most_ratio, ROUTE_SEEDS), "",
+                   "the longest cold query / longest route, worst size");
+    mote_claim_require(claim, MOTE_AT_MOST, 1.5, MOTE_NONE);
+    mote_claim_add(claim, mote_estimate_make(d->root_ratio, ROUTE_SEEDS), "",
+                   "cold steps / sqrt(vertices), our default N_max");
+    mote_status status = add_exponent(claim, d, d->cold, "cold steps");
     if (status == MOTE_OK)
         status = add_exponent(claim, d, d->route, "the longest route");
     if (status == MOTE_OK)
@@ -289,27 +278,19 @@ static mote_status add_rest(const mote_study *study, const mote_subject *subject
     if (status != MOTE_OK)
         return status;
     const char *kind = cold ? "cold" : "warm";
-    const mote_estimate a = mote_estimate_make(moving, study->seeds);
-    const mote_estimate b = mote_estimate_make(off, study->seeds);
-    const mote_estimate c = mote_estimate_make(change, study->seeds);
-    const mote_estimate d = mote_estimate_make(saved, study->seeds);
-    status = mote_claim_add(claim, a.value, a.interval, "",
-                            "%s, n = %u: share of particles moving near rest", kind, n);
-    if (status == MOTE_OK && cold)
-        status = mote_claim_add(claim, b.value, b.interval, "",
-                                "%s, n = %u: that share is off 10 %% by a factor of", kind, n);
-    if (status == MOTE_OK && cold)
+    mote_claim_add(claim, mote_estimate_make(moving, study->seeds), "",
+                   "%s, n = %u: share of particles moving near rest", kind, n);
+    if (cold) {
+        mote_claim_add(claim, mote_estimate_make(off, study->seeds), "",
+                       "%s, n = %u: that share is off 10 %% by a factor of", kind, n);
         mote_claim_require(claim, MOTE_AT_MOST, 2, MOTE_NONE);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, c.value, c.interval, "L",
-                                "%s, n = %u: distance changes after the stop, 95th percentile",
-                                kind, n);
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_MOST, 0.01, 0.01);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, d.value, d.interval, "",
-                                "%s, n = %u: share of the steps that the stop saves", kind, n);
-    return status;
+    }
+    mote_claim_add(claim, mote_estimate_make(change, study->seeds), "L",
+                   "%s, n = %u: distance changes after the stop, 95th percentile", kind, n);
+    mote_claim_require(claim, MOTE_AT_MOST, 0.01, 0.01);
+    mote_claim_add(claim, mote_estimate_make(saved, study->seeds), "",
+                   "%s, n = %u: share of the steps that the stop saves", kind, n);
+    return MOTE_OK;
 }
 
 mote_status mote_claim_almost_at_rest(mote_study *study, mote_claim *claim)
@@ -383,8 +364,8 @@ static mote_status add_starts(const mote_study *study, const mote_subject *subje
     mote_estimate e = mote_estimate_make(shares, pairs);
     e.interval.low = fmax(e.interval.low, 0);
     e.interval.high = fmin(e.interval.high, 1);
-    return mote_claim_add(claim, e.value, e.interval, "",
-                          "%s: share of later queries on which two starts agree", name);
+    mote_claim_add(claim, e, "", "%s: share of later queries on which two starts agree", name);
+    return MOTE_OK;
 }
 
 mote_status mote_claim_initial_places(mote_study *study, mote_claim *claim)

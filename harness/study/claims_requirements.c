@@ -35,12 +35,9 @@ mote_status mote_claim_exact_shares(mote_study *study, mote_claim *claim)
         status = sample_ww(study, cases[c].method, samples);
         if (status != MOTE_OK)
             break;
-        const mote_estimate e =
-            mote_sample_estimate(samples, study->seeds, MOTE_MEASURED_EXACT);
-        status =
-            mote_claim_add(claim, e.value, e.interval, "", "%s: share exact", cases[c].name);
-        if (status == MOTE_OK)
-            mote_claim_require(claim, MOTE_AT_LEAST, cases[c].least, cases[c].least);
+        mote_claim_add(claim, mote_sample_estimate(samples, study->seeds, MOTE_MEASURED_EXACT),
+                       "", "%s: share exact", cases[c].name);
+        mote_claim_require(claim, MOTE_AT_LEAST, cases[c].least, cases[c].least);
     }
     return status;
 }
@@ -61,15 +58,13 @@ mote_status mote_claim_no_missed_contact(mote_study *study, mote_claim *claim)
         contacts += samples[s].of[MOTE_MEASURED_CONTACTS];
         missed += samples[s].of[MOTE_MEASURED_MISSED] * samples[s].of[MOTE_MEASURED_CONTACTS];
     }
-    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
-    status = mote_claim_add(claim, round(missed), none, "", "missed, of %.0f", contacts);
-    if (status != MOTE_OK)
-        return status;
+    const mote_estimate share = {
+        missed / contacts,
+        mote_statistics_share_interval((size_t)llround(missed), (size_t)contacts)};
+    mote_claim_add(claim, mote_estimate_alone(round(missed)), "", "missed, of %.0f", contacts);
     mote_claim_require(claim, MOTE_AT_MOST, 0, 0);
-    return mote_claim_add(
-        claim, missed / contacts,
-        mote_statistics_share_interval((size_t)llround(missed), (size_t)contacts), "",
-        "share missed");
+    mote_claim_add(claim, share, "", "share missed");
+    return MOTE_OK;
 }
 
 mote_status mote_claim_no_allocation(mote_study *study, mote_claim *claim)
@@ -82,18 +77,17 @@ mote_status mote_claim_no_allocation(mote_study *study, mote_claim *claim)
         "particle-paper:n=5", "particle-paper:n=8,refine=always",
         "particle-paper:n=16,move=surface", "particle-paper:n=16,far_cache=0.5",
         "particle-paper:n=5,precision=single"};
-    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
     mote_status status = MOTE_OK;
     for (size_t m = 0; m < sizeof methods / sizeof methods[0] && status == MOTE_OK; ++m) {
         mote_sample samples[MOTE_STUDY_SEEDS];
         double sum = 0;
         status = sample_ww(study, methods[m], samples);
-        for (size_t s = 0; s < study->seeds && status == MOTE_OK; ++s)
+        if (status != MOTE_OK)
+            break;
+        for (size_t s = 0; s < study->seeds; ++s)
             sum += samples[s].of[MOTE_MEASURED_ALLOCATIONS];
-        if (status == MOTE_OK)
-            status = mote_claim_add(claim, sum, none, "", "%s: allocations", methods[m]);
-        if (status == MOTE_OK)
-            mote_claim_require(claim, MOTE_AT_MOST, 0, 0);
+        mote_claim_add(claim, mote_estimate_alone(sum), "", "%s: allocations", methods[m]);
+        mote_claim_require(claim, MOTE_AT_MOST, 0, 0);
     }
     return status;
 }
@@ -121,23 +115,18 @@ static void gather(const mote_sample *samples, size_t count, mote_measured which
 }
 
 /* The difference and its p by Welch's test, which must not be significant. */
-static mote_status add_swap(const mote_sample *samples, const mote_sample *swapped,
-                            size_t seeds, mote_measured which, const char *name,
-                            mote_claim *claim)
+static void add_swap(const mote_sample *samples, const mote_sample *swapped, size_t seeds,
+                     mote_measured which, const char *name, mote_claim *claim)
 {
     double a[MOTE_STUDY_SEEDS], b[MOTE_STUDY_SEEDS];
     gather(samples, seeds, which, a);
     gather(swapped, seeds, which, b);
     const mote_difference d = mote_statistics_welch(a, seeds, b, seeds);
-    mote_status status =
-        mote_claim_add(claim, d.value, d.interval, "L", "%s: swapped - not swapped", name);
-    const mote_confidence none = {MOTE_NONE, MOTE_NONE};
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, d.p, none, "", "%s: p of no difference", name);
+    const mote_estimate difference = {d.value, d.interval};
+    mote_claim_add(claim, difference, "L", "%s: swapped - not swapped", name);
+    mote_claim_add(claim, mote_estimate_alone(d.p), "", "%s: p of no difference", name);
     /* Two quantiles: 0.05 by Bonferroni. */
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_LEAST, 0.025, 0.025);
-    return status;
+    mote_claim_require(claim, MOTE_AT_LEAST, 0.025, 0.025);
 }
 
 mote_status mote_claim_bodies_swapped(mote_study *study, mote_claim *claim)
@@ -161,11 +150,9 @@ mote_status mote_claim_bodies_swapped(mote_study *study, mote_claim *claim)
         swap_bodies(subject, &scenario, &motion, &swapped);
         status = mote_study_sample(&swapped, method, tour, study->seeds, other);
     }
-    if (status == MOTE_OK)
-        status = add_swap(samples, other, study->seeds, MOTE_MEASURED_ERROR_P95,
-                          "95th percentile", claim);
-    if (status == MOTE_OK)
-        status = add_swap(samples, other, study->seeds, MOTE_MEASURED_ERROR_P99,
-                          "99th percentile", claim);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    add_swap(samples, other, study->seeds, MOTE_MEASURED_ERROR_P95, "95th percentile", claim);
+    add_swap(samples, other, study->seeds, MOTE_MEASURED_ERROR_P99, "99th percentile", claim);
+    return MOTE_OK;
 }

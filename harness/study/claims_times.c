@@ -205,17 +205,14 @@ static mote_estimate slowest_frame(const mote_summary_row *row)
     return slowest;
 }
 
-static mote_status add_time(const mote_summary_row *row, const char *scene, bool maximum,
-                            double paper_ms, mote_claim *claim)
+static void add_time(const mote_summary_row *row, const char *scene, bool maximum,
+                     double paper_ms, mote_claim *claim)
 {
     const mote_estimate e = maximum ? slowest_frame(row) : estimate_of(row, active_mean);
     const char *what = maximum ? "maximum" : "average";
-    mote_status status = mote_claim_add(claim, e.value, e.interval, "ms",
-                                        "%s, %s (paper: %g ms, %.0f times as long)", scene,
-                                        what, paper_ms, paper_ms / e.value);
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_MOST, paper_ms / MACHINE, paper_ms);
-    return status;
+    mote_claim_add(claim, e, "ms", "%s, %s (paper: %g ms, %.0f times as long)", scene, what,
+                   paper_ms, paper_ms / e.value);
+    mote_claim_require(claim, MOTE_AT_MOST, paper_ms / MACHINE, paper_ms);
 }
 
 mote_status mote_claim_times(mote_study *study, mote_claim *claim)
@@ -236,15 +233,13 @@ mote_status mote_claim_times(mote_study *study, mote_claim *claim)
     status = find_row(summary, "ww", MOTE_CACHE_HOT, "particle-paper:n=5", &w);
     if (status == MOTE_OK)
         status = find_row(summary, "tt", MOTE_CACHE_HOT, "particle-paper:n=3", &t);
-    if (status == MOTE_OK)
-        status = add_time(w, "W-W, n = 5", false, 12.67, claim);
-    if (status == MOTE_OK)
-        status = add_time(w, "W-W, n = 5", true, 47, claim);
-    if (status == MOTE_OK)
-        status = add_time(t, "T-T, n = 3", false, 1, claim);
-    if (status == MOTE_OK)
-        status = add_time(t, "T-T, n = 3", true, 11, claim);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    add_time(w, "W-W, n = 5", false, 12.67, claim);
+    add_time(w, "W-W, n = 5", true, 47, claim);
+    add_time(t, "T-T, n = 3", false, 1, claim);
+    add_time(t, "T-T, n = 3", true, 11, claim);
+    return MOTE_OK;
 }
 
 mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
@@ -265,19 +260,13 @@ mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
         status = find_row(summary, "ww", MOTE_CACHE_HOT, trees[i], &tree);
         if (status != MOTE_OK)
             break;
-        const mote_estimate ratio = ratio_of(tree, particles, own_bytes);
-        const mote_estimate bytes = estimate_of(tree, own_bytes);
-        status = mote_claim_add(claim, ratio.value, ratio.interval, "x",
-                                "%s / particles, n = 5, bytes", trees[i]);
-        if (status == MOTE_OK)
-            mote_claim_require(claim, MOTE_AT_LEAST, 10, 2);
-        if (status == MOTE_OK)
-            status = mote_claim_add(claim, bytes.value, bytes.interval, "B", "%s", trees[i]);
+        mote_claim_add(claim, ratio_of(tree, particles, own_bytes), "x",
+                       "%s / particles, n = 5, bytes", trees[i]);
+        mote_claim_require(claim, MOTE_AT_LEAST, 10, 2);
+        mote_claim_add(claim, estimate_of(tree, own_bytes), "B", "%s", trees[i]);
     }
-    if (status == MOTE_OK) {
-        const mote_estimate bytes = estimate_of(particles, own_bytes);
-        status = mote_claim_add(claim, bytes.value, bytes.interval, "B", "particles, n = 5");
-    }
+    if (status == MOTE_OK)
+        mote_claim_add(claim, estimate_of(particles, own_bytes), "B", "particles, n = 5");
     return status;
 }
 
@@ -287,16 +276,12 @@ static mote_status add_update(const mote_summary *summary, const char *label, mo
     mote_status status = find_row(summary, "ww", MOTE_CACHE_HOT, label, &row);
     if (status != MOTE_OK)
         return status;
-    const mote_estimate all = estimate_of(row, update_share);
-    const mote_estimate refit = estimate_of(row, refit_share);
-    status = mote_claim_add(claim, all.value, all.interval, "",
-                            "W-W, %s: share of a frame that is deformation and refit", label);
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, refit.value, refit.interval, "",
-                                "W-W, %s: share of refit, vertices given", label);
-    return status;
+    mote_claim_add(claim, estimate_of(row, update_share), "",
+                   "W-W, %s: share of a frame that is deformation and refit", label);
+    mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
+    mote_claim_add(claim, estimate_of(row, refit_share), "",
+                   "W-W, %s: share of refit, vertices given", label);
+    return MOTE_OK;
 }
 
 /* Rigid T-T: oriented trees take transforms in place, axis-aligned ones are refitted. */
@@ -310,16 +295,12 @@ static mote_status add_rigid(const mote_summary *summary, mote_claim *claim)
         status = find_row(summary, "tt", MOTE_CACHE_HOT, "particle-paper:n=3", &particles);
     if (status != MOTE_OK)
         return status;
-    const mote_estimate update = ratio_of(refitted, rigid, median_total);
-    const mote_estimate ours = ratio_of(particles, rigid, median_total);
-    status = mote_claim_add(claim, update.value, update.interval, "x",
-                            "rigid T-T: fcl-aabb refitted / fcl-obbrss without refit, median");
-    if (status == MOTE_OK)
-        mote_claim_require(claim, MOTE_AT_LEAST, 2, 1.1);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, ours.value, ours.interval, "x",
-                                "rigid T-T: particles, n = 3 / fcl-obbrss without refit");
-    return status;
+    mote_claim_add(claim, ratio_of(refitted, rigid, median_total), "x",
+                   "rigid T-T: fcl-aabb refitted / fcl-obbrss without refit, median");
+    mote_claim_require(claim, MOTE_AT_LEAST, 2, 1.1);
+    mote_claim_add(claim, ratio_of(particles, rigid, median_total), "x",
+                   "rigid T-T: particles, n = 3 / fcl-obbrss without refit");
+    return MOTE_OK;
 }
 
 mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
@@ -375,17 +356,14 @@ static mote_status add_ratio(const mote_summary *summary, mote_cache cache, cons
             count < MOTE_STUDY_SEEDS)
             paired[count++] = paired_ratio(&theirs->cells[r], &ours->cells[r]);
     }
-    const mote_estimate frames = mote_estimate_ratio(paired, count);
-    const mote_estimate sum = ratio_of(theirs, ours, mean_total);
     const char *caches = mote_cache_names[cache];
-    status = mote_claim_add(claim, frames.value, frames.interval, "x",
-                            "%s, caches %s, frame by frame", label, caches);
-    if (status == MOTE_OK && least == least)
+    mote_claim_add(claim, mote_estimate_ratio(paired, count), "x",
+                   "%s, caches %s, frame by frame", label, caches);
+    if (least == least)
         mote_claim_require(claim, MOTE_AT_LEAST, least, least);
-    if (status == MOTE_OK)
-        status = mote_claim_add(claim, sum.value, sum.interval, "x",
-                                "%s, caches %s, sum of all frames", label, caches);
-    return status;
+    mote_claim_add(claim, ratio_of(theirs, ours, mean_total), "x",
+                   "%s, caches %s, sum of all frames", label, caches);
+    return MOTE_OK;
 }
 
 mote_status mote_claim_faster_than_fcl(mote_study *study, mote_claim *claim)

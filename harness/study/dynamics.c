@@ -107,17 +107,17 @@ static bool is_paper_row(const mote_dynamics_row *row)
     return row->paper && row->law && strcmp(row->law, "log") == 0;
 }
 
-mote_status mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row)
+void mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row)
 {
-    const mote_confidence interval = mote_approaches_interval(&row->sum);
-    const double share = mote_approaches_share(&row->sum);
-    if (!is_paper_row(row))
-        return mote_claim_add(claim, share, interval, "", "%s, %s", row->scene, row->method);
-    const mote_status status =
-        mote_claim_add(claim, share, interval, "", "%s, n = %u", row->scene, row->n);
-    if (status == MOTE_OK && row->n >= 3 && row->n <= 5)
+    const mote_estimate share = {mote_approaches_share(&row->sum),
+                                 mote_approaches_interval(&row->sum)};
+    if (!is_paper_row(row)) {
+        mote_claim_add(claim, share, "", "%s, %s", row->scene, row->method);
+        return;
+    }
+    mote_claim_add(claim, share, "", "%s, n = %u", row->scene, row->n);
+    if (row->n >= 3 && row->n <= 5)
         mote_claim_require(claim, MOTE_AT_MOST, HOLDS, LIMITS);
-    return status;
 }
 
 const char *mote_dynamics_failure(const mote_dynamics_row *row)

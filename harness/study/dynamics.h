@@ -35,7 +35,7 @@ mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row
 /* Fills in what the paper claims, and adds a row's figure to it: rows with 3 to 5 particles
    and the printed law on the paper's scenes decide, others are only reported. */
 void mote_dynamics_claim(mote_claim *claim);
-mote_status mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row);
+void mote_dynamics_claim_add(mote_claim *claim, const mote_dynamics_row *row);
 
 /* Checks what a measured row must show: NULL, or what it does not. */
 const char *mote_dynamics_failure(const mote_dynamics_row *row);

@@ -84,10 +84,6 @@ mote_status mote_study_sample(const mote_subject *subject, const char *method, m
                               size_t count, mote_sample *samples);
 
 /* A mean with Student's t interval. */
-typedef struct mote_estimate {
-    double value;
-    mote_confidence interval;
-} mote_estimate;
 mote_estimate mote_estimate_make(const double *values, size_t count);
 
 /* The same for positive values whose ratios matter: geometric mean, interval of the logarithms.

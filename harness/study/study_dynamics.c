@@ -268,19 +268,16 @@ static mote_status report(const study *s, bool *met)
 {
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
-    mote_status status = MOTE_OK;
-    for (size_t i = 0; i < s->count && status == MOTE_OK; ++i) {
+    for (size_t i = 0; i < s->count; ++i) {
         if (s->rows[i].paper && (!s->rows[i].law || strcmp(s->rows[i].law, "log") == 0))
-            status = mote_dynamics_claim_add(&claim, &s->rows[i]);
+            mote_dynamics_claim_add(&claim, &s->rows[i]);
     }
-    if (status == MOTE_OK) {
-        mote_dynamics_print(s->rows, s->count);
-        (void)printf("\n");
-        mote_claim_print(&claim);
-        json_t *failures = failures_of(s);
-        *met = json_array_size(failures) == 0;
-        status = write_json(s, &claim, failures);
-    }
+    mote_dynamics_print(s->rows, s->count);
+    (void)printf("\n");
+    mote_claim_print(&claim);
+    json_t *failures = failures_of(s);
+    *met = json_array_size(failures) == 0;
+    mote_status status = write_json(s, &claim, failures);
     if (status == MOTE_OK)
         status = mote_dynamics_csv(s->rows, s->count, s->directory);
     if (status == MOTE_OK)

