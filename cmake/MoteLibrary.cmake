@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(MOTE_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # 0.x: each minor its own
 
 # Headers of the installed library; everything else in core/ is not for users.
-set(public_headers status vec3 clones mesh field body positions triangle parameter method certificate scene stream mass
+set(public_headers status vec3 clones mesh field body positions triangle parameter method certificate scene stream stream_scene mass
     skin skin_data quaternion rigid_motion response)
 if(NOT MOTE_CORE_ONLY)
   list(APPEND public_headers csrbf_fit parts)

@@ -1,6 +1,7 @@
 #include "core/certificate/scene.h"
 
 #include "core/certificate/certificate_shared.h"
+#include "core/certificate/pair_list.h"
 #include "core/base/pool.h"
 
 #include <stdlib.h>
@@ -9,13 +10,6 @@
 /* Bodies and pairs that a thread works on at a time. */
 #define GRAIN_BODIES 64
 #define GRAIN_PAIRS 4
-
-/* The pairs of a step, and what each keeps for its next query. */
-typedef struct pair_list {
-    mote_scene_pair *pairs; /* [room] */
-    mote_cert_memory *memories;
-    size_t count, room;
-} pair_list;
 
 struct mote_scene {
     mote_scene_options options;
@@ -26,7 +20,7 @@ struct mote_scene {
     uint32_t body_count;
     mote_pool *pool;
     mote_certificate **workspaces; /* [threads] */
-    pair_list now, before;
+    mote_pair_list now, before;
     /* Arguments of the loop that is running: */
     const mote_body_state *states;
     mote_scene_box *bounds;
@@ -35,30 +29,6 @@ struct mote_scene {
 mote_scene_options mote_default_scene_options(void)
 {
     return (mote_scene_options){.ask = MOTE_ASK_DISTANCE, .threads = 1};
-}
-
-static mote_status check(uint32_t shape_count, const uint32_t *shape_of, uint32_t body_count,
-                         const mote_scene_options *options)
-{
-    if (shape_count < 1 || body_count < 1)
-        return mote_fail(
-            MOTE_EINVAL,
-            "a scene needs at least one body and one shape; there are %u bodies and %u shapes",
-            body_count, shape_count);
-    if (options->threads < 1 || options->threads > MOTE_POOL_MAX)
-        return mote_fail(MOTE_EINVAL, "%u threads is out of range; give 1 to %u",
-                         options->threads, MOTE_POOL_MAX);
-    if (!(options->tolerance >= 0) || !isfinite(options->tolerance))
-        return mote_fail(MOTE_EINVAL,
-                         "tolerance %g is not valid; it must be a finite number of at least 0",
-                         options->tolerance);
-    for (uint32_t i = 0; i < body_count; ++i) {
-        if (shape_of[i] >= shape_count)
-            return mote_fail(MOTE_EINVAL,
-                             "body %u has shape %u, which does not exist; there are %u shapes",
-                             i, shape_of[i], shape_count);
-    }
-    return MOTE_OK;
 }
 
 static mote_status build_trees(mote_scene *s, const mote_body *const *shapes)
@@ -97,7 +67,7 @@ mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_cou
                               const uint32_t *shape_of, uint32_t body_count,
                               const mote_scene_options *options, mote_scene **scene)
 {
-    mote_status status = check(shape_count, shape_of, body_count, options);
+    mote_status status = mote_scene_refuse_bad(shape_count, shape_of, body_count, options);
     if (status != MOTE_OK)
         return status;
     mote_scene *made = calloc(1, sizeof *made);
@@ -106,6 +76,7 @@ mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_cou
     made->options = *options;
     made->shape_count = shape_count;
     made->body_count = body_count;
+    made->now.memory_size = made->before.memory_size = sizeof(mote_cert_memory);
     status = mote_pool_create(options->threads, &made->pool);
     if (status == MOTE_OK)
         status = build(made, shapes, shape_of);
@@ -114,12 +85,6 @@ mote_status mote_scene_create(const mote_body *const *shapes, uint32_t shape_cou
     else
         mote_scene_destroy(made);
     return status;
-}
-
-static void free_list(pair_list *list)
-{
-    free(list->pairs);
-    free(list->memories);
 }
 
 void mote_scene_destroy(mote_scene *scene)
@@ -134,8 +99,8 @@ void mote_scene_destroy(mote_scene *scene)
     free(scene->trees);
     free(scene->workspaces);
     free(scene->shape_of);
-    free_list(&scene->now);
-    free_list(&scene->before);
+    mote_pair_list_free(&scene->now);
+    mote_pair_list_free(&scene->before);
     free(scene);
 }
 
@@ -146,8 +111,7 @@ size_t mote_scene_bytes(const mote_scene *scene)
         bytes += mote_cert_tree_bytes(scene->trees[i]);
     for (uint32_t i = 0; i < scene->options.threads; ++i)
         bytes += mote_cert_workspace_bytes(scene->workspaces[i]);
-    const size_t pairs = scene->now.room + scene->before.room;
-    return bytes + pairs * (sizeof *scene->now.pairs + sizeof *scene->now.memories);
+    return bytes + mote_pair_list_bytes(&scene->now) + mote_pair_list_bytes(&scene->before);
 }
 
 double mote_scene_length(const mote_scene *scene)
@@ -191,59 +155,6 @@ mote_status mote_scene_bounds(mote_scene *scene, const mote_body_state *states,
     return status;
 }
 
-static mote_status check_pairs(const mote_scene *s, const uint32_t (*pairs)[2], size_t count)
-{
-    for (size_t k = 0; k < count; ++k) {
-        if (pairs[k][0] >= pairs[k][1] || pairs[k][1] >= s->body_count)
-            return mote_fail(MOTE_EINVAL,
-                             "pair %u, %u is not valid; give i < j, both below %u bodies",
-                             pairs[k][0], pairs[k][1], s->body_count);
-        if (k > 0 && mote_pair_order(pairs[k - 1], pairs[k]) >= 0)
-            return mote_fail(MOTE_EINVAL,
-                             "pair %u, %u follows %u, %u; give pairs in ascending order",
-                             pairs[k][0], pairs[k][1], pairs[k - 1][0], pairs[k - 1][1]);
-    }
-    return MOTE_OK;
-}
-
-/* Makes room for count pairs; the contents of the list are lost. */
-static mote_status make_room(pair_list *list, size_t count)
-{
-    if (count <= list->room)
-        return MOTE_OK;
-    const size_t room = count + count / 4 + 16;
-    mote_scene_pair *pairs = malloc(room * sizeof *pairs);
-    mote_cert_memory *memories = malloc(room * sizeof *memories);
-    if (!pairs || !memories) {
-        free(pairs);
-        free(memories);
-        return mote_fail(MOTE_ENOMEM, "no memory for %zu near pairs", count);
-    }
-    free_list(list);
-    *list = (pair_list){.pairs = pairs, .memories = memories, .room = room};
-    return MOTE_OK;
-}
-
-/* Fills the new list with the pairs, each with its state from the last step, if it has one. */
-static void carry_over(const pair_list *before, const uint32_t (*pairs)[2], size_t count,
-                       pair_list *list)
-{
-    size_t old = 0;
-    list->count = count;
-    for (size_t k = 0; k < count; ++k) {
-        while (old < before->count && mote_pair_order(before->pairs[old].body, pairs[k]) < 0)
-            ++old;
-        const bool known =
-            old < before->count && mote_pair_order(before->pairs[old].body, pairs[k]) == 0;
-        list->pairs[k] = (mote_scene_pair){.body = {pairs[k][0], pairs[k][1]}, .steps = 1};
-        list->memories[k] = (mote_cert_memory){.has_last = false};
-        if (known) {
-            list->pairs[k].steps += before->pairs[old].steps;
-            list->memories[k] = before->memories[old];
-        }
-    }
-}
-
 static void answer_pair(mote_scene *s, mote_certificate *workspace, mote_scene_pair *pair,
                         mote_cert_memory *memory)
 {
@@ -268,22 +179,18 @@ static void answer_pair(mote_scene *s, mote_certificate *workspace, mote_scene_p
 static void answer_range(void *context, uint32_t worker, size_t first, size_t end)
 {
     mote_scene *s = context;
+    mote_cert_memory *memories = (mote_cert_memory *)(void *)s->now.memories;
     for (size_t k = first; k < end; ++k)
-        answer_pair(s, s->workspaces[worker], &s->now.pairs[k], &s->now.memories[k]);
+        answer_pair(s, s->workspaces[worker], &s->now.pairs[k], &memories[k]);
 }
 
 mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
                              const uint32_t (*pairs)[2], size_t count)
 {
-    mote_status status = check_pairs(scene, pairs, count);
-    if (status == MOTE_OK)
-        status = make_room(&scene->before, count);
+    mote_status status =
+        mote_pair_list_take(&scene->now, &scene->before, pairs, count, scene->body_count);
     if (status != MOTE_OK)
         return status;
-    carry_over(&scene->now, pairs, count, &scene->before);
-    const pair_list swapped = scene->now;
-    scene->now = scene->before;
-    scene->before = swapped;
     scene->states = states;
     mote_pool_run(scene->pool, answer_range, scene, count, GRAIN_PAIRS);
     return MOTE_OK;

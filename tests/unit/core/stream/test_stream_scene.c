@@ -1,0 +1,182 @@
+/* Several bodies of which only positions are known: bounds against all vertices, answers
+   against all pairs of triangles. */
+#include "core/stream/stream_scene.h"
+
+#include "harness/base/heap_count.h"
+#include "tests/support/crowd.h"
+#include "tests/support/test.h"
+
+typedef struct placed {
+    crowd c;
+    mote_vec3 *world[CROWD_MAX];
+    mote_positions positions[CROWD_MAX];
+} placed;
+
+static void place(placed *p)
+{
+    for (uint32_t i = 0; i < p->c.count; ++i) {
+        free(p->world[i]);
+        p->world[i] = crowd_vertices(&p->c, i);
+        p->positions[i] = mote_positions_of(p->world[i]);
+    }
+}
+
+static void placed_init(placed *p, uint32_t count, size_t triangles, double side)
+{
+    memset(p, 0, sizeof *p);
+    crowd_init(&p->c, count, triangles, side);
+    place(p);
+}
+
+static void placed_free(placed *p)
+{
+    for (uint32_t i = 0; i < p->c.count; ++i)
+        free(p->world[i]);
+    crowd_free(&p->c);
+}
+
+static mote_stream_scene *scene_of(const placed *p, const mote_scene_options *options)
+{
+    mote_stream_scene *scene = NULL;
+    if (mote_stream_scene_create(p->c.shape, CROWD_SHAPES, p->c.shape_of, p->c.count, options,
+                                 &scene) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    return scene;
+}
+
+TEST(bounds_contain_every_vertex_and_are_tight)
+{
+    static const double sides[] = {3, 1e3, 1e7, 1e12};
+    static placed p;
+    const mote_scene_options options = mote_default_scene_options();
+    for (size_t k = 0; k < ROWS_OF(sides); ++k) {
+        placed_init(&p, 18, 400, sides[k]);
+        mote_stream_scene *scene = scene_of(&p, &options);
+        mote_scene_box boxes[CROWD_MAX];
+        assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+        for (uint32_t i = 0; i < p.c.count; ++i) {
+            double high = -HUGE_VAL;
+            for (uint32_t v = 0; v < p.c.shape[p.c.shape_of[i]]->mesh->vertex_count; ++v) {
+                const mote_vec3 x = p.world[i][v];
+                assert_true(x.x >= boxes[i].low.x && x.x <= boxes[i].high.x);
+                assert_true(x.y >= boxes[i].low.y && x.y <= boxes[i].high.y);
+                assert_true(x.z >= boxes[i].low.z && x.z <= boxes[i].high.z);
+                high = fmax(high, x.y);
+            }
+            assert_true(boxes[i].high.y - high < 1e-5 + 1e-14 * sides[k]);
+        }
+        mote_stream_scene_destroy(scene);
+        placed_free(&p);
+    }
+    mote_stream_scene_destroy(NULL);
+}
+
+TEST(query_all_pairs_equals_brute_force)
+{
+    static placed p;
+    mote_scene_options options = mote_default_scene_options();
+    options.tolerance = 0.02;
+    placed_init(&p, 6, 700, 1.3);
+    mote_stream_scene *distance = scene_of(&p, &options);
+    options.ask = MOTE_ASK_CONTACT;
+    mote_stream_scene *contact = scene_of(&p, &options);
+    uint32_t pairs[CROWD_MAX * CROWD_MAX][2];
+    const size_t count = crowd_pairs(&p.c, pairs);
+    const uint32_t(*all)[2] = (const uint32_t(*)[2])pairs;
+    bool unchanged[CROWD_MAX] = {false};
+    size_t contacts = 0;
+    for (int step = 0; step < 4; ++step) {
+        mote_scene_box boxes[CROWD_MAX];
+        assert_int_equal(mote_stream_scene_bounds(distance, p.positions, unchanged, boxes),
+                         MOTE_OK);
+        assert_int_equal(mote_stream_scene_bounds(contact, p.positions, unchanged, boxes),
+                         MOTE_OK);
+        assert_int_equal(mote_stream_scene_query(distance, all, count), MOTE_OK);
+        assert_int_equal(mote_stream_scene_query(contact, all, count), MOTE_OK);
+        size_t answered = 0;
+        const mote_scene_pair *a = mote_stream_scene_pairs(distance, &answered);
+        const mote_scene_pair *b = mote_stream_scene_pairs(contact, &answered);
+        assert_int_equal(answered, count);
+        for (size_t k = 0; k < count; ++k) {
+            const double truth = crowd_distance(&p.c, a[k].body[0], a[k].body[1]);
+            assert_true(fabs(a[k].distance - truth) <= 1e-12);
+            assert_true(a[k].lower <= truth && a[k].lower >= truth - 1e-12);
+            assert_int_equal(a[k].contact, truth <= options.tolerance);
+            assert_int_equal(b[k].contact, a[k].contact);
+            assert_true(b[k].contact || b[k].lower > options.tolerance);
+            assert_int_equal(a[k].steps, step + 1);
+            contacts += a[k].contact;
+        }
+        for (uint32_t i = 0; i < p.c.count; ++i) /* every other step nothing moves */
+            unchanged[i] = step % 2 == 0;
+        if (step % 2)
+            crowd_move(&p.c, 0.02);
+        if (step % 2)
+            place(&p);
+    }
+    assert_true(contacts > 0 && contacts < 4 * count);
+    mote_stream_scene_destroy(distance);
+    mote_stream_scene_destroy(contact);
+    placed_free(&p);
+}
+
+TEST(query_any_number_of_threads_gives_the_same_bits_and_never_allocates)
+{
+    static placed p;
+    static mote_scene_pair expected[3][CROWD_MAX * CROWD_MAX];
+    placed_init(&p, 24, 700, 3);
+    uint32_t pairs[CROWD_MAX * CROWD_MAX][2];
+    const size_t count = crowd_pairs(&p.c, pairs);
+    for (uint32_t threads = 1; threads <= 5; threads += 2) {
+        mote_scene_options options = mote_default_scene_options();
+        options.threads = threads;
+        mote_stream_scene *scene = scene_of(&p, &options);
+        for (int step = 0; step < 3; ++step) {
+            mote_scene_box boxes[CROWD_MAX];
+            const uint64_t before = mote_heap_read().allocations;
+            assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes),
+                             MOTE_OK);
+            assert_int_equal(mote_stream_scene_query(scene, (const uint32_t(*)[2])pairs, count),
+                             MOTE_OK);
+            assert_true(step < 2 || mote_heap_read().allocations == before);
+            size_t answered = 0;
+            const mote_scene_pair *a = mote_stream_scene_pairs(scene, &answered);
+            if (threads == 1)
+                memcpy(expected[step], a, count * sizeof *a);
+            assert_memory_equal(expected[step], a, count * sizeof *a);
+        }
+        mote_stream_scene_destroy(scene);
+    }
+    placed_free(&p);
+}
+
+TEST(bounds_and_query_bad_input_is_refused)
+{
+    static placed p;
+    placed_init(&p, 6, 400, 3);
+    const mote_scene_options options = mote_default_scene_options();
+    mote_stream_scene *scene = scene_of(&p, &options);
+    mote_scene_box boxes[CROWD_MAX];
+    const uint32_t pairs[1][2] = {{1, 4}}, wrong[1][2] = {{4, 1}};
+    assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "call mote_stream_scene_bounds"));
+    const mote_vec3 kept = p.world[4][7];
+    p.world[4][7].z = NAN;
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "body 4: vertex 7"));
+    p.world[4][7] = kept;
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+    assert_int_equal(mote_stream_scene_query(scene, wrong, 1), MOTE_EINVAL);
+    assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_OK);
+    p.world[4][7].z = 1e30;
+    assert_int_equal(mote_stream_scene_bounds(scene, p.positions, NULL, boxes), MOTE_OK);
+    assert_int_equal(mote_stream_scene_query(scene, pairs, 1), MOTE_EINVAL);
+    assert_non_null(strstr(mote_error_text(), "bodies 1 and 4"));
+    mote_stream_scene_destroy(scene);
+    mote_stream_scene *none = NULL;
+    const uint32_t bad_shape[1] = {9};
+    assert_int_equal(mote_stream_scene_create(p.c.shape, 1, bad_shape, 1, &options, &none),
+                     MOTE_EINVAL);
+    assert_null(none);
+    placed_free(&p);
+}
