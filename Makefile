@@ -14,6 +14,7 @@
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
+#   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
@@ -65,7 +66,7 @@ SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTION
 .DEFAULT_GOAL := build
 .NOTPARALLEL: # JOBS is for what runs inside a target
 .PHONY: deps build build-tests bench test figures perf-check perf-accept test-perf test-kill \
-    test-statistics oracle tune ingredients ablation certify streamed soak reliability extremes dynamics claims \
+    test-statistics oracle tune ingredients ablation certify skins streamed soak reliability extremes dynamics claims \
     format lint clean
 
 # packages.txt lists what building and running mote needs, cmake/packages-NAME.txt what deps-NAME adds.
@@ -137,6 +138,11 @@ ablation: build
 certify: program-certify
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/certify --out $(OUT)/certify.json \
+	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
+
+skins: program-skins
+	@mkdir -p $(OUT)
+	@$(BUILD)/tests/skins --out $(OUT)/skins.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
 streamed: program-streamed

@@ -11,7 +11,7 @@ case ${7:-} in
 plant) plant=plant ;;
 record) record=record ;;
 esac
-only=${ONLY:-certify streamed metamorphic soak oracle answers threads kills stops faults fuzz}
+only=${ONLY:-certify skins streamed metamorphic soak oracle answers threads kills stops faults fuzz}
 case $profile in
 quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=56 ;;
 *) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 runs=100 ;;
@@ -82,6 +82,9 @@ study() { # NAME
     certify)
         log certify "$build/tests/certify" --queries $queries --checks "$checks" \
             --out "$out/certify.json" ;;
+    skins)
+        log skins "$build/tests/skins" --queries $queries --checks "$checks" \
+            --out "$out/skins.json" ;;
     streamed)
         log streamed "$build/tests/streamed" --queries $queries --checks "$checks" \
             --out "$out/streamed.json" ;;

@@ -1,10 +1,11 @@
-/* Two skinned tori in random poses, with or without morph targets. */
+/* Two skinned tori in random poses, with or without morph targets, and whether boxes that a
+   certificate has deformed hold the vertices that are in them. */
 #ifndef MOTE_TESTS_SKIN_SCENE_H
 #define MOTE_TESTS_SKIN_SCENE_H
 
+#include "core/certificate/certificate_state.h"
 #include "core/skin/skin.h"
 #include "tests/support/shapes.h"
-#include "tests/support/test.h"
 
 /* A skinned pair, its bones' matrices and the amounts of its morph targets. */
 typedef struct skinned {
@@ -99,10 +100,9 @@ static inline mote_field *skin_of_torus(const mote_mesh *mesh, const skin_plan *
         weigh(mesh, v, plan->bones, each, bone + v * each, weight + v * each);
     mote_field *field = NULL;
     if (plan->targets > 0)
-        assert_int_equal(morphing(mesh, plan, start, bone, weight, &field), MOTE_OK);
+        need(morphing(mesh, plan, start, bone, weight, &field) == MOTE_OK);
     else
-        assert_int_equal(mote_field_create_skin(mesh, plan->bones, start, bone, weight, &field),
-                         MOTE_OK);
+        need(mote_field_create_skin(mesh, plan->bones, start, bone, weight, &field) == MOTE_OK);
     free(start);
     free(bone);
     free(weight);
@@ -186,12 +186,41 @@ static inline void random_amounts(skinned *k, int b, double wild)
     }
 }
 
+/* Deforms both bodies by their matrices and amounts. */
+static inline void skinned_deform(skinned *k)
+{
+    for (int b = 0; b < 2; ++b) {
+        mote_body_state *state = &k->s.frame.body[b];
+        state->shape_changed = state->pose_changed = true;
+        state->weights = skinned_weights(k, b, &state->pose.rotation, k->weights[b]);
+        mote_deform_all(k->s.deform[b], state, k->s.world[b]);
+    }
+    ++k->s.frame.number;
+}
+
+/* A small step from the last pose. */
+static inline void step_pose(skinned *k, double size)
+{
+    scene *s = &k->s;
+    for (int b = 0; b < 2; ++b) {
+        mote_vec3 *t = &s->frame.body[b].pose.translation;
+        t->x += scene_random(s, -size, size) * s->length;
+        t->y += scene_random(s, -size, size) * s->length;
+        for (uint32_t i = 0; i < k->bones; ++i) {
+            for (int e = 0; e < 12; ++e)
+                k->matrix[b][i][e / 4][e % 4] += scene_random(s, -size, size);
+        }
+        for (uint32_t j = 0; j < k->targets; ++j)
+            k->amounts[b][j] *= 1 + scene_random(s, -size, size);
+    }
+    skinned_deform(k);
+}
+
 static inline void next_pose(skinned *k, double wild, double reach)
 {
     scene *s = &k->s;
     for (int b = 0; b < 2; ++b) {
         mote_body_state *state = &s->frame.body[b];
-        state->shape_changed = state->pose_changed = true;
         state->pose.rotation = random_rotation(s);
         state->pose.translation =
             mote_vec3_make(b * scene_random(s, 0.1, reach) * s->length,
@@ -199,12 +228,57 @@ static inline void next_pose(skinned *k, double wild, double reach)
         for (uint32_t i = 0; i < k->bones; ++i)
             random_bone(s, wild, k->matrix[b][i]);
         random_amounts(k, b, wild);
-        state->weights = skinned_weights(k, b, &state->pose.rotation, k->weights[b]);
-        mote_deform_all(s->deform[b], state, s->world[b]);
     }
-    ++s->frame.number;
+    skinned_deform(k);
+}
+
+/* How much larger than the sum the terms of a position are where targets undo each other. */
+static inline double largest_term(const skinned *k)
+{
+    double most = 1;
+    for (int b = 0; b < 2 && k->targets > 2; ++b)
+        most = fmax(most, fabs(k->amounts[b][0]));
+    return most;
 }
 
 static const double wildness[4] = {0.02, 0.3, 1, 3};
+
+static inline mote_vec3 certificate_point(const mote_certificate *c, mote_vec3 world)
+{
+    return mote_scale(mote_sub(world, c->origin), c->scale);
+}
+
+static inline bool in_reach(const scene *s, const mote_certificate *c, int b,
+                            const mote_cert_node *node, size_t l, uint32_t vertex)
+{
+    const mote_vec3 p = certificate_point(c, s->world[b][vertex]);
+    return mote_dot(p, c->side[b].facing) <= (double)node->reach[l];
+}
+
+/* By the box's size along some random directions. */
+static inline bool in_box(scene *s, const mote_certificate *c, int b,
+                          const mote_cert_node *node, size_t l, uint32_t vertex)
+{
+    const mote_vec3 p = certificate_point(c, s->world[b][vertex]);
+    for (int i = 0; i < 3; ++i) {
+        const mote_mat3 turn = random_rotation(s);
+        const double *d = turn.m[0];
+        double at = 0, half = 0;
+        for (int r = 0; r < 3; ++r) {
+            at += (double)node->centre[r][l] * d[r];
+            half += (double)node->width[r][l] * fabs(d[r]);
+        }
+        for (int a = 0; a < 3; ++a) {
+            double along = 0;
+            for (int r = 0; r < 3; ++r)
+                along += (double)node->axis[a][r][l] * d[r];
+            half += fabs(along);
+        }
+        const double x = p.x * d[0] + p.y * d[1] + p.z * d[2];
+        if (!(x >= at - half && x <= at + half))
+            return false;
+    }
+    return true;
+}
 
 #endif

@@ -8,6 +8,7 @@
 #include "core/body/field_kinds.h"
 #include "core/body/lazy.h"
 #include "tests/support/skin_scene.h"
+#include "tests/support/test.h"
 
 static mote_certificate *certificate_of(const scene *s)
 {
@@ -16,15 +17,6 @@ static mote_certificate *certificate_of(const scene *s)
     mote_certificate *c = NULL;
     assert_int_equal(mote_certificate_create(bodies, &plain, &c), MOTE_OK);
     return c;
-}
-
-/* How much larger than the sum the terms of a position are where targets undo each other. */
-static double largest_term(const skinned *k)
-{
-    double most = 1;
-    for (int b = 0; b < 2 && k->targets > 2; ++b)
-        most = fmax(most, fabs(k->amounts[b][0]));
-    return most;
 }
 
 /* Bones, bones of a vertex, targets. */
@@ -57,39 +49,11 @@ TEST(query_of_random_affine_bones_equals_all_pairs)
     assert_true(apart > 100);
 }
 
-static mote_vec3 relative(const mote_certificate *c, mote_vec3 world)
-{
-    return mote_scale(mote_sub(world, c->origin), c->scale);
-}
-
-/* A point is in a box: by the gap along any of some directions. */
-static void check_in_box(scene *s, const mote_cert_node *node, size_t l, mote_vec3 p)
-{
-    for (int i = 0; i < 3; ++i) {
-        const mote_mat3 turn = random_rotation(s);
-        const double *d = turn.m[0];
-        double at = 0, half = 0;
-        for (int r = 0; r < 3; ++r) {
-            at += (double)node->centre[r][l] * d[r];
-            half += (double)node->width[r][l] * fabs(d[r]);
-        }
-        for (int a = 0; a < 3; ++a) {
-            double along = 0;
-            for (int r = 0; r < 3; ++r)
-                along += (double)node->axis[a][r][l] * d[r];
-            half += fabs(along);
-        }
-        const double x = p.x * d[0] + p.y * d[1] + p.z * d[2];
-        assert_true(x >= at - half && x <= at + half);
-    }
-}
-
 static void check_vertex(scene *s, mote_certificate *c, int b, const mote_cert_node *node,
                          size_t l, uint32_t vertex)
 {
-    const mote_vec3 p = relative(c, s->world[b][vertex]);
-    assert_true(mote_dot(p, c->side[b].facing) <= (double)node->reach[l]);
-    check_in_box(s, node, l, p);
+    assert_true(in_reach(s, c, b, node, l, vertex));
+    assert_true(in_box(s, c, b, node, l, vertex));
 }
 
 /* Calls check_vertex for all vertices below a node's child. */
@@ -114,7 +78,7 @@ static void check_hull(const scene *s, const mote_certificate *c, int b,
     const mote_cert_tree *tree = c->side[b].tree;
     for (uint32_t i = 0; i < hull->leaf->vertex_count; ++i) {
         const uint32_t v = tree->leaf_vertices[hull->leaf->first_vertex + i];
-        const mote_vec3 p = relative(c, s->world[b][v]);
+        const mote_vec3 p = certificate_point(c, s->world[b][v]);
         const double at[3] = {p.x, p.y, p.z};
         for (int r = 0; r < 3; ++r)
             assert_true(fabs(at[r] - (double)hull->x[r][i]) <= (double)hull->width[r]);
