@@ -16,7 +16,7 @@ mote_status mote_method_create(const mote_method *method, const mote_setup *setu
             return mote_fail(
                 MOTE_EUNSUPPORTED,
                 "%s needs a field, and of body %d only positions are given; take a "
-                "method on positions, as aabb-tree",
+                "method on positions, as stream or aabb-tree",
                 method->name, b);
     }
     if (method->create)

@@ -13,6 +13,9 @@
       mote_options_list)                                                                       \
     X(letter, "LETTER --triangles COUNT -o FILE", "makes the mesh of a capital letter",        \
       mote_options_letter)                                                                     \
+    X(sequence, "cloth|jelly --triangles COUNT --out DIR",                                     \
+      "simulates a body that no field describes, and writes a scenario of its positions",      \
+      mote_options_sequence)                                                                   \
     X(check, "SCENARIO",                                                                       \
       "prints a scenario's fingerprint and distances, and checks its active interval",         \
       mote_options_check)                                                                      \
