@@ -59,7 +59,8 @@
     X(merge, "OUT DIR...", "puts the cells of several runs into one directory",                \
       mote_options_none)                                                                       \
     X(history, "[FILE]",                                                                       \
-      "draws the accepted references of FILE (default: results/history.csv), or adds one",     \
+      "draws references and races of FILE (default: results/history.csv), or adds a "          \
+      "reference",                                                                             \
       mote_options_history)                                                                    \
     X(figures, "DIR", "draws the figures of a run again, measuring nothing",                   \
       mote_options_none)                                                                       \

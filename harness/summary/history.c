@@ -138,21 +138,6 @@ mote_status mote_history_add(const char *file, const char *directory, const char
     return status;
 }
 
-/* A line of the file: where its row and its time begin. time is relative to fcl-aabb where the
-   run had it (1 / ratio), so that references of different machines can stand in one series. */
-typedef struct point {
-    const char *row, *commit;
-    double time;
-    bool relative;      /* else in ns: another series, since the two have no scale in common */
-    unsigned reference; /* counted from 0 by dates */
-} point;
-
-typedef struct points {
-    point *items;
-    size_t count;
-    unsigned references;
-} points;
-
 /* Splits a line in place; false unless it has FIELDS fields. */
 static bool split(char *line, char *fields[FIELDS])
 {
@@ -175,9 +160,10 @@ static bool is_number(const char *field)
     return field[0] == '\0' || mote_read_real(field, -HUGE_VAL, HUGE_VAL, &number);
 }
 
-static mote_status read_points(const char *file, char *text, points *p)
+static mote_status read_points(const char *file, mote_history *p)
 {
     const char *last_date = NULL;
+    char *text = p->text;
     size_t number = 1;
     char *line = strchr(text, '\n');
     const mote_status status = check_header(file, text);
@@ -186,7 +172,7 @@ static mote_status read_points(const char *file, char *text, points *p)
     size_t lines = 0;
     for (const char *c = text; *c; ++c)
         lines += *c == '\n' ? 1 : 0;
-    p->items = mote_allocate(lines + 1, sizeof *p->items);
+    p->points = mote_allocate(lines + 1, sizeof *p->points);
     while (line && line[1] != '\0') {
         char *start = line + 1, *fields[FIELDS];
         ++number;
@@ -209,56 +195,99 @@ static mote_status read_points(const char *file, char *text, points *p)
         bool has_ratio = mote_read_real(fields[FIELD_RATIO], 1e-12, 1e12, &ratio);
         if (!has_total && !has_ratio)
             continue;
-        point here = {fields[FIELD_ROW], fields[FIELD_COMMIT], has_ratio ? 1 / ratio : total,
-                      has_ratio, p->references - 1};
-        p->items[p->count++] = here;
+        p->points[p->count++] = (mote_history_point){.date = fields[FIELD_DATE],
+                                                     .commit = fields[FIELD_COMMIT],
+                                                     .why = fields[FIELD_WHY],
+                                                     .row = fields[FIELD_ROW],
+                                                     .time = has_ratio ? 1 / ratio : total,
+                                                     .relative = has_ratio,
+                                                     .reference = p->references - 1};
     }
     return MOTE_OK;
 }
 
-static bool same_series(const point *a, const point *b)
+bool mote_history_same_series(const mote_history_point *a, const mote_history_point *b)
 {
     return a->relative == b->relative && strcmp(a->row, b->row) == 0;
 }
 
-static bool first_of_series(const points *p, size_t index)
+bool mote_history_begins_series(const mote_history *history, size_t index)
 {
     for (size_t i = 0; i < index; ++i) {
-        if (same_series(&p->items[i], &p->items[index]))
+        if (mote_history_same_series(&history->points[i], &history->points[index]))
             return false;
     }
     return true;
 }
 
-/* The series that begins with a point, as a block "reference relative-time changed commit". */
-static void add_series(const points *p, const point *start, mote_text *text)
+/* How much the series that begins with a point moves from one reference to the next; *count:
+   how often. */
+static double usual_move(const mote_history *h, const mote_history_point *start, size_t *count)
 {
-    double *moves = mote_allocate(p->count, sizeof *moves);
-    double first = MOTE_NONE, before = MOTE_NONE;
-    size_t count = 0;
-    for (size_t i = 0; i < p->count; ++i) {
-        if (!same_series(&p->items[i], start))
+    double *moves = mote_allocate(h->count, sizeof *moves);
+    double before = MOTE_NONE;
+    *count = 0;
+    for (size_t i = 0; i < h->count; ++i) {
+        if (!mote_history_same_series(&h->points[i], start))
             continue;
         if (before == before)
-            moves[count++] = fabs(log(p->items[i].time / before));
-        before = p->items[i].time;
+            moves[(*count)++] = fabs(log(h->points[i].time / before));
+        before = h->points[i].time;
     }
-    double usual = count > 0 ? mote_statistics_median(moves, count) : 0;
+    const double usual = *count > 0 ? mote_statistics_median(moves, *count) : 0;
     free(moves);
-    mote_gnuplot_block(text, start->row);
-    before = MOTE_NONE;
-    for (size_t i = 0; i < p->count; ++i) {
-        const point *here = &p->items[i];
-        if (!same_series(here, start))
+    return usual;
+}
+
+/* Sets the relative times and the change points of the series that begins with a point. */
+static void mark_series(mote_history *h, const mote_history_point *start)
+{
+    size_t count;
+    const double usual = usual_move(h, start, &count);
+    double before = start->time;
+    for (size_t i = 0; i < h->count; ++i) {
+        mote_history_point *here = &h->points[i];
+        if (!mote_history_same_series(here, start))
             continue;
-        first = first == first ? first : here->time;
-        double move = before == before ? fabs(log(here->time / before)) : 0;
+        const double move = fabs(log(here->time / before));
+        here->relative_time = here->time / start->time;
         /* Of one move, its own size is what is usual. */
-        bool changed =
+        here->changed =
             move > log(1 + CHANGE_SHARE) && (count < 3 || move > CHANGE_TIMES_USUAL * usual);
-        mote_text_add(text, "%u %.10g %d %.10s\n", here->reference + 1, here->time / first,
-                      changed ? 1 : 0, here->commit[0] ? here->commit : "-");
         before = here->time;
+    }
+}
+
+mote_status mote_history_read(const char *file, mote_history *history)
+{
+    size_t size = 0;
+    *history = (mote_history){.text = NULL};
+    mote_status status = mote_file_read(file, FILE_LIMIT, &history->text, &size);
+    if (status == MOTE_OK)
+        status = read_points(file, history);
+    for (size_t i = 0; status == MOTE_OK && i < history->count; ++i) {
+        if (mote_history_begins_series(history, i))
+            mark_series(history, &history->points[i]);
+    }
+    return status;
+}
+
+void mote_history_free(mote_history *history)
+{
+    free(history->points);
+    free(history->text);
+    *history = (mote_history){.text = NULL};
+}
+
+/* The series that begins with a point, as a block "reference relative-time changed commit". */
+static void add_series(const mote_history *h, const mote_history_point *start, mote_text *text)
+{
+    mote_gnuplot_block(text, start->row);
+    for (size_t i = 0; i < h->count; ++i) {
+        const mote_history_point *here = &h->points[i];
+        if (mote_history_same_series(here, start))
+            mote_text_add(text, "%u %.10g %d %.10s\n", here->reference + 1, here->relative_time,
+                          here->changed ? 1 : 0, here->commit[0] ? here->commit : "-");
     }
 }
 
@@ -276,20 +305,14 @@ static mote_status plot(const char *base, const mote_text *series)
 
 mote_status mote_history_draw(const char *file)
 {
-    char *text = NULL;
-    size_t size = 0;
-    points p = {0};
+    mote_history h;
     mote_text series = {0};
-    mote_status status = mote_file_read(file, FILE_LIMIT, &text, &size);
-    if (status == MOTE_OK)
-        status = read_points(file, text, &p);
-    for (size_t i = 0; status == MOTE_OK && i < p.count; ++i) {
-        if (first_of_series(&p, i))
-            add_series(&p, &p.items[i], &series);
+    mote_status status = mote_history_read(file, &h);
+    for (size_t i = 0; status == MOTE_OK && i < h.count; ++i) {
+        if (mote_history_begins_series(&h, i))
+            add_series(&h, &h.points[i], &series);
     }
-    size_t length = strlen(file) > 4 && strcmp(file + strlen(file) - 4, ".csv") == 0
-                        ? strlen(file) - 4
-                        : strlen(file);
+    const size_t length = strlen(file) - (mote_name_ends(file, ".csv") ? 4 : 0);
     char *base = mote_format("%.*s", (int)length, file);
     char *data = mote_format("%.*s.dat", (int)length, file);
     if (status == MOTE_OK && series.size == 0)
@@ -301,7 +324,6 @@ mote_status mote_history_draw(const char *file)
     free(base);
     free(data);
     free(series.data);
-    free(p.items);
-    free(text);
+    mote_history_free(&h);
     return status;
 }

@@ -5,14 +5,46 @@
 
 #include "core/base/status.h"
 
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A line of the file that has a time. Texts are borrowed from the history. */
+typedef struct mote_history_point {
+    const char *date, *commit, *why, *row;
+    double time;        /* relative to fcl-aabb where the run had it (1 / ratio), so that
+                           references of different machines can stand in one series */
+    bool relative;      /* else in ns: another series, since the two have no scale in common */
+    unsigned reference; /* counted from 0 by dates */
+    double relative_time; /* to the first point of its series */
+    bool changed;         /* a change point: more than 5 %, and more than three times what the
+                             series usually moves from one reference to the next */
+} mote_history_point;
+
+typedef struct mote_history {
+    char *text;
+    mote_history_point *points;
+    size_t count;
+    unsigned references;
+} mote_history;
+
+/* MOTE_EINVAL with the line when the file is not one that mote wrote. Free with
+   mote_history_free, also after a failure. */
+mote_status mote_history_read(const char *file, mote_history *history);
+void mote_history_free(mote_history *history);
+
+/* Whether two points are of one row, and on one scale. */
+bool mote_history_same_series(const mote_history_point *a, const mote_history_point *b);
+
+/* Whether no point before this one is of its series. */
+bool mote_history_begins_series(const mote_history *history, size_t index);
+
 /* Adds the rows of the run in directory to the file, which is made if missing: date, commit,
    why, row, time, ratio, counts, bytes, error. why may not be empty. */
 mote_status mote_history_add(const char *file, const char *directory, const char *why);
 
 /* Draws the file's series, one a row, their times relative to the first, change points marked,
-   to results/history.svg and .png beside it. A change point: more than 5 %, and more than three
-   times what the series usually moves from one reference to the next. MOTE_EINVAL with the line
-   when the file is not one that mote wrote. */
+   to results/history.svg and .png beside it. The errors of mote_history_read; MOTE_EINVAL where
+   there is nothing to draw. */
 mote_status mote_history_draw(const char *file);
 
 #endif

@@ -1,0 +1,154 @@
+/* The history as a page: what is in it, where its points lead, and what is refused. */
+#include "tests/support/folder.h"
+#include "tests/support/mote.h"
+#include "tests/support/test.h"
+
+#include "harness/race/history_page.h"
+#include "harness/race/race_files.h"
+
+#include <math.h>
+#include <sys/stat.h>
+
+#define HEADER                                                                                 \
+    "date,commit,why,row,total_ns,ratio,positions,box_tests,triangle_tests,heap_live_bytes,"   \
+    "error_p99\n"
+static const char history[] =
+    HEADER "1,0123456789abc,first,ww/a:n=5;b=c/hot,,2,,,,,\n"
+           "2,def,<script>alert(1)</script>,ww/a:n=5;b=c/hot,,1,,,,,\n";
+
+static const char *race(const char *date, const char *verdict, double ratio)
+{
+    static char text[2048];
+    (void)snprintf(
+        text, sizeof text,
+        "{\"schema\": 1, \"date\": \"%s\", \"a\": \"one\", \"b\": \"<two>\", \"verdict\": "
+        "\"worse\", \"rows\": [{\"name\": \"ww/a:b=c,n=5/hot\", \"ratio\": %g, \"ci_low\": "
+        "1.01, "
+        "\"ci_high\": 1.2, \"verdict\": \"%s\", \"worse\": true, \"what\": \"counts & more\"}, "
+        "{\"name\": \"ww/new/hot\", \"ratio\": null, \"verdict\": \"undecided\"}]}\n",
+        date, ratio, verdict);
+    return text;
+}
+
+static int empty_folder(void)
+{
+    return folder_next() || mkdir("perf-ab", 0755);
+}
+
+TEST_EACH(empty_folder, NULL);
+
+TEST(keys_of_a_row_may_stand_in_any_order)
+{
+    static const char *const same[] = {"ww/a:n=5;b=c/hot", "ww/a:b=c,n=5/hot",
+                                       "ww/a:b=c;n=5/hot", "ww/a:n=5,b=c/hot"};
+    for (size_t i = 0; i < ROWS_OF(same); ++i) {
+        char *key = mote_race_row_key(same[i]);
+        assert_string_equal(key, "ww/a:b=c,n=5/hot");
+        free(key);
+    }
+    static const char *const alone[] = {"ww/a/hot", "ww", "", "/", "a:b", "ww/a:n=5/hot"};
+    for (size_t i = 0; i < ROWS_OF(alone); ++i) {
+        char *key = mote_race_row_key(alone[i]);
+        assert_string_equal(key, alone[i]);
+        free(key);
+    }
+}
+
+TEST(races_are_read_by_date)
+{
+    mote_race_files files;
+    file_put("perf-ab/b.json", race("2026-01-01", "slower", 1.1));
+    file_put("perf-ab/a.json", race("2026-01-02", "faster", 0.9));
+    file_put("perf-ab/last.json", "no race");
+    file_put("perf-ab/notes.txt", "no race");
+    assert_int_equal(mote_race_files_read("perf-ab", &files), MOTE_OK);
+    assert_int_equal(files.count, 2);
+    assert_int_equal(files.name_count, 2);
+    const mote_race_point first = mote_race_files_point(&files, 0, "ww/a:b=c,n=5/hot");
+    assert_true(fabs(first.ratio - 1.1) < 1e-12 && fabs(first.interval.high - 1.2) < 1e-12);
+    assert_string_equal(first.verdict, "slower");
+    assert_true(isnan(mote_race_files_point(&files, 0, "ww/other/hot").ratio));
+    assert_true(mote_race_files_has(&files, "ww/a:b=c,n=5/hot"));
+    assert_false(mote_race_files_has(&files, "ww/new/hot"));
+    char *changes = mote_race_files_changes(&files, 1);
+    assert_string_equal(changes, "ww/a:b=c,n=5/hot faster (0.9)");
+    free(changes);
+    mote_race_files_free(&files);
+    assert_int_equal(mote_race_files_read("nowhere", &files), MOTE_OK);
+    assert_int_equal(files.count, 0);
+    mote_race_files_free(&files);
+}
+
+static int count_of(const char *text, const char *what)
+{
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, what)); ++at)
+        ++count;
+    return count;
+}
+
+TEST(points_lead_to_commits_and_reasons)
+{
+    file_put("h.csv", history);
+    file_put("perf-ab/a.json", race("2026-01-01", "slower", 1.1));
+    assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);
+    char *page = file_text("h.html");
+    /* One chart for both, however the keys stand; a row that only races have is another. */
+    assert_int_equal(count_of(page, "<figure>"), 2);
+    assert_int_equal(count_of(page, "<h2>ww/"), 2);
+    assert_int_equal(count_of(page, "href=\"#reference-2\""), 1);
+    assert_int_equal(count_of(page, "id=\"reference-2\""), 1);
+    assert_int_equal(count_of(page, "href=\"#race-1\""), 1);
+    assert_int_equal(count_of(page, "id=\"race-1\""), 1);
+    assert_int_equal(count_of(page, "class=\"point changed\""), 1);
+    assert_int_equal(count_of(page, "class=\"point slower\""), 1);
+    assert_int_equal(count_of(page, "ww/a:b=c,n=5/hot slower (1.1)"), 1);
+    /* What stands in files is text, and nothing is loaded. */
+    assert_int_equal(count_of(page, "<script"), 0);
+    assert_int_equal(count_of(page, "<two>"), 0);
+    assert_int_equal(count_of(page, "counts & more"), 0);
+    assert_int_equal(count_of(page, "http"), 0);
+    assert_int_equal(count_of(page, "src="), 0);
+    assert_int_equal(count_of(page, "nan"), 0);
+    free(page);
+}
+
+TEST(mote_history_writes_the_page)
+{
+    file_put("h.csv", history);
+    file_put("perf-ab/a.json", race("2026-01-01", "slower", 1.1));
+    (void)mote("history h.csv"); /* gnuplot may be missing */
+    char *page = file_text("h.html");
+    assert_int_equal(count_of(page, "class=\"point slower\""), 1);
+    free(page);
+    (void)mote("history h.csv --races nowhere");
+    page = file_text("h.html");
+    assert_int_equal(count_of(page, "class=\"point slower\""), 0);
+    free(page);
+}
+
+TEST(what_is_no_race_is_refused)
+{
+    static const struct {
+        const char *text, *says;
+    } rows[] = {
+        {"[]\n", "perf-ab/bad.json: not a race"},
+        {"{\"schema\": 1}\n", "perf-ab/bad.json: not a race"},
+        {"{\"schema\": 2, \"date\": \"\", \"rows\": []}\n", "perf-ab/bad.json: not a race"},
+        {"{\"schema\": 1, \"date\": 5, \"rows\": []}\n", "perf-ab/bad.json: not a race"},
+        {"{", "perf-ab/bad.json:1"},
+    };
+    file_put("h.csv", history);
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        test_row("%zu", i);
+        file_put("perf-ab/bad.json", rows[i].text);
+        mote_expect(4, rows[i].says, "history h.csv");
+        assert_false(file_exists("h.html"));
+    }
+    /* Rows that are none, or lack everything, are no reason to fail. */
+    file_put("perf-ab/bad.json",
+             "{\"schema\": 1, \"date\": \"\", \"rows\": [5, {}, {\"name\": \"x\"}]}\n");
+    assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);
+    file_put("h.csv", HEADER);
+    assert_int_equal(mote_history_page("h.csv", "nowhere", "h.html"), MOTE_EINVAL);
+}
