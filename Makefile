@@ -115,8 +115,9 @@ sweep: build
 engines: build
 	@harness/scripts/bench.sh $(MOTE) engines $(call out,engines)
 
-oracle: program-oracle
+oracle: program-oracle program-oracle_cgal
 	@mkdir -p $(OUT)
+	@$(BUILD)/tests/oracle_cgal $(if $(filter quick,$(PROFILE)),--frames 100,--pairs 190000 --frames 1000)
 	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
 

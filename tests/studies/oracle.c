@@ -12,8 +12,8 @@
    Verdicts are counted in three bands: strict (apart, or overlapping, by more than 1e-15 of the
    extent), touching (overlapping by less), near (apart by less). The same pairs for any number
    of threads. */
-#include "tests/support/ccd_triangle.h"
-#include "tests/support/fcl_triangle.h"
+#include "tests/support/peers/ccd_triangle.h"
+#include "tests/support/peers/fcl_triangle.h"
 #include "core/body/triangle.h"
 #include "harness/base/json_print.h"
 #include "tests/studies/oracle_exact.h"

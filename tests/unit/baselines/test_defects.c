@@ -1,9 +1,9 @@
 /* The libraries' known defects (datasets/defects.md). A test here passes while the library
    shows the defect; when it fails, the library has been mended, and the adapter can be
    relieved. */
-#include "tests/support/ccd_triangle.h"
-#include "tests/support/fcl_defects.h"
-#include "tests/support/fcl_triangle.h"
+#include "tests/support/peers/ccd_triangle.h"
+#include "tests/support/peers/fcl_defects.h"
+#include "tests/support/peers/fcl_triangle.h"
 #include "baselines/wide_triangle.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"

@@ -1,4 +1,4 @@
-#include "tests/support/ccd_triangle.h"
+#include "tests/support/peers/ccd_triangle.h"
 
 #include <ccd/ccd.h>
 

@@ -1,4 +1,4 @@
-#include "tests/support/fcl_triangle.h"
+#include "tests/support/peers/fcl_triangle.h"
 
 #include <limits>
 

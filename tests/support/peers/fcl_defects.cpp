@@ -1,4 +1,4 @@
-#include "tests/support/fcl_defects.h"
+#include "tests/support/peers/fcl_defects.h"
 
 #include "baselines/fcl_adapter.hpp"
 
