@@ -36,15 +36,15 @@ static mote_status ask(const pair *bodies, const mote_method_choice *choice,
     mote_body_state state = {
         .pose = {identity, {0, 0, 0}}, .shape_changed = true, .pose_changed = true};
     const mote_frame frame = {1, {state, state}};
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     mote_status status = mote_engine_open_two(&bodies->body[0], &bodies->body[1], choice,
-                                              MOTE_ASK_DISTANCE, 0, 1, &probe);
+                                              MOTE_ASK_DISTANCE, 0, 1, &engine);
     if (status == MOTE_EUNSUPPORTED)
         status = mote_engine_open_two(&bodies->body[0], &bodies->body[1], choice,
-                                      MOTE_ASK_CONTACT, 0, 1, &probe);
+                                      MOTE_ASK_CONTACT, 0, 1, &engine);
     if (status == MOTE_OK)
-        status = mote_engine_answer(probe, &frame, answer);
-    mote_engine_destroy(probe);
+        status = mote_engine_answer(engine, &frame, answer);
+    mote_engine_destroy(engine);
     return status;
 }
 

@@ -97,8 +97,8 @@ mote_status mote_engine_open_distance(const mote_body *bodies, const char *metho
                                       mote_engine **engine);
 
 /* Deforms what the method needs, updates it and asks it: its own answer, as it gives it. The
-   frame's vertices may be NULL where its body has a field; whether it says that anything has
-   changed does not matter. frame NULL: the failure of mote_scenario_frame is passed on. */
+   frame's vertices may be NULL where its body has a field. frame NULL: the failure of
+   mote_scenario_frame is passed on. */
 mote_status mote_engine_answer(mote_engine *engine, const mote_frame *frame,
                                mote_answer *answer);
 

@@ -1,4 +1,11 @@
-/* The ways in which an engine asks about its bodies. Private to harness/engine. */
+/* The ways in which an engine asks about its bodies. Private to harness/engine.
+
+   A pair and a scene share the engine, not the way of asking. Of two bodies all vertices are
+   deformed for a method that needs them, and deforming, updating and asking are timed one by
+   one, to some nanoseconds. Of a scene only bodies of near pairs are deformed, each once
+   however many pairs it is in, and pairs are shared out to threads: a method of the contract
+   sees one pair and cannot share, so that trees and the certified query have forms of their own
+   there. */
 #ifndef MOTE_HARNESS_ENGINE_KIND_H
 #define MOTE_HARNESS_ENGINE_KIND_H
 

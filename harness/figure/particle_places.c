@@ -19,12 +19,12 @@ static bool same_answer(const mote_answer *answer, const mote_stored_cell *cell,
 }
 
 /* Keeps the particles of both bodies after the answer of row k; false: too many. */
-static bool keep(const mote_engine *probe, mote_particle_places *places, size_t k)
+static bool keep(const mote_engine *engine, mote_particle_places *places, size_t k)
 {
     for (size_t i = 0; i < 2; ++i) {
         mote_vec3 *here = places->at + (2 * k + i) * MOTE_PARTICLE_PLACES_MAX;
         const size_t count =
-            mote_engine_particles(probe, (int)i, here, MOTE_PARTICLE_PLACES_MAX);
+            mote_engine_particles(engine, (int)i, here, MOTE_PARTICLE_PLACES_MAX);
         if (count > MOTE_PARTICLE_PLACES_MAX)
             return false;
         places->count = count > places->count ? count : places->count;
@@ -44,7 +44,7 @@ static void close_up(mote_particle_places *places)
 
 /* Answers the frames again; sets why where the particles cannot be shown. */
 static mote_status answer_again(const mote_scenario *scenario, const mote_stored_cell *cell,
-                                mote_engine *probe, mote_particle_places *places)
+                                mote_engine *engine, mote_particle_places *places)
 {
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     mote_status status = MOTE_OK;
@@ -52,12 +52,12 @@ static mote_status answer_again(const mote_scenario *scenario, const mote_stored
     for (size_t k = 0; k < places->rows && status == MOTE_OK && !places->why[0]; ++k) {
         mote_answer answer = {0};
         status = mote_engine_answer(
-            probe, mote_scenario_frame(scenario, buffer, cell->frame[k], previous), &answer);
+            engine, mote_scenario_frame(scenario, buffer, cell->frame[k], previous), &answer);
         previous = cell->frame[k];
         const char *why = NULL;
         if (status == MOTE_OK && !same_answer(&answer, cell, k))
             why = "not shown, as this build does not give the stored answers";
-        else if (status == MOTE_OK && !keep(probe, places, k))
+        else if (status == MOTE_OK && !keep(engine, places, k))
             why = "more than a picture shows";
         if (why)
             (void)snprintf(places->why, sizeof places->why, "%s", why);
@@ -71,7 +71,7 @@ mote_status mote_particle_places_find(const mote_scenario *scenario, const char 
                                       mote_particle_places *places)
 {
     mote_method_choice choice;
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     memset(places, 0, sizeof *places);
     places->rows = rows;
     if (mote_method_choice_read(label, &choice) != MOTE_OK || !choice.method->particles ||
@@ -80,10 +80,10 @@ mote_status mote_particle_places_find(const mote_scenario *scenario, const char 
     places->at = mote_allocate(rows * 2 * MOTE_PARTICLE_PLACES_MAX, sizeof *places->at);
     mote_status status =
         mote_engine_open_two(&scenario->body[0], &scenario->body[1], &choice, scenario->ask,
-                             scenario->tolerance, cell->replicate_seed, &probe);
+                             scenario->tolerance, cell->replicate_seed, &engine);
     if (status == MOTE_OK)
-        status = answer_again(scenario, cell, probe, places);
-    mote_engine_destroy(probe);
+        status = answer_again(scenario, cell, engine, places);
+    mote_engine_destroy(engine);
     if (status != MOTE_OK)
         (void)snprintf(places->why, sizeof places->why, "%s", mote_error_text());
     if (!places->why[0]) {

@@ -73,10 +73,10 @@ typedef struct sources {
     mote_engine *oracle, *second, *judge;
 } sources;
 
-static mote_status ask(const sources *s, const char *method, mote_engine *probe,
+static mote_status ask(const sources *s, const char *method, mote_engine *engine,
                        const mote_frame *frame, mote_answer *answer)
 {
-    mote_status status = mote_engine_answer(probe, frame, answer);
+    mote_status status = mote_engine_answer(engine, frame, answer);
     if (status == MOTE_OK && (!answer->has_distance || !(answer->distance >= 0)))
         status = mote_fail(MOTE_ENUMERIC, "%s: frame %" PRIu64 ": %s gave no distance",
                            s->scenario->name, frame->number, method);
@@ -197,8 +197,8 @@ static void choose_frames(const mote_scenario *scenario, const truth_row *rows, 
 static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer *buffer,
                                 const truth_row *rows, const bool *marked, uint32_t *checked)
 {
-    mote_engine *probe;
-    mote_status status = mote_engine_open_distance(scenario->body, REFEREE, &probe);
+    mote_engine *engine;
+    mote_status status = mote_engine_open_distance(scenario->body, REFEREE, &engine);
     if (status != MOTE_OK)
         return status;
     *checked = 0;
@@ -207,7 +207,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
             continue;
         mote_answer answer;
         const mote_frame *frame = mote_scenario_frame(scenario, buffer, k + 1, 0);
-        status = mote_engine_answer(probe, frame, &answer);
+        status = mote_engine_answer(engine, frame, &answer);
         if (status == MOTE_OK &&
             !(fabs(answer.distance - rows[k].distance) <= AGREEMENT * scenario->length))
             status = mote_fail(
@@ -216,7 +216,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
                 scenario->name, k + 1, rows[k].distance, REFEREE, answer.distance, AGREEMENT);
         ++*checked;
     }
-    mote_engine_destroy(probe);
+    mote_engine_destroy(engine);
     return status;
 }
 

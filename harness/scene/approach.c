@@ -18,7 +18,7 @@
 typedef struct approach {
     const mote_scenario *scenario;
     const mote_approach_plan *plan;
-    mote_engine *probe;
+    mote_engine *engine;
     mote_frame frame;
     mote_deform *deform[2];
     mote_vec3 *world[2];       /* vertices */
@@ -32,7 +32,7 @@ static mote_status distance_at(approach *a, double offset, double *distance)
     mote_answer answer;
     const mote_vec3 centre = mote_add_scaled(a->base, offset, a->direction);
     a->frame.body[1].pose.translation = mote_add(a->still, centre);
-    mote_status status = mote_engine_answer(a->probe, &a->frame, &answer);
+    mote_status status = mote_engine_answer(a->engine, &a->frame, &answer);
     if (status == MOTE_OK)
         *distance = answer.distance;
     return status;
@@ -144,7 +144,7 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
                   .precision = fmax(PRECISION * smaller, ROUNDING * scenario->length)};
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     a.direction = mote_scale(plan->direction, 1 / mote_length(plan->direction));
-    mote_status status = mote_engine_open_distance(scenario->body, SEARCH, &a.probe);
+    mote_status status = mote_engine_open_distance(scenario->body, SEARCH, &a.engine);
     for (int i = 0; i < 2; ++i) {
         a.world[i] = mote_allocate(scenario->body[i].mesh->vertex_count, sizeof *a.world[i]);
         if (status == MOTE_OK)
@@ -153,7 +153,7 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
     for (uint32_t k = 0; k < plan->count && status == MOTE_OK; ++k)
         status = solve(&a, buffer, k, &positions[k]);
     mote_frame_buffer_destroy(buffer);
-    mote_engine_destroy(a.probe);
+    mote_engine_destroy(a.engine);
     for (int i = 0; i < 2; ++i) {
         mote_deform_destroy(a.deform[i]);
         free(a.world[i]);
@@ -161,11 +161,11 @@ mote_status mote_approach_solve(const mote_scenario *scenario, const mote_approa
     return status;
 }
 
-static mote_status verify_frame(const mote_scenario *scenario, mote_engine *probe,
+static mote_status verify_frame(const mote_scenario *scenario, mote_engine *engine,
                                 const mote_frame *frame, double gap)
 {
     mote_answer answer;
-    mote_status status = mote_engine_answer(probe, frame, &answer);
+    mote_status status = mote_engine_answer(engine, frame, &answer);
     if (status != MOTE_OK)
         return status;
     const double found = answer.distance / scenario->length;
@@ -181,13 +181,13 @@ static mote_status verify_frame(const mote_scenario *scenario, mote_engine *prob
 mote_status mote_approach_verify(const mote_scenario *scenario, const uint32_t *frames,
                                  const double *gaps, uint32_t count)
 {
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
-    mote_status status = mote_engine_open_distance(scenario->body, ORACLE, &probe);
+    mote_status status = mote_engine_open_distance(scenario->body, ORACLE, &engine);
     for (uint32_t k = 0; k < count && status == MOTE_OK; ++k)
-        status = verify_frame(scenario, probe,
+        status = verify_frame(scenario, engine,
                               mote_scenario_frame(scenario, buffer, frames[k], 0), gaps[k]);
     mote_frame_buffer_destroy(buffer);
-    mote_engine_destroy(probe);
+    mote_engine_destroy(engine);
     return status;
 }

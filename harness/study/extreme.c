@@ -113,14 +113,14 @@ void mote_extreme_free(mote_extreme *e)
 static mote_status ask_distance(const mote_extreme *e, uint32_t frame, mote_answer *answer)
 {
     mote_method_choice choice;
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     mote_status status = mote_method_choice_read("aabb-tree", &choice);
     if (status == MOTE_OK)
         status = mote_engine_open_two(&e->body[0], &e->body[1], &choice, MOTE_ASK_DISTANCE, 0,
-                                      1, &probe);
+                                      1, &engine);
     if (status == MOTE_OK)
-        status = mote_engine_answer(probe, &e->frame[frame], answer);
-    mote_engine_destroy(probe);
+        status = mote_engine_answer(engine, &e->frame[frame], answer);
+    mote_engine_destroy(engine);
     return status;
 }
 

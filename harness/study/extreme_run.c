@@ -47,14 +47,14 @@ typedef struct task {
 static mote_status ask_all(const task *t, message *told)
 {
     const mote_extreme *e = t->extreme;
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     uint64_t start = mote_clock_ns();
     mote_status status = mote_engine_open_two(&e->body[0], &e->body[1], &t->choice,
-                                              MOTE_ASK_DISTANCE, 0, 1, &probe);
+                                              MOTE_ASK_DISTANCE, 0, 1, &engine);
     const bool contact_only = status == MOTE_EUNSUPPORTED;
     if (contact_only)
         status = mote_engine_open_two(&e->body[0], &e->body[1], &t->choice, MOTE_ASK_CONTACT, 0,
-                                      1, &probe);
+                                      1, &engine);
     told->build_ns = mote_clock_ns() - start;
     const mote_traits traits = mote_method_traits(t->choice.method, t->choice.values);
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES && status == MOTE_OK; ++f) {
@@ -63,10 +63,10 @@ static mote_status ask_all(const task *t, message *told)
         told->said[f].single = e->parameters && strcmp(e->parameters, "precision=single") == 0;
         told->said[f].contact_only = contact_only;
         start = mote_clock_ns();
-        status = mote_engine_answer(probe, &e->frame[f], &told->said[f].answer);
+        status = mote_engine_answer(engine, &e->frame[f], &told->said[f].answer);
         told->ns[f] = mote_clock_ns() - start;
     }
-    mote_engine_destroy(probe);
+    mote_engine_destroy(engine);
     return status;
 }
 
