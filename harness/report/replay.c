@@ -96,11 +96,17 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
                      cell->scenario);
 }
 
-/* Cells may be damaged files, so their frames are checked to lie within the scenario. */
-static mote_status check_frames(const mote_replay_scene *scene)
+/* Whether the page can show the bodies, and whether the scenario has the frames of the cells,
+   which may be damaged files. */
+static mote_status check_scene(const mote_replay_scene *scene)
 {
     for (int i = 0; i < 2; ++i) {
-        if (mote_body_is_given(&scene->scenario->body[i]))
+        const mote_body *body = &scene->scenario->body[i];
+        if (!body->field->centre_x &&
+            (size_t)body->field->count * body->mesh->vertex_count > MOTE_REPLAY_BASIS)
+            return mote_fail(MOTE_EUNSUPPORTED, "%s: a field is too large for the page",
+                             scene->tracks[0].cell->scenario);
+        if (mote_body_is_given(body))
             return mote_fail(MOTE_EUNSUPPORTED,
                              "%s: the page deforms by fields, and of a body only positions are "
                              "given",
@@ -227,7 +233,7 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
     if (status == MOTE_OK)
         status = find_scenario(report, made.tracks[0].cell, &made.scenario);
     if (status == MOTE_OK)
-        status = check_frames(&made);
+        status = check_scene(&made);
     if (status == MOTE_OK) {
         read_truth(report, &made);
         fill_contacts(&made);

@@ -15,6 +15,10 @@
 /* Meshes above this are not replayed: indices have 16 bits. */
 #define MOTE_REPLAY_VERTICES 65535u
 
+/* Fields of other kinds than CSRBFs are written function by function and vertex by vertex; a
+   body with more of these numbers is not replayed: they would not fit into a page. */
+#define MOTE_REPLAY_BASIS 4000000u
+
 /* The stored answers of one configuration: those of the replicate with the largest error, so
    that the worst frame shown is that of all replicates. */
 typedef struct mote_replay_track {
@@ -41,8 +45,8 @@ typedef struct mote_replay_scene {
 
 /* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot
    caches, and reads the answers of each. MOTE_EUNSUPPORTED, the text saying why, where it
-   cannot be shown: the scenario's file is missing or has changed, a mesh is too large, or a
-   cell has a frame that the scenario does not have. The caller frees *scene. */
+   cannot be shown: the scenario's file is missing or has changed, a mesh or a field is too
+   large, or a cell has a frame that the scenario does not have. The caller frees *scene. */
 mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
                              mote_replay_scene *scene);
 void mote_replay_free(mote_replay_scene *scene);

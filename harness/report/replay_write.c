@@ -54,11 +54,64 @@ static void add_numbers(mote_text *text, const char *key, const double *values, 
     mote_text_add(text, "]");
 }
 
-/* The mesh at rest and the centres of its field. */
+static int32_t in_steps(double value, double step)
+{
+    return (int32_t)floor(value / step + 0.5);
+}
+
+/* Values as signed 16 bits of the largest: the length of a step, and how many of them each is
+   into steps[count]. */
+static double largest_in_16_bits(const double *values, size_t count, int32_t *steps)
+{
+    double most = 0;
+    for (size_t k = 0; k < count; ++k)
+        most = fmax(most, fabs(values[k]));
+    const double step = most > 0 ? most / 32767 : 1;
+    for (size_t k = 0; k < count; ++k)
+        steps[k] = in_steps(values[k], step);
+    return step;
+}
+
+/* The basis functions of a field of a kind that the page does not know, vertex by vertex. */
+static void add_basis(mote_text *text, const mote_body *body)
+{
+    const mote_field *field = body->field;
+    const size_t width = field->count, vertices = body->mesh->vertex_count;
+    double *phi = mote_allocate(field->padded, sizeof *phi);
+    double *values = mote_allocate(width * vertices, sizeof *values);
+    int32_t *steps = mote_allocate(width * vertices, sizeof *steps);
+    for (size_t i = 0; i < vertices; ++i) {
+        field->kind->basis(field, body->mesh, (uint32_t)i, phi);
+        memcpy(values + i * width, phi, width * sizeof *values);
+    }
+    mote_text_add(text, "\"functions\": %zu, \"basisStep\": %.17g, ", width,
+                  largest_in_16_bits(values, width * vertices, steps));
+    mote_replay_add_series(text, "basis", steps, width * vertices);
+    free(phi);
+    free(values);
+    free(steps);
+}
+
+/* What the page computes a field's basis functions from: the centres of CSRBFs. */
+static void add_field(mote_text *text, const mote_body *body)
+{
+    const mote_field *field = body->field;
+    if (field->count > 0 && !field->centre_x) {
+        add_basis(text, body);
+        return;
+    }
+    mote_text_add(text, "\"support\": %.17g, ", field->support);
+    add_numbers(text, "centreX", field->centre_x, field->count);
+    mote_text_add(text, ", ");
+    add_numbers(text, "centreY", field->centre_y, field->count);
+    mote_text_add(text, ", ");
+    add_numbers(text, "centreZ", field->centre_z, field->count);
+}
+
+/* The mesh at rest and its field. */
 static void add_mesh(mote_text *text, const mote_body *body)
 {
     const mote_mesh *mesh = body->mesh;
-    const mote_field *field = body->field;
     const size_t corner_count = 3 * (size_t)mesh->triangle_count;
     mote_replay_box box = mote_replay_box_none();
     int32_t *corners = mote_allocate(corner_count, sizeof *corners);
@@ -73,18 +126,9 @@ static void add_mesh(mote_text *text, const mote_body *body)
     mote_text_add(text, ", ");
     mote_replay_difference(corners, corner_count, 3);
     mote_replay_add_series(text, "triangles", corners, corner_count);
-    mote_text_add(text, ", \"support\": %.17g, ", field->support);
-    add_numbers(text, "centreX", field->centre_x, field->count);
-    mote_text_add(text, ", ");
-    add_numbers(text, "centreY", field->centre_y, field->count);
-    mote_text_add(text, ", ");
-    add_numbers(text, "centreZ", field->centre_z, field->count);
     free(corners);
-}
-
-static int32_t in_steps(double value, double step)
-{
-    return (int32_t)floor(value / step + 0.5);
+    mote_text_add(text, ", ");
+    add_field(text, body);
 }
 
 /* The rows of a pose's rotation and its translation over L, in steps. */
@@ -120,16 +164,11 @@ static void add_smooth(mote_text *text, const char *key, int32_t *values, size_t
     mote_replay_add_series(text, key, values, count);
 }
 
-/* Writes poses, and weights as signed 16 bits of the largest. */
+/* Writes poses and weights. */
 static void write_motion(mote_text *text, int32_t *poses, const double *weights,
                          int32_t *shares, size_t frames, size_t width)
 {
-    double most = 0;
-    for (size_t k = 0; k < width * frames; ++k)
-        most = fmax(most, fabs(weights[k]));
-    const double step = most > 0 ? most / 32767 : 1;
-    for (size_t k = 0; k < width * frames; ++k)
-        shares[k] = in_steps(weights[k], step);
+    const double step = largest_in_16_bits(weights, width * frames, shares);
     mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
     add_smooth(text, "poses", poses, 12 * frames, 12);
     mote_text_add(text, ", \"weightStep\": %.17g, ", step);

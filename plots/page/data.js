@@ -49,16 +49,19 @@ function body(data, length) {
     const points = new GridPoints(data.vertices, data, 1);
     const vertices = new Float32Array(3 * points.count);
     for (let i = 0; i < points.count; ++i) points.read(i, vertices, 3 * i);
-    const controls = data.centreX.length;
+    const functions = data.functions ?? data.centreX.length;
     const scale = Float32Array.from({ length: 12 }, (_, c) => data.poseStep * (c < 9 ? 1 : length));
     return {
         vertices,
         triangles: sums(data.triangles, 3, Uint16Array),
-        centres: Float64Array.from({ length: 3 * controls }, (_, k) =>
+        functions,
+        // CSRBFs by their centres; fields of other kinds function by function, vertex by vertex.
+        centres: data.centreX && Float64Array.from({ length: 3 * functions }, (_, k) =>
             [data.centreX, data.centreY, data.centreZ][k % 3][Math.floor(k / 3)]),
         support: data.support,
+        basis: data.basis && Float32Array.from(data.basis, (steps) => steps * data.basisStep),
         poses: Float32Array.from(sums(data.poses, 12, Int32Array, 2), (steps, k) => steps * scale[k % 12]),
-        weights: sums(data.weights, 3 * controls, Int32Array, 2),
+        weights: sums(data.weights, 3 * functions, Int32Array, 2),
         weightStep: data.weightStep,
     };
 }

@@ -1,5 +1,6 @@
 // The deformed surface of a body, computed in the page from its field: a displacement that is
-// linear in a frame's weights, by Wendland's C2 function of the distance to each centre at rest.
+// linear in a frame's weights, by basis functions: those of the page's data, or Wendland's C2 function of
+// the distance to each centre at rest.
 
 function wendland(r) {
     if (r >= 1) return 0;
@@ -10,22 +11,22 @@ function wendland(r) {
 export class Surface {
     constructor(body) {
         this.body = body;
-        this.controls = body.centres.length / 3;
+        this.functions = body.functions;
         this.positions = new Float32Array(body.vertices);
-        this.basis = this.tabulate();
+        this.basis = body.basis ?? this.tabulate();
     }
 
-    // basis[i * controls + j] = phi_j at rest vertex i.
+    // basis[i * functions + j] = phi_j at rest vertex i.
     tabulate() {
         const { vertices, centres, support } = this.body;
         const count = vertices.length / 3;
-        const basis = new Float32Array(count * this.controls);
+        const basis = new Float32Array(count * this.functions);
         for (let i = 0; i < count; ++i) {
-            for (let j = 0; j < this.controls; ++j) {
+            for (let j = 0; j < this.functions; ++j) {
                 const x = vertices[3 * i] - centres[3 * j];
                 const y = vertices[3 * i + 1] - centres[3 * j + 1];
                 const z = vertices[3 * i + 2] - centres[3 * j + 2];
-                basis[i * this.controls + j] = wendland(Math.hypot(x, y, z) / support);
+                basis[i * this.functions + j] = wendland(Math.hypot(x, y, z) / support);
             }
         }
         return basis;
@@ -34,7 +35,7 @@ export class Surface {
     // Fills positions with the deformed vertices, in rest axes, at a frame counted from 0.
     deform(index) {
         const { vertices, weights, weightStep } = this.body;
-        const width = 3 * this.controls;
+        const width = 3 * this.functions;
         const start = index * width;
         for (let i = 0, v = 0, b = 0; v < vertices.length; ++i, v += 3) {
             let x = 0;

@@ -73,6 +73,15 @@ function measure() {
     program("report", `${work}/several`);
     program("run", "letters", "--out", `${work}/letters`, "--replicates", "1", "--frames", "1-2", "--method", "certified");
     program("report", `${work}/letters`);
+    writeFileSync(`${work}/stretched.json`, JSON.stringify({
+        purpose: "a field that is no CSRBF", frames: 20, ask: "distance", bodies: [
+            { letter: "T", triangles: 1380, field: { kind: "stretch", displacement: { sines: [
+                { control: 1, amplitude: [0.3, 0, 0], period: 20 }, { control: 2, amplitude: [0.1, 0.2, 0], period: 13 }] } },
+            motion: [{ frame: 1, axis: [0, 1, 0.3], degrees: 0 }, { frame: 20, axis: [0, 1, 0.3], degrees: 40 }] },
+            { letter: "T", triangles: 1380, motion: [{ frame: 1, position: [0.9, 0, 0] }] }],
+    }));
+    program("run", "./stretched.json", "--out", `${work}/stretched`, "--replicates", "1", "--method", "certified");
+    program("report", `${work}/stretched`);
     writeFileSync(`${work}/${HOSTILE}.json`, JSON.stringify({
         purpose: HOSTILE, like: "mv", frames: 5, pace: 149.75, warmup: null, active: null,
     }));
@@ -266,11 +275,11 @@ async function testKeys(page) {
 const vertices = (file) => readFileSync(file, "utf8").split("\n")
     .filter((line) => line.startsWith("v ")).map((line) => line.slice(2).trim().split(/\s+/).map(Number));
 
-async function testField(page) {
-    await check("the page deforms as the program does, to 1e-4 L", async () => {
+async function testField(name, page, scenario, frames) {
+    await check(`the page deforms ${name} as the program does, to 1e-4 L`, async () => {
         let most = 0;
-        for (const frame of [1, 700, 1984]) {
-            program("export", "ww", "--frame", String(frame), "--out", `${work}/export`);
+        for (const frame of frames) {
+            program("export", scenario, "--frame", String(frame), "--out", `${work}/export`);
             await scrub(page, frame);
             for (const body of [0, 1]) {
                 const exact = vertices(`${work}/export/${"AB"[body]}.obj`);
@@ -335,6 +344,10 @@ async function testOthers(browser) {
         equal(page.troubles.join("; "), "", "messages");
         await page.close();
     });
+    const stretched = await open(browser, `${work}/stretched`);
+    await settled(stretched);
+    await testField("a stretched body", stretched, "./stretched.json", [1, 8, 20]);
+    await stretched.close();
     await check("the worst frame is that of all replicates", async () => {
         const page = await open(browser, `${work}/several`);
         await settled(page);
@@ -372,7 +385,7 @@ await testTables(page, tools, run);
 await settled(page);
 await testNumbers(page);
 await testKeys(page);
-await testField(page);
+await testField("letters W", page, "ww", [1, 700, 1984]);
 await testScenes(page);
 await page.close();
 await testLooks(browser);

@@ -247,6 +247,44 @@ TEST(replay_shows_the_replicate_with_the_largest_error)
     mote_report_free(&several);
 }
 
+/* A field that is no CSRBF has its functions at every vertex: of `stretch` the coordinates from
+   the middle of the box, over its diagonal. */
+TEST(replay_of_a_field_of_another_kind_has_its_functions)
+{
+    mote_report other;
+    json_t *root = NULL;
+    file_put("stretched.json",
+             "{\"purpose\": \"p\", \"frames\": 3, \"ask\": \"distance\", \"bodies\": [\n"
+             "{\"letter\": \"T\", \"triangles\": 400, \"field\": {\"kind\": \"stretch\",\n"
+             " \"displacement\": {\"sines\": [{\"control\": 2, \"amplitude\": [0, 0.2, 0],\n"
+             " \"period\": 7}]}}}, {\"letter\": \"T\", \"triangles\": 400, \"motion\":\n"
+             " [{\"frame\": 1, \"position\": [1, 0, 0]}]}]}\n");
+    mote_expect(0, "", "run ./stretched.json --out other --replicates 1 --method certified");
+    assert_int_equal(mote_report_gather("other", &other), MOTE_OK);
+    assert_int_equal(mote_replay_json(&other, &root), MOTE_OK);
+    json_t *world = page_unpack_json(first_scene(root), "world");
+    const json_t *body = json_array_get(json_object_get(world, "bodies"), 0);
+    const json_t *basis = json_object_get(body, "basis");
+    const double step = number_of(body, "basisStep");
+    mote_scenario *scenario;
+    assert_int_equal(mote_scenario_load("./stretched.json", &scenario), MOTE_OK);
+    const mote_mesh *mesh = scenario->body[0].mesh;
+    const mote_vec3 middle = mote_scale(mote_add(mesh->low, mesh->high), 0.5);
+    assert_int_equal(number_of(body, "functions"), 3);
+    assert_int_equal(json_array_size(basis), 3 * mesh->vertex_count);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        const mote_vec3 x =
+            mote_scale(mote_sub(mesh->positions[i], middle), 1 / mesh->diagonal);
+        assert_near(step * number_at(basis, 3 * i), x.x, step);
+        assert_near(step * number_at(basis, 3 * i + 1), x.y, step);
+        assert_near(step * number_at(basis, 3 * i + 2), x.z, step);
+    }
+    mote_scenario_destroy(scenario);
+    json_decref(world);
+    json_decref(root);
+    mote_report_free(&other);
+}
+
 static size_t notes_with(const json_t *data, const char *text)
 {
     size_t i, count = 0;
