@@ -53,12 +53,26 @@ static void show(json_t *list, const char *name, const char *summary,
     }
 }
 
+/* Whether a method refuses bodies of which only positions are given, with its defaults. */
+static bool needs_field(const mote_method *method)
+{
+    double values[MOTE_PARAMETERS_MAX];
+    mote_parameters_default(method->parameters, method->parameter_count, values);
+    return mote_method_traits(method, values).needs_field;
+}
+
 static int list_methods(bool json)
 {
     json_t *list = json ? json_array() : NULL;
-    for (size_t i = 0; mote_methods[i]; ++i)
-        show(list, mote_methods[i]->name, mote_methods[i]->summary, mote_methods[i]->parameters,
-             mote_methods[i]->parameter_count);
+    for (size_t i = 0; mote_methods[i]; ++i) {
+        const mote_method *method = mote_methods[i];
+        show(list, method->name, method->summary, method->parameters, method->parameter_count);
+        if (json)
+            (void)json_object_set_new(json_array_get(list, json_array_size(list) - 1),
+                                      "needs_field", json_boolean(needs_field(method)));
+        else if (needs_field(method))
+            (void)printf("    needs a field: no bodies of which only positions are given\n");
+    }
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }
 

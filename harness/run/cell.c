@@ -112,6 +112,21 @@ static json_t *active_json(const mote_cell *cell, const mote_subject_facts *fact
                                     : interval_json(0, 0);
 }
 
+/* What the method is told of the deformation. With more than two bodies, trees are given
+   positions, and which of them is decided by fields, unless all are. */
+static const char *told_of(const mote_cell *cell)
+{
+    const mote_method_choice *choice = cell->choice;
+    const mote_traits traits = mote_method_traits(choice->method, choice->values);
+    const mote_engine_setup setup = mote_subject_engine(cell->subject);
+    bool field = !traits.needs_vertices && !traits.given_vertices;
+    if (cell->subject->bodies)
+        field = field || (int)choice->scene[MOTE_SCENE_REFIT] != MOTE_REFIT_EVERY;
+    for (uint32_t k = 0; k < setup.shape_count; ++k)
+        field = field && !mote_body_is_given(setup.shapes[k]);
+    return field ? "field" : "positions";
+}
+
 /* What is known of a cell before it runs. */
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
@@ -136,6 +151,8 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         (int)facts.frames, "active", active_json(cell, &facts), "program", hash, "machine",
         machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
         cell->fixed_seed);
+    if (object)
+        (void)json_object_set_new(object, "told", json_string(told_of(cell)));
     if (object && of_scene) {
         (void)json_object_set_new(object, "bodies", json_integer(facts.bodies));
         (void)json_object_set_new(object, "shapes",

@@ -294,6 +294,16 @@ const mote_column mote_columns[] = {
          "at no charge (positions=given); only rows of one accounting are compared",
      AT(accounting),
      .schema = "{\"enum\": [\"charged\", \"given\"]}"},
+    {.key = "told",
+     .csv = "told",
+     .optional = true,
+     .unit = "",
+     .meaning =
+         "What the method was told of the deformation: the `field` and its weights, from "
+         "which it computes what it looks at, or the `positions` of all vertices. Left out "
+         "where an older cell does not say",
+     AT(told),
+     .schema = "{\"enum\": [\"field\", \"positions\"]}"},
     {.key = "on_front",
      .csv = "on_front",
      .type = MOTE_COLUMN_FLAG,

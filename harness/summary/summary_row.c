@@ -407,6 +407,7 @@ static void describe(mote_summary_row *row)
     row->reason = mote_text_at(cell->json, "reason");
     row->given = is_given(cell);
     row->accounting = row->given ? "given" : "charged";
+    row->told = mote_text_at(cell->json, "told");
     row->parameters = cell->parameters;
     row->n = mote_number_at(cell->parameters, "n");
     row->tolerance = mote_stored_number(cell, "tolerance");

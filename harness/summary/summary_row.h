@@ -75,6 +75,7 @@ struct mote_summary_row {
         scene; /* "ww", or "ww (scene 0123abcd)" where another of that name is in the summary */
     const char *ending, *reason; /* the status as text; why it is not ok */
     const char *accounting;      /* "charged" or "given" */
+    const char *told;            /* "field" or "positions"; "" where the cell does not say */
     json_t *parameters;          /* in the cell or the summary.json; borrowed */
     double n, tolerance;         /* the parameter n; the scenario's tolerance */
     uint64_t seed;

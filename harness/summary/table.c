@@ -108,12 +108,15 @@ char *mote_table_heading(const mote_summary *summary, size_t start)
 bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE])
 {
     const bool applies[MOTE_ROW_NOTES] = {row->stride > 1, row->jobs > 1,
-                                          row->failed > 0 && row->finished > 0};
+                                          row->failed > 0 && row->finished > 0,
+                                          row->told[0] && row->status == MOTE_CELL_OK};
     if (applies[i] && i == 0)
         (void)snprintf(text, MOTE_ROW_NOTE, "every %uth frame", row->stride);
     else if (applies[i] && i == 1)
         (void)snprintf(text, MOTE_ROW_NOTE, "times not comparable: %u cells at once",
                        row->jobs);
+    else if (applies[i] && i == 3)
+        (void)snprintf(text, MOTE_ROW_NOTE, "told the %s", row->told);
     else if (applies[i])
         (void)snprintf(text, MOTE_ROW_NOTE, "%zu of %zu replicates ended badly", row->failed,
                        row->finished + row->failed);

@@ -22,7 +22,7 @@ size_t mote_table_block_end(const mote_summary *summary, size_t start);
 void mote_table_heads(mote_view view, int width, FILE *out);
 void mote_table_values(mote_view view, const mote_summary_row *row, FILE *out);
 
-#define MOTE_ROW_NOTES 3
+#define MOTE_ROW_NOTES 4
 #define MOTE_ROW_NOTE 96
 
 /* What must be known of a row beside its figures, i < MOTE_ROW_NOTES: "every 16th frame";

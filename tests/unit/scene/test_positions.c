@@ -250,10 +250,25 @@ TEST(positions_are_run_exported_and_resumed)
     mote_expect(0, "3 of them done",
                 "run ./s.json --method aabb-tree --method particle:n=4 --method certified "
                 "--frames 5-20 --replicates 1 --out r");
+    char *summary = file_text("r/summary.json");
+    assert_non_null(strstr(summary, "\"told\": \"positions\""));
+    assert_null(strstr(summary, "\"told\": \"field\""));
+    free(summary);
+    mote_expect(0, "told the positions", "summarize r");
     mote_expect(0, "frame 7", "export ./s.json --frame 7 --method fcl-aabb --out e");
     char *text = file_text("e/A.obj");
     assert_non_null(strstr(text, "v -0.5 -0.5 1.90625\n"));
     free(text);
+}
+
+TEST(tables_say_what_a_method_was_told)
+{
+    mote_expect(0, "told the field",
+                "run tt --method certified --frames 1-3 --replicates 1 --out f");
+    mote_expect(0, "told the positions",
+                "run tt --method aabb-tree --frames 1-3 --replicates 1 --out p");
+    mote_expect(0, "needs a field: no bodies", "list methods");
+    mote_expect(0, "\"needs_field\": true", "list methods --json");
 }
 
 TEST(positions_that_no_scenario_may_have_are_refused)
