@@ -1,6 +1,7 @@
-/* One method asked outside a measurement: its particles after it has answered. */
+/* An engine: particles after an answer; two bodies, always near or in a scene. */
 #include "harness/engine/engine.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solids.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -22,9 +23,9 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
     assert_int_equal(mote_method_choice_read("particle:n=8", &choice), MOTE_OK);
     scene s;
     scene_init(&s, 24, 12, 1, true);
-    mote_engine *probe = NULL;
+    mote_engine *engine = NULL;
     assert_int_equal(
-        mote_engine_open_two(&s.body[0], &s.body[1], &choice, MOTE_ASK_DISTANCE, 0, 1, &probe),
+        mote_engine_open_two(&s.body[0], &s.body[1], &choice, MOTE_ASK_DISTANCE, 0, 1, &engine),
         MOTE_OK);
     int touching = 0;
     (void)scene_next(&s, 0, false);
@@ -32,11 +33,11 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
         mote_answer answer;
         s.frame.body[1].pose.translation.x = (1.2 - 0.02 * k) * s.length;
         scene_step(&s);
-        assert_int_equal(mote_engine_answer(probe, &s.frame, &answer), MOTE_OK);
+        assert_int_equal(mote_engine_answer(engine, &s.frame, &answer), MOTE_OK);
         between();
         for (int b = 0; b < 2; ++b) {
             mote_vec3 at[9];
-            const size_t count = mote_engine_particles(probe, b, at, 9);
+            const size_t count = mote_engine_particles(engine, b, at, 9);
             assert_in_range(count, 1, 9);
             touching += count > 1 && answer.distance <= 0;
             for (size_t i = 0; i < count; ++i) {
@@ -49,6 +50,73 @@ TEST(particles_after_the_answer_are_vertices_of_its_frame)
         }
     }
     assert_true(touching > 10);
-    mote_engine_destroy(probe);
+    mote_engine_destroy(engine);
     scene_free(&s);
+}
+
+static mote_engine *engine_of(const mote_engine_setup *setup, const char *text)
+{
+    mote_method_choice choice;
+    mote_engine *engine = NULL;
+    if (mote_scene_choice_read(text, &choice) != MOTE_OK ||
+        mote_engine_create(setup, &choice, &engine) != MOTE_OK ||
+        mote_engine_build(engine) != MOTE_OK)
+        fail_msg("%s: %s", text, mote_error_text());
+    return engine;
+}
+
+/* What an engine says of the frame shown: the one pair, or NULL where none is near. */
+static const mote_near_pair *ask(mote_engine *engine, const mote_frame *frame,
+                                 mote_engine_cost *cost)
+{
+    size_t count;
+    mote_engine_show(engine, frame->body);
+    assert_int_equal(mote_engine_ask(engine, cost), MOTE_OK);
+    const mote_near_pair *pairs = mote_engine_pairs(engine, &count);
+    assert_true(count <= 1 && cost->pairs == count);
+    return count == 1 ? pairs : NULL;
+}
+
+/* Two bodies that are always near, and the same two in a scene that looks for near pairs: the
+   same distances, those of brute force; and only the scene loses the pair when it is far. */
+TEST(two_bodies_are_a_scene_of_two)
+{
+    static const char *const methods[] = {"certified", "aabb-tree", "fcl-aabb"};
+    for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m) {
+        scene s;
+        scene_init(&s, 24, 12, 1, true);
+        mote_engine_setup two = mote_engine_setup_of_two(&s.body[0], &s.body[1]);
+        mote_engine_setup many = two;
+        many.near = 0.3 * s.length;
+        mote_engine *pair = engine_of(&two, methods[m]);
+        mote_engine *crowd = engine_of(&many, methods[m]);
+        uint32_t near_frames = 0, lost_frames = 0;
+        (void)scene_next(&s, 0, false);
+        for (uint32_t k = 0; k < 30; ++k) {
+            mote_engine_cost one, other;
+            s.frame.body[1].pose.translation.x = (0.9 + 0.05 * k) * s.length;
+            scene_step(&s);
+            for (int b = 0; b < 2; ++b)
+                s.frame.body[b].pose_changed = s.frame.body[b].shape_changed = true;
+            const mote_near_pair *said = ask(pair, &s.frame, &one);
+            const mote_near_pair *found = ask(crowd, &s.frame, &other);
+            test_row("%s, frame %u", methods[m], k);
+            assert_non_null(said);
+            assert_int_equal(said->steps, k + 1);
+            assert_true(said->answer.has_contact);
+            assert_int_equal(one.broad_ns + one.bounds_ns, 0); /* nothing is looked for */
+            near_frames += found != NULL;
+            lost_frames += found == NULL;
+            if (found)
+                assert_close(found->answer.distance, said->answer.distance, 1e-12 * s.length);
+            else
+                assert_true(said->answer.distance > many.near);
+            if (k % 10 == 0)
+                assert_close(said->answer.distance, scene_distance(&s), 1e-12 * s.length);
+        }
+        assert_true(near_frames > 3 && lost_frames > 3);
+        mote_engine_destroy(pair);
+        mote_engine_destroy(crowd);
+        scene_free(&s);
+    }
 }
