@@ -99,8 +99,8 @@ static mote_status keep(const mote_replicates *plan, size_t task,
 {
     char machine[MOTE_MACHINE_SIZE];
     mote_machine_name(machine, sizeof machine);
-    json_t *object =
-        json_pack("{s:i, s:s, s:s}", "schema", 1, "status", status, "machine", machine);
+    json_t *object = json_pack("{s:i, s:s, s:s, s:s}", "schema", 1, "status", status, "machine",
+                               machine, "scenario", plan->scenario);
     json_t *what = identity(plan, task);
     (void)json_object_update(object, what);
     json_decref(what);
