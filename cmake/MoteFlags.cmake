@@ -22,7 +22,7 @@ target_compile_options(mote_flags INTERFACE
 # gcc 12 would fuse the lanes of two terms of a sum and then add them up in pairs.
 target_compile_options(mote_flags INTERFACE
   $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-loop-unroll-and-jam>)
-target_compile_definitions(mote_flags INTERFACE _POSIX_C_SOURCE=200809L)
+target_compile_definitions(mote_flags INTERFACE _POSIX_C_SOURCE=200809L MOTE_IN_TREE)
 if(MOTE_WERROR)
   target_compile_options(mote_flags INTERFACE -Werror)
 endif()

@@ -1,6 +1,9 @@
 # mote_registry(OUT NAME SOURCE...): writes NAME.c, the tables of all methods and fields that the
 # sources define with MOTE_METHOD(identifier) and MOTE_FIELD(identifier), sorted by file, so that a
 # new one is one new file.
+# Beside it in OUT: the sources that look things up in the tables, which go where the tables go.
+set(registry_lookup ${CMAKE_SOURCE_DIR}/core/method/method_table.c
+                    ${CMAKE_SOURCE_DIR}/core/body/field_table.c)
 function(mote_registry out name)
   foreach(type method field_maker)
     set(${type}_declarations "")
@@ -26,15 +29,6 @@ ${${type}_declarations}
 const mote_${type} *const mote_${type}s[] = {
 ${${type}_entries}    NULL,
 };
-
-const mote_${type} *mote_${type}_find(const char *name)
-{
-    for (size_t i = 0; mote_${type}s[i]; ++i) {
-        if (strcmp(mote_${type}s[i]->name, name) == 0)
-            return mote_${type}s[i];
-    }
-    return NULL;
-}
 ")
   endforeach()
   set(file ${CMAKE_BINARY_DIR}/${name}.c)
@@ -44,5 +38,5 @@ const mote_${type} *mote_${type}_find(const char *name)
 
 #include <string.h>
 ${tables}")
-  set(${out} ${file} PARENT_SCOPE)
+  set(${out} ${file} ${registry_lookup} PARENT_SCOPE)
 endfunction()

@@ -12,6 +12,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef enum mote_parameter_kind {
     MOTE_PARAMETER_INTEGER, /* up to 2^53 */
@@ -50,6 +51,7 @@ mote_status mote_parameters_parse(const mote_parameter *table, size_t count, con
 const char *mote_parameter_text(const mote_parameter *parameter, double value, char *buffer,
                                 size_t size);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef enum mote_status {
     MOTE_OK = 0,
@@ -35,6 +36,7 @@ const char *mote_error_text(void);
 /* The status of this thread's last mote_fail, or MOTE_OK if there was none. */
 mote_status mote_error_status(void);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -8,6 +8,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Zero-initialise it: what is left out has no samples. */
 typedef struct mote_body {
@@ -60,6 +61,7 @@ mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex
 mote_vec3 mote_body_position(const mote_body *body, const mote_body_state *state,
                              uint32_t vertex);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -8,6 +8,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_csrbf_fit mote_csrbf_fit;
 
@@ -29,6 +30,7 @@ mote_status mote_csrbf_fit_solve(const mote_csrbf_fit *fit, const mote_vec3 *dis
 /* NULL is allowed. */
 void mote_csrbf_fit_destroy(mote_csrbf_fit *fit);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

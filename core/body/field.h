@@ -25,6 +25,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Weight vectors by coordinate, in world axes (already rotated with the body), padded with
    zeros to a multiple of MOTE_LANES. Unit: the mesh's unit of length. NULL arrays when padded
@@ -156,6 +157,7 @@ void mote_field_displacement_single(const mote_field *field, const mote_mesh *me
                                     uint32_t vertex, const mote_weights_single *weights,
                                     float displacement[3]);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

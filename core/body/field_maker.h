@@ -2,16 +2,18 @@
 
    A kind is one constant descriptor in one file, defined as
        MOTE_FIELD(stretch) = {.name = "stretch", ...};
-   at the start of a line; the build finds it by that line (cmake/MoteRegistry.cmake). */
+   at the start of a line, and found as a method is (core/method/method.h). */
 #ifndef MOTE_CORE_FIELD_MAKER_H
 #define MOTE_CORE_FIELD_MAKER_H
 
 #include "core/body/field.h"
 #include "core/base/parameter.h"
+#include "core/base/plugin.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_field_maker {
     const char *name;    /* as in a scenario */
@@ -25,22 +27,25 @@ typedef struct mote_field_maker {
     mote_status (*create)(const mote_mesh *mesh, const double *values, mote_field **field);
 } mote_field_maker;
 
-#if defined(__cplusplus)
 #define MOTE_FIELD(id)                                                                         \
-    extern "C" const mote_field_maker mote_field_maker_##id;                                   \
+    MOTE_PLUGIN_DECLARE const mote_field_maker mote_field_maker_##id;                          \
+    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_FIELD, mote_field_maker_##id)                                 \
     const mote_field_maker mote_field_maker_##id
-#else
-#define MOTE_FIELD(id)                                                                         \
-    extern const mote_field_maker mote_field_maker_##id;                                       \
-    const mote_field_maker mote_field_maker_##id
-#endif
 
-/* All of them, ended by NULL; written by the build. */
+/* The kinds that are built in, ended by NULL; written by the build. */
 extern const mote_field_maker *const mote_field_makers[];
+
+/* Makes a further kind known to the two functions below; borrowed until the program ends.
+   Before any other thread uses them. MOTE_EINVAL where its name is taken, or after 64. */
+mote_status mote_field_maker_add(const mote_field_maker *maker);
+
+/* The kinds that are built in and then those added, by number; NULL behind the last. */
+const mote_field_maker *mote_field_maker_at(size_t index);
 
 /* The one of that name, or NULL. */
 const mote_field_maker *mote_field_maker_find(const char *name);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

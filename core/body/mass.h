@@ -8,6 +8,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Units follow from the mesh's length and the density. */
 typedef struct mote_mass {
@@ -28,6 +29,7 @@ typedef struct mote_mass {
    the middle of the mesh's box. Cost O(t log t). */
 mote_status mote_mass_of_mesh(const mote_mesh *mesh, double density, mote_mass *mass);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

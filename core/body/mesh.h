@@ -13,6 +13,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Set on a ring entry that no triangle joins to the next entry (the end of an open fan). */
 #define MOTE_RING_END 0x80000000u
@@ -63,6 +64,7 @@ int64_t mote_mesh_euler(const mote_mesh *mesh);
    O(t). */
 double mote_mesh_smallest_angle(const mote_mesh *mesh);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

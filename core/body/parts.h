@@ -8,6 +8,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* The mesh is first simplified to at most this many triangles, since HACD's time grows faster
    than the square of their number (letters: 0.3 s at 800, 5 s at 1,380). */
@@ -34,6 +35,7 @@ mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 *positions,
 /* NULL is allowed. */
 void mote_parts_destroy(mote_parts *parts);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Squared distance from p to the triangle t (its inside included); closest is the nearest
  * point. */
@@ -42,6 +43,7 @@ double mote_triangle_triangle(const mote_vec3 s[3], const mote_vec3 t[3], mote_v
 double mote_triangle_triangle_below(const mote_vec3 s[3], const mote_vec3 t[3],
                                     double bound_squared, mote_vec3 *p, mote_vec3 *q);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

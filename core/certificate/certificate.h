@@ -16,6 +16,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_certificate mote_certificate;
 
@@ -81,6 +82,7 @@ void mote_certificate_query(mote_certificate *certificate, const mote_frame *fra
 void mote_certificate_report(const mote_certificate_answer *found, mote_ask ask,
                              double tolerance, bool decides, mote_answer *answer);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

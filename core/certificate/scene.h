@@ -15,6 +15,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_scene mote_scene;
 
@@ -90,6 +91,7 @@ mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
 /* The pairs of the last query, in its order; valid until the next one. */
 const mote_scene_pair *mote_scene_pairs(const mote_scene *scene, size_t *count);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -2,16 +2,20 @@
 
    A method is one constant descriptor in one file, defined as
        MOTE_METHOD(particle_paper) = {.name = "particle-paper", ...};
-   at the start of a line; the build finds it by that line (cmake/MoteRegistry.cmake). */
+   at the start of a line. In mote's own tree the build finds it by that line
+   (cmake/MoteRegistry.cmake); outside of it, the file is compiled into a shared library, which
+   mote loads (--plugin) and finds the method in by what this line leaves there. */
 #ifndef MOTE_CORE_METHOD_H
 #define MOTE_CORE_METHOD_H
 
 #include "core/body/body.h"
 #include "core/base/parameter.h"
+#include "core/base/plugin.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef enum mote_ask {
     MOTE_ASK_DISTANCE, /* the distance of the surfaces, and the contact that follows from it */
@@ -110,17 +114,12 @@ typedef struct mote_method {
     size_t (*particles)(const void *state, int body, mote_vec3 *positions, size_t capacity);
 } mote_method;
 
-#if defined(__cplusplus)
 #define MOTE_METHOD(id)                                                                        \
-    extern "C" const mote_method mote_method_##id;                                             \
+    MOTE_PLUGIN_DECLARE const mote_method mote_method_##id;                                    \
+    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_METHOD, mote_method_##id)                                     \
     const mote_method mote_method_##id
-#else
-#define MOTE_METHOD(id)                                                                        \
-    extern const mote_method mote_method_##id;                                                 \
-    const mote_method mote_method_##id
-#endif
 
-/* All methods, ended by NULL; written by the build. */
+/* The methods that are built in, ended by NULL; written by the build. */
 extern const mote_method *const mote_methods[];
 
 /* Call the method's own functions, or do the default where it has none: no traits, a state
@@ -132,9 +131,17 @@ mote_status mote_method_create(const mote_method *method, const mote_setup *setu
                                void **state);
 void mote_method_destroy(const mote_method *method, void *state);
 
+/* Makes a further method known to the two functions below; borrowed until the program ends.
+   Before any other thread uses them. MOTE_EINVAL where its name is taken, or after 64. */
+mote_status mote_method_add(const mote_method *method);
+
+/* The methods that are built in and then those added, by number; NULL behind the last. */
+const mote_method *mote_method_at(size_t index);
+
 /* The method of that name, or NULL. */
 const mote_method *mote_method_find(const char *name);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -17,6 +17,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* m / (1 + m l_x^2 / I_x + m l_y^2 / I_y + m l_z^2 / I_z), l = r x n in the principal axes: the
    mass with which the body resists an impulse along n (unit) at arm r (from its centre); world
@@ -54,6 +55,7 @@ mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_v
                          double restitution, mote_rigid_state *const state[2],
                          mote_impact *impact);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -11,6 +11,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* All in world axes. Units: the mesh's unit of length, the density's unit of mass, any unit of
    time. */
@@ -44,6 +45,7 @@ double mote_rigid_kinetic_energy(const mote_mass *mass, const mote_rigid_state *
 mote_status mote_rigid_step(const mote_mass *mass, mote_vec3 gravity, double step,
                             mote_rigid_state *state);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -27,6 +27,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 #define MOTE_SKIN_BONES_MAX 65535
 
@@ -68,6 +69,7 @@ void mote_morph_weights(const mote_field *field, const double (*matrices)[3][4],
                         const double *amounts, const mote_mat3 *rotation, double *x, double *y,
                         double *z);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

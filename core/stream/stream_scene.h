@@ -15,6 +15,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_stream_scene mote_stream_scene;
 
@@ -53,6 +54,7 @@ mote_status mote_stream_scene_query(mote_stream_scene *scene, const uint32_t (*p
 /* The pairs of the last query, in its order; valid until the next one. */
 const mote_scene_pair *mote_stream_scene_pairs(const mote_stream_scene *scene, size_t *count);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -16,9 +16,10 @@ static mote_status unknown_method(const char *name)
     char known[512];
     size_t used = 0;
     known[0] = '\0';
-    for (size_t i = 0; mote_methods[i] && used < sizeof known; ++i) {
+    const mote_method *method;
+    for (size_t i = 0; (method = mote_method_at(i)) && used < sizeof known; ++i) {
         int put = snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                           mote_methods[i]->name);
+                           method->name);
         used += put > 0 ? (size_t)put : 0;
     }
     return mote_fail(MOTE_EINVAL, "unknown method %s; known are: %s", name, known);

@@ -64,8 +64,8 @@ static bool needs_field(const mote_method *method)
 static int list_methods(bool json)
 {
     json_t *list = json ? json_array() : NULL;
-    for (size_t i = 0; mote_methods[i]; ++i) {
-        const mote_method *method = mote_methods[i];
+    const mote_method *method;
+    for (size_t i = 0; (method = mote_method_at(i)); ++i) {
         show(list, method->name, method->summary, method->parameters, method->parameter_count);
         if (json)
             (void)json_object_set_new(json_array_get(list, json_array_size(list) - 1),
@@ -79,9 +79,9 @@ static int list_methods(bool json)
 static int list_fields(bool json)
 {
     json_t *list = json ? json_array() : NULL;
-    for (size_t i = 0; mote_field_makers[i]; ++i)
-        show(list, mote_field_makers[i]->name, mote_field_makers[i]->summary,
-             mote_field_makers[i]->parameters, mote_field_makers[i]->parameter_count);
+    const mote_field_maker *m;
+    for (size_t i = 0; (m = mote_field_maker_at(i)); ++i)
+        show(list, m->name, m->summary, m->parameters, m->parameter_count);
     return json ? print_json(list) : mote_command_finish(MOTE_EXIT_DONE);
 }
 

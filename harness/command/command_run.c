@@ -338,8 +338,8 @@ static mote_status expand_methods(request *q)
     mote_status status = MOTE_OK;
     for (size_t i = 0; status == MOTE_OK && i < q->method_count; ++i)
         status = mote_choices_add(&q->choices, q->methods[i], q->particles);
-    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_methods[i]; ++i)
-        status = mote_choices_add(&q->choices, mote_methods[i]->name, q->particles);
+    for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && mote_method_at(i); ++i)
+        status = mote_choices_add(&q->choices, mote_method_at(i)->name, q->particles);
     for (size_t i = 0; status == MOTE_OK && q->method_count == 0 && i < ways; ++i)
         status = mote_choices_add(&q->scene_choices, scene_ways[i], q->particles);
     q->run.scene_choices = q->method_count == 0 ? &q->scene_choices : NULL;

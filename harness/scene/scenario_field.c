@@ -176,8 +176,8 @@ static mote_status read_displacement(const mote_json *node, double length,
 static mote_status unknown_kind(const mote_json *node, const char *name)
 {
     mote_text known = {0};
-    for (size_t i = 0; mote_field_makers[i]; ++i)
-        mote_text_add(&known, ", %s", mote_field_makers[i]->name);
+    for (size_t i = 0; mote_field_maker_at(i); ++i)
+        mote_text_add(&known, ", %s", mote_field_maker_at(i)->name);
     mote_status status = mote_json_fail(node, "unknown kind %s; known are csrbf%s", name,
                                         known.data ? known.data : "");
     free(known.data);

@@ -40,9 +40,9 @@ typedef struct study {
 
 static void list_methods(study *s)
 {
-    for (size_t m = 0; mote_methods[m] && s->method_count < METHODS_MAX; ++m) {
+    for (size_t m = 0; mote_method_at(m) && s->method_count < METHODS_MAX; ++m) {
         const size_t i = s->method_count++;
-        s->method[i] = mote_methods[m]->name;
+        s->method[i] = mote_method_at(m)->name;
         for (size_t k = 0; k < sizeof ours / sizeof ours[0]; ++k)
             s->is_ours[i] = s->is_ours[i] || strcmp(ours[k], s->method[i]) == 0;
     }
