@@ -21,11 +21,13 @@ enum {
 typedef struct mote_plugin_item {
     uint32_t contract; /* MOTE_CONTRACT of the headers that it was compiled with */
     uint32_t kind;
+    uint32_t size; /* of the structs that both sides use: a version that was not raised when it
+                      should have been is seen all the same */
     const void *item;
 } mote_plugin_item;
 
 /* The type of mote_plugin_items, which each such library exports: its items. */
-typedef const mote_plugin_item *(*mote_plugin_items_type)(size_t *count);
+typedef const mote_plugin_item *const *(*mote_plugin_items_type)(size_t *count);
 
 #ifdef __cplusplus
 #define MOTE_PLUGIN_DECLARE extern "C"
@@ -34,25 +36,29 @@ typedef const mote_plugin_item *(*mote_plugin_items_type)(size_t *count);
 #endif
 
 #ifdef MOTE_IN_TREE
-#define MOTE_PLUGIN_ITEM(kind, item)
+#define MOTE_PLUGIN_ITEM(kind, size, item)
 #else
-/* The items of all source files lie side by side in a section of their own, whose ends the
-   linker knows. A program that only includes the headers has none. */
-#define MOTE_PLUGIN_ITEM(kind, item)                                                           \
-    __attribute__((section("mote_plugin"), used)) static const mote_plugin_item item##_item =  \
-        {MOTE_CONTRACT, kind, &item};
+/* Pointers to the items of all source files lie side by side in a section of their own, whose
+   ends the linker knows. (Items would not: the compiler may align them further apart than their
+   size.) A program that only includes the headers has none. */
+#define MOTE_PLUGIN_SECTION __attribute__((section("mote_plugin"), used))
+#define MOTE_PLUGIN_ITEM(kind, size, item)                                                     \
+    static const mote_plugin_item item##_item = {MOTE_CONTRACT, kind, (uint32_t)(size),        \
+                                                 &item};                                       \
+    MOTE_PLUGIN_SECTION static const mote_plugin_item *const item##_listed = &item##_item;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-extern const mote_plugin_item __start_mote_plugin[]
+extern const mote_plugin_item *const __start_mote_plugin[]
     __attribute__((weak, visibility("hidden")));
-extern const mote_plugin_item __stop_mote_plugin[] __attribute__((weak, visibility("hidden")));
+extern const mote_plugin_item *const __stop_mote_plugin[]
+    __attribute__((weak, visibility("hidden")));
 
-__attribute__((weak, visibility("default"))) const mote_plugin_item *
+__attribute__((weak, visibility("default"))) const mote_plugin_item *const *
 mote_plugin_items(size_t *count);
 
-__attribute__((weak, visibility("default"))) const mote_plugin_item *
+__attribute__((weak, visibility("default"))) const mote_plugin_item *const *
 mote_plugin_items(size_t *count)
 {
     *count = (size_t)(__stop_mote_plugin - __start_mote_plugin);

@@ -144,6 +144,13 @@ mote_status mote_field_create_csrbf(const mote_vec3 *centres, uint32_t count, do
 mote_status mote_field_create_modes(const mote_vec3 *modes, uint32_t count,
                                     uint32_t vertex_count, mote_field **field);
 
+/* For a new kind: a zeroed field with kind, count, padded, most (= count) and bytes
+   set; kind->destroy frees it with free(). A sparse kind lowers most. MOTE_EINVAL: count is
+   above MOTE_FIELD_MAX, or above MOTE_FIELD_SUMMED for a kind that is not sparse and leaves
+   displacement or displacement_single to the sum over basis(). MOTE_ENOMEM. */
+mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
+                                mote_field **field);
+
 /* NULL is allowed. */
 void mote_field_destroy(mote_field *field);
 

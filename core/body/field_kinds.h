@@ -4,14 +4,6 @@
 
 #include "core/body/field.h"
 
-/* A zeroed field with kind, count, padded, most (= count) and bytes set. A sparse kind lowers
-   most. MOTE_EINVAL: count is above MOTE_FIELD_MAX, or above MOTE_FIELD_SUMMED for a kind that
-   is not sparse and leaves displacement or displacement_single to the sum over basis().
-   MOTE_ENOMEM.
- */
-mote_status mote_field_allocate(const mote_field_kind *kind, uint32_t count,
-                                mote_field **field);
-
 /* The displacement of a kind that has no displacement of its own, and the same in single
    precision: sums over sparse() or basis(). */
 mote_vec3 mote_field_sum(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,

@@ -27,9 +27,14 @@ typedef struct mote_field_maker {
     mote_status (*create)(const mote_mesh *mesh, const double *values, mote_field **field);
 } mote_field_maker;
 
+/* Of what a field and its caller share, for plugin.h. */
+#define MOTE_FIELD_SIZES                                                                       \
+    (sizeof(mote_field_maker) + sizeof(mote_mesh) + sizeof(mote_field) +                       \
+     sizeof(mote_field_kind))
+
 #define MOTE_FIELD(id)                                                                         \
     MOTE_PLUGIN_DECLARE const mote_field_maker mote_field_maker_##id;                          \
-    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_FIELD, mote_field_maker_##id)                                 \
+    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_FIELD, MOTE_FIELD_SIZES, mote_field_maker_##id)               \
     const mote_field_maker mote_field_maker_##id
 
 /* The kinds that are built in, ended by NULL; written by the build. */

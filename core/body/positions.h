@@ -21,7 +21,8 @@ typedef struct mote_positions {
 /* An array of vectors. */
 static inline mote_positions mote_positions_of(const mote_vec3 *vertices)
 {
-    return (mote_positions){.data = vertices, .stride = sizeof *vertices};
+    const mote_positions positions = {vertices, sizeof *vertices, false};
+    return positions;
 }
 
 static inline mote_vec3 mote_position_at(const mote_positions *positions, uint32_t vertex)

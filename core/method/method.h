@@ -114,9 +114,14 @@ typedef struct mote_method {
     size_t (*particles)(const void *state, int body, mote_vec3 *positions, size_t capacity);
 } mote_method;
 
+/* Of what a method and its caller share, for plugin.h. */
+#define MOTE_METHOD_SIZES                                                                      \
+    (sizeof(mote_method) + sizeof(mote_setup) + sizeof(mote_frame) + sizeof(mote_answer) +     \
+     sizeof(mote_body) + sizeof(mote_mesh) + sizeof(mote_field) + sizeof(mote_field_kind))
+
 #define MOTE_METHOD(id)                                                                        \
     MOTE_PLUGIN_DECLARE const mote_method mote_method_##id;                                    \
-    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_METHOD, mote_method_##id)                                     \
+    MOTE_PLUGIN_ITEM(MOTE_PLUGIN_METHOD, MOTE_METHOD_SIZES, mote_method_##id)                  \
     const mote_method mote_method_##id
 
 /* The methods that are built in, ended by NULL; written by the build. */

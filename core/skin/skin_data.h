@@ -7,7 +7,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#pragma GCC visibility push(default)
 
 #define MOTE_MORPH_TARGETS_MAX 65535
 
@@ -63,7 +62,6 @@ static inline uint32_t mote_skin_functions(const mote_skin *skin)
     return skin->morph.targets ? mote_morph_first(skin) + skin->morph.targets : 4 * skin->bones;
 }
 
-#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

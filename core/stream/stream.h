@@ -18,6 +18,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_stream mote_stream;
 
@@ -65,6 +66,7 @@ mote_status mote_stream_query(mote_stream *stream, const mote_stream_frame *fram
    query's time at a million triangles. MOTE_ENOMEM. Cost O(t log t). */
 mote_status mote_stream_order(const mote_body *body, uint32_t *order);
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

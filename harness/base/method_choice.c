@@ -18,8 +18,8 @@ static mote_status unknown_method(const char *name)
     known[0] = '\0';
     const mote_method *method;
     for (size_t i = 0; (method = mote_method_at(i)) && used < sizeof known; ++i) {
-        int put = snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
-                           method->name);
+        int put =
+            snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", method->name);
         used += put > 0 ? (size_t)put : 0;
     }
     return mote_fail(MOTE_EINVAL, "unknown method %s; known are: %s", name, known);

@@ -81,6 +81,17 @@ mote_option_reader mote_option_begin(const mote_option *options, int argc, char 
     return reader;
 }
 
+/* Passes over an option that has done its work; its value is known to be there. */
+static bool skip_plugin(mote_option_reader *reader)
+{
+    const char *argument = reader->argv[reader->next];
+    const bool alone = strcmp(argument, "--plugin") == 0;
+    if (!alone && strncmp(argument, "--plugin=", 9) != 0)
+        return false;
+    reader->next += 1 + alone;
+    return true;
+}
+
 int mote_option_next(mote_option_reader *reader, const char **value)
 {
     *value = NULL;
@@ -91,6 +102,8 @@ int mote_option_next(mote_option_reader *reader, const char **value)
     }
     if (reader->next >= reader->argc)
         return MOTE_OPTION_END;
+    if (!reader->ended && skip_plugin(reader))
+        return mote_option_next(reader, value);
     const char *command = reader->argv[0];
     const char *argument = reader->argv[reader->next++];
     if (reader->ended || argument[0] != '-' || argument[1] == '\0') {

@@ -58,7 +58,9 @@ mote_option_reader mote_option_begin(const mote_option *options, int argc, char 
 #define MOTE_OPTION_END (-2)   /* nothing left */
 #define MOTE_OPTION_ERROR (-3) /* reported on stderr: return MOTE_EXIT_USAGE */
 
-/* The next option's index in reader->options, or one of the above. *value: the option's value
+/* "--plugin FILE", which every command takes, is passed over: its library was loaded before
+   the command began.
+   The next option's index in reader->options, or one of the above. *value: the option's value
    or the plain argument, else NULL. "--" ends the options. */
 int mote_option_next(mote_option_reader *reader, const char **value);
 

@@ -6,6 +6,7 @@
 #include "harness/base/json_memory.h"
 #include "harness/mesh/mesh_import.h"
 #include "harness/race/race_child.h"
+#include "harness/process/plugin.h"
 #include "harness/scene/fence.h"
 
 #include <signal.h>
@@ -64,6 +65,9 @@ static int print_help(void)
         "  --allow DIR  scenario files may name files below DIR as well (default: those\n"
         "               of their own folder only); may be repeated\n"
         "  --strict     refuse edges of more than two faces (default: cut them apart)\n"
+        "With any command:\n"
+        "  --plugin FILE  methods and fields of a shared library (docs/extending.md); may\n"
+        "               be repeated\n"
         "-- ends the options: what follows are names, even if they begin with a dash.\n");
     return mote_command_finish(MOTE_EXIT_DONE);
 }
@@ -132,6 +136,24 @@ static int unknown_command(const char *name)
     return MOTE_EXIT_USAGE;
 }
 
+/* Loads the libraries of "--plugin FILE" and "--plugin=FILE", before any "--", wherever they
+   stand: what they offer must be known before names of methods are read. */
+static int open_plugins(int argc, char **argv)
+{
+    const size_t length = strlen("--plugin");
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; ++i) {
+        if (strncmp(argv[i], "--plugin", length) != 0 ||
+            (argv[i][length] != '=' && argv[i][length] != '\0'))
+            continue;
+        const bool alone = argv[i][length] == '\0';
+        if (alone && i + 1 == argc)
+            return mote_command_usage("--plugin", "no file; write --plugin FILE");
+        if (mote_plugin_open(alone ? argv[++i] : argv[i] + length + 1) != MOTE_OK)
+            return mote_command_fail();
+    }
+    return MOTE_EXIT_DONE;
+}
+
 /* The exit status of a command that a signal stopped, by the shell's convention: 130 for
    Ctrl-C, 143 for SIGTERM. */
 static int stopped_code(int code)
@@ -147,6 +169,9 @@ int main(int argc, char **argv)
     /* Likewise where a file becomes larger than is allowed. */
     (void)signal(SIGXFSZ, SIG_IGN);
     mote_json_use_memory();
+    const int opened = open_plugins(argc, argv);
+    if (opened != MOTE_EXIT_DONE)
+        return opened;
     while (argc > 1) {
         const int is_strict = strcmp(argv[1], "--strict") == 0;
         if (is_strict)

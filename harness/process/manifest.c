@@ -2,6 +2,7 @@
 
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
+#include "harness/process/plugin.h"
 #include "harness/process/spawn.h"
 
 #include <inttypes.h>
@@ -29,6 +30,8 @@ mote_status mote_program_hash(uint64_t *hash)
     if (status != MOTE_OK)
         return status;
     *hash = mote_hash_bytes(MOTE_HASH_START, data, size);
+    if (mote_plugin_path(0))
+        *hash = mote_hash_word(*hash, mote_plugin_hash());
     free(data);
     return MOTE_OK;
 }
@@ -164,5 +167,7 @@ mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_
                   (json_int_t)seed, "sessions", sessions);
     add_sources(object);
     add_machine(object);
+    if (mote_plugin_path(0))
+        (void)json_object_set_new(object, "plugins", mote_plugin_json());
     return mote_record_json(directory, "manifest.json", object);
 }

@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Hash of this program's own file, which changes with anything compiled in. MOTE_EIO when it
-   cannot be read. */
+/* Hash of this program's own file, which changes with anything compiled in, and of the
+   libraries that were loaded into it (plugin.h). MOTE_EIO when it cannot be read. */
 mote_status mote_program_hash(uint64_t *hash);
 
 /* Which machine this is, for telling whether two times may be compared: "name, processor", as

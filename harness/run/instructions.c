@@ -2,6 +2,7 @@
 
 #include "harness/run/measure.h"
 #include "harness/base/record.h"
+#include "harness/process/plugin.h"
 #include "harness/process/spawn.h"
 
 #include <stdio.h>
@@ -85,6 +86,8 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
+        /* Without libraries the words end behind "--inside". */
+        const char *const library = mote_plugin_path(0);
         const char *const argv[] = {"valgrind",
                                     "--tool=callgrind",
                                     "--quiet",
@@ -98,6 +101,8 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                                     "--method",
                                     method,
                                     "--inside",
+                                    library ? "--plugin" : NULL,
+                                    library,
                                     NULL};
         status = mote_spawn(argv, NULL, NULL, 0);
     }

@@ -110,6 +110,22 @@ grep -q '^zz .*of the installation' <<< "$("$root/bin/mote" list scenarios)" || 
 "$root/bin/mote" run zz --frames 1-2 --replicates 1 --method certified --out run > log 2>&1 ||
     { cat log; fail "the installed program does not run"; }
 
+# The engine of docs/extending.md, from the installed headers and program alone.
+if pkg-config --exists ode; then
+    for name in engine.c touch.json 'engine commands'; do "$tests/documented.sh" "$name" > "$name"; done
+    for compiler in gcc clang; do
+        command -v $compiler > log || continue
+        # shellcheck disable=SC2046
+        $compiler $flags -shared -fPIC engine.c $(pkg-config --cflags ode mote) -o engine.so $(pkg-config --libs ode)
+        PATH=$root/bin:$PATH mote list methods --plugin ./engine.so > methods
+        grep -q '^engine: ' methods || fail "$compiler: the library has no method"
+    done
+    PATH=$root/bin:$PATH bash -e 'engine commands' > table 2> log || { cat log; fail "the engine does not run"; }
+    for row in engine certified fcl-aabb; do grep -q "^$row  *-  *[0-9]" table || fail "no row $row"; done
+else
+    echo "left out: ODE is not installed"
+fi
+
 commands=$("$root/bin/mote" --help | sed -n 's/^  mote \([a-z]*\).*/\1/p')
 if command -v groff > log; then
     groff -man -ww -z "$root/share/man/man1/mote.1" 2> log

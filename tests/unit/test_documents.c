@@ -312,7 +312,7 @@ static void check_command(const char *document, const char *command, const char 
     (void)snprintf(line, sizeof line, "%.*s", (int)strcspn(rest, "#\n"), rest);
     for (char *word = strtok_r(line, " []()|=,.:", &state); word;
          word = strtok_r(NULL, " []()|=,.:", &state))
-        if (starts(word, "--") && !has_option(command, word))
+        if (starts(word, "--") && strcmp(word, "--plugin") != 0 && !has_option(command, word))
             complain(document, command, word);
 }
 
@@ -321,12 +321,13 @@ TEST(commands_that_documents_mention_exist_and_have_their_options)
     each_mention("(\\<mote )([a-z][a-z-]*)", true, check_command);
 }
 
-/* Of any command, of all (--help), of none (`mote --allow DIR COMMAND`), or of Slurm's sbatch.
+/* Of any command, of all (--help, --plugin), of none (`mote --allow DIR COMMAND`), or of
+ * Slurm's sbatch.
  */
 static void check_option(const char *document, const char *option, const char *rest)
 {
-    static const char *const others[] = {"--allow", "--help", "--partition", "--time",
-                                         "--constraint"};
+    static const char *const others[] = {"--allow",     "--help", "--plugin",
+                                         "--partition", "--time", "--constraint"};
     bool known = has_option(NULL, option);
     (void)rest;
     for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
