@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* No file of a run is larger. */
 #define FILE_LIMIT ((size_t)1 << 30)
@@ -16,6 +17,14 @@ static mote_status write_at(const char *directory, const char *name, const void 
     mote_status status = mote_file_write(path, data, size);
     free(path);
     return status;
+}
+
+bool mote_record_exists(const char *directory, const char *name)
+{
+    char *path = mote_format("%s/%s", directory, name);
+    const bool there = access(path, F_OK) == 0;
+    free(path);
+    return there;
 }
 
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text)

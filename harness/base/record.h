@@ -8,6 +8,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* Whether directory/name is there. */
+bool mote_record_exists(const char *directory, const char *name);
+
 /* Writes directory/name. Frees text. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
 

@@ -6,21 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER])
-{
-    char digits[MOTE_FIGURE_NUMBER];
-    (void)snprintf(digits, sizeof digits, "%.0f", value);
-    const size_t count = strlen(digits);
-    size_t used = 0;
-    for (size_t i = 0; i < count && used + 2 < MOTE_FIGURE_NUMBER; ++i) {
-        if (i > 0 && (count - i) % 3 == 0)
-            text[used++] = ',';
-        text[used++] = digits[i];
-    }
-    text[used] = '\0';
-    return text;
-}
-
 static bool usable(const mote_summary_row *row, const char *scenario)
 {
     return row->status == MOTE_CELL_OK && row->times_comparable &&

@@ -58,10 +58,6 @@ mote_status mote_figure_frames_begin(const mote_figure_run *run);
 mote_status mote_figure_frame_write(const mote_figure_run *run, unsigned number,
                                     mote_text *text, uint64_t *hash);
 
-/* 11920: "11,920". */
-#define MOTE_FIGURE_NUMBER 32
-const char *mote_figure_number(double value, char text[MOTE_FIGURE_NUMBER]);
-
 /* Whether a row is shown in figures of its scenario: its cells ran alone and with hot
    caches, on the machine, in the scene and over the frames that most of the scenario's rows
    have (on a tie, the most frames). */

@@ -2,12 +2,12 @@
 #include "harness/figure/figure.h"
 
 #include "harness/base/memory.h"
+#include "harness/base/record.h"
 #include "harness/summary/summary_json.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Panels and lines of plots/bodies.gp, which relies on their number and order. */
 static const double densities[] = {0.1, 1, 4};
@@ -36,10 +36,7 @@ static const mote_summary *find_summary(const mote_figure_run *run, mote_figure 
     if (has_scenes(run->summary))
         return run->summary;
     for (size_t k = 0; k < 2; ++k) {
-        char *path = mote_format("%s/%s", run->directory, names[k]);
-        const bool there = access(path, F_OK) == 0;
-        free(path);
-        if (!there)
+        if (!mote_record_exists(run->directory, names[k]))
             continue;
         if (mote_summary_read(run->directory, names[k], other) != MOTE_OK) {
             mote_text_add(&figure->missing, "%s", mote_error_text());

@@ -1,9 +1,10 @@
 /* Figures of studies: the numerical extremes (10), the claims table (11). */
 #include "harness/figure/figure.h"
 
+#include "harness/base/record.h"
+
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Characters in a line of a claim's text, which has its verdict beside it, and in a line of
    what was measured. */
@@ -28,19 +29,13 @@ static size_t wrap(const char *text, size_t width, char lines[LINES_MAX][128])
     return count;
 }
 
-static const char *text_of(const json_t *object, const char *key)
-{
-    const char *text = json_string_value(json_object_get(object, key));
-    return text ? text : "";
-}
-
 /* "0.063 [0.062, 0.065] L" */
 static void measured_text(const json_t *claim, char *text, size_t size)
 {
     const json_t *value = json_object_get(claim, "value");
     const json_t *low = json_array_get(json_object_get(claim, "interval"), 0);
     const json_t *high = json_array_get(json_object_get(claim, "interval"), 1);
-    const char *unit = text_of(claim, "unit");
+    const char *unit = mote_text_at(claim, "unit");
     if (!json_is_number(value))
         (void)snprintf(text, size, "not measured");
     else if (json_is_number(low) && json_is_number(high))
@@ -74,16 +69,16 @@ static size_t add_claim(const json_t *claim, size_t top, mote_text *data)
 {
     char lines[LINES_MAX][128], text[512], value[128], measured[256];
     const json_t *first = json_array_get(json_object_get(claim, "values"), 0);
-    const char *id = text_of(claim, "id");
+    const char *id = mote_text_at(claim, "id");
     const bool letter = strlen(id) <= 1;
     (void)snprintf(lines[0], sizeof lines[0], "%s", id);
     add_lines(data, 0, top, lines, letter ? 1 : 0);
     (void)snprintf(text, sizeof text, "%s%s%s", letter ? "" : id, letter ? "" : ": ",
-                   text_of(claim, "claim"));
+                   mote_text_at(claim, "claim"));
     const size_t claimed = wrap(text, CLAIM_WIDTH, lines);
     add_lines(data, 1, top, lines, claimed);
     measured_text(claim, value, sizeof value);
-    (void)snprintf(measured, sizeof measured, "%s: %s", text_of(first, "name"), value);
+    (void)snprintf(measured, sizeof measured, "%s: %s", mote_text_at(first, "name"), value);
     const size_t told = wrap(measured, FIGURE_WIDTH, lines);
     add_lines(data, 2, top + claimed, lines, told);
     return claimed + told;
@@ -111,7 +106,7 @@ mote_status mote_figure_claims(const mote_figure_run *run, const char *scenario,
     size_t top = 0;
     for (size_t i = 0; i < count; ++i) {
         const json_t *claim = json_array_get(run->claims, i);
-        const char *verdict = text_of(claim, "verdict");
+        const char *verdict = mote_text_at(claim, "verdict");
         const size_t lines = add_claim(claim, top, &figure->data);
         mote_text_add(&verdicts, "%zu %zu %d ", top, lines, verdict_rank(verdict));
         mote_gnuplot_quote(&verdicts, short_verdict(verdict));
@@ -134,7 +129,7 @@ mote_status mote_figure_extremes(const mote_figure_run *run, const char *scenari
     char *text = NULL;
     size_t size = 0;
     mote_status status = MOTE_OK;
-    if (access(path, F_OK) != 0) {
+    if (!mote_record_exists(run->directory, "figures/extremes.dat")) {
         mote_text_add(&figure->missing,
                       "figures/extremes.dat; `make extremes OUT=%s` measures it",
                       run->directory);

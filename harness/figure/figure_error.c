@@ -8,12 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return x < y ? -1 : x > y;
-}
-
 /* Quantile of the absolute errors of one cell; MOTE_NONE without an answer. */
 static double cell_quantile(const mote_stored_cell *cell, double fraction, double *work)
 {
@@ -22,7 +16,7 @@ static double cell_quantile(const mote_stored_cell *cell, double fraction, doubl
         if (cell->error[k] == cell->error[k])
             work[count++] = fabs(cell->error[k]);
     }
-    qsort(work, count, sizeof *work, ascending);
+    mote_statistics_sort(work, count);
     return count ? mote_statistics_quantile(work, count, fraction) : MOTE_NONE;
 }
 

@@ -11,7 +11,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Frames from one picture to the next. */
 #define PICTURE_STEP 5
@@ -36,10 +35,7 @@ static char *find_directory(const char *run)
     static const char *const places[] = {"film", "../bodies/film"};
     for (size_t k = 0; k < sizeof places / sizeof places[0]; ++k) {
         char *directory = mote_format("%s/%s", run, places[k]);
-        char *scenario = mote_format("%s/letters.json", directory);
-        const bool there = access(scenario, F_OK) == 0;
-        free(scenario);
-        if (there)
+        if (mote_record_exists(directory, "letters.json"))
             return directory;
         free(directory);
     }

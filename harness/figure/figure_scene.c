@@ -2,7 +2,6 @@
 
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
-#include "harness/base/memory.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

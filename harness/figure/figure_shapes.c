@@ -1,5 +1,6 @@
 /* Figures of the bodies: particles on two letters T (1), M against V deforming (2), and its
    animation. */
+#include "harness/base/number_text.h"
 #include "harness/figure/figure.h"
 
 #include "harness/figure/figure_scene.h"
@@ -125,13 +126,13 @@ mote_status mote_figure_particles(const mote_figure_run *run, const char *scenar
     if (status == MOTE_OK && count > 0) {
         mote_figure_scene_show(&scene, frame);
         add_particles(&scene, points, count, &figure->data);
-        char number[MOTE_FIGURE_NUMBER];
+        char number[MOTE_NUMBER_TEXT];
         mote_text_add(&figure->caption,
                       "The paper's Figure 1: two letters T of %s triangles with 3 particles on "
                       "each, red on the first and blue on the second, hollow where a surface "
                       "hides them; frame %u of %s, exact distance %.3f L. The line joins the "
                       "closest pair of particles.",
-                      mote_figure_number(scene.scenario->body[0].mesh->triangle_count, number),
+                      mote_show_whole(scene.scenario->body[0].mesh->triangle_count, number),
                       frame, scenario, truth_at(row, frame));
     }
     mote_figure_scene_close(&scene);
@@ -205,7 +206,7 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
             first_near(row->first, scene.scenario->active.first, 0, last / 2 + 1);
         const uint32_t frames[4] = {1, (1 + contact) / 2, contact, last};
         const mote_body *const body = scene.scenario->body;
-        char triangles[2][MOTE_FIGURE_NUMBER];
+        char triangles[2][MOTE_NUMBER_TEXT];
         for (int k = 0; k < 4; ++k)
             add_frame(&scene, &camera, frames[k], &figure->data);
         mote_text_add(&figure->data, "\n\n");
@@ -221,9 +222,8 @@ mote_status mote_figure_deformed(const mote_figure_run *run, const char *scenari
             "deformation is defined by %u control vectors, and a letter V of %s triangles with "
             "%u. Arrows show the control vectors at three times their length, from the "
             "control points at rest. The exact distance stands below each frame.",
-            scenario, mote_figure_number(body[0].mesh->triangle_count, triangles[0]),
-            body[0].field->count,
-            mote_figure_number(body[1].mesh->triangle_count, triangles[1]),
+            scenario, mote_show_whole(body[0].mesh->triangle_count, triangles[0]),
+            body[0].field->count, mote_show_whole(body[1].mesh->triangle_count, triangles[1]),
             body[1].field->count);
     }
     mote_figure_scene_close(&scene);

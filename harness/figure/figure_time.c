@@ -1,4 +1,5 @@
 /* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
+#include "harness/base/number_text.h"
 #include "harness/figure/figure.h"
 
 #include "harness/base/memory.h"
@@ -164,11 +165,11 @@ static void add_share(const share *s, size_t place, mote_text *text)
     const double d = s->part[0] / s->total, u = s->part[1] / s->total;
     mote_text_add(text, "%zu %.17g %.17g 1 ", place, d, d + u);
     mote_gnuplot_quote(text, s->label);
-    char number[MOTE_FIGURE_NUMBER];
+    char number[MOTE_NUMBER_TEXT];
     if (s->total < 1e6)
         mote_text_add(text, " \"%.3g\"\n", s->total * 1e-3);
     else
-        mote_text_add(text, " \"%s\"\n", mote_figure_number(s->total * 1e-3, number));
+        mote_text_add(text, " \"%s\"\n", mote_show_whole(s->total * 1e-3, number));
 }
 
 mote_status mote_figure_shares(const mote_figure_run *run, const char *scenario,

@@ -1,5 +1,6 @@
 #include "harness/figure/figures.h"
 
+#include "harness/base/number_text.h"
 #include "harness/figure/figure.h"
 #include "harness/base/hash.h"
 #include "harness/base/record.h"
@@ -9,7 +10,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* Which scenarios a figure shows. */
 typedef enum figure_scope {
@@ -90,18 +90,16 @@ static void run_identity(const char *directory, char *text, size_t size)
     if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
         return;
     const json_t *session = json_array_get(json_object_get(manifest, "sessions"), 0);
-    const char *started = json_string_value(json_object_get(session, "started"));
-    const char *program = json_string_value(json_object_get(manifest, "program"));
-    const char *commit = json_string_value(json_object_get(manifest, "commit"));
+    const char *commit = mote_text_at(manifest, "commit");
     char when[32] = "";
     size_t used = 0;
-    for (const char *p = started ? started : ""; *p && used + 1 < sizeof when; ++p) {
+    for (const char *p = mote_text_at(session, "started"); *p && used + 1 < sizeof when; ++p) {
         if (*p != '-' && *p != ':')
             when[used++] = *p;
     }
     when[used] = '\0';
-    (void)snprintf(text, size, "%s-%.8s, commit %.7s%s", when, program ? program : "",
-                   commit ? commit : "unknown",
+    (void)snprintf(text, size, "%s-%.8s, commit %.7s%s", when,
+                   mote_text_at(manifest, "program"), commit[0] ? commit : "unknown",
                    json_is_true(json_object_get(manifest, "dirty")) ? "+" : "");
     json_decref(manifest);
 }
@@ -147,12 +145,12 @@ static void make_heading(const drawing *d, const figure_kind *kind, const char *
         (void)snprintf(heading, size, "%s", scenario ? scenario : kind->title);
         return;
     }
-    char a[MOTE_FIGURE_NUMBER], b[MOTE_FIGURE_NUMBER];
-    (void)mote_figure_number(row->triangles[0], a);
-    (void)mote_figure_number(row->triangles[1], b);
+    char a[MOTE_NUMBER_TEXT], b[MOTE_NUMBER_TEXT];
+    (void)mote_show_whole(row->triangles[0], a);
+    (void)mote_show_whole(row->triangles[1], b);
     if (row->bodies > 0)
         (void)snprintf(heading, size, "%s, %s bodies", scenario,
-                       mote_figure_number(row->bodies, a));
+                       mote_show_whole(row->bodies, a));
     else if (row->triangles[0] == row->triangles[1])
         (void)snprintf(heading, size, "%s, %s triangles each", scenario, a);
     else
@@ -339,9 +337,7 @@ void mote_figures_elsewhere(const json_t *not_drawn, mote_text *text)
             continue;
         mote_text_add(text, "%s", text->size ? ", " : "figures that other commands measure: ");
         add_numbers(not_drawn, i, text);
-        mote_text_add(
-            text, " (`%s`)",
-            json_string_value(json_object_get(json_array_get(not_drawn, i), "command")));
+        mote_text_add(text, " (`%s`)", mote_text_at(json_array_get(not_drawn, i), "command"));
     }
 }
 
@@ -370,21 +366,12 @@ static mote_status draw_all(drawing *d)
                                       d->missing, "not_drawn", d->not_drawn));
 }
 
-static bool is_file(const char *directory, const char *name)
-{
-    struct stat info;
-    char *path = mote_format("%s/%s", directory, name);
-    const bool found = stat(path, &info) == 0;
-    free(path);
-    return found;
-}
-
 /* The run's rows; without cells there are none, which is reported. */
 static mote_status read_run(const char *directory, mote_summary *summary, mote_text *notices)
 {
     mote_text damaged = {0};
     memset(summary, 0, sizeof *summary);
-    if (!is_file(directory, "cells")) {
+    if (!mote_record_exists(directory, "cells")) {
         mote_text_add(notices, "mote: %s/cells: not there; no cell of a run\n", directory);
         return MOTE_OK;
     }
@@ -399,7 +386,7 @@ static mote_status read_run(const char *directory, mote_summary *summary, mote_t
 static json_t *read_claims(const char *directory, mote_text *notices)
 {
     json_t *claims = NULL;
-    if (is_file(directory, "claims.json") &&
+    if (mote_record_exists(directory, "claims.json") &&
         mote_record_read_json(directory, "claims.json", &claims) != MOTE_OK)
         mote_text_add(notices, "mote: %s\n", mote_error_text());
     return claims;
@@ -409,10 +396,11 @@ static json_t *read_claims(const char *directory, mote_text *notices)
 static mote_status draw_run(drawing *d)
 {
     const char *directory = d->run.directory;
-    if (!is_file(directory, "manifest.json"))
+    if (!mote_record_exists(directory, "manifest.json"))
         mote_text_add(&d->result->notices,
                       "mote: %s/manifest.json: not there; figures name no run\n", directory);
-    if (d->run.summary->count == 0 && !d->run.claims && !is_file(directory, "summary.json"))
+    if (d->run.summary->count == 0 && !d->run.claims &&
+        !mote_record_exists(directory, "summary.json"))
         return mote_fail(MOTE_EINVAL, "%s: nothing to draw; name the directory of a run",
                          directory);
     run_identity(directory, d->identity, sizeof d->identity);
@@ -425,7 +413,7 @@ static mote_status draw_run(drawing *d)
 mote_status mote_figures_draw(const char *directory, mote_figures *result)
 {
     *result = (mote_figures){0};
-    if (!is_file(directory, "."))
+    if (!mote_record_exists(directory, "."))
         return mote_fail(MOTE_EIO, "%s: %s; name the directory of a run", directory,
                          strerror(errno));
     mote_summary summary;

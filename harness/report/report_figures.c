@@ -8,20 +8,10 @@
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static bool is_drawn(const char *name)
 {
     return name[0] != '.' && (mote_name_ends(name, ".svg") || mote_name_ends(name, ".gif"));
-}
-
-static bool exists(const mote_report *report, const char *file)
-{
-    struct stat info;
-    char *path = mote_format("%s/figures/%s", report->directory, file);
-    bool found = stat(path, &info) == 0;
-    free(path);
-    return found;
 }
 
 /* Adds a figure; takes ownership of title. */
@@ -45,7 +35,10 @@ static void add_entry(mote_report *report, const json_t *entry)
     MOTE_EACH(i, item, json_object_get(entry, "files"))
     {
         const char *file = json_is_string(item) ? json_string_value(item) : "";
-        if (!is_drawn(file) || strchr(file, '/') || !exists(report, file))
+        char *path = mote_format("figures/%s", file);
+        const bool there = mote_record_exists(report->directory, path);
+        free(path);
+        if (!is_drawn(file) || strchr(file, '/') || !there)
             continue;
         char *title =
             mote_format("Figure %.0f. %s%s%s", mote_number_at(entry, "number"),

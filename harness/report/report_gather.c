@@ -20,19 +20,10 @@ static void add_text(json_t *list, char *what)
     free(what);
 }
 
-static bool exists(const char *directory, const char *name)
-{
-    char *path = mote_format("%s/%s", directory, name);
-    struct stat info;
-    bool found = stat(path, &info) == 0;
-    free(path);
-    return found;
-}
-
 /* Whether the run has a file; notes it where it is missing. */
 static bool is_there(mote_report *report, const char *name, const char *remedy)
 {
-    const bool there = exists(report->directory, name);
+    const bool there = mote_record_exists(report->directory, name);
     if (!there)
         add_text(report->missing, mote_format("%s: not there; %s", name, remedy));
     return there;
@@ -104,7 +95,7 @@ static void read_claims(mote_report *report)
     while (k < 2) {
         char name[64];
         (void)snprintf(name, sizeof name, "%sclaims.json", folders[k]);
-        if (exists(report->directory, name))
+        if (mote_record_exists(report->directory, name))
             break;
         ++k;
     }
@@ -162,7 +153,8 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     read_rows(&made);
     mote_report_sort(&made);
     mote_report_figures(&made);
-    if (!made.has_summary && !made.figure_count && !exists(directory, "claims.json")) {
+    if (!made.has_summary && !made.figure_count &&
+        !mote_record_exists(directory, "claims.json")) {
         mote_report_free(&made);
         return mote_fail(
             MOTE_EIO,

@@ -20,19 +20,11 @@ static char *split(const char *path, const char **name)
     return slash ? mote_format("%.*s", (int)(slash - path), path) : mote_format(".");
 }
 
-static bool exists(const char *directory, const char *name)
-{
-    char *path = mote_format("%s/%s", directory, name);
-    const bool there = access(path, F_OK) == 0;
-    free(path);
-    return there;
-}
-
 static mote_status read_summary(const char *directory, const char *name, mote_summary *summary)
 {
-    if (strcmp(name, "summary.json") == 0 && exists(directory, "cells"))
+    if (strcmp(name, "summary.json") == 0 && mote_record_exists(directory, "cells"))
         return mote_summary_make(directory, summary);
-    if (!exists(directory, name))
+    if (!mote_record_exists(directory, name))
         return mote_fail(MOTE_EIO,
                          "%s: neither cells nor a %s; name a run, or its summary.json",
                          directory, name);
@@ -42,7 +34,8 @@ static mote_status read_summary(const char *directory, const char *name, mote_su
 /* *object stays NULL where there is no such file. */
 static mote_status read_beside(const char *directory, const char *name, json_t **object)
 {
-    return exists(directory, name) ? mote_record_read_json(directory, name, object) : MOTE_OK;
+    return mote_record_exists(directory, name) ? mote_record_read_json(directory, name, object)
+                                               : MOTE_OK;
 }
 
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run)

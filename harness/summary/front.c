@@ -26,8 +26,7 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size)
         memmove(n, after, strlen(after) + 1);
 }
 
-/* Whether a row is a point of a front: it has a time and an error. */
-static bool has_point(const mote_summary_row *row)
+bool mote_front_has(const mote_summary_row *row)
 {
     return mote_summary_row_measured(row) && row->error.p99 == row->error.p99;
 }
@@ -261,7 +260,7 @@ static bool collect(const workshop *w, size_t first, const char *title, size_t *
     for (size_t i = 0; i < w->summary->count; ++i) {
         const mote_summary_row *row = &w->summary->rows[i];
         char name[MOTE_FRONT_TITLE];
-        if (!has_point(row) || !mote_summary_same_block(row, of))
+        if (!mote_front_has(row) || !mote_summary_same_block(row, of))
             continue;
         mote_front_title(row, name, sizeof name);
         bool member = strcmp(name, title) == 0;
@@ -278,7 +277,7 @@ static bool collect(const workshop *w, size_t first, const char *title, size_t *
 static void make_families(const workshop *w, mote_fronts *fronts)
 {
     for (size_t i = 0; i < w->summary->count; ++i) {
-        if (!has_point(&w->summary->rows[i]))
+        if (!mote_front_has(&w->summary->rows[i]))
             continue;
         mote_front *front = &fronts->items[fronts->count];
         size_t rows, others;

@@ -50,6 +50,9 @@ void mote_fronts_free(mote_fronts *fronts);
 /* The time at which points reach an error of at most `error`; MOTE_NONE when none does. */
 double mote_front_time(const double *times, const double *errors, size_t count, double error);
 
+/* Whether a row is a point of a front: it has a time and an error. */
+bool mote_front_has(const mote_summary_row *row);
+
 /* The label of a row without its n. */
 void mote_front_title(const mote_summary_row *row, char *title, size_t size);
 

@@ -173,7 +173,7 @@ static void add_row(const mote_summary_row *row, mote_text *text)
 {
     double numbers[ROW_NUMBERS];
     char title[MOTE_FRONT_TITLE];
-    if (!mote_summary_row_measured(row) || row->error.p99 != row->error.p99)
+    if (!mote_front_has(row))
         return;
     mote_front_title(row, title, sizeof title);
     add_family(row, title, text);

@@ -120,14 +120,12 @@ mote_status mote_history_add(const char *file, const char *directory, const char
     status = mote_summary_make(directory, &summary);
     if (status == MOTE_OK) {
         const json_t *sessions = json_object_get(manifest, "sessions");
-        const char *date =
-            json_string_value(json_object_get(json_array_get(sessions, 0), "started"));
-        const char *commit = json_string_value(json_object_get(manifest, "commit"));
+        const char *date = mote_text_at(json_array_get(sessions, 0), "started");
         mote_text text = {0};
         status = begin_text(file, &text);
         for (size_t i = 0; i < summary.count; ++i) {
             if (summary.rows[i].status == MOTE_CELL_OK)
-                add_row(&text, date ? date : "", commit ? commit : "", why, &summary.rows[i]);
+                add_row(&text, date, mote_text_at(manifest, "commit"), why, &summary.rows[i]);
         }
         if (status == MOTE_OK)
             status = mote_file_write(file, text.data, text.size);

@@ -23,14 +23,6 @@ static mote_status copy_file(const char *from, const char *to, const char *name)
     return status;
 }
 
-static bool exists(const char *directory, const char *name)
-{
-    char *path = mote_format("%s/%s", directory, name);
-    bool found = access(path, F_OK) == 0;
-    free(path);
-    return found;
-}
-
 /* The CSV first, as when it was measured: a cell is there when its JSON is. */
 static mote_status copy_cell(const mote_stored_cell *cell, const char *from, const char *to,
                              mote_merged *merged)
@@ -39,12 +31,12 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     char *csv = mote_format("cells/%s.csv", cell->id);
     char *pairs = mote_format("cells/%s.pairs.csv", cell->id);
     mote_status status = MOTE_OK;
-    if (exists(to, json)) {
+    if (mote_record_exists(to, json)) {
         ++merged->present;
     } else {
         if (cell->status == MOTE_CELL_OK)
             status = copy_file(from, to, csv);
-        if (status == MOTE_OK && exists(from, pairs)) /* of more than two bodies */
+        if (status == MOTE_OK && mote_record_exists(from, pairs)) /* of more than two bodies */
             status = copy_file(from, to, pairs);
         if (status == MOTE_OK)
             status = copy_file(from, to, json);
@@ -86,7 +78,7 @@ static mote_status merge_manifest(const char *directory, const char *run)
     mote_status status = mote_record_read_json(run, "manifest.json", &there);
     if (status != MOTE_OK)
         return status;
-    if (!exists(directory, "manifest.json")) {
+    if (!mote_record_exists(directory, "manifest.json")) {
         status = copy_file(run, directory, "manifest.json");
     } else {
         status = mote_record_read_json(directory, "manifest.json", &here);

@@ -2,6 +2,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/base/record.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -103,10 +104,10 @@ mote_status mote_scene_contacts_read(const char *directory, const mote_stored_ce
 static uint32_t reference_rank(const mote_summary_row *row)
 {
     static const char *const names[] = {"fcl-aabb", "aabb-tree", "certified"};
-    const char *refit = json_string_value(json_object_get(row->parameters, "refit"));
+    const bool every = strcmp(mote_text_at(row->parameters, "refit"), "every") == 0;
     for (uint32_t i = 0; i < 3; ++i) {
         if (strcmp(row->method, names[i]) == 0)
-            return 2 * i + (refit && strcmp(refit, "every") == 0 ? 0 : 1);
+            return 2 * i + (every ? 0 : 1);
     }
     return UINT32_MAX;
 }

@@ -339,8 +339,8 @@ static mote_status read_cell(const char *directory, const char *file, const char
         status = mote_fail(MOTE_EINVAL, "%s: its id is %s; a cell is named by its id", name,
                            cell->id);
     if (status == MOTE_OK) {
-        const char *by = json_string_value(json_object_get(cell->json, "program"));
-        *wanted = program[0] == '\0' || (by && strcmp(by, program) == 0);
+        *wanted =
+            program[0] == '\0' || strcmp(mote_text_at(cell->json, "program"), program) == 0;
     }
     if (status == MOTE_OK && *wanted && cell->status == MOTE_CELL_OK)
         status = read_csv(directory, cell);
@@ -355,8 +355,8 @@ static void manifest_program(const char *directory, char *program, size_t size)
     program[0] = '\0';
     if (mote_record_read_json(directory, "manifest.json", &manifest) != MOTE_OK)
         return;
-    const char *text = json_string_value(json_object_get(manifest, "program"));
-    if (text && strlen(text) < size)
+    const char *text = mote_text_at(manifest, "program");
+    if (strlen(text) < size)
         memcpy(program, text, strlen(text) + 1);
     json_decref(manifest);
 }

@@ -1,5 +1,6 @@
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
+#include "harness/base/record.h"
 #include "harness/summary/table.h"
 
 #include <inttypes.h>
@@ -52,8 +53,8 @@ static json_t *gbench_context(const json_t *manifest, const mote_summary *summar
     const json_t *last = json_array_get(sessions, json_array_size(sessions) - 1);
     set_known(context, "date", json_object_get(last, "started"));
     set_known(context, "num_cpus", json_object_get(manifest, "cores"));
-    const char *type = json_string_value(json_object_get(manifest, "build_type"));
-    if (type)
+    const char *type = mote_text_at(manifest, "build_type");
+    if (type[0])
         (void)json_object_set_new(
             context, "library_build_type",
             json_string(strcmp(type, "Debug") == 0 ? "debug" : "release"));

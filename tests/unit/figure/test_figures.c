@@ -417,14 +417,3 @@ TEST(quoted_text_has_no_quote_nor_line_end_inside)
                                    "b c\\\"");
     free(made.data);
 }
-
-TEST(numbers_have_commas)
-{
-    char number[MOTE_FIGURE_NUMBER];
-    assert_string_equal(mote_figure_number(7, number), "7");
-    assert_string_equal(mote_figure_number(11920, number), "11,920");
-    assert_string_equal(mote_figure_number(1234567, number), "1,234,567");
-    /* Cut where there is no room, never beyond it. */
-    assert_true(strlen(mote_figure_number(1e300, number)) < sizeof number);
-    assert_int_equal(strncmp(number, "1,000,000", 5), 0);
-}
