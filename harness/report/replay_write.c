@@ -5,6 +5,7 @@
 #include "harness/report/packed.h"
 #include "harness/report/replay.h"
 #include "harness/report/replay_series.h"
+#include "harness/report/replay_skin.h"
 
 #include "core/base/quaternion.h"
 
@@ -92,10 +93,15 @@ static void add_basis(mote_text *text, const mote_body *body)
     free(steps);
 }
 
-/* What the page computes a field's basis functions from: the centres of CSRBFs. */
+/* What the page deforms a body by: its skin, or what it computes a field's basis functions
+   from, the centres of CSRBFs. */
 static void add_field(mote_text *text, const mote_body *body)
 {
     const mote_field *field = body->field;
+    if (mote_replay_has_skin(body)) {
+        mote_replay_add_skin(text, body);
+        return;
+    }
     if (field->count > 0 && !field->centre_x) {
         add_basis(text, body);
         return;
@@ -108,7 +114,7 @@ static void add_field(mote_text *text, const mote_body *body)
     add_numbers(text, "centreZ", field->centre_z, field->count);
 }
 
-/* The mesh at rest and its field. */
+/* The mesh at rest and its field, or its skin. */
 static void add_mesh(mote_text *text, const mote_body *body)
 {
     const mote_mesh *mesh = body->mesh;
@@ -164,36 +170,41 @@ static void add_smooth(mote_text *text, const char *key, int32_t *values, size_t
     mote_replay_add_series(text, key, values, count);
 }
 
-/* Writes poses and weights. */
-static void write_motion(mote_text *text, int32_t *poses, const double *weights,
-                         int32_t *shares, size_t frames, size_t width)
+/* Weights as signed 16 bits of the largest. */
+static void add_weights(mote_text *text, const double *weights, size_t frames, size_t width)
 {
-    const double step = largest_in_16_bits(weights, width * frames, shares);
-    mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
-    add_smooth(text, "poses", poses, 12 * frames, 12);
-    mote_text_add(text, ", \"weightStep\": %.17g, ", step);
+    int32_t *shares = mote_allocate(width * frames, sizeof *shares);
+    mote_text_add(text, "\"weightStep\": %.17g, ",
+                  largest_in_16_bits(weights, width * frames, shares));
     add_smooth(text, "weights", shares, width * frames, width);
+    free(shares);
 }
 
 static void add_motion(mote_text *text, const mote_replay_scene *scene, int i)
 {
+    const mote_scenario *scenario = scene->scenario;
+    const bool has_skin = mote_replay_has_skin(&scenario->body[i]);
     const size_t frames = scene->last - scene->first + 1;
-    const size_t width = 3 * (size_t)scene->scenario->body[i].field->count;
-    mote_frame_buffer *buffer = mote_frame_buffer_create(scene->scenario);
+    const size_t width = has_skin ? 0 : 3 * (size_t)scenario->body[i].field->count;
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     int32_t *poses = mote_allocate(12 * frames, sizeof *poses);
-    int32_t *shares = mote_allocate(width * frames, sizeof *shares);
     double *weights = mote_allocate(width * frames, sizeof *weights);
     for (size_t k = 0; k < frames; ++k) {
         const mote_frame *frame =
-            mote_scenario_frame(scene->scenario, buffer, scene->first + (uint32_t)k, 0);
-        pose_steps(&frame->body[i].pose, scene->scenario->length, poses + 12 * k);
+            mote_scenario_frame(scenario, buffer, scene->first + (uint32_t)k, 0);
+        pose_steps(&frame->body[i].pose, scenario->length, poses + 12 * k);
         rest_weights(&frame->body[i], width / 3, weights + width * k);
     }
-    write_motion(text, poses, weights, shares, frames, width);
+    mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
+    add_smooth(text, "poses", poses, 12 * frames, 12);
+    mote_text_add(text, ", ");
+    if (has_skin)
+        mote_replay_add_skin_motion(text, scenario, i, scene->first, scene->last);
+    else
+        add_weights(text, weights, frames, width);
     mote_frame_buffer_destroy(buffer);
     free(poses);
     free(weights);
-    free(shares);
 }
 
 /* Both bodies with their motion, the truth and its points. */

@@ -45,24 +45,67 @@ class GridPoints {
     }
 }
 
-function body(data, length) {
-    const points = new GridPoints(data.vertices, data, 1);
-    const vertices = new Float32Array(3 * points.count);
-    for (let i = 0; i < points.count; ++i) points.read(i, vertices, 3 * i);
-    const functions = data.functions ?? data.centreX.length;
-    const scale = Float32Array.from({ length: 12 }, (_, c) => data.poseStep * (c < 9 ? 1 : length));
+// Where each vertex's entries begin, and where the last one's end.
+function starts(counts) {
+    const start = new Uint32Array(counts.length + 1);
+    for (let i = 0; i < counts.length; ++i) start[i + 1] = start[i] + counts[i];
+    return start;
+}
+
+// Bones and morph targets of the vertices.
+function skin(data) {
     return {
-        vertices,
-        triangles: sums(data.triangles, 3, Uint16Array),
+        bones: data.boneCount,
+        origin: data.origin,
+        unit: data.unit,
+        start: starts(data.counts),
+        bone: sums(data.bones, 1, Int32Array),
+        weight: Float64Array.from(data.weights, (steps) => steps * data.weightStep),
+        targets: data.targetCount,
+        moveStart: starts(data.moveCounts),
+        target: Uint16Array.from(data.targets),
+        move: Float64Array.from(data.moves, (steps) => steps * data.moveStep),
+    };
+}
+
+// A control's or a bone's vectors in each frame, three numbers each.
+function weights(data, width) {
+    return { weights: sums(data.weights, width, Int32Array, 2), weightStep: data.weightStep };
+}
+
+// What deforms a body: a skin, or basis functions.
+function field(data) {
+    if (data.skin) {
+        const own = skin(data.skin);
+        const amounts = sums(data.amounts, own.targets, Int32Array, 2);
+        return {
+            skin: own,
+            amounts: Float64Array.from(amounts, (steps) => steps * data.amountStep),
+            ...weights(data, 12 * own.bones),
+        };
+    }
+    const functions = data.functions ?? data.centreX.length;
+    return {
         functions,
         // CSRBFs by their centres; fields of other kinds function by function, vertex by vertex.
         centres: data.centreX && Float64Array.from({ length: 3 * functions }, (_, k) =>
             [data.centreX, data.centreY, data.centreZ][k % 3][Math.floor(k / 3)]),
         support: data.support,
         basis: data.basis && Float32Array.from(data.basis, (steps) => steps * data.basisStep),
+        ...weights(data, 3 * functions),
+    };
+}
+
+function body(data, length) {
+    const points = new GridPoints(data.vertices, data, 1);
+    const vertices = new Float32Array(3 * points.count);
+    for (let i = 0; i < points.count; ++i) points.read(i, vertices, 3 * i);
+    const scale = Float32Array.from({ length: 12 }, (_, c) => data.poseStep * (c < 9 ? 1 : length));
+    return {
+        vertices,
+        triangles: sums(data.triangles, 3, Uint16Array),
         poses: Float32Array.from(sums(data.poses, 12, Int32Array, 2), (steps, k) => steps * scale[k % 12]),
-        weights: sums(data.weights, 3 * functions, Int32Array, 2),
-        weightStep: data.weightStep,
+        ...field(data),
     };
 }
 

@@ -1,6 +1,6 @@
-// The deformed surface of a body, computed in the page from its field: a displacement that is
-// linear in a frame's weights, by basis functions: those of the page's data, or Wendland's C2 function of
-// the distance to each centre at rest.
+// The deformed surface of a body, computed in the page from its field: by basis functions, those of the
+// page's data or Wendland's C2 function of the distance to each centre at rest; or by morph targets and
+// bones (core/skin/skin.h). Either displacement is in rest axes.
 
 function wendland(r) {
     if (r >= 1) return 0;
@@ -8,11 +8,11 @@ function wendland(r) {
     return q * q * (4 * r + 1);
 }
 
-export class Surface {
+// A displacement that is linear in a frame's weights.
+class Functions {
     constructor(body) {
         this.body = body;
         this.functions = body.functions;
-        this.positions = new Float32Array(body.vertices);
         this.basis = body.basis ?? this.tabulate();
     }
 
@@ -32,8 +32,7 @@ export class Surface {
         return basis;
     }
 
-    // Fills positions with the deformed vertices, in rest axes, at a frame counted from 0.
-    deform(index) {
+    deform(index, positions) {
         const { vertices, weights, weightStep } = this.body;
         const width = 3 * this.functions;
         const start = index * width;
@@ -48,10 +47,63 @@ export class Surface {
                 y += phi * weights[j + 1];
                 z += phi * weights[j + 2];
             }
-            this.positions[v] = vertices[v] + weightStep * x;
-            this.positions[v + 1] = vertices[v + 1] + weightStep * y;
-            this.positions[v + 2] = vertices[v + 2] + weightStep * z;
+            positions[v] = vertices[v] + weightStep * x;
+            positions[v + 1] = vertices[v + 1] + weightStep * y;
+            positions[v + 2] = vertices[v + 2] + weightStep * z;
         }
+    }
+}
+
+// Morph targets, then bones: four vectors each, the columns of its matrix.
+class Bones {
+    constructor(body) {
+        this.body = body;
+        this.columns = new Float64Array(12 * body.skin.bones);
+        this.place = new Float64Array(3);
+    }
+
+    // Fills place with a vertex moved by its morph targets.
+    morph(i, index) {
+        const { vertices, skin, amounts } = this.body;
+        const place = this.place;
+        for (let c = 0; c < 3; ++c) place[c] = vertices[3 * i + c];
+        if (skin.targets === 0) return;
+        for (let k = skin.moveStart[i]; k < skin.moveStart[i + 1]; ++k) {
+            const amount = amounts[index * skin.targets + skin.target[k]];
+            for (let c = 0; c < 3; ++c) place[c] += amount * skin.move[3 * k + c];
+        }
+    }
+
+    deform(index, positions) {
+        const { skin, weights, weightStep } = this.body;
+        const { columns, place } = this;
+        const q = [0, 0, 0, 1];
+        for (let k = 0; k < columns.length; ++k) columns[k] = weightStep * weights[index * columns.length + k];
+        for (let i = 0; i + 1 < skin.start.length; ++i) {
+            this.morph(i, index);
+            for (let c = 0; c < 3; ++c) {
+                positions[3 * i + c] = place[c];
+                q[c] = (place[c] - skin.origin[c]) / skin.unit;
+            }
+            for (let k = skin.start[i]; k < skin.start[i + 1]; ++k) {
+                for (let j = 0; j < 12; ++j)
+                    positions[3 * i + (j % 3)] +=
+                        skin.weight[k] * q[Math.floor(j / 3)] * columns[12 * skin.bone[k] + j];
+            }
+        }
+    }
+}
+
+export class Surface {
+    constructor(body) {
+        this.body = body;
+        this.field = body.skin ? new Bones(body) : new Functions(body);
+        this.positions = new Float32Array(body.vertices);
+    }
+
+    // Fills positions with the deformed vertices, in rest axes, at a frame counted from 0.
+    deform(index) {
+        this.field.deform(index, this.positions);
     }
 
     // Rows of the rotation, then the translation, at a frame counted from 0.
