@@ -13,6 +13,7 @@
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
 #   make readers [OUT=DIR] [MODELS=DIR]              our readers of mesh files beside assimp's
+#   make characters [MODELS=DIR]                     which animated files are read as characters
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
@@ -126,6 +127,10 @@ MODELS ?= /usr/share/assimp/models
 .PHONY: readers
 readers: program-readers deps-readers
 	@$(BUILD)/tests/readers --out $(call out,readers) $(call quoted,$(MODELS))
+
+.PHONY: characters
+characters: program-characters deps-readers
+	@$(BUILD)/tests/characters $(call quoted,$(MODELS))
 
 tune: build
 	@harness/scripts/tune.sh $(MOTE) $(PROFILE) $(call out,tune)

@@ -11,6 +11,8 @@
 #include <string.h>
 #include <strings.h>
 
+#define FILE_BYTES ((size_t)4 << 30)
+
 void mote_character_free_arrays(mote_character *character)
 {
 #define FREE(type, name)                                                                       \
@@ -51,12 +53,28 @@ void mote_character_destroy(mote_character *character)
     free(character);
 }
 
+static mote_status set_keys(const char *path, mote_rig *rig)
+{
+    const char *ending = strrchr(path, '.');
+    char *data = NULL;
+    size_t size = 0;
+    if (!ending || (strcasecmp(ending, ".gltf") != 0 && strcasecmp(ending, ".glb") != 0))
+        return MOTE_OK;
+    mote_status status = mote_file_read(path, FILE_BYTES, &data, &size);
+    if (status == MOTE_OK)
+        status = mote_character_set_gltf_keys(path, data, size, rig);
+    free(data);
+    return status;
+}
+
 static mote_status import_in_child(void *context, int output)
 {
     mote_character_draft draft;
     memset(&draft, 0, sizeof draft);
     mote_import_begin_child();
     mote_status status = mote_character_read_assimp(context, &draft);
+    if (status == MOTE_OK)
+        status = set_keys(context, &draft.made.rig);
     if (status == MOTE_OK)
         status = mote_character_weld(context, &draft);
     if (status == MOTE_OK)

@@ -40,6 +40,12 @@ struct aiScene;
 void mote_character_read_clips(const struct aiScene *scene, const mote_node_name *names,
                                mote_rig *rig);
 
+/* Makes tracks of a rig steps or cubic where a glTF file, text or binary, says so; assimp has
+   read all as linear. path finds buffers in other files. MOTE_EINVAL: cubic keys that cannot be
+   read. */
+mote_status mote_character_set_gltf_keys(const char *path, const char *data, size_t size,
+                                         mote_rig *rig);
+
 /* Makes weights add up to 1, welds vertices at one place that move alike, cuts edges of more
    than two faces apart, and notes what was done. MOTE_EINVAL: a weight that is negative or not
    finite. */

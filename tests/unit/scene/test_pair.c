@@ -69,8 +69,13 @@ static const char *find_line(const char *text, const char *name)
 
 static bool is_large(const char *name)
 {
-    return strcmp(name, "ww-100k") == 0 || strcmp(name, "ww-1m") == 0 ||
-           strcmp(name, "ww-10m") == 0;
+    static const char *const large[] = {"ww-100k",   "ww-1m",      "ww-10m",     "wolf-60k",
+                                        "wolf-240k", "jumper-80k", "jumper-330k"};
+    for (size_t i = 0; i < ROWS_OF(large); ++i) {
+        if (strcmp(name, large[i]) == 0)
+            return true;
+    }
+    return false;
 }
 
 TEST(mote_scenario_fingerprint_built_in_is_the_committed_one)
