@@ -91,8 +91,8 @@ template <class BV> struct Adapter {
             setup->ask == MOTE_ASK_DISTANCE || setup->tolerance > 0 || !options.collides;
         if (distance && !Kind<BV>::has_distance)
             return mote_fail(MOTE_EUNSUPPORTED,
-                             "Coal's distance of oriented boxes is wrong; only contact=collide "
-                             "at tolerance 0");
+                             "Coal has no distance of oriented boxes; only contact=collide at "
+                             "tolerance 0");
         if (options.full && (Kind<BV>::oriented || options.api))
             return mote_fail(MOTE_EUNSUPPORTED,
                              "bound=full is for coal-aabb by its node; bound=coal");

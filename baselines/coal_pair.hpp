@@ -56,8 +56,8 @@ template <> struct Kind<coal::AABB> {
     static constexpr int flags = coal::RelativeTransformationIsIdentity;
 };
 
-/* Of OBB, the distance traversal takes a pair for disjoint on the first axis that separates it
-   and for touching where none does, and so prunes by the wrong bound (datasets/defects.md). */
+/* Coal's public functions have no distance of oriented boxes, and its node for them passes the
+   transform with the boxes in the other order than its contact traversal does. */
 template <> struct Kind<coal::OBB> {
     static constexpr bool oriented = true;
     static constexpr bool has_distance = false;

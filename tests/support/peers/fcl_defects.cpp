@@ -57,6 +57,25 @@ double mote_fcl_rss_sum_cosine(void)
     return largest;
 }
 
+double mote_fcl_obb_sum_outside(double degrees)
+{
+    fcl::OBB<double> a, b;
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    a.axis = Eigen::AngleAxisd(angle, Vector(1, -1, 0).normalized()).toRotationMatrix();
+    b.axis.setIdentity();
+    a.To.setZero();
+    b.To = Vector(0, 0, 1);
+    a.extent = b.extent = Vector(1, 1, 1);
+    const fcl::OBB<double> sum = a + b;
+    double most = 0;
+    for (int i = 0; i < 8; ++i) {
+        const Vector corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        const Vector in = sum.axis.transpose() * (a.axis * corner - sum.To);
+        most = std::max(most, (in.cwiseAbs() - sum.extent).maxCoeff());
+    }
+    return most;
+}
+
 double mote_fcl_obb_distance(void)
 {
     Silence silence;

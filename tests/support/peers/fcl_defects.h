@@ -13,6 +13,10 @@ extern "C" {
    largest cosine between two axes of the sum; they should be orthogonal: 0. */
 double mote_fcl_rss_sum_cosine(void);
 
+/* How far a cube of half side 1, turned by so many degrees about (1, -1, 0), reaches out of its
+   sum, as an oriented box, with a cube that stands 1 above it along z. Should be 0. */
+double mote_fcl_obb_sum_outside(double degrees);
+
 /* fcl::distance of two triangles, one above the other at distance 1, as models of oriented
    boxes; the right answer is 1. The warning that FCL writes to its error stream is discarded.
  */

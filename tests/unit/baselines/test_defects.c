@@ -121,6 +121,13 @@ static void count_false_contacts(double size, int wrong[2])
     }
 }
 
+TEST(fcl_sum_of_oriented_boxes_does_not_contain_them)
+{
+    assert_true(mote_fcl_obb_sum_outside(-20) < 1e-12);
+    if (!(mote_fcl_obb_sum_outside(20) > 0.2))
+        fail_msg(MENDED);
+}
+
 TEST(fcl_distance_of_small_triangles_is_zero)
 {
     int large[2], small[2];
