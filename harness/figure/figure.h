@@ -58,9 +58,9 @@ mote_status mote_figure_frames_begin(const mote_figure_run *run);
 mote_status mote_figure_frame_write(const mote_figure_run *run, unsigned number,
                                     mote_text *text, uint64_t *hash);
 
-/* Whether a row is shown in figures of its scenario: its cells ran alone and with hot
-   caches, on the machine, in the scene and over the frames that most of the scenario's rows
-   have (on a tie, the most frames). */
+/* Whether a row is shown in figures of its scenario: its cells ran alone and with hot caches,
+   on the same frames, scene and machine as that row of the scenario which was asked for the
+   most frames (of several, the first). */
 bool mote_figure_shows(const mote_summary *summary, const mote_summary_row *row,
                        const char *scenario);
 

@@ -17,8 +17,8 @@ typedef struct mote_report_figure {
     bool animation; /* an animated GIF: linked, not shown */
 } mote_report_figure;
 
-/* What a report is made from. It owns everything; NULL stands for what the run does not
-   have. */
+/* What a report is made from. It owns everything but the directory; what the run does not have
+   is NULL. */
 typedef struct mote_report {
     const char *directory; /* borrowed */
     char *name;            /* the last part of the directory's path */

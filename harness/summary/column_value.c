@@ -58,7 +58,7 @@ const char *mote_column_text(const mote_column *column, const mote_summary_row *
     if (column->type == MOTE_COLUMN_TEXT)
         memcpy(&text, member(column, row), sizeof text);
     if (column->type == MOTE_COLUMN_ROW)
-        memcpy(&other, member(column, row), sizeof other);
+        memcpy(&other, member(column, row), sizeof(const mote_summary_row *));
     text = other ? other->label : text;
     return text ? text : "";
 }
@@ -135,7 +135,7 @@ json_t *mote_column_write(const mote_column *column, const mote_summary_row *row
     case MOTE_COLUMN_PROCESSES:
         return processes_json(row);
     default:
-        memcpy(&object, member(column, row), sizeof object);
+        memcpy(&object, member(column, row), sizeof(json_t *));
         return json_incref(object);
     }
 }
@@ -241,6 +241,6 @@ void mote_column_read(const mote_column *column, const json_t *value, mote_summa
         read_processes(value, row);
         break;
     case MOTE_COLUMN_OBJECT:
-        memcpy(to, &value, sizeof value);
+        memcpy(to, &value, sizeof(const json_t *));
     }
 }

@@ -20,7 +20,7 @@ enum { FIELD_DATE, FIELD_COMMIT, FIELD_WHY, FIELD_ROW, FIELD_TOTAL, FIELD_RATIO 
 #define CHANGE_SHARE 0.05
 #define CHANGE_TIMES_USUAL 3
 
-/* A field, without characters that would end it. */
+/* Adds a field; characters that would end it become semicolons. */
 static void add_plain(mote_text *text, const char *value)
 {
     for (; *value; ++value)

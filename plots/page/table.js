@@ -135,7 +135,7 @@ class Block {
         this.body.replaceChildren(...this.order(visible).map((row) => this.line(row)));
         if (visible.length === 0)
             this.body.append(el("tr", {}, el("td", { class: "ended", colspan: this.columns().length + 1 },
-                "No row is so.")));
+                "No row matches.")));
         this.count.textContent = `${visible.length} of ${this.rows.length} configurations`;
         this.front.filter(filtered);
     }
