@@ -31,18 +31,24 @@ build_base() {
         cmake --build "$folder/build" --parallel "$(nproc)" --target mote
 }
 
-# Builds BASE once. A build that was interrupted has no programs and is made again.
+# Whether the sources of BASE are there, as they are in the revision.
+has_source() {
+    [ "$(git -C "$folder/source" rev-parse HEAD 2>/dev/null)" = "$base" ] &&
+        [ -z "$(git -C "$folder/source" status --porcelain -uno)" ]
+}
+
+# Builds BASE once. A build that was interrupted goes on.
 make_base() {
     folder=$cache/$base
     if [ ! -d "$folder/programs" ]; then
-        mkdir -p "$cache"
+        mkdir -p "$folder"
         git worktree prune
-        if [ -d "$folder/source" ]; then
+        if ! has_source; then
             git worktree remove --force "$folder/source" 2>/dev/null || rm -rf "$folder/source"
+            git worktree add --quiet --detach "$folder/source" "$base"
         fi
-        git worktree add --quiet --detach "$folder/source" "$base"
         echo "perf-ab: building $revision ($(git log -1 --format=%h "$base")) once" >&2
-        rm -rf "$folder/build" "$folder/linking"
+        rm -rf "$folder/linking"
         build_base >"$folder/build.log" 2>&1 || fail "$revision does not build: $folder/build.log"
         harness/scripts/relink.sh "$folder/build" "$orders" "$folder/linking"
         mv "$folder/linking" "$folder/programs"
@@ -62,7 +68,12 @@ harness/scripts/relink.sh "$build" "$orders" "$cache/now"
 mkdir -p "$out"
 file=$out/$(date -u +%Y%m%dT%H%M%SZ).json
 status=0
-"$build/mote" race "$cache/$base/programs" "$cache/now" ww@950-1149 mv@300-499 --particles 5,16 \
+# The race ends with this script, however that ends.
+with_us=
+if setpriv --pdeathsig TERM true 2>/dev/null; then
+    with_us="setpriv --pdeathsig TERM"
+fi
+$with_us "$build/mote" race "$cache/$base/programs" "$cache/now" ww@950-1149 mv@300-499 --particles 5,16 \
     --method certified --method particle --method particle-paper:start=fps --method aabb-tree \
     --budget "$budget" --instructions --labels "$(git rev-parse --short=10 "$base"),$now" --out "$file" \
     ${CHANGED:+--allow-changes} || status=$?
