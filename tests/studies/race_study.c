@@ -29,8 +29,16 @@
 #define FILE_LIMIT ((size_t)1 << 26)
 #define UNCHANGED_A_ROUND 5 /* races for each planted one of a kind: 200 and 40 */
 
-static const char *const places[] = {"idle", "compiler"};
-#define PLACES 2
+static const char *const places[] = {"idle", "compiler", "busy"};
+static const char *const place_titles[] = {"idle", "beside a compiler", "busy machine"};
+#define PLACES_RACED 2
+#define PLACES 3
+/* Where other processes keep more than this many cores busy before a race or after it, it is
+   kept as one of a busy machine, whatever it was meant to be, and is raced again another time.
+ */
+#define BUSY_CORES 0.25
+/* What the compiler had begun is done after this long. */
+#define COMPILATION_SECONDS 3
 static const int sizes[] = {1, 2, 3, 5, 10}; /* per cent */
 #define SIZES (sizeof sizes / sizeof sizes[0])
 
@@ -112,7 +120,7 @@ static mote_status compile(void *context, int output)
     return status;
 }
 
-/* The line of a race: key, verdicts of both rows, the named row's ratio. */
+/* The line of a race: place, key, verdicts of both rows, the named row's ratio. */
 static void add_line(study *s, const char *key, const mote_race *race, size_t named,
                      double busy)
 {
@@ -148,7 +156,7 @@ static mote_status race_once(study *s, size_t place, const kind *k, int size, ui
         status = make_racers(s, "a", none, &builds[0]);
     if (!known && status == MOTE_OK)
         status = make_racers(s, "b", plant, &builds[1]);
-    const double busy = known ? 0 : mote_busy_cores();
+    double busy = known ? 0 : mote_busy_cores();
     if (!known && place == 1 && status == MOTE_OK)
         status = mote_child_start(compile, NULL, (mote_child_limits){.seconds = 0}, &compiler);
     const mote_race_options options = {.builds = {&builds[0], &builds[1]},
@@ -161,15 +169,21 @@ static mote_status race_once(study *s, size_t place, const kind *k, int size, ui
                                        .seed = mote_clock_ns()};
     if (!known && status == MOTE_OK)
         status = mote_race_run(&options, &race);
-    mote_child_stop(&compiler, 1);
+    if (compiler.pid > 0) {
+        mote_child_stop(&compiler, 1);
+        (void)sleep(COMPILATION_SECONDS);
+    }
     mote_child_release(&compiler);
     if (!known && status == MOTE_OK) {
         char *path = mote_format("%s/races.csv", s->out);
+        busy = fmax(busy, mote_busy_cores());
+        mote_text_add(&s->lines, "%s,",
+                      busy > BUSY_CORES ? places[PLACES_RACED] : places[place]);
         add_line(s, key, &race, k->row, busy);
         status = mote_file_write(path, s->lines.data, s->lines.size);
-        (void)printf("%s: %s %.4f, %zu pairs, %.0f s\n", key,
-                     mote_verdict_names[race.rows[k->row].verdict], race.rows[k->row].ratio,
-                     race.pairs, race.seconds);
+        (void)printf("%s,%s: %s %.4f, %zu pairs, %.0f s, %.1f other cores busy\n",
+                     places[place], key, mote_verdict_names[race.rows[k->row].verdict],
+                     race.rows[k->row].ratio, race.pairs, race.seconds, busy);
         (void)fflush(stdout);
         free(path);
         mote_race_free(&race);
@@ -190,7 +204,7 @@ static mote_status run_rounds(study *s, uint64_t races, uint64_t planted)
     const uint64_t enough = (races + UNCHANGED_A_ROUND - 1) / UNCHANGED_A_ROUND;
     const uint64_t rounds = planted > enough ? planted : enough;
     for (uint64_t round = 0; round < rounds; ++round) {
-        for (size_t place = 0; place < PLACES; ++place) {
+        for (size_t place = 0; place < PLACES_RACED; ++place) {
             for (uint64_t i = round * UNCHANGED_A_ROUND;
                  status == MOTE_OK && i < (round + 1) * UNCHANGED_A_ROUND && i < races; ++i)
                 status = race_once(s, place, &kinds[0], 0, i + 1);
@@ -289,7 +303,7 @@ static void print_unchanged(const char *lines)
                  "| --- | ---: | --- | --- | ---: |\n");
     for (size_t place = 0; place < PLACES; ++place) {
         tally t = count_races(lines, places[place], "none", 0);
-        (void)printf("| unchanged, %s | %zu |", place ? "beside a compiler" : "idle", t.races);
+        (void)printf("| unchanged, %s | %zu |", place_titles[place], t.races);
         print_share(t.changed, t.races);
         print_share(t.same, t.races);
         print_seconds(&t);
@@ -304,8 +318,13 @@ static void print_planted(const char *lines, size_t place, const kind *k, int si
                           mote_text *data)
 {
     tally t = count_races(lines, places[place], k->name, size);
+    if (t.races == 0) {
+        free(t.seconds);
+        free(t.ratios);
+        return;
+    }
     const mote_confidence c = mote_statistics_share_interval(t.slower, t.races);
-    (void)printf("| %s, %s | %d %% |", k->name, place ? "beside a compiler" : "idle", size);
+    (void)printf("| %s, %s | %d %% |", k->name, place_titles[place], size);
     print_share(t.slower, t.races);
     if (k->slows_all)
         (void)printf(" slows both |");
@@ -334,11 +353,13 @@ static mote_status print_table(const char *path, const char *base)
                  "measured |\n| --- | ---: | --- | --- | ---: | ---: |\n");
     for (size_t place = 0; place < PLACES; ++place) {
         for (size_t k = 0; k < KINDS; ++k) {
-            mote_text_add(&data, "\"%s, %s\"\n", kinds[k].name,
-                          place ? "beside a compiler" : "idle");
+            mote_text block = {0};
             for (size_t i = 0; i < SIZES; ++i)
-                print_planted(lines.data, place, &kinds[k], sizes[i], &data);
-            mote_text_add(&data, "\n\n");
+                print_planted(lines.data, place, &kinds[k], sizes[i], &block);
+            if (block.size > 0)
+                mote_text_add(&data, "%s\"%s, %s\"\n%s", data.size ? "\n\n" : "", kinds[k].name,
+                              place_titles[place], block.data);
+            free(block.data);
         }
     }
     char *file = mote_format("%s.dat", base);
