@@ -75,6 +75,8 @@ typedef struct mote_answer {
 typedef struct mote_traits {
     bool needs_field; /* computes with the field itself: no body may be one whose positions are
                          all that is known */
+    bool uses_field;  /* computes with it where there is one, whatever vertices it wants besides
+                       */
     bool needs_vertices; /* wants every vertex of the frame in mote_body_state.vertices */
     bool given_vertices; /* wants them too, but nobody is charged for them (positions=given) */
     bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */

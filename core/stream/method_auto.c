@@ -108,8 +108,10 @@ static double floor_of(const auto_state *s, const mote_frame *frame)
 
 static mote_traits traits(const double *values)
 {
-    return (mote_traits){
-        .given_vertices = values[P_POSITIONS] > 0, .keeps_state = true, .exact = true};
+    return (mote_traits){.uses_field = true,
+                         .given_vertices = values[P_POSITIONS] > 0,
+                         .keeps_state = true,
+                         .exact = true};
 }
 
 static void destroy(void *state)

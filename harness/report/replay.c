@@ -106,11 +106,6 @@ static mote_status check_scene(const mote_replay_scene *scene)
             (size_t)body->field->count * body->mesh->vertex_count > MOTE_REPLAY_BASIS)
             return mote_fail(MOTE_EUNSUPPORTED, "%s: a field is too large for the page",
                              scene->tracks[0].cell->scenario);
-        if (mote_body_is_given(body))
-            return mote_fail(MOTE_EUNSUPPORTED,
-                             "%s: the page deforms by fields, and of a body only positions are "
-                             "given",
-                             scene->tracks[0].cell->scenario);
     }
     if (scene->last <= scene->scenario->frames)
         return MOTE_OK;
@@ -218,6 +213,27 @@ static mote_status add_track(const mote_report *report, const mote_summary_row *
     return mote_replay_read_cell(report->directory, track);
 }
 
+/* Key frames of bodies of which only positions are given, and a note where there are fewer than
+   frames. */
+static mote_status make_keys(mote_replay_scene *scene)
+{
+    mote_status status = MOTE_OK;
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        mote_replay_keys *keys = &scene->keys[i];
+        const uint32_t frames = scene->last - scene->first + 1;
+        status = mote_replay_keys_make(scene->scenario, i, scene->first, scene->last, keys);
+        if (status != MOTE_OK || !keys->field || keys->count == frames)
+            continue;
+        char *note =
+            mote_format("body %d is shown as it is in %u of %u frames; between these its "
+                        "vertices go straight, and the answers need not lie on it",
+                        i, keys->count, frames);
+        (void)json_array_append_new(scene->notes, json_string(note));
+        free(note);
+    }
+    return status;
+}
+
 mote_status mote_replay_load(const mote_report *report, size_t first, size_t end,
                              mote_replay_scene *scene)
 {
@@ -238,6 +254,8 @@ mote_status mote_replay_load(const mote_report *report, size_t first, size_t end
         read_truth(report, &made);
         fill_contacts(&made);
     }
+    if (status == MOTE_OK)
+        status = make_keys(&made);
     for (size_t t = 0; t < made.count && status == MOTE_OK; ++t)
         status = mote_replay_particles(&made, &made.tracks[t]);
     if (status == MOTE_OK)
@@ -258,6 +276,8 @@ void mote_replay_free(mote_replay_scene *scene)
     free(scene->truth);
     free(scene->pair);
     json_decref(scene->notes);
+    for (int i = 0; i < 2; ++i)
+        mote_replay_keys_free(&scene->keys[i]);
     mote_scenario_destroy(scene->scenario);
 }
 

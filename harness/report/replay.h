@@ -5,6 +5,7 @@
 #define MOTE_HARNESS_REPLAY_H
 
 #include "harness/base/file.h"
+#include "harness/report/replay_keys.h"
 #include "harness/report/report.h"
 
 /* Packed bytes that all scenarios of a page may take, and that one may take. Each gets an
@@ -40,7 +41,8 @@ typedef struct mote_replay_scene {
     mote_vec3 *pair;      /* [2 * (last - first + 1)] */
     mote_replay_track *tracks;
     size_t count;
-    json_t *notes; /* texts: what is not shown, and why */
+    json_t *notes;            /* texts: what is not shown, and why */
+    mote_replay_keys keys[2]; /* of bodies whose positions are given */
 } mote_replay_scene;
 
 /* Loads the scenario of rows first .. end - 1 of a report, all of one scenario with hot

@@ -180,20 +180,30 @@ static void add_weights(mote_text *text, const double *weights, size_t frames, s
     free(shares);
 }
 
-static void add_motion(mote_text *text, const mote_replay_scene *scene, int i)
+static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, int i)
 {
     const mote_scenario *scenario = scene->scenario;
+    const mote_replay_keys *keys = &scene->keys[i];
+    const mote_field *field = keys->field ? keys->field : scenario->body[i].field;
     const bool has_skin = mote_replay_has_skin(&scenario->body[i]);
     const size_t frames = scene->last - scene->first + 1;
-    const size_t width = has_skin ? 0 : 3 * (size_t)scenario->body[i].field->count;
+    const size_t width = has_skin ? 0 : 3 * (size_t)field->count;
+    mote_status status = MOTE_OK;
     mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
     int32_t *poses = mote_allocate(12 * frames, sizeof *poses);
     double *weights = mote_allocate(width * frames, sizeof *weights);
-    for (size_t k = 0; k < frames; ++k) {
-        const mote_frame *frame =
-            mote_scenario_frame(scenario, buffer, scene->first + (uint32_t)k, 0);
+    for (size_t k = 0; k < frames && status == MOTE_OK; ++k) {
+        const uint32_t number = scene->first + (uint32_t)k;
+        const mote_frame *frame = mote_scenario_frame(scenario, buffer, number, 0);
+        if (!frame) {
+            status = mote_error_status();
+            break;
+        }
         pose_steps(&frame->body[i].pose, scenario->length, poses + 12 * k);
-        rest_weights(&frame->body[i], width / 3, weights + width * k);
+        if (keys->field)
+            mote_replay_keys_weights(keys, number, weights + width * k);
+        else
+            rest_weights(&frame->body[i], width / 3, weights + width * k);
     }
     mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
     add_smooth(text, "poses", poses, 12 * frames, 12);
@@ -205,25 +215,31 @@ static void add_motion(mote_text *text, const mote_replay_scene *scene, int i)
     mote_frame_buffer_destroy(buffer);
     free(poses);
     free(weights);
+    return status;
 }
 
 /* Both bodies with their motion, the truth and its points. */
-static void add_bodies(mote_text *text, const mote_replay_scene *scene,
-                       const mote_replay_grid *grid)
+static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
+                              const mote_replay_grid *grid)
 {
     const size_t frames = scene->last - scene->first + 1;
+    mote_status status = MOTE_OK;
     mote_text_add(text, "\"bodies\": [");
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i) {
+        mote_body body = scene->scenario->body[i];
+        if (scene->keys[i].field)
+            body.field = scene->keys[i].field;
         mote_text_add(text, "%s{", i ? ", " : "");
-        add_mesh(text, &scene->scenario->body[i]);
+        add_mesh(text, &body);
         mote_text_add(text, ", ");
-        add_motion(text, scene, i);
+        status = add_motion(text, scene, i);
         mote_text_add(text, "}");
     }
     mote_text_add(text, "], ");
     add_numbers(text, "truth", scene->truth, frames);
     mote_text_add(text, ", ");
     mote_replay_add_points(text, "pair", grid, scene->pair, 2 * frames, 2, NULL);
+    return status;
 }
 
 /* Errors over L with six digits, from which the page computes distances. */
@@ -373,31 +389,36 @@ static void add_particles(const mote_replay_scene *scene, const mote_replay_grid
 }
 
 /* The scene without its tracks. */
-static json_t *begin_scene(const mote_replay_scene *scene, const mote_replay_grid *grid)
+static mote_status begin_scene(const mote_replay_scene *scene, const mote_replay_grid *grid,
+                               json_t **data)
 {
     const mote_scenario *scenario = scene->scenario;
     mote_text bodies = {0};
-    add_bodies(&bodies, scene, grid);
+    const mote_status status = add_bodies(&bodies, scene, grid);
     json_t *packed = packed_object(&bodies);
-    return json_pack("{s:s, s:f, s:f, s:i, s:i, s:[i, i], s:[f, f, f], s:f, s:o}", "name",
-                     scenario->name, "length", scenario->length, "tolerance",
-                     scenario->tolerance, "first", (int)scene->first, "last", (int)scene->last,
-                     "active", (int)scenario->active.first, (int)scenario->active.last, "low",
-                     grid->low.x, grid->low.y, grid->low.z, "step", grid->step, "world",
-                     packed);
+    *data =
+        json_pack("{s:s, s:f, s:f, s:i, s:i, s:[i, i], s:[f, f, f], s:f, s:o}", "name",
+                  scenario->name, "length", scenario->length, "tolerance", scenario->tolerance,
+                  "first", (int)scene->first, "last", (int)scene->last, "active",
+                  (int)scenario->active.first, (int)scenario->active.last, "low", grid->low.x,
+                  grid->low.y, grid->low.z, "step", grid->step, "world", packed);
+    return status;
 }
 
 mote_status mote_replay_write(const mote_replay_scene *scene, size_t budget, json_t **data,
                               size_t *used)
 {
     const mote_replay_grid grid = scene_grid(scene);
-    json_t *made = begin_scene(scene, &grid), *notes = json_deep_copy(scene->notes);
+    json_t *made = NULL, *notes = json_deep_copy(scene->notes);
     size_t room = budget;
-    if (packed_size(made, "world") > room) {
+    mote_status status = begin_scene(scene, &grid, &made);
+    if (status == MOTE_OK && packed_size(made, "world") > room)
+        status =
+            mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page", scene->scenario->name);
+    if (status != MOTE_OK) {
         json_decref(made);
         json_decref(notes);
-        return mote_fail(MOTE_EUNSUPPORTED, "%s: too large for the page",
-                         scene->scenario->name);
+        return status;
     }
     room -= packed_size(made, "world");
     add_tracks(scene, &grid, &room, made, notes);

@@ -119,7 +119,7 @@ static const char *told_of(const mote_cell *cell)
     const mote_method_choice *choice = cell->choice;
     const mote_traits traits = mote_method_traits(choice->method, choice->values);
     const mote_engine_setup setup = mote_subject_engine(cell->subject);
-    bool field = !traits.needs_vertices && !traits.given_vertices;
+    bool field = traits.uses_field || (!traits.needs_vertices && !traits.given_vertices);
     if (cell->subject->bodies)
         field = field || (int)choice->scene[MOTE_SCENE_REFIT] != MOTE_REFIT_EVERY;
     for (uint32_t k = 0; k < setup.shape_count; ++k)

@@ -6,6 +6,7 @@
 #include "tests/support/folder.h"
 #include "tests/support/page_data.h"
 #include "tests/support/mote.h"
+#include "tests/support/sheet.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
@@ -280,6 +281,46 @@ TEST(replay_of_a_field_of_another_kind_has_its_functions)
         assert_near(step * number_at(basis, 3 * i + 2), x.z, step);
     }
     mote_scenario_destroy(scenario);
+    json_decref(world);
+    json_decref(root);
+    mote_report_free(&other);
+}
+
+/* Positions that are given become key frames: here, of few vertices, every frame is one. */
+TEST(replay_of_given_positions_has_them_in_every_frame)
+{
+    enum { SHOWN = 7 };
+    mote_report other;
+    json_t *root = NULL;
+    sheet_write_obj("still.obj", 1);
+    sheet_write_pc2("sheet.pc2", SHOWN, false);
+    file_put("sheet.json",
+             "{\"purpose\": \"p\", \"frames\": 7, \"ask\": \"distance\", \"bodies\": [\n"
+             "{\"file\": \"still.obj\", \"positions\": \"sheet.pc2\"},\n"
+             "{\"letter\": \"T\", \"triangles\": 400}]}\n");
+    mote_expect(0, "", "run ./sheet.json --out sheet --replicates 1 --method stream");
+    assert_int_equal(mote_report_gather("sheet", &other), MOTE_OK);
+    assert_int_equal(mote_replay_json(&other, &root), MOTE_OK);
+    json_t *world = page_unpack_json(first_scene(root), "world");
+    const json_t *body = json_array_get(json_object_get(world, "bodies"), 0);
+    const json_t *basis = json_object_get(body, "basis");
+    const size_t width = (size_t)number_of(body, "functions");
+    assert_int_equal(width, 3 * SHOWN);
+    assert_int_equal(json_array_size(basis), width * SHEET_VERTICES);
+    long *weights = read_smooth(json_object_get(body, "weights"), 3 * width * SHOWN, 3 * width);
+    const double step = number_of(body, "weightStep") * number_of(body, "basisStep");
+    for (size_t k = 0; k < SHOWN; ++k) {
+        for (size_t v = 0; v < SHEET_VERTICES; ++v) {
+            double moved[3] = {0, 0, 0};
+            for (size_t j = 0; j < 3 * width; ++j)
+                moved[j % 3] += step * (double)weights[3 * width * k + j] *
+                                number_at(basis, v * width + j / 3);
+            for (int c = 0; c < 3; ++c)
+                assert_near(moved[c],
+                            sheet_at((int)v, c, (double)k + 1) - sheet_at((int)v, c, 1), 1e-5);
+        }
+    }
+    free(weights);
     json_decref(world);
     json_decref(root);
     mote_report_free(&other);
