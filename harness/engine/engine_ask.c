@@ -14,6 +14,8 @@ static const mote_engine_kind *kind_of_many(const mote_method_choice *choice)
     const char *name = choice->method->name;
     if (strcmp(name, "certified") == 0)
         return &mote_engine_of_certified;
+    if (strcmp(name, "stream") == 0)
+        return &mote_engine_of_streamed;
     if (strcmp(name, "fcl-aabb") == 0 || strcmp(name, "aabb-tree") == 0)
         return &mote_engine_of_trees;
     return &mote_engine_of_pairs;

@@ -1,10 +1,8 @@
 /* More than two bodies: the certified scene, which finds and answers by the same trees. */
 #include "harness/engine/engine_kind.h"
 
-static void copy_answers(mote_engine *e)
+void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count)
 {
-    size_t count;
-    const mote_scene_pair *from = mote_scene_pairs(e->scene, &count);
     const bool distance = e->setup.ask == MOTE_ASK_DISTANCE;
     mote_pair_list_make_room(&e->now, count);
     e->now.count = count;
@@ -32,9 +30,12 @@ static mote_status certified_ask(mote_engine *e, mote_engine_cost *cost)
         status = mote_engine_find_near(e, cost, &wanted);
     if (status == MOTE_OK)
         status = mote_scene_query(e->scene, e->states, wanted.pairs, wanted.count);
-    if (status == MOTE_OK)
-        copy_answers(e);
-    return status;
+    if (status != MOTE_OK)
+        return status;
+    size_t count;
+    const mote_scene_pair *answers = mote_scene_pairs(e->scene, &count);
+    mote_engine_copy_answers(e, answers, count);
+    return MOTE_OK;
 }
 
 const mote_engine_kind mote_engine_of_certified = {

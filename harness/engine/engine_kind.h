@@ -13,6 +13,7 @@
 #include "baselines/broad_phase.h"
 #include "core/base/pool.h"
 #include "core/body/deform.h"
+#include "core/stream/stream_scene.h"
 #include "harness/engine/engine.h"
 
 /* What a pair keeps for its next query. */
@@ -52,6 +53,7 @@ extern const mote_engine_kind mote_engine_of_two;       /* any method of the con
 extern const mote_engine_kind mote_engine_of_pairs;     /* the contract's, for each near pair */
 extern const mote_engine_kind mote_engine_of_trees;     /* FCL's and our box trees */
 extern const mote_engine_kind mote_engine_of_certified; /* the certified scene */
+extern const mote_engine_kind mote_engine_of_streamed;  /* the streamed scene */
 
 struct mote_engine {
     mote_engine_setup setup;
@@ -76,6 +78,9 @@ struct mote_engine {
     const mote_body_trees_kind *trees_kind;
     void *trees;
     bool *looked_at; /* [count] */
+    mote_stream_scene *streamed;
+    mote_vec3 **worlds;        /* [count]: vertices of each body, of the streamed scene */
+    mote_positions *positions; /* [count] */
     mote_pool *pool;
     mote_thread_failure *failures; /* [threads] */
 };
@@ -90,6 +95,9 @@ mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
                                   mote_pairs_wanted *wanted);
 /* Boxes of all bodies from deformed roots, with their time. */
 mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost);
+
+/* Makes e->now the answers of a scene. */
+void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count);
 
 /* Makes e->now the list of these pairs, each with its memory if it has one; states of other
    pairs are freed. */

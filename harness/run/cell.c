@@ -113,14 +113,14 @@ static json_t *active_json(const mote_cell *cell, const mote_subject_facts *fact
 }
 
 /* What the method is told of the deformation. With more than two bodies, trees are given
-   positions, and which of them is decided by fields, unless all are. */
+   positions, and which of them is decided by fields, unless all are, as by stream. */
 static const char *told_of(const mote_cell *cell)
 {
     const mote_method_choice *choice = cell->choice;
     const mote_traits traits = mote_method_traits(choice->method, choice->values);
     const mote_engine_setup setup = mote_subject_engine(cell->subject);
     bool field = traits.uses_field || (!traits.needs_vertices && !traits.given_vertices);
-    if (cell->subject->bodies)
+    if (cell->subject->bodies && strcmp(choice->method->name, "stream") != 0)
         field = field || (int)choice->scene[MOTE_SCENE_REFIT] != MOTE_REFIT_EVERY;
     for (uint32_t k = 0; k < setup.shape_count; ++k)
         field = field && !mote_body_is_given(setup.shapes[k]);

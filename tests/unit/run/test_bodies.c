@@ -194,26 +194,27 @@ static void check_agreement(const mote_bodies *b, mote_engine *const *engines, i
 
 TEST(mote_engine_ask_exact_methods_agree)
 {
-    static const char *const texts[] = {"certified", "fcl-aabb:refit=every", "fcl-aabb",
-                                        "aabb-tree", "aabb-tree:refit=every"};
+    static const char *const texts[] = {
+        "certified", "fcl-aabb:refit=every",  "fcl-aabb",
+        "aabb-tree", "aabb-tree:refit=every", "stream:threads=2"};
     mote_bodies *b = load(", \"tolerance\": 0.01",
                           "\"count\": 16, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
-    mote_engine *engines[5];
+    mote_engine *engines[6];
     mote_bodies_frame frame = frame_of(b);
     size_t near = 0, contacts = 0;
-    for (int m = 0; m < 5; ++m)
+    for (int m = 0; m < 6; ++m)
         engines[m] = engine_of(b, texts[m]);
     for (uint32_t f = 1; f <= 10; ++f) {
         mote_bodies_frame_set(b, f, &frame);
-        for (int m = 0; m < 5; ++m) {
+        for (int m = 0; m < 6; ++m) {
             mote_engine_cost step;
             if (ask(engines[m], &frame, &step) != MOTE_OK)
                 fail_msg("%s: %s", texts[m], mote_error_text());
         }
-        check_agreement(b, engines, 5, &near, &contacts);
+        check_agreement(b, engines, 6, &near, &contacts);
     }
     assert_true(near > contacts && contacts > 0);
-    for (int m = 0; m < 5; ++m)
+    for (int m = 0; m < 6; ++m)
         mote_engine_destroy(engines[m]);
     mote_bodies_frame_free(&frame);
     mote_bodies_destroy(b);
@@ -221,7 +222,7 @@ TEST(mote_engine_ask_exact_methods_agree)
 
 TEST(mote_engine_ask_contact_question_agrees)
 {
-    static const char *const texts[] = {"certified", "fcl-aabb", "aabb-tree"};
+    static const char *const texts[] = {"certified", "fcl-aabb", "aabb-tree", "stream"};
     write_file("", "");
     char *text = mote_format("{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"contact\", "
                              "\"tolerance\": 0.02, \"bodies\": {\"count\": 20, "
@@ -230,27 +231,28 @@ TEST(mote_engine_ask_contact_question_agrees)
     free(text);
     mote_bodies *b = NULL;
     assert_int_equal(mote_bodies_load(FILE_NAME, &b), MOTE_OK);
-    mote_engine *engines[3];
+    mote_engine *engines[4];
     mote_bodies_frame frame = frame_of(b);
     size_t contacts = 0;
-    for (int m = 0; m < 3; ++m)
+    for (int m = 0; m < 4; ++m)
         engines[m] = engine_of(b, texts[m]);
     for (uint32_t f = 1; f <= 20; ++f) {
         mote_bodies_frame_set(b, f, &frame);
-        mote_engine_cost step[3];
-        for (int m = 0; m < 3; ++m)
+        mote_engine_cost step[4];
+        for (int m = 0; m < 4; ++m)
             assert_int_equal(ask(engines[m], &frame, &step[m]), MOTE_OK);
         size_t count;
         const mote_near_pair *pairs = mote_engine_pairs(engines[0], &count);
         for (size_t k = 0; k < count; ++k) {
-            for (int m = 1; m < 3; ++m)
-                assert_int_equal(find(engines[m], pairs[k].body)->contact,
-                                 pairs[k].answer.contact);
+            for (int m = 1; m < 4; ++m) { /* tighter boxes leave out pairs that are apart */
+                const mote_answer *other = find(engines[m], pairs[k].body);
+                assert_int_equal(other && other->contact, pairs[k].answer.contact);
+            }
         }
         contacts += step[0].contacts;
     }
     assert_true(contacts > 0);
-    for (int m = 0; m < 3; ++m)
+    for (int m = 0; m < 4; ++m)
         mote_engine_destroy(engines[m]);
     mote_bodies_frame_free(&frame);
     mote_bodies_destroy(b);
