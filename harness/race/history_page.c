@@ -220,7 +220,7 @@ static void add_race_table(page *p)
     mote_text_add(text, "<h2 id=\"races\">Races</h2><table>\n<tr><th></th><th>date</th><th>A"
                         "</th><th>B</th><th>verdict</th><th>what changed</th></tr>\n");
     for (size_t i = 0; i < p->races.count; ++i) {
-        const json_t *race = p->races.races[i];
+        const json_t *race = p->races.races[i].json;
         mote_text_add(text, "<tr id=\"race-%zu\"><td>%zu</td>", i + 1, i + 1);
         add_cell(text, json_string_value(json_object_get(race, "date")));
         add_cell(text, json_string_value(json_object_get(race, "a")));

@@ -88,7 +88,7 @@ mote_confidence mote_paired_interval(const double *values, size_t count, double 
 size_t mote_paired_least(double alpha)
 {
     size_t count = 1;
-    for (double all_one_sign = 0.5; all_one_sign > 0.5 * alpha; all_one_sign *= 0.5)
+    while (ldexp(1, -(int)count) > 0.5 * alpha) /* all of one sign */
         ++count;
     return count;
 }

@@ -134,7 +134,7 @@ static mote_status run_bout(event *e, const mote_bout_options *options, const si
 /* One value a cell that is not done, in random order; new processes follow those that fail. */
 static mote_status run_pair(event *e)
 {
-    size_t order[MOTE_RACE_CELLS], place = 0;
+    size_t order[MOTE_RACE_CELLS] = {0}, place = 0;
     mote_bout_options bout = {.core = mote_process_core(),
                               .timeout = e->options->timeout,
                               .check_scene = e->race->pairs == 0,

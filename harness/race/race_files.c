@@ -53,7 +53,8 @@ static double number_at(const json_t *object, const char *key)
 
 static int by_date(const void *a, const void *b)
 {
-    return strcmp(text_at(*(json_t *const *)a, "date"), text_at(*(json_t *const *)b, "date"));
+    return strcmp(text_at(((const mote_race_file *)a)->json, "date"),
+                  text_at(((const mote_race_file *)b)->json, "date"));
 }
 
 /* Reads a file into the list. */
@@ -73,7 +74,7 @@ static mote_status read_race(const char *folder, const char *name, mote_race_fil
         return status;
     }
     files->races = mote_reserve(files->races, files->count + 1, capacity, sizeof *files->races);
-    files->races[files->count++] = race;
+    files->races[files->count++].json = race;
     return MOTE_OK;
 }
 
@@ -83,7 +84,7 @@ static void list_names(mote_race_files *files)
     size_t capacity = 0, i;
     const json_t *row;
     for (size_t r = 0; r < files->count; ++r) {
-        MOTE_EACH(i, row, json_object_get(files->races[r], "rows"))
+        MOTE_EACH(i, row, json_object_get(files->races[r].json, "rows"))
         {
             const char *name = text_at(row, "name");
             size_t k = 0;
@@ -121,7 +122,7 @@ mote_status mote_race_files_read(const char *folder, mote_race_files *files)
 void mote_race_files_free(mote_race_files *files)
 {
     for (size_t i = 0; i < files->count; ++i)
-        json_decref(files->races[i]);
+        json_decref(files->races[i].json);
     free(files->races);
     free(files->names);
     *files = (mote_race_files){.races = NULL};
@@ -143,7 +144,7 @@ mote_race_point mote_race_files_point(const mote_race_files *files, size_t race,
         .ratio = MOTE_NONE, .interval = {MOTE_NONE, MOTE_NONE}, .verdict = "", .what = ""};
     size_t i;
     const json_t *row;
-    MOTE_EACH(i, row, json_object_get(files->races[race], "rows"))
+    MOTE_EACH(i, row, json_object_get(files->races[race].json, "rows"))
     {
         char *own = mote_race_row_key(text_at(row, "name"));
         const bool found = strcmp(own, key) == 0;
@@ -164,7 +165,7 @@ char *mote_race_files_changes(const mote_race_files *files, size_t race)
     size_t i;
     const json_t *row;
     mote_text_add(&text, "%s", "");
-    MOTE_EACH(i, row, json_object_get(files->races[race], "rows"))
+    MOTE_EACH(i, row, json_object_get(files->races[race].json, "rows"))
     {
         const char *verdict = text_at(row, "verdict");
         if (json_is_true(json_object_get(row, "worse")) || strcmp(verdict, "faster") == 0)

@@ -6,8 +6,12 @@
 
 #include <jansson.h>
 
+typedef struct mote_race_file {
+    json_t *json; /* as `mote race --out` wrote it */
+} mote_race_file;
+
 typedef struct mote_race_files {
-    json_t **races; /* [count], by date */
+    mote_race_file *races; /* [count], by date */
     size_t count;
     const char **names; /* of all rows, each once; borrowed from the races */
     size_t name_count;

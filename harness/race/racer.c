@@ -6,6 +6,7 @@
 #include "harness/process/child.h"
 #include "harness/race/protocol.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -168,11 +169,12 @@ static mote_status hear(mote_racer *racer, char **line)
     if (racer->text.data)
         racer->text.data[0] = '\0';
     for (;;) {
-        char *end = racer->text.size > 0 ? strchr(racer->text.data, '\n') : NULL;
+        char *first = racer->text.data;
+        char *end = first && racer->text.size > 0 ? strchr(first, '\n') : NULL;
         bool ended = false;
         if (end && end[1] == '\0') {
             *end = '\0';
-            *line = racer->text.data;
+            *line = first;
             return MOTE_OK;
         }
         if (end || racer->text.size > MOTE_RACE_LINE)
@@ -208,6 +210,7 @@ mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format,
     const mote_status status = hear(racer, &heard);
     if (status != MOTE_OK)
         return status;
+    assert(heard);
     if (strncmp(heard, "no\t", 3) == 0)
         return mote_fail(MOTE_EUNSUPPORTED, "%s", heard + 3);
     if (strncmp(heard, "ok\t", 3) != 0)
