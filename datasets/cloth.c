@@ -227,9 +227,11 @@ static mote_status make_grid(cloth *c)
     c->rows = c->fine > c->n ? malloc((size_t)c->fine * c->n * sizeof *c->rows) : NULL;
     if (!c->now || !c->before || (c->fine > c->n && !c->rows))
         return mote_fail(MOTE_ENOMEM, "cloth: no memory");
-    for (size_t k = 0; k < count; ++k)
-        c->now[k] = c->before[k] = at_rest((double)(k / c->n) / (c->n - 1) - 0.5,
-                                           (double)(k % c->n) / (c->n - 1) - 0.5);
+    for (size_t k = 0; k < count; ++k) {
+        const size_t row = k / c->n, column = k % c->n;
+        c->now[k] = c->before[k] =
+            at_rest((double)row / (c->n - 1) - 0.5, (double)column / (c->n - 1) - 0.5);
+    }
     c->spacing = sqrt(mote_distance_squared(c->now[0], c->now[1]));
     return MOTE_OK;
 }

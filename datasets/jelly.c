@@ -58,8 +58,9 @@ typedef struct jelly {
 static bool touches_letter(const jelly *s, int x, int y, int z)
 {
     for (int k = 0; k < SAMPLES * SAMPLES * SAMPLES; ++k) {
-        const double at[3] = {x + (k % 4 + 0.5) / SAMPLES, y + (k / 4 % 4 + 0.5) / SAMPLES,
-                              z + (k / 16 + 0.5) / SAMPLES};
+        const int i = k % SAMPLES, j = k / SAMPLES % SAMPLES, l = k / (SAMPLES * SAMPLES);
+        const double at[3] = {x + (i + 0.5) / SAMPLES, y + (j + 0.5) / SAMPLES,
+                              z + (l + 0.5) / SAMPLES};
         const mote_vec3 p = mote_add_scaled(s->low, CELL, mote_vec3_make(at[0], at[1], at[2]));
         mote_vec3 gradient;
         if (mote_glyph_field(&s->own, p, &gradient) < REACH)
@@ -141,8 +142,9 @@ static mote_status embed_all(const jelly *s, const mote_mesh *mesh, embedded **m
 {
     *made = malloc(mesh->vertex_count * sizeof **made);
     *count = mesh->vertex_count;
-    mote_status status =
-        *made ? MOTE_OK : mote_fail(MOTE_ENOMEM, "jelly: no memory for %u vertices", *count);
+    mote_status status = MOTE_OK;
+    if (!*made)
+        return mote_fail(MOTE_ENOMEM, "jelly: no memory for %u vertices", *count);
     for (uint32_t v = 0; v < *count && status == MOTE_OK; ++v)
         status = embed(s, mesh->positions[v], &(*made)[v]);
     return status;

@@ -279,7 +279,7 @@ mote_status mote_sequence_read(mote_sequence_reader *reader, uint32_t frame,
                                mote_vec3 *positions)
 {
     const mote_sequence *s = reader->sequence;
-    reply said;
+    reply said = {0};
     mote_status status = ask(reader, frame, &said);
     if (status == MOTE_OK)
         status = check(s, &said);
