@@ -221,6 +221,7 @@ mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format,
 
 static mote_status check_greeting(mote_racer *racer, const char *greeting)
 {
+    assert(greeting);
     const char *program = racer->program;
     uint64_t format = 0;
     const size_t length = strlen(MOTE_RACE_GREETING "\t");
