@@ -16,6 +16,12 @@ const cells = (page, block, column) =>
     page.locator(".block").nth(block).locator(`tbody tr td:nth-of-type(${column}) a`).allTextContents();
 const isSorted = (values) => values.every((value, k) => k === 0 || values[k - 1] <= value);
 
+// The place of a scenario's block among all of the page.
+async function blockOf(page, scenario) {
+    const titles = await page.locator(".block h3").allTextContents();
+    return titles.findIndex((title) => title.startsWith(`${scenario} `));
+}
+
 // The rows of the summary that a table shows, found by scenario and caches.
 function rowsOf(run, scenario) {
     const { rows } = JSON.parse(readFileSync(`${run}/summary.json`, "utf8"));
@@ -24,7 +30,7 @@ function rowsOf(run, scenario) {
 
 async function testSorting(page, { check, equal, truth }, run) {
     const ww = rowsOf(run, "ww");
-    const block = 1; // tt comes before it
+    const block = await blockOf(page, "ww");
     await page.locator("#choice-rows").selectOption("all");
     const head = (text) => page.locator(".block").nth(block).locator("thead button", { hasText: text }).first();
     await check("all rows are there, the fastest first", async () => {
@@ -34,8 +40,8 @@ async function testSorting(page, { check, equal, truth }, run) {
         equal(shown.join(" "), order.join(" "), "order");
     });
     await check("rows with positions given come after those that pay for deformation", async () => {
-        const shown = await labels(page, 0);
-        const times = await cells(page, 0, 1);
+        const shown = await labels(page, await blockOf(page, "tt"));
+        const times = await cells(page, await blockOf(page, "tt"), 1);
         equal(shown.at(-1), "particle:n=8,positions=given", "last");
         truth(nanoseconds(times.at(-1)) < nanoseconds(times.at(-2)), "it is not the slowest");
     });
@@ -72,7 +78,7 @@ async function testSorting(page, { check, equal, truth }, run) {
 
 async function testFilters(page, { check, equal, truth }, run) {
     const ww = rowsOf(run, "ww");
-    const block = 1;
+    const block = await blockOf(page, "ww");
     const choose = (key, value) => page.locator(`#choice-${key}`).selectOption(value);
     const rowOf = (label) => ww.find((row) => row.label === label);
     await check("errors near L and above are written without an exponent", async () => {
@@ -126,7 +132,7 @@ async function testFilters(page, { check, equal, truth }, run) {
 
 async function testFront(page, { check, equal, truth }, run) {
     const ww = rowsOf(run, "ww");
-    const block = page.locator(".block").nth(1);
+    const block = page.locator(".block").nth(await blockOf(page, "ww"));
     const tip = block.locator(".tip");
     const point = (label) => block.locator(`circle[aria-label^="${label};"]`);
     await check("the front has a point for every row with an error", async () => {
@@ -155,7 +161,7 @@ async function testFront(page, { check, equal, truth }, run) {
 async function testHead(page, { check, truth }) {
     await check("the head of a table stays below the navigation", async () => {
         await page.setViewportSize({ width: 1280, height: 420 });
-        const table = page.locator(".block").nth(1).locator("table");
+        const table = page.locator(".block").nth(await blockOf(page, "ww")).locator("table");
         const { nav, head, row } = await table.evaluate((element) => {
             const box = (e) => e.getBoundingClientRect();
             window.scrollBy(0, box(element).top + 60); // half of the table is above the window then
@@ -271,9 +277,10 @@ export async function testPoor(browser, { check, equal, truth, open, program }, 
         const page = await open(browser, run);
         truth((await page.locator("main").textContent()).includes("This page has no replay"), "not said");
         equal(await page.locator("#replay-data").count(), 0, "data of a replay");
-        const first = await page.locator(".block tbody th a").first().textContent();
-        await page.locator(".block thead button", { hasText: "median" }).first().click();
-        truth((await page.locator(".block tbody th a").first().textContent()) !== first, "does not sort");
+        const ww = page.locator(".block").nth(await blockOf(page, "ww"));
+        const first = await ww.locator("tbody th a").first().textContent();
+        await ww.locator("thead button", { hasText: "median" }).first().click();
+        truth((await ww.locator("tbody th a").first().textContent()) !== first, "does not sort");
         equal(page.troubles.join("; "), "", "messages");
         await page.close();
         program("report", run);
