@@ -23,13 +23,24 @@ command_of() {
     fi
 }
 
-libraries="mote_harness mote_baselines mote_datasets mote_core"
+# The object files that stand in a command, absolute; $1: the folder that it is run in.
+objects_in() {
+    tr ' ' '\n' | grep '\.o$' | while read -r object; do realpath -s "$1/$object" 2>/dev/null ||
+        echo "$object"; done
+}
+
+# Objects of the program and of our libraries, each once: some stand in both.
 place=$(dirname "$program")
-link=$(command_of "$program" "$place" "$name" | tr ' ' '\n' | grep -vx -e ':' -e '&&' -e '.*libmote_[a-z]*\.a')
-objects=$(for library in $libraries; do
-    command_of "lib$library.a" . "$library" | tr ' ' '\n' | grep '\.o$' | sed "s|^|$PWD/|"
-done)
-[ ! -f "$place/CMakeFiles/$name.dir/link.txt" ] || cd "$place"
+from=.
+[ ! -f "$place/CMakeFiles/$name.dir/link.txt" ] || from=$place
+whole=$(command_of "$program" "$place" "$name")
+link=$(echo "$whole" | tr ' ' '\n' | grep -vx -e ':' -e '&&' -e '.*libmote_[a-z]*\.a' -e '.*\.o')
+objects=$({
+    echo "$whole" | objects_in "$from"
+    echo "$whole" | tr ' ' '\n' | sed -n 's|.*lib\(mote_[a-z]*\)\.a$|\1|p' | sort -u |
+        while read -r library; do command_of "lib$library.a" . "$library" | objects_in .; done
+} | sort -u)
+cd "$from"
 
 # $1: a seed. The order depends on nothing else.
 shuffled() {
@@ -37,7 +48,7 @@ shuffled() {
         sort | cut -f 2
 }
 
-# The program's own object and options stay where they are; -o is replaced.
+# The options of the command stay as they are; -o is replaced.
 relink() {
     set -- "$1" "$(printf '%s\n' "$link" | awk '
         skip { skip = 0; next } $0 == "-o" { skip = 1; next } { print }')" "$(shuffled "$1")"
