@@ -66,7 +66,7 @@ function measure() {
         "--method", "particle-paper", "--particles", "1,5");
     program("run", "tt", "--out", run, "--replicates", "1", "--frames", "1-100", "--method", "certified",
         "--method", "fcl-aabb", "--method", "particle:n=8,positions=given");
-    program("run", "morph", "wolf-15k", "--out", run, "--replicates", "1", "--frames", "1-60", "--method", "certified");
+    program("run", "morph", "bison-15k", "--out", run, "--replicates", "1", "--frames", "1-60", "--method", "certified");
     program("figures", run);
     program("report", run);
     program("run", "ww-1k", "--out", `${work}/several`, "--replicates", "4", "--frames", "1-200", "--method",
@@ -386,7 +386,7 @@ await testTables(page, tools, run);
 await settled(page);
 await testNumbers(page);
 await testKeys(page);
-for (const [name, length] of [["morph", 3.464], ["wolf-15k", 3.697]]) {
+for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
     await choose(page, "scene", { label: name });
     await testField(name, page, name, [1, 60], length);
 }

@@ -131,7 +131,7 @@ static void check(const char *name)
 
 TEST(mote_replay_skin_of_bones_is_the_program_s)
 {
-    check("wolf-15k");
+    check("bison-15k");
 }
 
 TEST(mote_replay_skin_of_morph_targets_is_the_program_s)
