@@ -1,6 +1,5 @@
-/* Calls that fail, for tests: the n-th allocation, for every n. The linker puts the functions
-   below in the place of libc's (--wrap), for our own objects; tests/CMakeLists.txt names the
-   tests. */
+/* Makes the n-th allocation fail, for every n. The linker replaces libc's functions by those
+   below (--wrap) in our own objects; tests/CMakeLists.txt names the tests. */
 #ifndef MOTE_TESTS_FAILING_H
 #define MOTE_TESTS_FAILING_H
 
@@ -12,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Calls until one fails; below 0: none does. */
+/* Calls left before one fails; negative: none fails. */
 static const long never = -1;
 static long allocations_left = -1;
 static long calls_failed; /* in all */
@@ -56,9 +55,9 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size)
     return is_due(&allocations_left) ? NULL : __real_aligned_alloc(alignment, size);
 }
 
-/* Runs work with its n-th allocation failing, for every n until none is left to fail. Each time
-   it must have failed and said so, or have gone well all the same (memory is not given back
-   when a block cannot be made smaller); without a failing one it must have gone well. */
+/* Runs work with its n-th allocation failing, for every n, until no allocation is left to fail.
+   A run with a failure must either report MOTE_ENOMEM with a text or succeed anyway (a block
+   that cannot be shrunk keeps its size); the run without one must succeed. */
 static inline void fail_each_allocation(mote_status (*work)(void *), void *context,
                                         const char *what)
 {

@@ -35,7 +35,8 @@
     "\"count\": 3, \"seed\": 2, \"near_pairs\": 1, \"near\": 0.2, \"speed\": 0.01, "           \
     "\"spin\": 1, \"shapes\": [{\"file\": \"a.obj\", " FIELD "}]}}\n"
 
-/* Programs that the commands run, each doing what is looked at, at once. */
+/* Stand-ins for the programs that the commands run. Each writes at once what the command looks
+   for. */
 #define GNUPLOT                                                                                \
     "#!/bin/sh\nfor f in $8; do echo drawn > \"$5.$f\"; done\n[ -n \"$8\" ] || echo drawn\n"
 #define VALGRIND                                                                               \
@@ -63,8 +64,8 @@ static int run_line(void *context)
     return l->run(argc, argv);
 }
 
-/* What is wrong with the files that were left, or "". A process that ended at once may leave a
-   file under the name that it has while it is written. */
+/* What is wrong with the files left behind, or "". A process that ran out of memory ends at
+   once and may leave a file under its temporary name. */
 static char wrong[512];
 static bool parts_may_be_left;
 static int files_left;
@@ -115,7 +116,7 @@ static void read_said(const char *path)
         (void)fclose(in);
 }
 
-/* An error has a line of its own that says more than its name. */
+/* Whether an error is reported on a line of its own that does not consist of "mote: " alone. */
 static bool has_error(void)
 {
     const char *error = strstr(said, "mote: ");
@@ -123,7 +124,7 @@ static bool has_error(void)
            !strstr(error, "(null)");
 }
 
-/* The last line tells of it, and no other. */
+/* Whether the last line, and no earlier one, reports the lack of memory. */
 static bool has_memory_error(void)
 {
     const char *told = strstr(said, "memory"), *last = told;
@@ -132,8 +133,8 @@ static bool has_memory_error(void)
     return told && strncmp(last, "mote: ", 6) == 0 && last[strcspn(last, "\n") + 1] == '\0';
 }
 
-/* What has no memory ends: the program itself, or the process of a cell, which is then a row.
- */
+/* A process without memory ends: either the program itself or the process of a cell, which then
+   becomes a failed row. */
 static bool is_good_end(const fault_line *l, fault_kind kind, const fault_end *end)
 {
     if (end->status == l->status)
@@ -177,8 +178,8 @@ static void fail_call(const fault_line *l, const fault_work *work, fault_kind ki
                  end.function, modes[mode], end.status, files_left, usual_files, said);
 }
 
-/* Where branches are counted every place, and every third of a line that has many and takes
-   long; else some, for time, and fewer with sanitizers. */
+/* A coverage build tries every place, or every third of a line that has many and takes long.
+   Other builds try a sample, to save time; with sanitizers a smaller one. */
 static size_t stride(size_t places)
 {
 #ifdef MOTE_COVERAGE

@@ -1,7 +1,7 @@
-/* Command lines of the program, run in a directory of their own while each place where they
-   call libc fails once: an error of the right kind with a text, or all went well without;
-   nothing leaked (under AddressSanitizer), nothing half-written. Interrupted and partial calls
-   change nothing. */
+/* Runs command lines of the program in a directory of their own while each place where they
+   call libc fails once. Each run must either report the right kind of error with a text or
+   succeed anyway; it must leak nothing (under AddressSanitizer) and leave nothing half-written.
+   Interrupted and partial calls must change nothing. */
 #ifndef MOTE_TESTS_FAULT_LINES_H
 #define MOTE_TESTS_FAULT_LINES_H
 
@@ -26,21 +26,21 @@ typedef struct fault_line {
 bool fault_lines_open(void);
 int fault_lines_close(void); /* a test group's end */
 
-/* The program is one installed there from now on, bin/mote: share/mote has the plots of the
-   sources, and empty folders for page, datasets and datasets/scenarios. */
+/* From now on the program appears to be installed there as bin/mote: share/mote has the plots
+   of the sources, and empty folders for page, datasets and datasets/scenarios. */
 bool fault_lines_install(void);
 
 bool fault_lines_write(const char *name, const char *text);
 
-/* Runs lines without a fault; false when one does not end with 0. */
+/* Runs the lines without a fault; false when one does not end with 0. */
 bool fault_lines_run(const fault_line *list, size_t count);
 
-/* Each place of each line that calls for files and processes; the test fails where an end is
-   not as it should be. `out` is removed before each. */
+/* Fails each place where a line calls for files or processes; the test fails where a run ends
+   wrongly. `out` is removed before each run. */
 void fault_lines_fail(const fault_line *list, size_t count);
 
-/* The same for each place that asks for memory: the program says so in one line and ends with
-   MOTE_EXIT_OUT_OF_MEMORY, unless it goes without. */
+/* The same for each place that allocates memory: the program must say so in one line and end
+   with MOTE_EXIT_OUT_OF_MEMORY, unless it can do without. */
 void fault_lines_exhaust(const fault_line *list, size_t count);
 
 #define FAIL_EACH(list) fault_lines_fail(list, sizeof(list) / sizeof(list)[0])

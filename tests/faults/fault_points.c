@@ -52,8 +52,8 @@ typedef enum function {
 static const struct {
     const char *name;
     int error;        /* errno when it fails; 0: it does not */
-    bool interrupted; /* it may end with EINTR */
-    bool transfers;   /* it may do a part */
+    bool interrupted; /* may end with EINTR */
+    bool transfers;   /* may transfer only a part */
 } functions[FUNCTIONS] = {
     [MALLOC] = {"malloc", ENOMEM, false, false},
     [CALLOC] = {"calloc", ENOMEM, false, false},
@@ -86,7 +86,7 @@ typedef struct point {
     function function;
 } point;
 
-/* What a work and its children tell the test. */
+/* What the process under test and its children report to the test. */
 typedef struct shared {
     atomic_bool happened;
     atomic_size_t count;
@@ -100,7 +100,7 @@ static fault_kind kind_now;
 static long calls, target; /* of this process and of its parents before the fork */
 static uint64_t seen[SEEN];
 static const char *program_path; /* what /proc/self/exe leads to, or NULL */
-static bool noting;              /* what notes must not note itself */
+static bool noting; /* set while note() runs, so that its own calls are not noted */
 
 extern const char __executable_start, etext;
 
@@ -236,7 +236,8 @@ WRAP(ssize_t, write, int file, const void *data, size_t size)
     return fails(WRITE) ? -1 : __real_write(file, data, size);
 }
 
-/* Else it goes well at once: no power is cut here, and a disk takes its time. */
+/* Otherwise succeeds at once without a sync: no power is cut here, and a disk takes its
+   time. */
 WRAP(int, fsync, int file)
 {
     (void)file;
@@ -310,7 +311,7 @@ WRAP(char *, getcwd, char *path, size_t size)
 }
 
 #ifdef MOTE_COVERAGE
-/* The counts of a child that ends are written whatever happens. */
+/* A child's coverage counts must always be written. */
 WRAP(void, __gcov_dump, void)
 {
     state = IDLE;
@@ -333,7 +334,7 @@ static _Noreturn void be_work(const fault_work *work)
     state = target ? FAILING : NOTING;
     const int status = work->run(work->context);
     state = IDLE;
-    exit(status); /* leaks are looked for */
+    exit(status); /* runs the leak check */
 }
 
 static void run_work(const fault_work *work, fault_end *end)
@@ -367,7 +368,7 @@ size_t fault_points_find(const fault_work *work, fault_kind kind, fault_end *end
     kind_now = kind;
     target = 0;
     void *first[1];
-    (void)backtrace(first, 1); /* loads what it needs */
+    (void)backtrace(first, 1); /* loads the library that backtrace needs */
     run_work(work, end);
     if (atomic_load(&told->count) > POINTS_MAX)
         abort();

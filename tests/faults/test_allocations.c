@@ -1,7 +1,7 @@
-/* The library when memory or threads run out, or a library that it uses fails: a status with a
-   text, nothing leaked (under AddressSanitizer), outputs untouched; and where a query needs
-   memory only to be fast, the same answer. The linker puts the functions below in the place of
-   GSL's, HACD's and libstdc++'s (--wrap). */
+/* The library when memory or threads run out, or when a library that it uses fails: it must
+   return a status with a text, leak nothing (under AddressSanitizer) and leave outputs
+   untouched. Where a query needs memory only for speed, it must give the same answer. The
+   linker replaces functions of GSL, HACD and libstdc++ by those below (--wrap). */
 #include "core/body/csrbf_fit.h"
 #include "core/base/frame_queue.h"
 #include "core/body/lazy.h"
@@ -25,7 +25,7 @@
 #include <pthread.h>
 #include <stdio.h>
 
-/* Calls of another kind until one fails. */
+/* Calls of the other kinds left before one fails. */
 static long others_left = -1;
 
 gsl_matrix *__real_gsl_matrix_alloc(size_t rows, size_t columns);
@@ -80,8 +80,8 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
                                 : __real_pthread_create(thread, attributes, run, argument);
 }
 
-/* operator new, std::bad_alloc, std::length_error and the throwing of an int, as C++ names them
-   on every system whose size_t is an unsigned long. */
+/* The C++ ABI names of operator new, std::bad_alloc, std::length_error and the type info of
+   int, on systems whose size_t is an unsigned long. */
 extern const char _ZTIi[];
 _Noreturn void _ZSt17__throw_bad_allocv(void);
 _Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
@@ -151,7 +151,8 @@ static mote_status make_places(void *context)
     return status;
 }
 
-/* The tree of a field that was made with a status; frees the field. */
+/* Makes the tree of a field if status, the result of making the field, is MOTE_OK; frees the
+   field. */
 static mote_status make_tree(const mote_mesh *mesh, mote_field *field, mote_status status)
 {
     const mote_body body = {.mesh = mesh, .field = field};
@@ -315,7 +316,8 @@ TEST(scene_when_an_allocation_fails_says_so)
     crowd_free(&c);
 }
 
-/* A query that finds no memory for more pairs goes on from the states of the last one. */
+/* A query without memory for more pairs keeps the states of the query before, and the next one
+   continues from them. */
 TEST(scene_query_out_of_memory_keeps_all_states)
 {
     static const uint32_t one[1][2] = {{0, 1}};
@@ -365,7 +367,7 @@ static mote_status make_method(void *context)
     return status;
 }
 
-/* With their own number of particles, which takes the convex parts of two meshes. */
+/* Methods choose their own number of particles, which needs the convex parts of two meshes. */
 TEST(methods_when_an_allocation_fails_say_so)
 {
     static const struct {
@@ -456,8 +458,8 @@ TEST(linear_algebra_when_gsl_fails_says_so)
     assert_true(values.x == 1 && values.y == 2 && values.z == 3);
 }
 
-/* Tables of positions that cannot grow: each position is right, and only those are remembered
-   that there is room for. */
+/* Tables of positions that cannot grow: each position is still right, and the table remembers
+   as many as it has room for. */
 TEST(lazy_without_memory_answers_the_same)
 {
     uint64_t seed = 4;
@@ -490,7 +492,7 @@ TEST(lazy_without_memory_answers_the_same)
     test_body_free(&b);
 }
 
-/* Fetching what there is no room for fetches what there is room for. */
+/* A fetch of more than fits fetches as much as fits. */
 TEST(lazy_fetch_without_memory_answers_the_same)
 {
     uint64_t seed = 4;
@@ -544,7 +546,8 @@ TEST(lazy_init_when_an_allocation_fails_says_so)
     test_body_free(&b);
 }
 
-/* The largest table is requested whatever is expected, and the allocation fails. */
+/* The largest table is requested even if fewer positions are expected, and the allocation
+   fails. */
 TEST(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31)
 {
     const mote_mesh mesh = {.vertex_count = UINT32_MAX / 2};
@@ -559,7 +562,7 @@ TEST(lazy_init_of_the_largest_mesh_asks_for_two_to_the_31)
 static int say_count(void)
 {
     (void)printf("%ld calls failed\n", calls_failed);
-    (void)fflush(stdout); /* LeakSanitizer ends without */
+    (void)fflush(stdout); /* LeakSanitizer ends the process without flushing */
     return 0;
 }
 

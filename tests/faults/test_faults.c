@@ -1,6 +1,6 @@
-/* What happens when the n-th allocation, or the n-th write, sync or rename, fails, for every n:
-   an error with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap,
-   as in tests/faults/failing.h). */
+/* Makes the n-th allocation, write, sync or rename fail, for every n: there must be an error
+   with a text, nothing leaked (under AddressSanitizer), nothing half-written (--wrap, as in
+   tests/faults/failing.h). */
 #include "core/method/method.h"
 #include "harness/base/file.h"
 #include "harness/base/method_choice.h"
@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Calls until one fails; below 0: none does. */
+/* Calls left before one fails; negative: none fails. */
 static long writes_left = -1;
 
 ssize_t __real_write(int file, const void *data, size_t size);
@@ -54,7 +54,7 @@ int __wrap_rename(const char *from, const char *to)
 typedef struct method_work {
     scene *scene;
     mote_method_choice choice;
-    mote_answer answer; /* where none fails */
+    mote_answer answer; /* when nothing fails */
 } method_work;
 
 static mote_status answer_twice(const method_work *w, mote_answer *answer)
@@ -74,7 +74,7 @@ static mote_status answer_twice(const method_work *w, mote_answer *answer)
     return status;
 }
 
-/* Goes well only with the answer that it has when nothing fails. */
+/* Succeeds only with the same answer as when nothing fails. */
 static mote_status answer_again(void *context)
 {
     const method_work *w = context;
@@ -177,7 +177,7 @@ TEST(file_write_when_a_step_fails_leaves_the_file_whole)
     assert_int_equal(remove(path), 0);
 }
 
-/* make reliability PLANT=1: what AddressSanitizer must find. */
+/* make reliability PLANT=1 plants this leak, which AddressSanitizer must find. */
 static void plant_leak(void)
 {
     volatile char *lost = __real_malloc(16);
@@ -195,7 +195,7 @@ static int plant(void)
 static int tell_calls(void)
 {
     printf("%ld calls failed\n", calls_failed);
-    (void)fflush(stdout); /* LeakSanitizer ends without */
+    (void)fflush(stdout); /* LeakSanitizer ends the process without flushing */
     return 0;
 }
 

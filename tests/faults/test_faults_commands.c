@@ -1,10 +1,11 @@
-/* Every place where a command asks for files or processes, or for memory, failing once. */
+/* Each command runs while every place where it asks for files, processes or memory fails
+   once. */
 #include "tests/faults/fault_lines.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 
-/* It calls for nothing but memory. */
+/* It asks for memory only. */
 static const fault_line of_nothing[] = {LINE(list, " methods --json", 0)};
 
 static const fault_line of_a_file[] = {

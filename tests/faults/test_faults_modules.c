@@ -1,5 +1,5 @@
-/* What commands reach only behind long work, called alone, with each place where it asks for
-   memory or files failing once. */
+/* Modules that a command reaches only after long work, called directly while each place where
+   they ask for memory or files fails once. */
 #include "tests/faults/fault_lines.h"
 
 #include "harness/study/claim.h"
@@ -24,7 +24,7 @@ static int exit_code(mote_status status)
     return status == MOTE_OK ? MOTE_EXIT_DONE : mote_command_fail();
 }
 
-/* A truth of the scenario, made up. */
+/* An invented truth of the scenario. */
 static mote_status make_truth(mote_truth **truth)
 {
     *truth = mote_truth_allocate(scenario->frames);
@@ -97,7 +97,8 @@ static int sample_method(int argc, char **argv)
     return exit_code(status);
 }
 
-/* A cell as its process measures it: METHOD, and then anything for evicted caches. */
+/* Measures a cell as its process does. Arguments: METHOD, then anything to ask for evicted
+   caches. */
 static int measure_cell(int argc, char **argv)
 {
     const mote_subject subject = {.scenario = scenario};
@@ -135,7 +136,7 @@ static int write_claim(int argc, char **argv)
     return exit_code(status);
 }
 
-/* The state and the kind of the machine: it is no error where the system does not say. */
+/* The machine's name and state. It is no error if the system does not report them. */
 static int ask_machine(int argc, char **argv)
 {
     (void)argc;

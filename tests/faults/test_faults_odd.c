@@ -1,7 +1,7 @@
-/* Tables, figures and pages of runs whose cells are odd: of several machines, caches, seeds
-   and frames, that ended badly, that have no answers, no names, too many of each. What a user
-   sees of them, and the same while each place where memory, files or processes are asked for
-   fails once. */
+/* Tables, figures and pages of runs with odd cells: cells of several machines, caches, seeds
+   and frames; cells that failed; cells without answers or names; too many of each. Tests what a
+   user sees of them, also while each place that asks for memory, files or processes fails
+   once. */
 #include "tests/faults/fault_lines.h"
 
 #include "harness/figure/figures.h"
@@ -23,14 +23,14 @@
 #define LONG_NAME                                                                              \
     "A z/Z09-_`{@[: a name that is longer than the file of a figure's data may be, by some"
 
-/* The frames of a cell: the first, how many, every which. error is NAN for a method that tells
-   contact only. */
+/* The frames of a cell: the first, how many, and the stride. error is NAN for a method that
+   reports contact only. */
 typedef struct frames {
     int first, count, stride;
     double ns, error;
 } frames;
 
-/* A cell: its name, and what is other than in most. */
+/* A cell: its name, and the keys in which it differs from the usual one. */
 typedef struct odd_cell {
     const char *id, *other;
     frames rows;
@@ -122,7 +122,7 @@ static const odd_cell odd[] = {
     "\"2026-11-21T10:20:30.123456789012345678901234567890Z\", \"command\": [\"run\", 7, "      \
     "\"it's\", \"\"]}]}\n"
 
-/* Claims with every field of a wrong kind or not there. */
+/* Claims with every field of a wrong kind or missing. */
 #define ODD_CLAIMS                                                                             \
     "[{\"id\": \"a\", \"claim\": \"no unit\", \"verdict\": \"holds\", \"value\": 2, "          \
     "\"interval\": [1], \"values\": [{\"name\": \"both\", \"value\": 7, \"threshold\": "       \
@@ -132,7 +132,7 @@ static const odd_cell odd[] = {
     "\"none\", \"value\": \"x\", \"threshold\": {\"bound\": \"some\", \"holds\": \"x\"}}]}, "  \
     "{\"id\": 5, \"claim\": \"a unit\", \"value\": 0.5, \"unit\": \"L\"}]\n"
 
-/* A list of figures in which most is wrong. */
+/* A list of figures in which most entries are wrong. */
 #define ODD_FIGURES                                                                            \
     "{\"figures\": [{\"number\": 4, \"title\": \"Drawn\", \"scenario\": \"s\", \"files\": "    \
     "[5, "                                                                                     \
@@ -145,7 +145,7 @@ static const odd_cell odd[] = {
 
 static char said[1 << 18];
 
-/* What the line says, in said[]. */
+/* Runs the line and stores its output in said[]. */
 static void hear(const fault_line *line)
 {
     assert_true(fault_lines_run(line, 1));
@@ -218,7 +218,7 @@ TEST(formats_of_odd_cells_tell_rows_apart)
     assert_non_null(strstr(said, "crashed"));
 }
 
-/* Each scenario's figures have a file's name that any program takes. */
+/* The figures of each scenario have a file name that any program accepts. */
 TEST(figures_of_odd_cells_are_those_that_can_be)
 {
     static const fault_line figures[] = {LINE(figures, " odd", 0)};
@@ -235,7 +235,7 @@ TEST(figures_of_odd_cells_are_those_that_can_be)
     assert_non_null(strstr(said, "\"particle-paper:refine=no\"\n3 "));
     assert_null(strstr(said, "brute-force")); /* took no time */
     read_page("odd/figures/error-time-s.dat");
-    assert_non_null(strstr(said, " 1\n")); /* a contact that was missed */
+    assert_non_null(strstr(said, " 1\n")); /* a missed contact */
     FAIL_EACH(figures);
 }
 
@@ -273,7 +273,7 @@ TEST(reports_of_odd_claims_show_what_there_is)
     static const char *const claims[] = {
         "<h1>claims</h1>",
         "\"bound\":\"at most\",\"holds\":8,\"limits\":9",
-        "\"title\":\"b\"", /* of the folder: there is no list */
+        "\"title\":\"b\"", /* from the folder, for want of a list */
         "\"file\":\"figures/c.gif\"",
         "\"animation\":true",
     };
@@ -318,7 +318,7 @@ TEST(figures_plot_when_a_call_fails_says_so)
     FAIL_EACH(curve);
 }
 
-/* A folder in the place of a file cannot be read. */
+/* Puts a folder where a file is expected: reading it fails. */
 static bool write_pages(void)
 {
     static const struct {
@@ -352,7 +352,7 @@ static bool write_pages(void)
     return true;
 }
 
-/* More sizes, methods, families and replicates than a figure takes: the first of them. */
+/* More sizes, methods, families and replicates than a figure takes: it shows the first ones. */
 static bool write_many(void)
 {
     static const char *const sizes[] = {"ww", "ww-x", "ww-5x", "ww-5kk", "ww-5m", "wwx"};
@@ -425,9 +425,9 @@ TEST(figures_of_too_many_cells_take_the_first)
     read_page("many/figures/size-time.dat");
     assert_int_equal(count_of(" 1000 1000 1000\n"), 16 + 7 * 3); /* sizes; methods */
     assert_null(strstr(said, "\"n7\""));
-    assert_non_null(strstr(said, "\"n0\"\n")); /* of one size: no exponent */
+    assert_non_null(strstr(said, "\"n0\"\n")); /* only one size: no exponent */
     read_page("many/figures/size-bytes.dat");
-    assert_int_equal(count_of(" 1000 66.66"), 6); /* that told their bytes */
+    assert_int_equal(count_of(" 1000 66.66"), 6); /* cells that reported their bytes */
     read_page("many/figures/shares-families.dat");
     assert_int_equal(count_of("\n"), 16);
     read_page("many/figures/ratios-again.dat");
@@ -450,7 +450,7 @@ static int make_files(void)
 
 TEST_GROUP(make_files, fault_lines_close);
 
-/* gnuplot fails: each figure is reported, and the others are tried. */
+/* gnuplot fails: each failure is reported, and the other figures are still tried. */
 TEST(figures_that_gnuplot_does_not_draw_are_told)
 {
     static const fault_line figures[] = {LINE(figures, " odd", 4)};

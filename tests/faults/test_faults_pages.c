@@ -1,5 +1,5 @@
-/* Figures and the report of a run that has what every figure needs, with each place where they
-   asks for files or processes failing once; and more of what commands read and write. */
+/* Figures and the report of a run that has the data for every figure, while each place where
+   they ask for files or processes fails once; and more of what commands read and write. */
 #include "tests/faults/fault_lines.h"
 
 #include "harness/base/file.h"
@@ -18,7 +18,7 @@
     "f 1 4 3\nf 5 6 7\nf 5 7 8\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"        \
     "f 4 1 5\nf 4 5 8\n"
 
-/* A scenario in the folder of the mesh, with more keys of it and of body 0. */
+/* A scenario in the folder of the mesh, with further keys for itself and for body 0. */
 #define SCENE(ask, more, body)                                                                 \
     "{\"purpose\": \"a test\", \"frames\": 12, \"ask\": \"" ask "\"" more                      \
     ", \"bodies\": [{\"file\": \"cube.obj\"" body "}, {\"file\": \"cube.obj\", \"motion\": ["  \
@@ -88,7 +88,7 @@ static bool exists(const char *path)
     return stat(path, &info) == 0 && info.st_size > 0;
 }
 
-/* Several bodies: a diagram and a film, whose pictures are gone when it is drawn. */
+/* Several bodies: a diagram and a film. The film's pictures are removed once it is drawn. */
 TEST(figures_of_several_bodies_when_a_call_fails_say_so)
 {
     static const fault_line list[] = {LINE(figures, " several", 0)};
@@ -122,7 +122,7 @@ TEST(report_when_a_call_fails_says_so)
     FAIL_EACH(list);
 }
 
-/* A pair has no file: its meshes are named by the command that measured it. */
+/* A pair has no scenario file: the command that measured it names the meshes. */
 TEST(report_of_a_pair_replays_it)
 {
     static const fault_line lines[] = {
@@ -206,7 +206,7 @@ static bool make_runs(void)
     return fault_lines_run(runs, sizeof runs / sizeof runs[0]);
 }
 
-/* As make bodies leaves it. */
+/* The film as `make bodies` leaves it. */
 static bool make_film(void)
 {
     static const fault_line run[] = {LINE(run,

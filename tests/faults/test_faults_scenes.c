@@ -1,11 +1,11 @@
-/* Every place where a command of a scenario of an unusual form asks for memory, files or
-   processes, failing once. */
+/* Commands on scenarios of an unusual form, while each place where they ask for memory, files
+   or processes fails once. */
 #include "tests/faults/fault_lines.h"
 #include "tests/support/test.h"
 
 #include <stddef.h>
 
-/* A body that has all that bodies can have, and one that moves along keys. */
+/* A body with everything that a body can have, and one that moves along keys. */
 #define RICH                                                                                   \
     "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\", \"tolerance\": 0.001, "   \
     "\"start\": 1.5, \"pace\": 0.5, \"warmup\": [1, 1], \"bodies\": [{\"file\": \"a.obj\", "   \

@@ -1,4 +1,4 @@
-/* Every place where a study asks for files or processes, failing once. */
+/* Each study runs while every place where it asks for files or processes fails once. */
 #include "harness/study/extreme.h"
 #include "harness/base/options.h"
 #include "tests/faults/fault_lines.h"
@@ -9,13 +9,14 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The program is one installed beside a scenario tt that is small. */
+/* The program appears to be installed beside a small scenario tt. */
 #define TT                                                                                     \
     "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\", \"bodies\": ["            \
     "{\"letter\": \"T\", \"triangles\": 400}, {\"letter\": \"T\", \"triangles\": 400}]}\n"
 #define STUDY " --quick --scene tt --approaches 1 --out "
 
-/* All rows but one are there; a manifest would grow, and calls would have other numbers. */
+/* Measures the one row that is missing. The manifest is removed because it would grow and so
+   change the numbers of the calls. */
 static int measure_a_row(int argc, char **argv)
 {
     (void)unlink("rows/rows/tt-certified.json");
@@ -49,7 +50,8 @@ static int answer_extreme(int argc, char **argv)
     mote_extreme_free(&e);
     if (status != MOTE_OK)
         return mote_command_fail();
-    /* A method that a failing call keeps from its answer has refused or died, with a reason. */
+    /* If a failing call leaves a method without an answer, it has refused or died with a
+       reason. */
     const bool said = cell.verdict == MOTE_EXTREME_RIGHT || cell.reason[0];
     return said ? MOTE_EXIT_DONE : MOTE_EXIT_USAGE;
 }

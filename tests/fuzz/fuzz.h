@@ -7,15 +7,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Any bytes must come through without a crash, a leak or undefined behaviour; always 0. */
+/* No bytes may cause a crash, a leak or undefined behaviour. Always returns 0. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The path of an in-memory file that holds the bytes; the file is reused by the next call. */
+/* Returns the path of an in-memory file that holds the bytes; the next call reuses the file. */
 const char *fuzz_file(const uint8_t *data, size_t size);
 
-/* Writes what stands before and behind a line of "====" to two files of a folder of its own;
-   the second is empty without such a line. names: in that folder or in one below it, the same
-   at every call. The folder's path; it is removed at the end. */
+/* Splits the data at a line of "====" and writes the two parts to two files in a folder of its
+   own; without such a line the second is empty. names: relative to that folder, at most one
+   level down, the same at every call. Returns the folder's path; the folder is removed at
+   exit. */
 const char *fuzz_two_files(const uint8_t *data, size_t size, const char *const names[2]);
 
 #endif

@@ -1,5 +1,5 @@
-/* Any text as the two files of a cell, the JSON up to a line of "====" and the CSV behind it,
-   up to the summary of a run that holds it, in all its formats. */
+/* Any text as the two files of a cell: the JSON before a line of "====", the CSV after it. The
+   cell's run is summarised in all formats. */
 #include "harness/summary/front.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"

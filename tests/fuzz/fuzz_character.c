@@ -1,11 +1,11 @@
-/* Any bytes as what the child that reads characters sends: taken, checked, posed; and as the
-   text of a glTF file with the nodes and clips of a small rig. */
+/* Any bytes as what the child process that reads characters sends: accepted, checked and posed.
+   Also as the text of a glTF file with the nodes and clips of a small rig. */
 #include "harness/mesh/character_parts.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
 
-/* Every clip at its ends and between. */
+/* Poses every clip at both ends and in between. */
 static void pose(const mote_rig *rig)
 {
     mote_affine *globals = calloc(rig->nodes_count + 1, sizeof *globals);
@@ -25,7 +25,7 @@ static void pose(const mote_rig *rig)
     free(weights);
 }
 
-/* One node and a target with linear keys, which the file may change. */
+/* One node and one target with linear keys, which the file may change. */
 static void read_keys(const char *data, size_t size)
 {
     mote_rig rig = {0};

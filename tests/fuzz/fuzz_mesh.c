@@ -1,5 +1,5 @@
-/* Any text as an OBJ file, up to the rings and measures of its mesh; and as an OFF file, and as
-   the text of a PLY or STL file. What was split makes a mesh, unless it has no extent. */
+/* Any text as an OBJ file, up to the rings and measures of its mesh; also as an OFF file and as
+   the text of a PLY or STL file. A split soup makes a mesh unless it has no extent. */
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_soup.h"
 #include "harness/mesh/mesh_split.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A soup as it was read, up to a mesh: once split, no edge has more than two faces. */
+/* Makes a mesh of a soup: as it was read, then split so that no edge has more than two
+   faces. */
 static void make_mesh(mote_soup *soup)
 {
     mote_split split;

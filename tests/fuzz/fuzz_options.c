@@ -1,5 +1,5 @@
-/* Any words, one a line, as what stands on a command line: methods with parameters, ranges,
-   numbers, options. */
+/* Any words, one a line, as words of a command line: methods with parameters, ranges, numbers,
+   options. */
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
 #include "tests/fuzz/fuzz.h"

@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <string.h>
 
-/* Whether loading would take long for a reason that is legal: large letters, other files. */
+/* Whether loading would legitimately take long: large letters, other files. */
 static bool is_costly(json_t *value)
 {
     const char *key;

@@ -1,5 +1,5 @@
-/* Any text as the summaries of two runs, the base's up to a line of "====" and the new one's
-   behind it, compared. */
+/* Any text as the summaries of two runs, compared: the base's before a line of "====", the new
+   one's after it. */
 #include "harness/summary/compare.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -9,11 +9,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* In memory where there is such a place: on a disk most of the time would be waiting. */
+/* In memory where possible: on a disk most of the time would be spent waiting. */
 static char folder[] = "/dev/shm/mote-fuzz-XXXXXX";
 static char paths[2][128];
 
-/* The folder of a path's file, where that is below the made one. */
+/* The folder of a file if it lies below the one made here, or NULL. */
 static const char *folder_of(const char *path, char *text, size_t size)
 {
     (void)snprintf(text, size, "%s", path);

@@ -1,14 +1,13 @@
-/* One hash over what our methods answer on the built-in scenarios of two bodies: distance,
-   lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames; and one
-   over what they counted on the way (core/method/method.h), which is how they got there. The
-   same bits are expected of every compiler, optimisation and number of threads, again and
-   again.
+/* One hash over the answers of our methods on the built-in scenarios of two bodies: distance,
+   lower bound, witnesses and contact of 24 frames each, in eight leaps of three frames. A
+   second hash covers their counts (core/method/method.h), that is, how they got there. Every
+   compiler, optimisation, number of threads and repetition must give the same bits.
 
    answers [--runs N] [--threads K] [--check FILE]
    prints a line {scenario, method, hash, hash of counts} each, and one over all. --check:
-   compares with FILE, exit status 1 where a line differs. --threads: so many answer at once,
-   each a scenario and method of its own. Who changes a method on purpose renews
-   tests/answers.txt with what this prints, once make determinism agrees on it. */
+   compares with FILE; exit status 1 where a line differs. --threads: K jobs run at once, each
+   a scenario and a method of its own. If you change a method on purpose, renew
+   tests/answers.txt from this output once make determinism agrees on it. */
 #include "harness/scene/catalog.h"
 #include "harness/base/method_choice.h"
 #include "harness/base/options.h"
@@ -25,7 +24,7 @@
 
 static const char *const methods[] = {"certified", "stream", "particle:n=8",
                                       "particle-paper:n=5"};
-/* Built in minutes, and ww again. */
+/* Left out: these are built in minutes, and are ww again. */
 static const char *const large[] = {"ww-100k", "ww-1m", "ww-10m"};
 
 enum {
@@ -40,7 +39,7 @@ typedef struct job {
     const mote_scenario *scenario;
     const char *method;
     uint64_t hash, counts;
-    mote_status status; /* whether it is refused is part of the answer */
+    mote_status status; /* a refusal is part of the answer, too */
 } job;
 
 typedef struct work {
@@ -147,7 +146,7 @@ static bool is_large(const char *name)
     return found;
 }
 
-/* Scenarios are loaded here, one by one; each makes METHODS jobs. */
+/* Loads the scenarios one by one; each makes METHODS jobs. */
 static mote_status load(const mote_catalog *catalog, mote_scenario **scenarios, work *w)
 {
     mote_status status = MOTE_OK;
@@ -163,7 +162,7 @@ static mote_status load(const mote_catalog *catalog, mote_scenario **scenarios, 
     return status;
 }
 
-/* What is printed, as one text; the caller frees it. */
+/* The lines to print, as one text; the caller frees it. */
 static char *report(const work *w)
 {
     char *text = NULL;
@@ -182,7 +181,7 @@ static char *report(const work *w)
     return fclose(file) == 0 ? text : (free(text), NULL);
 }
 
-/* Prints lines of text that are not in expected; true when there is none. */
+/* Prints the lines of text that are not in expected; returns true if there are none. */
 static bool compare(const char *text, const char *expected)
 {
     if (strcmp(text, expected) == 0)
@@ -221,7 +220,7 @@ static bool read_options(int argc, char **argv, options *o)
     return good;
 }
 
-/* All runs; *same: each gave what the first gave, which is what --check names. */
+/* Does all runs. *same: each gave what the first gave, or what --check names. */
 static mote_status run(const options *o, work *w, bool *same)
 {
     char *first = NULL;

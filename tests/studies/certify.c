@@ -1,9 +1,9 @@
 /* make certify: is a proven lower bound ever above the truth, and how far is the distance from
-   it? Many frames of small deforming bodies, in small steps and in leaps, near and far, each
-   answered by certified queries with and without memory, slack and budget, and by all pairs of
-   triangles. Usage: certify [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where a
-   bound is above the truth, an answer below it, or an unstopped query is wrong, or its bracket
-   wide, by more than its slack and 1e-12 L. */
+   it? Small deforming bodies move in many frames, by small steps and by leaps, near and far.
+   Each frame is answered by certified queries with and without memory, slack and budget, and by
+   all pairs of triangles. Usage: certify [--queries N] [--out FILE] [--checks FILE]. Exit
+   status 1 where a bound is above the truth, an answer below it, or where an unstopped query's
+   error or bracket exceeds its slack by more than 1e-12 L. */
 #include "core/certificate/certificate.h"
 #include "tests/support/checks.h"
 #include "tests/support/shapes.h"

@@ -1,6 +1,6 @@
-/* character_glb FILE OUT.glb: a character as mote reads it, as a binary glTF of one mesh:
-   without materials, textures and names of meshes, with linear keys, four weights a vertex at
-   most. The characters in datasets/characters are made by it, so that they are small. */
+/* character_glb FILE OUT.glb: writes a character as mote reads it, as a binary glTF of one
+   mesh: without materials, textures and mesh names, with linear keys and at most four weights a
+   vertex. The characters in datasets/characters were made by it to be small. */
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/mesh/character.h"
@@ -101,7 +101,7 @@ static json_t *skin(writer *w)
     return json_pack("{s:i, s:o}", "inverseBindMatrices", number, "joints", joints);
 }
 
-/* Translation, rotation and scale of a map without shear. */
+/* Splits a map without shear into translation, rotation and scale. */
 static void split(const mote_affine *a, double t[3], double q[4], double s[3])
 {
     double m[3][3];
@@ -154,7 +154,7 @@ static json_t *nodes(const mote_rig *rig)
     return all;
 }
 
-/* A track that stays where it is needs one key. */
+/* A track that does not move needs one key. */
 static uint32_t needed_keys(const mote_rig *rig, const mote_rig_track *track, size_t width)
 {
     const double *values = rig->values + track->value;

@@ -1,12 +1,12 @@
-/* make characters: which files with animations are read as characters. Every file that is found
-   is imported as a mesh and as a character; of a character each clip is posed at 17 times, and
-   all vertices must be finite.
+/* make characters: which files with animations can be read as characters. Every file found is
+   imported as a mesh and as a character; each clip of a character is posed at 17 times, and all
+   vertices must be finite.
 
    Usage: characters FILE|FOLDER...
-   A line a file that has clips, {file, triangles, edges of more than two faces, bones, morph
-   targets, clips, said}, then the counts. Exit status 1 where a refusal is not one line that
-   names the file and what would be right, where a pose is not finite, or where no file was
-   read. */
+   Prints a line for each file with clips, {file, triangles, edges of more than two faces,
+   bones, morph targets, clips, said}, then the counts. Exit status 1 where a refusal is not one
+   line that names the file and what would be right, where a pose is not finite, or where no
+   file was read. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "harness/mesh/character.h"
 
@@ -81,7 +81,7 @@ static int visit(const char *path, const struct stat *info, int type, struct FTW
         note_read(path, c, &import.mesh);
     } else if (status != MOTE_OK && status != MOTE_EUNSUPPORTED &&
                mote_mesh_import(path, &mesh, NULL) == MOTE_OK) {
-        mote_mesh_destroy(mesh); /* a mesh, so that its animation is what is wrong */
+        mote_mesh_destroy(mesh); /* it is a mesh, so only its animation can be wrong */
         (void)mote_character_import_file(path, &c, &import);
         note_refused(path);
     }

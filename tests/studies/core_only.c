@@ -1,6 +1,5 @@
-/* The core without other libraries (tests/scripts/core_only.sh): what it answers is printed
-   with all digits, so that compilers and C libraries can be compared, and checked where it is
-   known. */
+/* The core without other libraries (tests/scripts/core_only.sh). Prints its answers with all
+   digits, to compare compilers and C libraries, and checks those that are known. */
 #include <mote/mote.h>
 
 #include <stdio.h>
@@ -52,7 +51,7 @@ static void check_mass(const mote_mesh *box)
     expect("axis of the least moment along z", fabs(x.z), 1, 1e-14);
 }
 
-/* A method on two boxes that deform; prints its distances. */
+/* Runs a method on two boxes that deform and prints its distances. */
 static void run_method(const char *name, const char *keys, const mote_body *body)
 {
     const mote_method *method = mote_method_find(name);

@@ -1,7 +1,7 @@
 /* make test-statistics: how often intervals of the median cover it, and how often a comparison
-   of a method with itself, and with one that takes 10 % longer, says faster or slower, on
-   simulated processes whose frames depend on each other as real ones do: every process has a
-   level of its own, all run the same frames, and neighbouring frames share their disturbance.
+   of a method with itself, or with one that takes 10 % longer, says faster or slower. The
+   simulated processes have frames that depend on each other as real ones do: every process has
+   a level of its own, all run the same frames, and neighbouring frames share their disturbance.
    Usage: interval_coverage [SETS]. */
 #include "harness/base/options.h"
 #include "harness/base/statistics.h"
@@ -61,8 +61,8 @@ static double log_median(gsl_rng *random)
     return log(mote_statistics_median(values, FRAMES));
 }
 
-/* The share of comparisons of a method with one that takes by this factor longer, of 10
-   replicates each, that say faster or slower at a floor of 2 %. */
+/* The share of comparisons that say faster or slower at a floor of 2 %: of a method with one
+   that takes `factor` times as long, with 10 replicates each. */
 static double alarms_of(gsl_rng *random, double factor, int comparisons)
 {
     int alarms = 0;

@@ -1,12 +1,11 @@
-/* make test-kill: a sweep killed (kill -9) at random times, and started again each time, until
-   it is done; then another one, until there were enough kills. After each kill every cell that
-   was finished must be there, whole, and as it was. Each sweep must end with the cells that
-   were planned, and with the summary of an uninterrupted one, times aside. Takes minutes, and
-   so is no part of make test.
+/* make test-kill: kills a sweep (kill -9) at random times and restarts it each time until it is
+   done; then does the same with another sweep, until there were enough kills. After each kill
+   every finished cell must be there, whole and unchanged. Each sweep must end with the planned
+   cells and with the summary of an uninterrupted one, times aside. It takes minutes, so make
+   test leaves it out.
 
-   kills DIR [KILLS [SEED [plant]]]: plant takes a row out of a finished cell, which must be
-   found.
-   */
+   kills DIR [KILLS [SEED [plant]]]: plant removes a row from a finished cell, which must be
+   found. */
 #include "harness/base/options.h"
 #include "harness/base/record.h"
 #include "tests/support/program.h"
@@ -25,7 +24,7 @@ typedef struct study {
     const char *base;
     char directory[256], said[256], line[640];
     uint64_t random;
-    uint64_t longest_us; /* kills come so long after the start at most */
+    uint64_t longest_us; /* the latest time after the start for a kill */
     unsigned kills, sweeps;
     bool plant;
     size_t survived; /* cells that were finished before a kill */
@@ -47,7 +46,7 @@ static uint64_t draw(study *s, uint64_t limit)
     return (z ^ (z >> 31)) % limit;
 }
 
-/* Times, and what is made of them. */
+/* Whether a key holds a time or is derived from times. */
 static bool is_time(const char *key)
 {
     static const char *const names[] = {"quiet",          "noise_floor", "smallest_change",
@@ -60,8 +59,8 @@ static bool is_time(const char *key)
     return time;
 }
 
-/* Heap bytes are what the allocator hands out, which depends by some bytes on what its process
-   has allocated before. */
+/* The share by which heap bytes may differ: the allocator's sizes depend by some bytes on what
+   its process has allocated before. */
 #define HEAP_SHARE 2e-3
 
 static bool same_values(const char *key, const json_t *a, const json_t *b)
@@ -82,7 +81,7 @@ static bool same_values(const char *key, const json_t *a, const json_t *b)
     if (!json_is_object(a) || !json_is_object(b))
         return json_equal(a, b);
     bool same = json_object_size(a) == json_object_size(b);
-    /* jansson's iterators want an object that could be written to. */
+    /* jansson's iterators take a mutable object. */
     union {
         const json_t *given;
         json_t *wanted;
@@ -108,7 +107,7 @@ static bool same_summaries(const char *a, const char *b)
     return same;
 }
 
-/* Takes the last row from the first finished cell, once. */
+/* Removes the last row of the first finished cell, once. */
 static bool plant_lost_row(study *s)
 {
     if (!s->plant || s->finished.count == 0)
@@ -124,14 +123,14 @@ static bool plant_lost_row(study *s)
     return mote_file_write(path, cell->csv, size) == MOTE_OK || fail(s, "no row to take away");
 }
 
-/* Starts the sweep and kills it at a random time; *done: it had ended by itself. */
+/* Starts the sweep and kills it at a random time. *done: it ended by itself before that. */
 static bool kill_once(study *s, bool *done)
 {
     const uint64_t us = draw(s, s->longest_us);
     const struct timespec pause = {(time_t)(us / 1000000), (long)(us % 1000000) * 1000};
     pid_t pid = program_start(s->line, s->said);
     int status = 0;
-    if (pid < 0) /* which kill would take for every process */
+    if (pid < 0) /* kill(-1) would mean every process */
         return fail(s, "no process");
     (void)nanosleep(&pause, NULL);
     (void)kill(pid, SIGKILL);
@@ -147,7 +146,7 @@ static bool kill_once(study *s, bool *done)
     return wrong ? fail(s, wrong) : true;
 }
 
-/* Runs what is left to its end, and checks the whole. */
+/* Runs the rest of the sweep to its end and checks the whole. */
 static bool finish(study *s, const char *whole)
 {
     if (program_wait(program_start(s->line, s->said)) != 0)

@@ -1,9 +1,9 @@
-/* make reliability's metamorphic part: changes of a scene that must not change an answer, or
-   only by a known factor. Scaled by a power of two, every method answers with the same bits;
-   with the bodies swapped, in another order, wound differently, moved rigidly or refined, exact
-   methods agree to 1e-12 L, and the errors of the others keep their quantiles.
-   Usage: metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit
-   status 1 where something broke. */
+/* The metamorphic part of make reliability: changes of a scene that must not change an answer,
+   or only by a known factor. Scaled by a power of two, every method must answer with the same
+   bits. With the bodies swapped, reordered, wound differently, moved rigidly or refined, exact
+   methods must agree to 1e-12 L, and the errors of the others must keep their quantiles. Usage:
+   metamorphic [--queries N] [--out FILE] [--checks FILE]: N queries a change. Exit status 1
+   where something broke. */
 #include "harness/engine/engine.h"
 #include "harness/base/statistics.h"
 #include "tests/support/checks.h"
@@ -22,7 +22,8 @@ static const char *const methods[METHODS] = {
 
 static const double quantiles[QUANTILES] = {0.5, 0.9, 0.99};
 
-/* Errors over L of a method at the frames before a leap, which know little of each other. */
+/* Errors of a method over L, at the frames before a leap, which are nearly independent of each
+   other. */
 typedef struct errors {
     double *of_base, *of_twin;
     size_t count;
@@ -31,10 +32,10 @@ typedef struct errors {
 typedef struct relation {
     const char *name;
     twin_change change;
-    bool same_bits; /* of every method, but for the factor; else to 1e-12 L of exact ones */
+    bool same_bits; /* every method, apart from the factor; otherwise exact ones to 1e-12 L */
     bool rigid;     /* scenes without deformation only */
-    bool keeps_vertices; /* so errors of particles, which walk on vertices, keep their quantiles
-                          */
+    bool keeps_vertices; /* then the errors of particles, which walk on vertices, keep their
+                            quantiles */
     uint64_t tried, failed;
     double difference; /* the largest of exact methods, over L */
     errors errors[METHODS];
@@ -128,7 +129,7 @@ static bool compare_frame(relation *r, pair *p, bool sampled)
             r->failed +=
                 r->same_bits ? !scaled(&base, &twin, scale) : !(difference <= ROUNDING);
         } else if (!(difference < HUGE_VAL)) {
-            ++r->failed; /* no number is no error */
+            ++r->failed; /* NaN is not a valid answer */
         }
         if (m < EXACT && !(difference <= r->difference))
             r->difference = difference;
@@ -154,8 +155,7 @@ static bool run_pair(relation *r, uint32_t index)
     return good;
 }
 
-/* Whether the intervals of a quantile, four standard errors of its rank wide on each side,
-   overlap. */
+/* Whether the quantiles' intervals, four standard errors of the rank to each side, overlap. */
 static bool quantile_kept(const errors *e, double q)
 {
     const double spread = 4 * sqrt(q * (1 - q) / (double)e->count);
@@ -166,7 +166,7 @@ static bool quantile_kept(const errors *e, double q)
                mote_statistics_quantile(e->of_twin, e->count, high);
 }
 
-/* Compares the quantiles of errors; counts them as tried, and as failed where they moved. */
+/* Compares the quantiles of errors; counts each as tried, and as failed if it moved. */
 static void compare_quantiles(relation *r)
 {
     for (int m = EXACT; m < METHODS && r->keeps_vertices; ++m) {

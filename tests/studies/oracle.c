@@ -1,17 +1,17 @@
-/* The oracle study: the distance of two triangles by our kernel, by FCL and by libccd, against
-   exact arithmetic for contact and 113 bits for distance, on random pairs of which most are
-   hard.
+/* The oracle study: the distance of two triangles by our kernel, by FCL and by libccd, on
+   random pairs that are mostly hard. Contact is judged by exact arithmetic, distance by 113
+   bits.
 
        oracle [--pairs N] [--seed S] [--stride K] [--agreement A] [--out FILE.json]
 
-   and, with a stride, whether two methods agree to A L (1e-12) on every K-th frame of the
-   built-in scenarios.
+   With a stride, it also checks whether two methods agree to A L (1e-12) on every K-th frame of
+   the built-in scenarios.
 
-   Prints tables; exit 1 when a requirement is not met: no wrong contact of ours in the strict
-   band, no error of ours above 1e-15 of the pair's extent, aabb-tree right in every frame.
-   Verdicts are counted in three bands: strict (apart, or overlapping, by more than 1e-15 of the
-   extent), touching (overlapping by less), near (apart by less). The same pairs for any number
-   of threads. */
+   Prints tables; exit status 1 when a requirement is not met: our kernel has no wrong contact
+   in the strict band and no error above 1e-15 of the pair's extent, and aabb-tree is right in
+   every frame. Verdicts are counted in three bands: strict (apart, or overlapping, by more than
+   1e-15 of the extent), touching (overlapping by less), near (apart by less). The pairs do not
+   depend on the number of threads. */
 #include "tests/support/peers/ccd_triangle.h"
 #include "tests/support/peers/fcl_triangle.h"
 #include "core/body/triangle.h"
@@ -30,14 +30,15 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Half the width of what is not strict, and the largest error allowed, over the extent. */
+/* Half the width of the band that is not strict, and the largest error allowed, over the
+   extent. */
 #define BAND 1e-15
 
 typedef enum band { BAND_STRICT, BAND_TOUCHING, BAND_NEAR, BANDS } band;
 
 static const char *const band_names[BANDS] = {"strict", "touching", "near"};
 
-/* One way to measure a pair: its distance; one without a distance says 0 or 1. */
+/* One way to measure a pair: returns its distance, or 0 or 1 if it reports contact only. */
 typedef struct engine {
     const char *name, *what;
     bool has_distance;
@@ -49,8 +50,8 @@ static double by_mote(const mote_vec3 s[3], const mote_vec3 t[3])
     return sqrt(mote_triangle_triangle(s, t, NULL, NULL));
 }
 
-/* As our FCL baselines do it: brought to a size of about 2^20, beyond FCL's absolute threshold.
- */
+/* As in our FCL baselines: scaled to a size of about 2^20, far above FCL's absolute
+   threshold. */
 static double by_fcl_scaled(const mote_vec3 s[3], const mote_vec3 t[3])
 {
     mote_vec3 a[3], b[3];
@@ -97,14 +98,15 @@ static const char *const sort_names[PAIR_SORTS] = {
     [PAIR_ULPS] = "touching to a few ulp",
 };
 
-/* Sorts that are not degenerate, touching, coplanar or within a few units in the last place. */
+/* Sorts that are neither degenerate, touching, coplanar nor within a few units in the last
+   place. */
 static bool is_easy(pair_sort sort)
 {
     return sort == PAIR_GENERAL || sort == PAIR_BESIDE || sort == PAIR_APART ||
            sort == PAIR_SIZES;
 }
 
-/* What one engine did in one band. */
+/* Results of one engine in one band. */
 typedef struct score {
     uint64_t missed, false_contacts;
     uint64_t off; /* errors above 1e-12 of the extent */
@@ -125,8 +127,8 @@ typedef struct job {
     bool failed;
 } job;
 
-/* How deep two triangles that touch are in each other: the shortest move that parts them, by
-   the overlaps along all normals. */
+/* The penetration depth of two touching triangles: the shortest move that parts them, from the
+   overlaps along all normals. */
 static double overlap_depth(const mote_vec3 s[3], const mote_vec3 t[3])
 {
     double depth = HUGE_VAL;
@@ -153,7 +155,7 @@ static double overlap_depth(const mote_vec3 s[3], const mote_vec3 t[3])
     return depth;
 }
 
-/* Asks one engine about one pair of which the truth is known. */
+/* Asks one engine about a pair whose truth is known. */
 static double judge(const engine *e, const mote_vec3 s[3], const mote_vec3 t[3], bool touch,
                     double truth, double extent, score *to)
 {

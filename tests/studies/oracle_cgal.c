@@ -2,14 +2,14 @@
 
        oracle_cgal [--pairs N] [--frames N]
 
-   Pairs: the oracle's random pairs, most of them hard, but for those of exactly degenerate
-   triangles. Frames: of mv, tt-distance and ww, evenly; every pair of triangles of which the
-   boxes are no farther apart than the distance that `certified` gives is measured by CGAL,
-   the nearest boxes first, so that the whole frame is decided.
+   Pairs: the oracle's random pairs, most of them hard, except those of exactly degenerate
+   triangles. Frames: evenly spaced ones of mv, tt-distance and ww. CGAL measures every pair of
+   triangles whose boxes are no farther apart than the distance from `certified`, the nearest
+   boxes first, so the whole frame is decided.
 
-   Prints what it found; exit 1 where a distance of ours is off by more than 1e-15 of the pair's
-   extent, or that of a frame by more than 1e-12 L. Where CGAL's own distance of two triangles
-   contradicts its predicate and its distances of edges and corners, that is counted, too. */
+   Prints what it found; exit status 1 where our distance is off by more than 1e-15 of the
+   pair's extent, or that of a frame by more than 1e-12 L. Also counts where CGAL's own distance
+   of two triangles contradicts its predicate and its distances of edges and corners. */
 #include "harness/engine/engine.h"
 #include "core/body/deform.h"
 #include "core/body/triangle.h"
@@ -22,12 +22,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Errors that are allowed: of a pair over its extent, of a frame over L. */
+/* Errors allowed: of a pair over its extent, of a frame over L. */
 #define PAIR_ERROR 1e-15
 #define FRAME_ERROR 1e-12
 
 typedef struct tally {
-    uint64_t asked, degenerate, off, itself; /* itself: CGAL against CGAL */
+    uint64_t asked, degenerate, off, itself; /* itself: CGAL contradicts CGAL */
     double worst;
 } tally;
 

@@ -61,7 +61,8 @@ static double coordinate(const mote_vec3 *v, int k)
     return k == 0 ? v->x : k == 1 ? v->y : v->z;
 }
 
-/* Takes all coordinates as integers times 2^exponent with the smallest exponent among them. */
+/* Converts all coordinates to integers times 2^exponent, with the smallest exponent among
+   them. */
 static void take_corners(exact *e, const mote_vec3 *corner[6])
 {
     int smallest = INT_MAX, exponent;
@@ -119,8 +120,8 @@ static bool separates(exact *e, const vector *axis)
     return mpz_cmp(e->low[0], e->high[1]) > 0 || mpz_cmp(e->low[1], e->high[0]) > 0;
 }
 
-/* The first edge that is not zero, and a normal of it with another; the number of dimensions
-   that the edges span (2 stands for 2 and 3). */
+/* Returns the number of dimensions that the edges span (2 stands for 2 and 3). *line: the first
+   nonzero edge; e->normal: its cross product with an edge that is not parallel to it. */
 static int span(exact *e, const vector **line)
 {
     *line = NULL;
@@ -148,7 +149,8 @@ static bool is_solid(exact *e)
     return false;
 }
 
-/* Three dimensions: the normals of both triangles, and of each edge with each. */
+/* Three dimensions: the axes are both triangles' normals and the cross products of their
+   edges. */
 static bool apart_in_space(exact *e)
 {
     for (int i = 0; i < 6; i += 3) {
@@ -164,7 +166,7 @@ static bool apart_in_space(exact *e)
     return false;
 }
 
-/* Two: the normal of the plane, and the normals of the edges in it. */
+/* Two dimensions: the normal of the plane, and the normals of the edges within it. */
 static bool apart_in_plane(exact *e)
 {
     if (separates(e, &e->normal))
@@ -177,7 +179,8 @@ static bool apart_in_plane(exact *e)
     return false;
 }
 
-/* One: off the line (three axes that span all directions across it), or along it. */
+/* One dimension: axes across the line (three that span all directions across it), then along
+   it. */
 static bool apart_on_line(exact *e, const vector *line)
 {
     for (int k = 0; k < 3; k++) {

@@ -18,8 +18,8 @@ typedef struct exact_verdict {
     bool solid; /* their edges span space: only then can one be inside the other's surface */
 } exact_verdict;
 
-/* By the theorem of separating axes for the difference of two convex polytopes of any
-   dimension. No rounding anywhere. Coordinates are finite. About 10 us. */
+/* By the separating axis theorem for the difference of two convex polytopes of any dimension.
+   No rounding anywhere. Coordinates are finite. About 10 us. */
 exact_verdict exact_triangles(exact *e, const mote_vec3 s[3], const mote_vec3 t[3]);
 
 #endif

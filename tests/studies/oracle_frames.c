@@ -23,7 +23,8 @@ typedef struct court {
     mote_frame_buffer *buffer;
     mote_engine *probe[JUDGES];
     json_t *disputed;
-    double agreement, difference; /* over L: what is no dispute, and the largest */
+    double agreement, difference; /* over L: the largest difference that is not disputed, and
+                                     the largest found */
     uint32_t frames, wrong[2];
 } court;
 

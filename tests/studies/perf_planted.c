@@ -1,6 +1,6 @@
-/* make test-perf: what a comparison of runs catches. The same build is measured again and
-   again, unchanged, then with a slowdown and with an extra count planted into a copy of one
-   method; takes minutes, and so is no part of make test.
+/* make test-perf: what a comparison of runs catches. Measures the same build again and again:
+   unchanged, then with a slowdown and with an extra count planted into a copy of one method. It
+   takes minutes, so make test leaves it out.
 
    perf_planted DIR [RUNS] */
 #include "harness/summary/compare.h"
@@ -37,7 +37,7 @@ static mote_status counting_query(void *state, const mote_frame *frame, mote_ans
     return status;
 }
 
-/* Measures the fixed set with a query in the place of the victim's (NULL: its own). */
+/* Measures the fixed set with a query instead of the victim's (NULL: its own). */
 static mote_status measure(const char *directory,
                            mote_status (*query)(void *, const mote_frame *, mote_answer *))
 {
@@ -87,7 +87,7 @@ static mote_status measure(const char *directory,
     return status;
 }
 
-/* Measures and compares with the first run; what: printed. */
+/* Measures and compares with the first run; what: the label to print. */
 static mote_status try_one(const char *base, const char *directory, const char *what,
                            mote_status (*query)(void *, const mote_frame *, mote_answer *),
                            bool *worse)

@@ -3,13 +3,13 @@
 
        MOTE_PLANT=slow:METHOD:SHARE     each query takes that share longer
        MOTE_PLANT=clock:NS              reading the clock takes that much longer, unnoticed by
-                                        what measures its cost
-       MOTE_PLANT=answer:METHOD:SHIFT   distances are that much larger
+                                        the measurement of its cost
+       MOTE_PLANT=answer:METHOD:SHIFT   distances are larger by SHIFT
        MOTE_PLANT=crash:METHOD:FRAME    the process ends in this frame
-       MOTE_PLANT=count:METHOD:N        each query counts that many more box tests
+       MOTE_PLANT=count:METHOD:N        each query counts N more box tests
        MOTE_PLANT=lack:METHOD:0         it does not have this method
 
-   SHARE 0 is what it is compared with: the same program, with the same readings of the clock.
+   SHARE 0 is the program to compare with: the same code, with the same readings of the clock.
    mote_method_find and mote_clock_ns are wrapped (tests/CMakeLists.txt). */
 #include "harness/base/memory.h"
 #include "harness/race/race_child.h"
@@ -43,7 +43,7 @@ const mote_method *__wrap_mote_method_find(const char *name);
 uint64_t __real_mote_clock_ns(void);
 uint64_t __wrap_mote_clock_ns(void);
 
-/* Work that memory, caches and branches have no part in. */
+/* Work that does not depend on memory, caches or branches. */
 static void work(double ns)
 {
     const uint64_t steps = ns > 0 ? (uint64_t)(ns * plant.steps_a_ns) : 0;

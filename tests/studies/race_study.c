@@ -1,9 +1,9 @@
-/* make perf-study: how often the verdicts of a race are wrong, and how long they take.
+/* make perf-study: how often the verdicts of a race are wrong, and how long races take.
 
    race_study run PROGRAMS OUT RACES PLANTED   races builds of race_planted (PROGRAMS: a folder
    of them, linked in different orders) against each other: RACES times unchanged, and PLANTED
    times with each slowdown; each on the machine as it is and beside a compiler on the other
-   core. A line a race is added to OUT/races.csv; what has its line is not raced again.
+   core. Each race adds a line to OUT/races.csv; a race that has its line is not run again.
    race_study table RACES.csv BASE             prints the shares as a table, and writes BASE.dat
    for plots/power.gp */
 #include "harness/base/clock.h"
@@ -33,11 +33,10 @@ static const char *const places[] = {"idle", "compiler", "busy"};
 static const char *const place_titles[] = {"idle", "beside a compiler", "busy machine"};
 #define PLACES_RACED 2
 #define PLACES 3
-/* Where other processes keep more than this many cores busy before a race or after it, it is
-   kept as one of a busy machine, whatever it was meant to be, and is raced again another time.
- */
+/* If other processes keep more than this many cores busy before or after a race, the race is
+   recorded as one of a busy machine, whatever it was meant to be, and run again later. */
 #define BUSY_CORES 0.25
-/* What the compiler had begun is done after this long. */
+/* Time for the compiler to finish what it had begun. */
 #define COMPILATION_SECONDS 3
 static const int sizes[] = {1, 2, 3, 5, 10}; /* per cent */
 #define SIZES (sizeof sizes / sizeof sizes[0])
@@ -61,8 +60,8 @@ static const mote_race_cell cells[] = {
      .last = 1149,
      .seed = 1}};
 #define CELLS (sizeof cells / sizeof cells[0])
-/* A frame of the certified query on ww takes this long where it was tried: what a share of the
-   clock path is a share of. The ratio that a race finds stands beside it. */
+/* The time of a frame of the certified query on ww where this was tried: the base of the clock
+   path's shares. The table gives the measured ratio beside it. */
 #define CERTIFIED_NS 10200.0
 
 typedef struct study {
@@ -71,7 +70,7 @@ typedef struct study {
     uint64_t start;
 } study;
 
-/* A folder of wrappers that run the programs with something planted; returns its path. */
+/* Makes a folder of wrappers that run the programs with something planted; returns its path. */
 static mote_status make_racers(const study *s, const char *name, const char *plant,
                                mote_race_builds *builds)
 {
@@ -97,7 +96,7 @@ static mote_status make_racers(const study *s, const char *name, const char *pla
     return status;
 }
 
-/* What the compiler does on the other core, again and again. */
+/* Compiles on the other core, again and again. */
 static mote_status compile(void *context, int output)
 {
     static const char *const argv[] = {"cc",
@@ -137,7 +136,7 @@ static void add_line(study *s, const char *key, const mote_race *race, size_t na
                   row->interval.low, row->interval.high, race->pairs, race->seconds, busy);
 }
 
-/* Races once, unless its line is there. size 0: unchanged. */
+/* Races once, unless its line exists. size 0: unchanged. */
 static mote_status race_once(study *s, size_t place, const kind *k, int size, uint64_t number)
 {
     char *key =
@@ -197,7 +196,7 @@ static mote_status race_once(study *s, size_t place, const kind *k, int size, ui
     return status;
 }
 
-/* In rounds, so that a study that is stopped has as much of everything. */
+/* Goes in rounds, so an interrupted study has an equal number of each race. */
 static mote_status run_rounds(study *s, uint64_t races, uint64_t planted)
 {
     mote_status status = MOTE_OK;

@@ -1,17 +1,16 @@
-/* make readers: our readers of mesh files beside assimp's. Every OBJ and OFF file that is found
-   is read by both; every other mesh that assimp reads is written as OBJ and as OFF first, its
-   faces as they are. Where both accept a file the surfaces must have the same area, volume and
-   bounds, and no point of one may be off the other, but for the rounding to 32-bit floats that
-   assimp does and the thickness of faces that are not flat, of which each makes other
-   triangles.
+/* make readers: compares our readers of mesh files with assimp's. Both read every OBJ and OFF
+   file found; every other mesh that assimp reads is first written as OBJ and as OFF, with its
+   faces unchanged. Where both accept a file, the surfaces must have the same area, volume and
+   bounds, and no point of one may be off the other. Allowed are assimp's rounding to 32-bit
+   floats and the thickness of faces that are not flat, which the two triangulate differently.
 
    Usage: readers [--plant] --out DIR FILE|FOLDER...
    Each file is also imported as mote imports it; a refusal must be one line that names the file
-   and what would be right. DIR/readers.tsv has a row a reading, DIR/readers.md and standard
-   output the table. --plant puts fans in the place of our triangles.
+   and what would be right. DIR/readers.tsv has a row a reading; DIR/readers.md and standard
+   output have the table. --plant replaces our triangles by fans.
 
-   Exit status 1 where readings differ, unless the area of the faces by Newell's formula shows
-   that assimp's is the wrong one; where a refusal is not clear; where nothing was compared. */
+   Exit status 1 where readings differ, unless the faces' area by Newell's formula shows that
+   assimp's is wrong; where a refusal is not clear; where nothing was compared. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
@@ -34,7 +33,7 @@
 
 typedef enum verdict {
     SAME,
-    NOT_FLAT, /* the same but for the thickness of faces that are not flat */
+    NOT_FLAT, /* the same apart from the thickness of faces that are not flat */
     ASSIMP_WRONG,
     DIFFERENT,
     WE_REFUSE,
@@ -54,7 +53,7 @@ static const char *const kind_names[KINDS] = {"OBJ files", "OFF files", "others 
 typedef struct reading {
     const char *path; /* of the model */
     model_kind kind;
-    const char *written; /* where AS_OBJ and AS_OFF are put */
+    const char *written; /* where AS_OBJ and AS_OFF are written */
     bool plant;
 } reading;
 
@@ -63,7 +62,7 @@ typedef struct row {
     difference d;
     double faces_area; /* Newell's */
     size_t triangles;
-    char said[SAID_MAX]; /* by who refuses */
+    char said[SAID_MAX]; /* by the reader that refuses */
 } row;
 
 static bool write_polygons(const char *path, const polygons *p, bool is_off)
@@ -104,7 +103,7 @@ static bool read_ours(const char *path, surface *s, char *said)
     return true;
 }
 
-/* Compares as if faces were flat, then with their thickness. */
+/* Compares with faces taken as flat, then with their thickness. */
 static verdict judge(row *r, const surface *ours, const surface *theirs, double thickness)
 {
     r->d = surface_compare(ours, theirs, 0);
@@ -118,7 +117,7 @@ static verdict judge(row *r, const surface *ours, const surface *theirs, double 
     return we_are_right && !assimp_is_right ? ASSIMP_WRONG : DIFFERENT;
 }
 
-/* Both readings of one file, whose faces p holds. */
+/* Reads one file both ways; p holds its faces. */
 static void read_both(const char *path, const polygons *p, bool plant, row *r)
 {
     surface ours, theirs;
@@ -150,7 +149,8 @@ static void silence(void)
         (void)dup2(nowhere, STDERR_FILENO);
 }
 
-/* In a child: assimp may crash. Puts a row, or nothing where assimp knows no face to write. */
+/* Runs in a child, because assimp may crash. Writes a row, or nothing if assimp has no face to
+   write. */
 static mote_status look(void *context, int output)
 {
     const reading *one = context;
@@ -175,7 +175,7 @@ static mote_status look(void *context, int output)
 
 typedef struct tally {
     size_t of[VERDICTS], compared;
-    double farthest; /* of those that are the same, in L */
+    double farthest; /* among the equal ones, in L */
 } tally;
 
 typedef struct study {
@@ -183,7 +183,7 @@ typedef struct study {
     bool plant;
     FILE *rows;
     size_t imported, refused,
-        unclear; /* files; of the refusals, those that are no clear line */
+        unclear; /* files; unclear: refusals that are not one clear line */
     tally tallies[KINDS];
 } study;
 

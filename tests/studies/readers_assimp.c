@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What is done with each face of three or more corners: at[size] are their places. */
+/* Receives each face of three or more corners; at[size] are its positions. */
 typedef void (*take_face)(void *context, const mote_vec3 *at, unsigned size);
 
 static mote_vec3 place(const struct aiMatrix4x4 *m, const struct aiVector3D *v)

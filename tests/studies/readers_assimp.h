@@ -1,4 +1,4 @@
-/* Meshes as assimp reads and triangulates them, with nothing of harness/mesh in between. */
+/* Meshes as assimp reads and triangulates them, without any code of harness/mesh. */
 #ifndef MOTE_TESTS_READERS_ASSIMP_H
 #define MOTE_TESTS_READERS_ASSIMP_H
 
@@ -15,18 +15,18 @@ typedef struct polygons {
     size_t vertex_capacity, corner_capacity, face_capacity;
 } polygons;
 
-/* The faces of a file in any format, or no face: said is what assimp says then. */
+/* Reads the faces of a file in any format. If there are none, said is assimp's message. */
 void polygons_read(const char *path, polygons *p, char *said, size_t size);
 void polygons_free(polygons *p);
 
 /* The same, triangulated by assimp. */
 void surface_read_assimp(const char *path, surface *s, char *said, size_t size);
 
-/* What the area must be if every face is flat and simple: the sum of Newell's. *thickness: how
-   far a corner is from the plane of its face at most, times two. */
+/* The area if every face is flat and simple: the sum of Newell's. *thickness: twice the largest
+   distance of a corner from the plane of its face. */
 double polygons_area(const polygons *p, double *thickness);
 
-/* As triangles, each face a fan from its first corner: right where a face is convex. */
+/* Triangulates each face as a fan from its first corner, which is right for convex faces. */
 void surface_of_fans(const polygons *p, surface *s);
 
 #endif

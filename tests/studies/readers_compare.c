@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* assimp's reading of a number is off by a few units of the last bit of a float. */
+/* assimp's parsing of a number is off by a few units in the last place of a float. */
 #define ROUNDING ldexp(8, -24)
 #define SLICES 1024
 
@@ -48,7 +48,8 @@ static bool is_near(const box *b, mote_vec3 p, double reach)
            p.y <= b->high.y + reach && p.z >= b->low.z - reach && p.z <= b->high.z + reach;
 }
 
-/* Triangles in slices of equal width along the first axis, each in all that it touches. */
+/* Triangles in slices of equal width along the first axis; each is in all slices that it
+   touches. */
 typedef struct slices {
     const surface *of;
     box *boxes;
@@ -98,7 +99,7 @@ static double distance_from(const surface *s, size_t triangle, mote_vec3 p)
     return sqrt(mote_point_triangle(p, s->at + 3 * triangle, &closest));
 }
 
-/* Where a triangle is within reach, any such; the nearest of all otherwise. */
+/* The distance of any triangle within reach; of the nearest triangle if none is. */
 static double distance_of_point(const slices *s, mote_vec3 p)
 {
     const size_t slice = slice_at(s, p.x);
@@ -115,7 +116,7 @@ static double distance_of_point(const slices *s, mote_vec3 p)
     return least;
 }
 
-/* How far a point of one surface is from the other. */
+/* The largest distance of a point of one surface from the other. */
 static double farthest(const surface *from, const surface *to, double reach)
 {
     slices s;
@@ -137,7 +138,7 @@ static double farthest(const surface *from, const surface *to, double reach)
 
 typedef struct sums {
     double area, volume;
-    double area_slope, volume_slope; /* change for each unit that the corners move, at most */
+    double area_slope, volume_slope; /* largest change per unit that the corners move */
 } sums;
 
 static sums sum_up(const surface *s, mote_vec3 middle)

@@ -16,8 +16,8 @@ typedef struct surface {
 void surface_add(surface *s, mote_vec3 a, mote_vec3 b, mote_vec3 c);
 void surface_free(surface *s);
 
-/* Differences of a surface from another, and how large they may be where coordinates went
-   through 32-bit floats and a face is no flatter than its thickness. */
+/* Differences of a surface from another, and how large they may be after coordinates went
+   through 32-bit floats and with faces as thick as given. */
 typedef struct difference {
     double size; /* L, the diagonal of the first surface's box */
     double area[2], area_allowed;
@@ -27,7 +27,7 @@ typedef struct difference {
     double length_allowed;            /* for bounds and distances */
 } difference;
 
-/* Looks at corners, the middles of sides and the centroid of every triangle. Both surfaces have
+/* Compares at the corners, edge midpoints and centroid of every triangle. Both surfaces have
    triangles. */
 difference surface_compare(const surface *ours, const surface *theirs, double thickness);
 

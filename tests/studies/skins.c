@@ -1,11 +1,11 @@
-/* make skins: certified queries of random skins and morph targets against a tree of boxes that
-   is refitted to deformed vertices (aabb-tree, which shares no bound with them), and against
-   all pairs of triangles where these two differ and now and then. Bones are any affine
-   matrices: near rest or wild, stretched, sheared, mirrored, singular; from 1 to some hundreds,
-   one or many of a vertex. Half of the poses leap, half are small steps. The boxes of every
-   fourth query are held against every vertex that is in them. Usage: skins [--queries N] [--out
-   FILE] [--checks FILE]. Exit status 1 where a distance is wrong by more than 1e-12 L, a lower
-   bound above the truth, or a vertex outside of a box. */
+/* make skins: checks certified queries of random skins and morph targets against a tree of
+   boxes refitted to deformed vertices (aabb-tree, which shares no bound with them), and against
+   all pairs of triangles where the two differ and occasionally elsewhere. Bones are any affine
+   matrices: near rest or wild, stretched, sheared, mirrored, singular; there are 1 to some
+   hundreds of them, one or several a vertex. Half of the poses leap, half are small steps.
+   Every fourth query checks its boxes against every vertex inside. Usage: skins [--queries N]
+   [--out FILE] [--checks FILE]. Exit status 1 where a distance is wrong by more than 1e-12 L, a
+   lower bound is above the truth, or a vertex is outside its box. */
 #include "tests/support/checks.h"
 #include "tests/support/skin_scene.h"
 
@@ -22,7 +22,7 @@ typedef struct counts {
     double largest_error;       /* over L */
 } counts;
 
-/* The truth of a scene: the other method's state, and room for its answer. */
+/* The reference for a scene: the other method's state, and room for its answer. */
 typedef struct other {
     const mote_method *method;
     void *state;
@@ -32,7 +32,7 @@ typedef struct other {
 static void check_vertex(scene *s, const mote_certificate *c, int b, const mote_cert_node *node,
                          size_t l, uint32_t vertex, counts *n)
 {
-    /* where the bodies touch there is no direction between them */
+    /* bodies that touch have no direction between them */
     const bool faced = node->generation == c->generation && c->upper > 0;
     ++n->vertices;
     if ((faced && !in_reach(s, c, b, node, l, vertex)) ||
@@ -55,7 +55,7 @@ static void check_below(scene *s, const mote_certificate *c, int b, const mote_c
         check_vertex(s, c, b, node, l, tree->leaf_vertices[leaf->first_vertex + i], n);
 }
 
-/* All boxes that the last query has deformed and kept. */
+/* Checks all boxes that the last query deformed and kept. */
 static void check_boxes(scene *s, const mote_certificate *c, counts *n)
 {
     for (int b = 0; b < 2; ++b) {
@@ -90,7 +90,7 @@ static bool ask_other(const other *o, scene *s, double *distance)
     return good;
 }
 
-/* One query; false where the other method could not answer. */
+/* Runs one query; false where the other method could not answer. */
 static bool check(skinned *k, mote_certificate *c, const other *o, counts *n)
 {
     scene *s = &k->s;

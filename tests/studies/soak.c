@@ -1,8 +1,8 @@
 /* make soak: random scenarios, each frame answered by our methods and judged by the truth. A
-   case that fails is shrunk and kept as DIR/cases/SEED.json; put it into tests/cases, with
-   paths of meshes from there, and it is a test. Usage: soak [--hours H | --cases N] [--seed S]
-   [--out DIR] [--checks FILE] [--plant], or soak --replay FILE...: S is the first case's seed;
-   DIR/soak.json and soak.csv have the errors of each method by decades; --plant alters one
+   case that fails is shrunk and kept as DIR/cases/SEED.json; to make it a test, put it into
+   tests/cases, with mesh paths relative to there. Usage: soak [--hours H | --cases N] [--seed
+   S] [--out DIR] [--checks FILE] [--plant], or soak --replay FILE...: S is the first case's
+   seed; DIR/soak.json and soak.csv have each method's errors by decades; --plant alters one
    answer of the first case, which must then be found. Exit status 1 where something failed. */
 #include "tests/support/checks.h"
 
@@ -25,7 +25,7 @@ typedef struct soak {
     const char *out, *checks;
     bool plant;
     uint64_t tried, refused, failed, settled;
-    uint64_t otherwise; /* failed by other than a certified answer */
+    uint64_t otherwise; /* failures other than of a certified answer */
     soak_tally sum[SOAK_METHODS];
 } soak;
 
@@ -46,7 +46,7 @@ static void add(soak *s, const soak_verdict *verdict)
     }
 }
 
-/* Says what failed, shrinks it and keeps its file. */
+/* Reports what failed, shrinks the case and keeps its file. */
 static mote_status keep(soak *s, uint64_t seed, json_t *scenario, const char *path,
                         mote_status failure, soak_plant plant, soak_verdict verdict)
 {
@@ -65,7 +65,7 @@ static mote_status keep(soak *s, uint64_t seed, json_t *scenario, const char *pa
     return status;
 }
 
-/* Whether a case failed by something that the counts of certified answers do not hold. */
+/* Whether a case failed by something that the counts of certified answers do not include. */
 static bool fails_otherwise(mote_status judged, const soak_verdict *verdict)
 {
     bool wrong = judged == MOTE_EIO;
@@ -100,7 +100,7 @@ static mote_status run_case(soak *s, uint64_t seed)
     return status;
 }
 
-/* All certified methods together; the truth is not one of them. */
+/* The sum over all certified methods, which do not include the truth. */
 static soak_tally certified_sum(const soak *s)
 {
     soak_tally sum = {0};
@@ -150,7 +150,7 @@ static mote_status write_json(const soak *s)
     return written == 0 ? MOTE_OK : mote_fail(MOTE_EIO, "cannot write %s", path);
 }
 
-/* A line a method: how many errors lie in each decade of L, the first below 1e-16. */
+/* Writes a line a method: how many errors lie in each decade of L, the first below 1e-16. */
 static mote_status write_csv(const soak *s)
 {
     char path[4096];

@@ -13,7 +13,7 @@ static double uniform(mote_random *dice, double low, double high)
     return low + (high - low) * mote_random_unit(dice);
 }
 
-/* Evenly spread over orders of magnitude. */
+/* Uniform in the logarithm. */
 static double spread(mote_random *dice, double low, double high)
 {
     return low * pow(high / low, mote_random_unit(dice));
@@ -59,7 +59,7 @@ static json_t *make_field(mote_random *dice)
                      spread(dice, 1e-4, 0.3), "periods", period, 2 * period);
 }
 
-/* Poses on a grid, turned by right angles: parallel faces and exact ties. */
+/* Poses on a grid, turned by multiples of 90 degrees: parallel faces and exact ties. */
 static json_t *grid_key(mote_random *dice, int frame, bool moving)
 {
     double axis[3] = {0};
@@ -73,7 +73,7 @@ static json_t *grid_key(mote_random *dice, int frame, bool moving)
                      vector(place[0], place[1], place[2]));
 }
 
-/* Any rotation, in any direction at a distance up to reach. */
+/* Any rotation, at a distance of up to reach in any direction. */
 static json_t *free_key(mote_random *dice, int frame, double reach)
 {
     double q[4], d[3], turn = 0, way = 0;
@@ -92,7 +92,7 @@ static json_t *free_key(mote_random *dice, int frame, double reach)
                      vector(far * d[0], far * d[1], far * d[2]));
 }
 
-/* spacing: frames from one key to the next; at 1 every frame is a leap. */
+/* spacing: frames between keys; at 1 every frame is a leap. */
 static json_t *make_motion(mote_random *dice, int spacing, bool grid, bool moving)
 {
     json_t *keys = json_array();

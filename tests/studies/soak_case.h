@@ -8,8 +8,8 @@
 #include <jansson.h>
 #include <stdint.h>
 
-/* The scenario of that seed, as its file's JSON; the same on every machine. Meshes are named by
-   paths from the folder meshes. The caller drops it; NULL when memory ran out. */
+/* The scenario of a seed, as its file's JSON; the same on every machine. Mesh paths are
+   relative to the folder meshes. The caller drops it; NULL when memory ran out. */
 json_t *soak_case_make(uint64_t seed, const char *meshes);
 
 /* Writes it as a scenario file. */

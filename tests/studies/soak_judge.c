@@ -25,7 +25,7 @@ typedef struct bench {
     bool stop;
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
-    mote_engine *probe[SOAK_METHODS + 1]; /* the last settles; made when needed */
+    mote_engine *probe[SOAK_METHODS + 1]; /* the last one settles; opened when needed */
     soak_verdict verdict;
 } bench;
 
@@ -67,7 +67,7 @@ static bool is_right(double distance, double truth, double length)
     return fabs(distance - truth) <= RIGHT * length;
 }
 
-/* The distance that all exact methods agree on, or what 113 bits say. */
+/* The distance that all exact methods agree on, or else the one in 113 bits. */
 static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answer *answers,
                               double *truth)
 {
@@ -88,7 +88,7 @@ static mote_status find_truth(bench *b, const mote_frame *frame, const mote_answ
     return status;
 }
 
-/* Counts one answer; true when it must not be so. */
+/* Counts one answer; true when it is a failure. */
 static bool count(soak_tally *tally, const mote_answer *answer, int m, double truth,
                   double length)
 {
@@ -99,7 +99,7 @@ static bool count(soak_tally *tally, const mote_answer *answer, int m, double tr
         wrong = wrong || !(error <= RIGHT);
     if (m < BOUNDED)
         wrong = wrong || !answer->has_lower || !is_right(answer->lower, truth, length);
-    /* Answers are located on the surfaces, so that no method may be below the truth. */
+    /* Witnesses lie on the surfaces, so no method's distance may be below the truth. */
     wrong = wrong || answer->distance < truth - RIGHT * length;
     if (answer->has_witness && answer->distance > 0)
         wrong = wrong ||
@@ -158,7 +158,7 @@ static mote_status work(void *context, int output)
 {
     bench *b = context;
     mote_status status = open_bench(b);
-    /* A scenario that is refused is no failure; a query that is, is one. */
+    /* A refused scenario is not a failure; a refused query is. */
     if (status == MOTE_OK)
         status = judge_frames(b) == MOTE_OK ? MOTE_OK : MOTE_EIO;
     if (status == MOTE_OK)

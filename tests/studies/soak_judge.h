@@ -1,4 +1,4 @@
-/* What methods say of a scenario, against the truth, frame by frame. */
+/* Judges methods' answers on a scenario against the truth, frame by frame. */
 #ifndef MOTE_TESTS_SOAK_JUDGE_H
 #define MOTE_TESTS_SOAK_JUDGE_H
 
@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Exact methods first; the truth is the last of them, and is itself judged by another
-   arithmetic wherever one differs. */
+/* Exact methods first. The last of them is the truth; where one differs, other arithmetic
+   judges it in turn. */
 enum { SOAK_EXACT = 6, SOAK_METHODS = 9, SOAK_DECADES = 18 };
 extern const char *const soak_methods[SOAK_METHODS];
 
@@ -22,14 +22,14 @@ typedef struct soak_tally {
 } soak_tally;
 
 typedef struct soak_verdict {
-    uint32_t frames;       /* judged; as far as the first failure when stopped there */
-    uint32_t failed_frame; /* the first at which something failed, 0: none */
+    uint32_t frames;       /* judged; up to the first failure when stopped there */
+    uint32_t failed_frame; /* the first with a failure, 0: none */
     uint32_t settled;      /* frames that 113 bits had to settle */
     soak_tally tally[SOAK_METHODS];
 } soak_verdict;
 
-/* A wrong answer to plant, to see that it is found: certified's distance at a frame, times
-   1 + 1e-9. Frame 0: none. */
+/* A wrong answer to plant, which must be found: certified's distance at a frame, times 1 +
+   1e-9. Frame 0: none. */
 typedef struct soak_plant {
     uint32_t frame;
 } soak_plant;

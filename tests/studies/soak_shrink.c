@@ -2,7 +2,7 @@
 
 #include "tests/studies/soak_case.h"
 
-/* A failing scenario on its way down. */
+/* A failing scenario being shrunk. */
 typedef struct shrink {
     json_t *scenario;
     const char *path;
@@ -26,8 +26,8 @@ static bool still_fails(shrink *s, const soak_plant *plant)
     return true;
 }
 
-/* Tries the scenario with object[key] = value (stolen; NULL: without it); keeps it only if it
-   still fails. */
+/* Tries the scenario with object[key] = value (stolen; NULL: without the key); keeps the change
+   only if it still fails. */
 static bool try_set(shrink *s, json_t *object, const char *key, json_t *value)
 {
     json_t *before = json_incref(json_object_get(object, key));
@@ -43,7 +43,7 @@ static bool try_set(shrink *s, json_t *object, const char *key, json_t *value)
     return kept;
 }
 
-/* Only the frames from first to last of those that there are. */
+/* Tries to keep only frames first to last of the current ones. */
 static bool try_frames(shrink *s, uint32_t first, uint32_t last)
 {
     json_t *before = json_copy(s->scenario);
@@ -60,12 +60,12 @@ static bool try_frames(shrink *s, uint32_t first, uint32_t last)
     return kept;
 }
 
-/* Nothing after the failure, and as little as possible before it. */
+/* Removes everything after the failure, and as much as possible before it. */
 static void shrink_frames(shrink *s)
 {
     const uint32_t last = s->verdict.failed_frame;
     if (last == 0)
-        return; /* it crashed or hung, at a frame that nobody told */
+        return; /* it crashed or hung, at an unknown frame */
     try_frames(s, 1, last);
     for (uint32_t kept = 1; kept < last; kept *= 2) {
         if (try_frames(s, last - kept + 1, last))

@@ -6,9 +6,9 @@
 
 #include <jansson.h>
 
-/* Takes away what the failure does not need (frames, fields, motions, triangles, factors) and
+/* Removes what the failure does not need (frames, fields, motions, triangles, factors) and
    leaves the smallest scenario that still fails in *scenario, and its file at path. plant: as
-   in soak_judge, moved along with the frames. Judges it some tens of times. */
+   in soak_judge; its frame follows the cuts. Judges the scenario some tens of times. */
 mote_status soak_shrink(json_t *scenario, const char *path, soak_plant *plant,
                         soak_verdict *verdict);
 

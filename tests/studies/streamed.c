@@ -1,10 +1,10 @@
 /* make streamed: are streamed queries exact, whatever the deformation and the layout of the
-   positions? Many frames of small bodies that deform, shake, leap, collapse and move far away,
-   each answered by all pairs of triangles and by streamed queries with and without memory,
+   positions? Small bodies deform, shake, leap, collapse and move far away in many frames. Each
+   frame is answered by all pairs of triangles and by streamed queries with and without memory,
    slack and budget, of distance and contact, from doubles and floats at several strides. Usage:
    streamed [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where a bound is above the
-   truth, an answer below it, or an unstopped query is wrong, or its bracket wide, by more than
-   its slack and 1e-12 L. L is here the larger of L at rest and half the size of the positions,
+   truth, an answer below it, or where an unstopped query's error or bracket exceeds its slack
+   by more than 1e-12 L. Here L is the larger of L at rest and half the size of the positions,
    which may be in another unit. */
 #include "core/stream/stream.h"
 #include "tests/support/checks.h"
@@ -21,7 +21,7 @@ typedef struct variant {
     const char *name;
     mote_stream_options options;
     mote_stream *stream;
-    size_t numbers; /* of a vertex */
+    size_t numbers; /* per vertex */
     bool single, contact;
     uint64_t queries, above, wrong, stopped, contacts;
     double most_error; /* of |distance - truth|, over L, where exact */
@@ -55,7 +55,8 @@ static bool create_all(variant v[VARIANTS], const scene *s)
     return true;
 }
 
-/* The scene's positions in the layout of a variant, in arrays that end with the last vertex. */
+/* Copies the scene's positions into the layout of a variant, in arrays that end with the last
+   vertex. */
 static void lay_out(const scene *s, const variant *v, layouts *l, mote_stream_frame *frame)
 {
     const size_t size = v->single ? sizeof(float) : sizeof(double);
@@ -135,8 +136,8 @@ static bool check(variant *v, const scene *s, double truth)
     return true;
 }
 
-/* What arrays of positions may do that no field does: each vertex moves by itself; a body
-   collapses towards its origin; both are far away. All numbers are floats. */
+/* Changes that arrays of positions allow and no field makes: each vertex moves by itself; a
+   body collapses towards its origin; both are far away. All numbers are floats. */
 static void disturb(scene *s, uint32_t index, int frame)
 {
     static const double shakes[] = {0, 1e-4, 0.01, 0.3};

@@ -1,6 +1,6 @@
 #include "tests/studies/twin.h"
 
-/* Corners and faces of a mesh in the making. */
+/* Corners and faces of a mesh under construction. */
 typedef struct draft {
     mote_vec3 *corner;
     uint32_t (*face)[3];
@@ -64,7 +64,7 @@ static void draft_flip(draft *d, scene *dice)
     }
 }
 
-/* A random order of count things: order[i] is the new place of i. */
+/* A random permutation of count elements: order[i] is the new place of i. */
 static uint32_t *random_order(uint32_t count, scene *dice)
 {
     uint32_t *order = malloc(count * sizeof *order);

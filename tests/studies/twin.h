@@ -5,7 +5,7 @@
 
 #include "tests/support/shapes.h"
 
-/* What is different; zero is nothing. */
+/* What differs; zero means no change. */
 typedef struct twin_change {
     int exponent;  /* everything is 2^exponent times as large */
     bool swap;     /* bodies 0 and 1 change places */
@@ -16,10 +16,10 @@ typedef struct twin_change {
     uint64_t seed; /* of the order, the faces and the motions */
 } twin_change;
 
-/* Makes the twin of base, which needs to have no frame yet. Free with scene_free. */
+/* Makes the twin of base, which must not have a frame yet. Free with scene_free. */
 void twin_init(const scene *base, const twin_change *change, scene *twin);
 
-/* Gives the twin the frame that base has now. */
+/* Gives the twin the current frame of base. */
 void twin_follow(const scene *base, const twin_change *change, scene *twin);
 
 #endif
