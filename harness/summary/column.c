@@ -205,6 +205,10 @@ const mote_column mote_columns[] = {
     RATIO(ratio_best, "ratio_best", "ratio_best", NULL, NULL, "best FCL",
           "How many times slower the fastest configuration of FCL is, in the same way",
           "best/this", PLACE(22, 22, 20)),
+    RATIO(ratio_engine, "ratio_engine", "ratio_engine", NULL, NULL, "best engine",
+          "How many times slower the fastest engine of others is (FCL, Coal, ODE, Bullet or "
+          "Embree; of those with no wrong answer), in the same way",
+          "engine/this", PLACE(23, 23, 0)),
     ERROR(median, "median", "Absolute error: median over frames and replicates", "median", NULL,
           "median", PLACE(30, 30, 0)),
     ERROR(p95, "p95", "Its 95th percentile", "p95", NULL, NULL, PLACE(0, 0, 0)),

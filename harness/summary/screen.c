@@ -114,6 +114,17 @@ static const char *best_fcl(const choice *c)
     return NULL;
 }
 
+/* The row of the best engine, likewise, where that is not the best FCL. */
+static const mote_summary_row *best_engine(const choice *c)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        const mote_summary_row *engine = c->rows[i]->ratio_engine.to;
+        if (engine && engine != c->rows[i]->ratio_best.to)
+            return engine;
+    }
+    return NULL;
+}
+
 static void print_foot(const choice *c, FILE *out)
 {
     mote_text words = {0};
@@ -124,6 +135,11 @@ static void print_foot(const choice *c, FILE *out)
     }
     if (fcl) {
         mote_text_add(&words, "%sbest FCL: %s", separator, fcl);
+        separator = "; ";
+    }
+    const mote_summary_row *engine = best_engine(c);
+    if (engine) {
+        mote_text_add(&words, "%sbest engine: %s", separator, engine->label);
         separator = "; ";
     }
     if (c->others > 0)

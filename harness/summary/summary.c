@@ -94,16 +94,23 @@ static const mote_summary_row *find_reference(const mote_summary *summary,
     return reference;
 }
 
+/* An engine that misses contacts or invents them is no rival. */
+static bool is_right_engine(const mote_summary_row *row)
+{
+    return mote_summary_is_engine(row) && mote_summary_row_right(row);
+}
+
 /* Of rows on all of this row's frames, or else of any, the fastest over these frames. */
-static const mote_summary_row *find_best_fcl(const mote_summary *summary,
-                                             const mote_summary_row *row)
+static const mote_summary_row *find_best(const mote_summary *summary,
+                                         const mote_summary_row *row,
+                                         bool (*competes)(const mote_summary_row *))
 {
     double least = MOTE_NONE;
     bool covered = false;
     const mote_summary_row *best = NULL;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *other = &summary->rows[i];
-        if (!comparable(row, other) || !mote_summary_is_fcl(other))
+        if (!comparable(row, other) || !competes(other))
             continue;
         const double median = mote_summary_median_within(
             other, row->frame_range[0], row->frame_range[1], compared_part(row));
@@ -138,7 +145,8 @@ static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)
     if (reference)
         mote_summary_process_ratios(row, reference, part);
     mote_summary_quiet(row, reference);
-    make_ratio(row, find_best_fcl(summary, row), part, &row->ratio_best);
+    make_ratio(row, find_best(summary, row, mote_summary_is_fcl), part, &row->ratio_best);
+    make_ratio(row, find_best(summary, row, is_right_engine), part, &row->ratio_engine);
 }
 
 static void make_rows(mote_summary *summary)

@@ -315,6 +315,15 @@ bool mote_summary_is_fcl(const mote_summary_row *row)
     return strncmp(row->method, "fcl-", 4) == 0;
 }
 
+bool mote_summary_is_engine(const mote_summary_row *row)
+{
+    static const char *const single[] = {"ode", "bullet-gimpact", "embree-contact"};
+    bool is = mote_summary_is_fcl(row) || strncmp(row->method, "coal-", 5) == 0;
+    for (size_t i = 0; i < sizeof single / sizeof *single; ++i)
+        is = is || strcmp(row->method, single[i]) == 0;
+    return is;
+}
+
 static int by_number(double a, double b)
 {
     if (a < b || a > b)
@@ -439,7 +448,7 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     made.failed = replicates - made.finished;
     describe(&made);
     made.smallest_change = made.near_pairs = MOTE_NONE;
-    made.ratio = made.ratio_given = made.ratio_best = no_ratio;
+    made.ratio = made.ratio_given = made.ratio_best = made.ratio_engine = no_ratio;
     made.heap_live_bytes = largest(&made, "heap_live_bytes");
     made.heap_peak_bytes = largest(&made, "heap_peak_bytes");
     made.rss_peak_bytes = largest(&made, "rss_peak_bytes");

@@ -95,6 +95,7 @@ struct mote_summary_row {
                                those that were measured on all of this row's frames */
     mote_ratio ratio_given; /* the same where nobody is charged for deformation */
     mote_ratio ratio_best;  /* to the row of FCL that is the fastest over this row's frames */
+    mote_ratio ratio_engine; /* likewise, of all engines of others whose answers are right */
     mote_error_summary error;
     double contacts, missed, false_contacts; /* frames, mean over replicates */
     /* Of more than two bodies contacts are those of pairs and frames; missed and false_contacts
@@ -131,6 +132,10 @@ const mote_stored_cell *mote_summary_replicate(const mote_summary_row *row, uint
 
 /* Whether the row's method is one of FCL's. */
 bool mote_summary_is_fcl(const mote_summary_row *row);
+
+/* Whether the row's method is an engine that others wrote (FCL, Coal, ODE, Bullet or Embree),
+   as they would have it used. */
+bool mote_summary_is_engine(const mote_summary_row *row);
 
 /* Whether a row has a time that may be compared with those of other rows. */
 bool mote_summary_row_measured(const mote_summary_row *row);

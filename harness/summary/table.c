@@ -160,13 +160,15 @@ static void print_foot(const mote_summary *summary, size_t start, size_t end, FI
             if (other->given == (given != 0) && other->ratio.to && other->ratio_best.to)
                 row = other;
         }
+        const mote_summary_row *engine = row ? row->ratio_engine.to : NULL;
         if (row)
             (void)fprintf(
-                out, "%sfcl-aabb: %s; %sbest FCL: %s\n",
+                out, "%sfcl-aabb: %s; %sbest FCL: %s%s%s\n",
                 given ? "of positions=given, deformation charged to nobody: " : "",
                 row->ratio.to->label,
                 given ? "" : "given: the same where nobody pays for deforming all vertices; ",
-                row->ratio_best.to->label);
+                row->ratio_best.to->label, engine ? "; best engine: " : "",
+                engine ? engine->label : "");
     }
 }
 

@@ -139,6 +139,20 @@ static void refers_to(const char *id, const mote_ratio *ratio, const char *to, d
         fail_msg("%s: %g times to %s, not %g to %s", id, ratio->value, is, value, to);
 }
 
+/* The fastest engine of others is not always FCL, and one that misses a contact is none. */
+TEST(summary_best_engine_is_the_fastest_that_is_right)
+{
+    write_frames((stored_cell){.id = "a", .method = "certified"}, 1, 4, 10, 0);
+    write_frames((stored_cell){.id = "b"}, 1, 4, 100, 0);
+    write_frames((stored_cell){.id = "c", .method = "ode"}, 1, 4, 40, 0);
+    write_frames((stored_cell){.id = "d", .method = "coal-aabb"}, 1, 4, 20, 1e-3);
+    write_frames((stored_cell){.id = "e", .method = "aabb-tree"}, 1, 4, 15, 0);
+    make_summary();
+    refers_to("a", &row_of("a")->ratio_best, "b", 10);
+    refers_to("a", &row_of("a")->ratio_engine, "c", 4);
+    refers_to("c", &row_of("c")->ratio_engine, "c", 1);
+}
+
 /* FCL is fast around a touch (frames 3-4), where a second leg of the run measured all again. */
 TEST(summary_ratios_are_of_rows_on_the_same_frames)
 {
