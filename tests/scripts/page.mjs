@@ -66,7 +66,9 @@ function measure() {
         "--method", "particle-paper", "--particles", "1,5");
     program("run", "tt", "--out", run, "--replicates", "1", "--frames", "1-100", "--method", "certified",
         "--method", "fcl-aabb", "--method", "particle:n=8,positions=given");
-    program("run", "morph", "bison-15k", "--out", run, "--replicates", "1", "--frames", "1-60", "--method", "certified");
+    program("run", "morph", "bison-15k", "--out", `${work}/characters`, "--replicates", "1", "--frames", "1-60",
+        "--method", "certified");
+    program("report", `${work}/characters`);
     program("figures", run);
     program("report", run);
     program("run", "ww-1k", "--out", `${work}/several`, "--replicates", "4", "--frames", "1-200", "--method",
@@ -386,16 +388,18 @@ await testTables(page, tools, run);
 await settled(page);
 await testNumbers(page);
 await testKeys(page);
-for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
-    await choose(page, "scene", { label: name });
-    await testField(name, page, name, [1, 60], length);
-}
-await choose(page, "scene", { label: "ww" });
 await testField("letters W", page, "ww", [1, 700, 1984]);
 await testScenes(page);
 await page.close();
 await testLooks(browser);
 await testOthers(browser);
+const characters = await open(browser, `${work}/characters`);
+await settled(characters);
+for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
+    await choose(characters, "scene", { label: name });
+    await testField(name, characters, name, [1, 60], length);
+}
+await characters.close();
 await testPoor(browser, tools, run, work, bundle);
 await browser.close();
 console.log(`${passed} passed, ${failed} failed`);
