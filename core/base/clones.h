@@ -26,6 +26,13 @@
 #define MOTE_INLINE static inline
 #endif
 
+/* restrict in C, and the same where a compiler of C++ has it. */
+#ifdef __cplusplus
+#define MOTE_RESTRICT __restrict
+#else
+#define MOTE_RESTRICT restrict
+#endif
+
 /* Lanes of every vectorised sum over doubles. */
 #define MOTE_LANES 8
 

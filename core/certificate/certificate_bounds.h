@@ -1,7 +1,7 @@
 /* How a kind of field bounds what lies in a box of the rest tree, once the field has deformed
    it. The certificate's other files do not know kinds of fields: they ask the tree's bounds.
-   Most fields need none of their own: mote_cert_fitted bounds any field by linear fits of its
-   basis functions. A kind that knows more about its functions names its own in
+   Most fields need none of their own: certificate_fitted.h bounds any field by linear fits of
+   its basis functions. A kind that knows more about its functions names its own in
    mote_field_kind.bounds.
 
    While a tree is built, start is called once; then for each block fit for every child in turn
@@ -15,7 +15,11 @@
 #define MOTE_CORE_CERTIFICATE_BOUNDS_H
 
 #include "core/certificate/certificate_box.h"
-#include "core/certificate/certificate_state.h"
+#include "core/certificate/certificate_side.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* A child of a block that is being built. */
 typedef struct mote_cert_part {
@@ -71,8 +75,7 @@ typedef struct mote_cert_bounds {
                  mote_cert_hull *hull);
 } mote_cert_bounds;
 
-/* Bounds of any field: each basis function is fitted linearly over a box (certificate_tree.h).
- */
-extern const mote_cert_bounds mote_cert_fitted;
-
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -4,6 +4,10 @@
 
 #include "core/certificate/certificate_tree.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* An oriented box. The values are floats, kept as doubles. */
 typedef struct mote_cert_box {
     mote_vec3 centre;
@@ -34,4 +38,7 @@ void mote_cert_solve(const double a[4][4], double b[4]);
 /* Where there are more vertices, axes and slopes are found from a sample of about this many. */
 #define MOTE_CERT_FIT_CHUNK 512
 
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -1,6 +1,7 @@
 /* Building the tree: balanced binary splits at the median along the main axis, collapsed from
    the leaves up to blocks of eight, so that only the root may have fewer children. */
 #include "core/certificate/certificate_bounds.h"
+#include "core/certificate/certificate_fitted.h"
 
 #include <float.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
    that works on the trees of others. */
 #include "core/certificate/certificate_shared.h"
 #include "core/certificate/certificate_bounds.h"
+#include "core/certificate/certificate_state.h"
 
 #include <stdlib.h>
 #include <string.h>

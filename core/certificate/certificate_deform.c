@@ -1,5 +1,6 @@
 /* Blocks deformed on demand: what of it is the same for all kinds of bounds. */
 #include "core/certificate/certificate_bounds.h"
+#include "core/certificate/certificate_state.h"
 
 #define WIDTH MOTE_CERT_WIDTH
 

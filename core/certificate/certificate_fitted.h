@@ -36,6 +36,8 @@ static inline mote_cert_scales mote_cert_scales_of(const mote_cert_tree *tree)
     return (mote_cert_scales){first, first + padded, first + 2 * padded};
 }
 
+extern const mote_cert_bounds mote_cert_fitted;
+
 /* mote_cert_bounds.start, fit, store and stop of mote_cert_fitted. */
 mote_status mote_cert_fitted_start(mote_cert_tree *tree, bool linear_fits, void **fitter);
 void mote_cert_fitted_fit(void *fitter, mote_cert_tree *tree, const mote_cert_part *part);

@@ -9,8 +9,9 @@
    + 6 u, of such sums or of what is added up, a difference of two of them, and the rounding of
    the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
    is 32 u B. */
-#include "core/certificate/certificate_bounds.h"
 #include "core/base/clones.h"
+#include "core/certificate/certificate_bounds.h"
+#include "core/certificate/certificate_state.h"
 
 #include <string.h>
 

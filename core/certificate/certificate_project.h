@@ -4,8 +4,10 @@
 #ifndef MOTE_CORE_CERTIFICATE_PROJECT_H
 #define MOTE_CORE_CERTIFICATE_PROJECT_H
 
-#include "core/certificate/certificate_state.h"
 #include "core/base/clones.h"
+#include "core/certificate/certificate_side.h"
+
+#include <math.h>
 
 /* A box that crosses the plane by more than this part of its extent is not worth opening, since
    most of what is inside crosses the plane too. Leaves are cheaper to open. */
@@ -23,9 +25,9 @@ MOTE_INLINE uint32_t mote_cert_bits_at_most(const float x[MOTE_CERT_WIDTH], floa
 
 /* Writes lane l of a projected node: middle, slant and loose as they are given, and from them
    reach and extent. */
-MOTE_INLINE void mote_cert_project_lane(const mote_cert_block *restrict block,
-                                        mote_cert_node *restrict node, size_t l, float middle,
-                                        const float axis[3], float loose)
+MOTE_INLINE void mote_cert_project_lane(const mote_cert_block *MOTE_RESTRICT block,
+                                        mote_cert_node *MOTE_RESTRICT node, size_t l,
+                                        float middle, const float axis[3], float loose)
 {
     const float size0 = fabsf(axis[0]);
     const float size1 = fabsf(axis[1]);
@@ -51,9 +53,9 @@ MOTE_INLINE void mote_cert_project_lane(const mote_cert_block *restrict block,
 /* From reach, extent and loose of a node: clear and crossing. tight: what is loose is small,
    and counts as crossing the plane like the rest of the box. Else it does not: a box that is
    much larger than what it holds often crosses a plane that nothing inside it reaches. */
-MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side,
-                                             const mote_cert_block *restrict block,
-                                             mote_cert_node *restrict node, bool tight)
+MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *MOTE_RESTRICT side,
+                                             const mote_cert_block *MOTE_RESTRICT block,
+                                             mote_cert_node *MOTE_RESTRICT node, bool tight)
 {
     const float threshold = side->threshold_f;
     float excess[MOTE_CERT_WIDTH];
@@ -70,7 +72,7 @@ MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *restrict side
 }
 
 /* From the axes of a node: size. */
-MOTE_INLINE void mote_cert_finish_boxes(mote_cert_node *restrict node)
+MOTE_INLINE void mote_cert_finish_boxes(mote_cert_node *MOTE_RESTRICT node)
 {
     MOTE_LANE_LOOP
     for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {

@@ -13,6 +13,10 @@
 
 #include "core/body/body.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Children of a block: the lanes of every test of boxes. */
 #define MOTE_CERT_WIDTH 8
 
@@ -118,4 +122,7 @@ static inline mote_vec3 mote_cert_tree_position(const mote_cert_tree *tree, uint
     return mote_scale(mote_sub(tree->body->mesh->positions[vertex], tree->origin), tree->scale);
 }
 
+#ifdef __cplusplus
+}
+#endif
 #endif

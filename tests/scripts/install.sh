@@ -69,6 +69,14 @@ export PKG_CONFIG_PATH=$library/pkgconfig
 LD_LIBRARY_PATH=$library ./shared > out-shared
 ./static > out-static
 
+# Programs that make skins, and a field with bounds of its own.
+for source in "$tests"/../library/*.c; do
+    name=$(basename "$source" .c)
+    # shellcheck disable=SC2046,SC2086 # lists of words
+    cc $flags "$source" $(pkg-config --cflags --libs mote) -lm -o "$name"
+    LD_LIBRARY_PATH=$library "./$name" || fail "$name: another answer than expected"
+done
+
 # From C++ as well.
 cat > use.cpp <<'CPP'
 #include <mote/mote.h>
