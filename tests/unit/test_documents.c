@@ -21,6 +21,7 @@ static const char *const documents[] = {
     "CONTRIBUTING.md",
     "CHANGELOG.md",
     "docs/architecture.md",
+    "docs/certified.md",
     "docs/findings.md",
     "docs/benchmarking.md",
     "docs/extending.md",
