@@ -10,6 +10,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 typedef struct mote_lazy_slot {
     uint32_t vertex;
@@ -88,6 +89,7 @@ static inline mote_vec3 mote_lazy_position(mote_lazy *lazy, uint32_t vertex)
     }
 }
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -7,6 +7,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* An oriented box. The values are floats, kept as doubles. */
 typedef struct mote_cert_box {
@@ -38,6 +39,7 @@ void mote_cert_solve(const double a[4][4], double b[4]);
 /* Where there are more vertices, axes and slopes are found from a sample of about this many. */
 #define MOTE_CERT_FIT_CHUNK 512
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif

@@ -16,6 +16,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#pragma GCC visibility push(default)
 
 /* Children of a block: the lanes of every test of boxes. */
 #define MOTE_CERT_WIDTH 8
@@ -122,6 +123,7 @@ static inline mote_vec3 mote_cert_tree_position(const mote_cert_tree *tree, uint
     return mote_scale(mote_sub(tree->body->mesh->positions[vertex], tree->origin), tree->scale);
 }
 
+#pragma GCC visibility pop
 #ifdef __cplusplus
 }
 #endif
