@@ -13,8 +13,8 @@ typedef struct test_body {
     double weights[3][MOTE_FIELD_SUMMED];
 } test_body;
 
-/* Takes the mesh. count: CSRBF centres near the mesh (support: half of L), or, when negative,
-   -count linear modes; 0 is a static field. */
+/* Takes ownership of the mesh. count: CSRBF centres near the mesh (support: half of L), or,
+   when negative, -count linear modes; 0 is a static field. */
 static inline void test_body_init(test_body *b, mote_mesh *mesh, int count, uint64_t *seed)
 {
     b->mesh = mesh;
@@ -66,7 +66,7 @@ static inline mote_body_state test_body_state(test_body *b, double size, uint64_
     return state;
 }
 
-/* Skins. Their numbers come from arithmetic that every machine rounds alike. */
+/* Skins. Their numbers use only arithmetic that every machine rounds alike. */
 enum { SKIN_EACH = 3, SKIN_BONES_MOST = 16, SKIN_TARGETS_MOST = 8 };
 
 /* Displacements of targets, each of a third of the vertices. */
@@ -84,7 +84,8 @@ static inline void skin_body_targets(const mote_mesh *mesh, uint32_t count, uint
     start[count] = end;
 }
 
-/* Takes the mesh. bones may be 0 where there are targets; both stay below the enum's. */
+/* Takes ownership of the mesh. bones may be 0 if there are targets; both stay below the enum's
+   limits. */
 static inline void skin_body_init(test_body *b, mote_mesh *mesh, uint32_t bones,
                                   uint32_t targets, uint64_t *seed)
 {

@@ -16,7 +16,7 @@ static inline mote_certificate *certificate_of(const scene *s,
     return c;
 }
 
-/* The answer's promises that need no truth. */
+/* Checks what every answer promises, exact or not. */
 static inline void check_bracket(const scene *s, const mote_certificate_answer *a, double truth)
 {
     assert_true(a->lower >= 0);

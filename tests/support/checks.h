@@ -1,5 +1,5 @@
-/* What the studies of make reliability have in common: their options, and the lines that they
-   add to a file of checks, {what was tried, how often, what failed}, of which it makes its
+/* Common parts of the studies of make reliability: their options, and the lines that they add
+   to a file of checks, {what was tried, how often, what failed}, from which it makes its
    table. */
 #ifndef MOTE_TESTS_CHECKS_H
 #define MOTE_TESTS_CHECKS_H
@@ -18,8 +18,8 @@ typedef struct checks_options {
     const char *checks; /* the file of checks; NULL: none */
 } checks_options;
 
-/* False, after a line on stderr, where anything but [--queries N] [--out FILE] [--checks FILE]
-   is given. options start with their defaults, and borrow from argv. */
+/* Reads [--queries N] [--out FILE] [--checks FILE]; for anything else returns false, after a
+   line on stderr. options hold the defaults on entry and borrow from argv. */
 static inline bool checks_read(int argc, char **argv, const char *program,
                                checks_options *options)
 {

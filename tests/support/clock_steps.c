@@ -1,5 +1,5 @@
-/* Preloaded (LD_PRELOAD) by test_clock: the wall clock is set at every reading, years back and
-   forth. A program that uses a steady clock is not affected. */
+/* Preloaded (LD_PRELOAD) by test_clock: every reading of the wall clock is off by years,
+   forwards or backwards. A program that uses a steady clock is not affected. */
 #define _DEFAULT_SOURCE /* syscall */
 #include <sys/syscall.h>
 #include <sys/time.h>

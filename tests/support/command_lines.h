@@ -1,4 +1,4 @@
-/* Command lines that are wrong, and the error expected of each. */
+/* Wrong command lines, and the error expected of each. */
 #ifndef MOTE_TESTS_COMMAND_LINES_H
 #define MOTE_TESTS_COMMAND_LINES_H
 
@@ -14,14 +14,15 @@ typedef struct command_line {
     const char *says;
 } command_line;
 
-/* Each ends with its status and one line of the expected error, and leaves no file behind. */
+/* Each must end with its status and one line of the expected error, and leave no file
+   behind. */
 static inline void command_refuses(const command_line *lines, size_t count)
 {
     const int files = folder_count(".", "");
     for (size_t i = 0; i < count; ++i) {
         const command_line *bad = &lines[i];
         const int status = mote("%s >/dev/null", bad->arguments);
-        /* Before the error there may be lines of progress, after it nothing. */
+        /* Progress lines may precede the error; nothing may follow it. */
         const char *error = strstr(said, "mote: ");
         const char *feed = error ? strchr(error, '\n') : NULL;
         const bool one_line = feed && feed[1] == '\0' && (error == said || error[-1] == '\n');

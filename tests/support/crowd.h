@@ -20,7 +20,7 @@ typedef struct crowd {
     uint64_t random;
 } crowd;
 
-/* count bodies of `triangles` each, their middles within side / 2 of the origin. */
+/* Creates count bodies of `triangles` each, their middles within side / 2 of the origin. */
 static inline void crowd_init(crowd *c, uint32_t count, size_t triangles, double side)
 {
     static const char letters[] = "WTV";
@@ -51,7 +51,7 @@ static inline void crowd_free(crowd *c)
         test_body_free(&c->shapes[i]);
 }
 
-/* A step of at most `size` for every pose and weight. */
+/* Changes every pose and weight by at most `size`. */
 static inline void crowd_move(crowd *c, double size)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
@@ -73,7 +73,7 @@ static inline mote_scene *crowd_scene(const crowd *c, const mote_scene_options *
     return scene;
 }
 
-/* A crowd as of crowd_init in a scene with the usual options. */
+/* A crowd made by crowd_init, in a scene with the usual options. */
 static inline mote_scene *crowd_open(crowd *c, uint32_t count, size_t triangles, double side)
 {
     const mote_scene_options options = mote_default_scene_options();

@@ -1,7 +1,8 @@
-/* The folder that a test program runs in, and files there.
+/* The folder that a test program runs in, and its files.
 
-   test_main.c makes a new folder, enters it, runs the tests there and removes it with all that
-   they left in it. So tests name their files as they like, and paths are relative. */
+   test_main.c makes a new folder, enters it, runs the tests there and removes it with
+   everything that they left behind. So tests name their files freely, and paths are
+   relative. */
 #ifndef MOTE_TESTS_FOLDER_H
 #define MOTE_TESTS_FOLDER_H
 
@@ -16,26 +17,27 @@
 bool folder_enter(const char *program);
 bool folder_leave(void);
 
-/* Where it is: /tmp/mote-PROGRAM-XXXXXX */
+/* Its path: /tmp/mote-PROGRAM-XXXXXX */
 const char *folder_path(void);
 
 /* A fixture for TEST_EACH: each test gets an empty folder within. */
 int folder_next(void);
 
-/* How many files are in a folder; those whose names end so. */
+/* Counts the files in a folder whose names have this ending. */
 int folder_count(const char *path, const char *ending);
 
-/* Removes a file or a folder with what is in it; 0 when it was there and is gone. */
+/* Removes a file, or a folder with its contents; 0 when it existed and is gone. */
 int folder_remove(const char *path);
 
 bool file_exists(const char *path);
 
-/* The test fails where one cannot be written or read. Without the sync of mote_file_write,
-   which takes longer than a test may. */
+/* The test fails if a file cannot be written or read. Does not sync as mote_file_write does,
+   which takes too long for tests. */
 void file_put(const char *path, const char *text);
 void file_write(const char *path, const void *data, size_t size);
 
-/* A file's text, of at most 64 MB; the caller frees it. The test fails where there is none. */
+/* A file's text, at most 64 MB; the caller frees it. The test fails if the file does not
+   exist. */
 char *file_text(const char *path);
 
 #endif

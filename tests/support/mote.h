@@ -1,4 +1,4 @@
-/* Running the program as a user runs it, from the test's folder. */
+/* Runs the program as a user does, in the test's folder. */
 #ifndef MOTE_TESTS_MOTE_H
 #define MOTE_TESTS_MOTE_H
 
@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the last one said: standard output and error. */
+/* Output of the last run: standard output and error. */
 extern char said[1 << 20];
 
-/* `mote LINE` through a shell, the line as printf makes it; returns the exit status. A line
-   that ends with >/dev/null leaves the errors only. */
+/* Runs `mote LINE` through a shell, with the line formatted as by printf; returns the exit
+   status. A line that ends with >/dev/null leaves the errors only. */
 int mote(const char *format, ...) MOTE_PRINTF(1, 2);
 
-/* The same, which must end with this status and say this. */
+/* The same, but the run must end with this status and print this text. */
 void mote_expect(int status, const char *says, const char *format, ...) MOTE_PRINTF(3, 4);
 
 #endif

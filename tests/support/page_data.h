@@ -1,4 +1,4 @@
-/* Reads the data of a page back: its JSON elements, and what is packed in them. */
+/* Reads back a page's data: its JSON elements and what is packed in them. */
 #ifndef MOTE_TESTS_PAGE_DATA_H
 #define MOTE_TESTS_PAGE_DATA_H
 
@@ -44,7 +44,7 @@ static inline unsigned char *page_bytes(const char *text, size_t *size)
     return bytes;
 }
 
-/* What a packed member of an object is; the caller frees it. */
+/* The unpacked content of an object's member; the caller frees it. */
 static inline char *page_unpack(const json_t *object, const char *key)
 {
     const char *text = json_string_value(json_object_get(object, key));
@@ -67,7 +67,7 @@ static inline char *page_unpack(const json_t *object, const char *key)
     return plain;
 }
 
-/* The same where it is JSON; the caller decrefs it. */
+/* The same for packed JSON; the caller decrefs it. */
 static inline json_t *page_unpack_json(const json_t *object, const char *key)
 {
     char *plain = page_unpack(object, key);

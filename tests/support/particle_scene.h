@@ -1,4 +1,5 @@
-/* Two bodies in random frames, what their particles do, and the true distance, for tests. */
+/* Two bodies in random frames, the work of their particles, and the true distance, for
+   tests. */
 #ifndef MOTE_TESTS_PARTICLE_SCENE_H
 #define MOTE_TESTS_PARTICLE_SCENE_H
 
@@ -16,7 +17,7 @@ typedef struct particle_scene {
     mote_frame frame;
 } particle_scene;
 
-/* Takes both solids, multiplied by unit; field: as in test_body_init. */
+/* Takes ownership of both solids, scaled by unit; field: as in test_body_init. */
 static inline void scene_open(particle_scene *s, solid first, solid second, int field,
                               double unit)
 {

@@ -1,5 +1,4 @@
-/* Writing a file as it is, without the sync of mote_file_write, which takes longer than a test
-   may. */
+/* Writes a file without the sync of mote_file_write, which takes too long for tests. */
 #ifndef MOTE_TESTS_PLAIN_FILE_H
 #define MOTE_TESTS_PLAIN_FILE_H
 

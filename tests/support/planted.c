@@ -1,4 +1,3 @@
-/* See planted.h. */
 #include "tests/support/planted.h"
 
 #include "harness/study/dynamics.h"
@@ -34,8 +33,8 @@ static mote_status due(const char *function)
                                               : MOTE_OK;
 }
 
-/* NAME in its own place, planted.failing when it is due; arguments as declared and as passed.
- */
+/* Wraps NAME: fails when its turn has come (planted.failing), otherwise calls the real
+   function. Arguments as declared and as passed. */
 #define SEAM(name, declared, passed)                                                           \
     mote_status __real_##name declared;                                                        \
     mote_status __wrap_##name declared;                                                        \
@@ -56,12 +55,12 @@ SEAM(mote_csrbf_fit_solve,
 mote_status __real_mote_record_json(const char *directory, const char *name, json_t *object);
 mote_status __real_mote_record_text(const char *directory, const char *name, mote_text *text);
 
-/* The same where nothing is done. */
+/* Begins a function that replaces NAME; its body follows. */
 #define PLANT(name, ...)                                                                       \
     mote_status __wrap_##name(__VA_ARGS__);                                                    \
     mote_status __wrap_##name(__VA_ARGS__)
 
-/* What these are given is theirs. */
+/* Takes ownership of its arguments, as the real function does. */
 PLANT(mote_record_json, const char *directory, const char *name, json_t *object)
 {
     const mote_status status = due("mote_record_json");
@@ -105,7 +104,7 @@ PLANT(mote_figures_draw, const char *directory, mote_figures *result)
     return due("mote_figures_draw");
 }
 
-/* Every scene is two letters of a few hundred triangles. */
+/* Replaces every scene by two letters of a few hundred triangles. */
 mote_status __real_mote_scenario_load(const char *name, mote_scenario **scenario);
 
 PLANT(mote_scenario_load, const char *name, mote_scenario **scenario)
@@ -126,14 +125,14 @@ PLANT(mote_scenario_load, const char *name, mote_scenario **scenario)
         "\"triangles\": 400, \"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}]}]}",
         400 + 40 * (int)wished);
     need(mote_file_write(path, text.data, text.size) == MOTE_OK);
-    status = __real_mote_scenario_load(path, scenario); /* which makes letters */
+    status = __real_mote_scenario_load(path, scenario); /* loads the letters */
     free(text.data);
     free(path);
     free(stem);
     return status;
 }
 
-/* Contact in 10 of 100 frames, near it in 20. */
+/* Contact in 10 of 100 frames; near contact in 20. */
 static double distance_at(uint32_t frame)
 {
     const uint32_t k = frame % 100;
@@ -208,7 +207,7 @@ PLANT(mote_approaches_simulate, const mote_scenario *scenario, const char *metho
     return status;
 }
 
-/* A cell of several bodies that a run was asked for. */
+/* A cell of several bodies that a run was asked to measure. */
 typedef struct scene_cell {
     char label[256], scenario[64];
     unsigned bodies;
@@ -216,7 +215,7 @@ typedef struct scene_cell {
     bool fails;
 } scene_cell;
 
-/* Those of all runs since the last summary. */
+/* The cells of all runs since the last summary. */
 static scene_cell scene_cells[128];
 static size_t scene_count;
 
@@ -224,7 +223,7 @@ static void plant_scene(const mote_run_options *options, const char *label, size
 {
     const char *name = strrchr(options->scenarios[0], '/') + 1; /* w-1000-0.1.json */
     if (k == 0 && strcmp(name, "w-10-0.1.json") == 0)
-        scene_count = 0; /* a study begins; the one before may have failed */
+        scene_count = 0; /* a new study begins; the one before may have failed */
     need(scene_count < sizeof scene_cells / sizeof scene_cells[0]);
     scene_cell *cell = &scene_cells[scene_count++];
     *cell = (scene_cell){.fails = planted.bodies_failed || (planted.body_failed && k == 1)};
@@ -235,7 +234,7 @@ static void plant_scene(const mote_run_options *options, const char *label, size
 
 PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
 {
-    /* The film is of all frames, and in no table. */
+    /* The film covers all frames and is in no table. */
     const bool scene = options->plan.contacts_only && options->plan.last > 0;
     for (size_t k = 0; scene && k < options->choices->count; ++k)
         plant_scene(options, options->choices->items[k].text, k);
@@ -244,7 +243,7 @@ PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
     return due("mote_run");
 }
 
-/* The rows of claims against hierarchies, three replicates each. */
+/* The rows for the claims about hierarchies, three replicates each. */
 enum { TIMED_FRAMES = 20, REPLICATES = 3 };
 static const struct {
     const char *scenario, *cache, *label;

@@ -15,7 +15,7 @@ typedef struct polygon_shape {
     double at[POLYGON_CORNERS_MAX][2]; /* counterclockwise */
 } polygon_shape;
 
-/* Square roots of 5 are those of the star's sides and of the dot's distance from them. */
+/* The star's side lengths and its dot's distance contain square roots of 5. */
 #define ROOT_5 2.23606797749978969641
 
 static const polygon_shape polygon_shapes[] = {
@@ -76,8 +76,8 @@ static const polygon_shape polygon_shapes[] = {
 };
 static const size_t polygon_shape_count = sizeof polygon_shapes / sizeof polygon_shapes[0];
 
-/* Corner i of the shape as it is written from corner `start` on; from `count` to 2 * count - 1,
-   the other way round. */
+/* Corner i of the shape when it is written from corner `start` on. `start` runs to
+   2 * count - 1; from `count` on the direction is the opposite. */
 static inline const double *polygon_corner(const polygon_shape *shape, size_t start, size_t i)
 {
     const size_t n = shape->count;

@@ -1,4 +1,4 @@
-/* Running the mote program from a test: its exit status and what it said. */
+/* Runs the mote program from a test: its exit status and its output. */
 #ifndef MOTE_TESTS_PROGRAM_H
 #define MOTE_TESTS_PROGRAM_H
 
@@ -23,7 +23,7 @@ static inline void program_split(char *line, char *argv[PROGRAM_ARGUMENTS])
     argv[count] = NULL;
 }
 
-/* Starts `mote LINE`, standard output and error into a file. */
+/* Starts `mote LINE` with standard output and error redirected to a file. */
 static inline pid_t program_start(const char *line, const char *file)
 {
     pid_t pid = fork();

@@ -6,8 +6,8 @@
 
 #include "tests/support/solids.h"
 
-/* A solid of random mass, main moments that some solid has (each at most the sum of the other
-   two), centre and main axes. */
+/* A solid of random mass, centre and main axes. Its main moments are those of some solid: each
+   is at most the sum of the other two. */
 static inline mote_mass random_mass(uint64_t *seed)
 {
     mote_mass mass = {.volume = 1, .mass = exp(random_between(seed, -2, 2))};

@@ -1,5 +1,5 @@
-/* The finished cells of a run directory, watched over time: none may be lost, changed or
- * damaged. */
+/* Watches the finished cells of a run directory over time: none may be lost, changed or
+   damaged. */
 #ifndef MOTE_TESTS_RUN_FILES_H
 #define MOTE_TESTS_RUN_FILES_H
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A finished cell: its name and both files as they were first seen. */
+/* A finished cell: its name, and both files as first seen. */
 typedef struct run_file {
     char name[160]; /* of the JSON file */
     char *json, *csv;
@@ -34,7 +34,7 @@ static inline void run_files_free(run_files *files)
     files->count = 0;
 }
 
-/* How many files in directory/cells end so. */
+/* How many files in directory/cells have this ending. */
 static inline int run_files_count(const char *directory, const char *ending)
 {
     char path[512];
@@ -51,7 +51,7 @@ static inline int run_files_count(const char *directory, const char *ending)
     return count;
 }
 
-/* Both files of a cell; false when one is not there. */
+/* Reads both files of a cell; false when one is missing. */
 static inline bool run_files_read(const char *directory, const char *name, char **json,
                                   char **csv)
 {
@@ -65,7 +65,8 @@ static inline bool run_files_read(const char *directory, const char *name, char 
     return there && mote_file_read(path, 1 << 26, csv, &size) == MOTE_OK;
 }
 
-/* JSON that can be read, and a header and a row a frame, the last line ended. */
+/* Whether the JSON is readable, and the CSV has a header, a row a frame and a complete last
+   line. */
 static inline bool run_files_whole(const char *json, const char *csv, int frames)
 {
     json_t *object = json_loads(json, 0, NULL);
@@ -77,7 +78,7 @@ static inline bool run_files_whole(const char *json, const char *csv, int frames
     return whole && lines == frames + 1 && csv[strlen(csv) - 1] == '\n';
 }
 
-/* Adds a finished cell that was not known. */
+/* Adds a finished cell that is new. */
 static inline const char *run_files_add(const char *directory, const char *name, int frames,
                                         run_files *known)
 {
@@ -96,8 +97,8 @@ static inline const char *run_files_add(const char *directory, const char *name,
     return run_files_whole(item->json, item->csv, frames) ? NULL : "a finished cell is damaged";
 }
 
-/* Compares the finished cells of a directory with those known, and adds the new ones, each of
-   which must have that many frames. What is wrong, or NULL. */
+/* Compares a directory's finished cells with the known ones and adds the new ones, each of
+   which must have that many frames. Returns what is wrong, or NULL. */
 static inline const char *run_files_check(const char *directory, int frames, run_files *known)
 {
     const char *wrong = NULL;

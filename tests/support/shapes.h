@@ -21,7 +21,7 @@ typedef struct scene {
     uint64_t random;
 } scene;
 
-/* A scene that cannot be made is no test. */
+/* Ends the test if a scene cannot be made. */
 static inline void need(bool condition)
 {
     if (!condition)
@@ -64,7 +64,8 @@ static inline mote_mesh *make_torus(uint32_t across, uint32_t around, double siz
     return mesh;
 }
 
-/* Two bodies of these meshes, which the scene then owns; deforming ones have six centres. */
+/* Makes a scene of two bodies and takes ownership of their meshes; deforming ones have six
+   centres. */
 static inline void scene_init_meshes(scene *s, mote_mesh *first, mote_mesh *second,
                                      bool deforming)
 {
@@ -145,7 +146,7 @@ static inline const mote_frame *scene_next(scene *s, double reach, bool pose_onl
     return &s->frame;
 }
 
-/* A small step from the frame before: a walk of both bodies. */
+/* Moves both bodies by a small step from the frame before. */
 static inline void scene_step(scene *s)
 {
     for (int b = 0; b < 2; ++b) {

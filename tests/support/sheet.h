@@ -1,5 +1,5 @@
-/* A flat sheet that sinks frame by frame, in every format that a sequence may have. Heights are
-   multiples of 1/64, so that single precision and text hold them exactly. */
+/* A flat sheet that sinks frame by frame, in every format of sequences. Heights are multiples
+   of 1/64, which single precision and text hold exactly. */
 #ifndef MOTE_TESTS_SHEET_H
 #define MOTE_TESTS_SHEET_H
 
@@ -29,14 +29,14 @@ static inline void sheet_face(int face, int corner[3])
     corner[2] = c;
 }
 
-/* A number in bytes of either order. */
+/* Appends a number in either byte order. */
 static inline void sheet_put(mote_text *text, const void *number, size_t size, bool big)
 {
     const uint16_t probe = 1;
     const bool host_is_big = *(const unsigned char *)&probe == 0;
     const unsigned char *bytes = number;
     for (size_t i = 0; i < size; ++i) {
-        /* mote_text_add passes over a 0 byte: it is put in by hand. */
+        /* mote_text_add skips 0 bytes, so they are stored directly. */
         mote_text_add(text, "x");
         text->data[text->size - 1] = (char)bytes[big == host_is_big ? i : size - 1 - i];
     }
@@ -76,8 +76,8 @@ static inline void sheet_write_obj(const char *path, double frame)
 
 typedef enum sheet_ply { SHEET_ASCII, SHEET_LITTLE, SHEET_BIG } sheet_ply;
 
-/* Binary: little-endian in double precision, big-endian in single; with a property and an
-   element that nobody asked for. */
+/* Binary: little-endian in double precision, big-endian in single; with an extra property and
+   an extra element that the reader must skip. */
 static inline void sheet_write_ply(const char *path, double frame, sheet_ply form)
 {
     static const char *const forms[] = {"ascii", "binary_little_endian", "binary_big_endian"};

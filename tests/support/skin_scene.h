@@ -1,5 +1,5 @@
-/* Two skinned tori in random poses, with or without morph targets, and whether boxes that a
-   certificate has deformed hold the vertices that are in them. */
+/* Two skinned tori in random poses, with or without morph targets. Checks that boxes deformed
+   by a certificate contain their vertices. */
 #ifndef MOTE_TESTS_SKIN_SCENE_H
 #define MOTE_TESTS_SKIN_SCENE_H
 
@@ -11,7 +11,7 @@
 typedef struct skinned {
     scene s;
     uint32_t bones, targets;
-    double (*matrix[2])[3][4]; /* [bones]; as many as 1 where targets move all */
+    double (*matrix[2])[3][4]; /* [bones]; one if targets move all */
     double *amounts[2];        /* [targets] */
     double *weights[2];        /* x, y, z */
 } skinned;
@@ -37,13 +37,13 @@ static inline void weigh(const mote_mesh *mesh, uint32_t vertex, uint32_t bones,
         weight[k] = d > 0 ? d * d : 0;
     }
     weight[0] += 1e-3;
-    if (vertex % 7 == 0) /* rigid ones too */
+    if (vertex % 7 == 0) /* some vertices follow one bone only */
         for (uint32_t k = 1; k < each; ++k)
             weight[k] = 0;
 }
 
-/* What target k moves a vertex by: a bump on a part of the torus, all of it, or nothing. Every
-   third is rough, the second undoes the first, and the last is tiny. */
+/* The displacement of a vertex by target k: a bump on a part of the torus, all of it, or
+   nothing. Every third is rough, the second undoes the first, and the last is tiny. */
 static inline mote_vec3 target_move(const mote_mesh *mesh, const skin_plan *plan, uint32_t k,
                                     uint32_t vertex)
 {
@@ -169,8 +169,8 @@ static inline mote_weights skinned_weights(skinned *k, int b, const mote_mat3 *r
     return (mote_weights){w, w + padded, w + 2 * padded, field->count, padded};
 }
 
-/* Some targets do not move, some move more than all the way, the last by far more, as at times
-   do the two that undo each other. */
+/* Some targets have amount 0, some more than 1, the last far more. Sometimes the two that undo
+   each other are large, too. */
 static inline void random_amounts(skinned *k, int b, double wild)
 {
     for (uint32_t j = 0; j < k->targets; ++j) {
@@ -198,7 +198,7 @@ static inline void skinned_deform(skinned *k)
     ++k->s.frame.number;
 }
 
-/* A small step from the last pose. */
+/* Changes the last pose by a small step. */
 static inline void step_pose(skinned *k, double size)
 {
     scene *s = &k->s;
@@ -232,7 +232,7 @@ static inline void next_pose(skinned *k, double wild, double reach)
     skinned_deform(k);
 }
 
-/* How much larger than the sum the terms of a position are where targets undo each other. */
+/* How much larger than the sum the terms of a position are when targets undo each other. */
 static inline double largest_term(const skinned *k)
 {
     double most = 1;
@@ -255,7 +255,7 @@ static inline bool in_reach(const scene *s, const mote_certificate *c, int b,
     return mote_dot(p, c->side[b].facing) <= (double)node->reach[l];
 }
 
-/* By the box's size along some random directions. */
+/* Checks the box's extent along random directions. */
 static inline bool in_box(scene *s, const mote_certificate *c, int b,
                           const mote_cert_node *node, size_t l, uint32_t vertex)
 {

@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* References are computed in long double; clang would warn of each step to it. */
+/* References are computed in long double; clang would warn about each conversion. */
 #pragma GCC diagnostic ignored "-Wdouble-promotion"
 
-/* cmocka's own assert_float_equal compares floats. Fails also when either is not a number. */
+/* cmocka's own assert_float_equal compares floats. Also fails when either is NaN. */
 #define assert_close(a, b, tolerance) assert_close_at(a, b, tolerance, __FILE__, __LINE__)
 
 static inline void assert_close_at(long double a, long double b, long double tolerance,
@@ -146,8 +146,8 @@ static inline solid solid_icosahedron(void)
     return s;
 }
 
-/* The index of the middle of edge a-b, which is added when it is new. middle holds the index by
-   a * n + b with a < b, or 0. */
+/* The vertex in the middle of edge a-b, added if it is new. middle holds its index at a * n + b
+   with a < b, or 0. */
 static inline uint32_t solid_middle(solid *s, uint32_t *middle, size_t n, uint32_t a,
                                     uint32_t b)
 {
@@ -235,8 +235,8 @@ static inline solid solid_grid(uint32_t columns, uint32_t rows)
     return s;
 }
 
-/* Vertex 0 and a chain of vertex_count - 1 others around it (>= 2, a wavy circle), joined to
-   a ring when closed (then >= 3). */
+/* Vertex 0 and a chain of vertex_count - 1 others around it (>= 2, a wavy circle); if closed,
+   the chain is a ring (then >= 3). */
 static inline solid solid_fan(uint32_t vertex_count, int closed)
 {
     const uint32_t rim = vertex_count - 1;
@@ -252,7 +252,7 @@ static inline solid solid_fan(uint32_t vertex_count, int closed)
     return s;
 }
 
-/* a and b side by side, b moved by (dx, 0, 0); both are freed. */
+/* Puts a and b side by side, b moved by (dx, 0, 0); frees both. */
 static inline solid solid_join(solid a, solid b, double dx)
 {
     solid s =
@@ -269,8 +269,8 @@ static inline solid solid_join(solid a, solid b, double dx)
     return s;
 }
 
-/* Redirects the faces of vertex from to vertex to, and drops from: the last vertex takes its
-   number. With from == to the vertex, which no face may use, is only dropped. */
+/* Redirects the faces of vertex `from` to vertex `to` and removes `from`: the last vertex takes
+   its number. With from == to, which no face may use, the vertex is only removed. */
 static inline void solid_weld(solid *s, uint32_t from, uint32_t to)
 {
     const uint32_t last = (uint32_t)--s->vertex_count;

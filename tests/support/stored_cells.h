@@ -1,4 +1,4 @@
-/* Writes the files of a run's cells, as a user may have them on a disk, or edit them. */
+/* Writes the files of a run's cells as they may be on a user's disk, edited or not. */
 #ifndef MOTE_TESTS_STORED_CELLS_H
 #define MOTE_TESTS_STORED_CELLS_H
 
@@ -11,11 +11,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Every column that is read of a frame; a row is a line of these. */
+/* Every column that is read from a frame; a row is a line of these. */
 #define STORED_COLUMNS                                                                         \
     "frame,deform_ns,update_ns,query_ns,truth,error,contact,contact_truth,steps\n"
 
-/* A cell of 8 triangles and 6 vertices a body, measured over frames 1-4; NULL: the usual. */
+/* A cell of 8 triangles and 6 vertices a body, measured over frames 1-4; NULL stands for the
+   usual. */
 typedef struct stored_cell {
     const char *id;                             /* METHOD-REPLICATE */
     const char *method;                         /* "fcl-aabb" */
@@ -28,7 +29,7 @@ typedef struct stored_cell {
     const char *rows;              /* below STORED_COLUMNS; "": none; NULL: no CSV */
 } stored_cell;
 
-/* Writes it into a run's directory, which is made. */
+/* Writes it into a run's directory, which is created. */
 static inline void stored_cell_put(const char *directory, stored_cell of)
 {
     const stored_cell *cell = &of;

@@ -1,4 +1,4 @@
-/* Tests in a run's directory each, the working one, whose files the test writes itself. */
+/* Each test works in a run's directory of its own and writes the run's files itself. */
 #ifndef MOTE_TESTS_STORED_RUN_H
 #define MOTE_TESTS_STORED_RUN_H
 

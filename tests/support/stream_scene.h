@@ -1,4 +1,4 @@
-/* Streamed queries of small scenes of which only positions are told. */
+/* Streamed queries of small scenes that give positions only. */
 #ifndef MOTE_TESTS_STREAM_SCENE_H
 #define MOTE_TESTS_STREAM_SCENE_H
 
@@ -16,7 +16,7 @@ static inline mote_stream *stream_of(const scene *s, const mote_stream_options *
     return stream;
 }
 
-/* Moves every vertex by up to `size` of L, on top of what the scene's field did. */
+/* Moves every vertex by up to `size` of L, in addition to the scene's field. */
 static inline void shake(scene *s, double size)
 {
     for (int b = 0; b < 2; ++b) {
@@ -44,7 +44,7 @@ stream_answer(mote_stream *stream, const mote_stream_frame *frame, double enough
     return answer;
 }
 
-/* The same answer, however it was found. */
+/* Checks that two answers are equal, however they were found. */
 static inline void check_same_answer(const mote_certificate_answer *a,
                                      const mote_certificate_answer *b)
 {

@@ -21,19 +21,19 @@
 typedef struct test_case {
     const char *name;
     void (*run)(void);
-    int line; /* of the source, for the order */
+    int line; /* of the source; tests run in this order */
     struct test_case *next;
 } test_case;
 
 /* Fixtures return 0 when they are done; anything else fails the tests. */
 typedef int (*test_fixture)(void);
 
-/* Both keep what they are given. A fixture may be NULL. */
+/* Both keep pointers to their arguments. A fixture may be NULL. */
 void test_register(test_case *test);
 void test_register_group(test_fixture before_all, test_fixture after_all);
 void test_register_each(test_fixture before, test_fixture after);
 
-/* Says which row of a table the checks that follow are of; told when the test fails there. */
+/* Names the table row that the following checks are about; printed if the test fails there. */
 void test_row(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* How many elements an array has. */

@@ -12,7 +12,7 @@ static size_t count;
 static test_fixture before_all, after_all, before_each, after_each;
 static char row[256]; /* of a table in the test that runs, or "" */
 
-/* Constructors run in an order that compilers choose, so tests are put in their places. */
+/* Compilers choose the order of constructors, so tests are sorted here. */
 void test_register(test_case *test)
 {
     test_case **place = &first;
@@ -58,7 +58,7 @@ static int set_up(void **state)
     return run_fixture(before_each);
 }
 
-/* The row is still set when the test did not reach its end. */
+/* The row is still set if the test did not reach its end. */
 static int tear_down(void **state)
 {
     (void)state;
@@ -99,7 +99,8 @@ int main(int argc, char **argv)
             (struct CMUnitTest){test->name, run_registered, set_up, tear_down, test};
     if (argc > 1)
         cmocka_set_test_filter(argv[1]);
-    /* What the macro cmocka_run_group_tests calls; that takes an array of fixed size only. */
+    /* What the macro cmocka_run_group_tests calls; the macro takes only arrays of fixed
+       size. */
     int failed = EXIT_FAILURE;
     if (folder_enter(program)) {
         failed = _cmocka_run_group_tests(program, tests, filled, set_up_group, tear_down_group);

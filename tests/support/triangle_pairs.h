@@ -1,5 +1,5 @@
-/* Random pairs of triangles in every sort of position that is hard: slivers, points, parallel,
-   coplanar, touching, nearly touching, of very different size. */
+/* Random pairs of triangles of every hard sort: slivers, points, parallel, coplanar, touching,
+   nearly touching, of very different size. */
 #ifndef MOTE_TESTS_TRIANGLE_PAIRS_H
 #define MOTE_TESTS_TRIANGLE_PAIRS_H
 
@@ -26,7 +26,7 @@ typedef enum pair_sort {
     PAIR_LATTICE,       /* whole coordinates 0 .. 3: exact touching and coplanar pairs */
     PAIR_PIERCED_FLAT,  /* an edge through a sliver, nearly in its plane */
     PAIR_VERTEX_FLAT,   /* a vertex nearly on a sliver */
-    PAIR_ULPS,          /* touching but for up to eight units in the last place */
+    PAIR_ULPS,          /* touching within eight units in the last place */
     PAIR_SORTS
 } pair_sort;
 
@@ -101,8 +101,8 @@ static inline void pair_degenerate(mote_vec3 s[3], mote_vec3 t[3], uint64_t *sta
         t[2] = t[0];
 }
 
-/* A vertex on the other's face or edge, or a shared edge, but for a few units in the last
- * place. */
+/* A vertex on the other's face or edge, or a shared edge, within a few units in the last
+   place. */
 static inline void pair_ulps(mote_vec3 s[3], mote_vec3 t[3], double u, uint64_t *state)
 {
     double small = floor(9 * pair_uniform(state)) * 0x1p-53;

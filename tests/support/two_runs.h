@@ -19,7 +19,7 @@ static inline int make_runs(void)
 
 TEST_GROUP(make_runs, NULL);
 
-/* Without the sync of mote_record_json; object is taken over. */
+/* Does not sync as mote_record_json does; takes ownership of object. */
 static inline void put(const char *directory, const char *name, json_t *object)
 {
     char path[96];
@@ -31,9 +31,9 @@ static inline void put(const char *directory, const char *name, json_t *object)
 
 /* A run of one method, five replicates. */
 typedef struct figures {
-    double ratio;     /* of fcl-aabb's time to this one's, about */
+    double ratio;     /* of fcl-aabb's time to this one's, roughly */
     double jitter;    /* how much replicates differ, a share */
-    double box_tests; /* a replicate */
+    double box_tests; /* of one replicate */
     double heap, missed, p99;
 } figures;
 
@@ -47,7 +47,7 @@ static inline json_t *one_process(const figures *f, int replicate, double sign)
                      "box_tests", f->box_tests);
 }
 
-/* sign: the two runs of a pair wobble differently. */
+/* sign: makes the two runs of a pair vary differently. */
 static inline void write_run(const char *directory, const figures *f, double sign)
 {
     json_t *processes = json_array();
@@ -79,7 +79,7 @@ static inline mote_comparison compare_with(const figures *fresh)
     return c;
 }
 
-/* What a run on a processor leaves beside its summary. */
+/* Writes what a run on a processor leaves beside its summary. */
 static inline void write_beside(const char *directory, const char *processor,
                                 double instructions)
 {
@@ -95,7 +95,7 @@ static inline void remove_beside(void)
     assert_int_equal(system("rm old/[im]*.json new/[im]*.json"), 0);
 }
 
-/* Puts the members of an object, written with ', into the first row of a run's file. */
+/* Puts the members of an object, written with ' for ", into the first row of a run's file. */
 static inline void change_row(const char *directory, const char *name, const char *members)
 {
     char plain[1024];
@@ -112,7 +112,7 @@ static inline void change_row(const char *directory, const char *name, const cha
     put(directory, name, summary);
 }
 
-/* mote compare OLD NEW OPTIONS: its exit status, and what it must say. */
+/* Runs mote compare OLD NEW OPTIONS, which must end with this status and print this text. */
 static inline void expect(const char *options, int status, const char *says)
 {
     mote_expect(status, says, "compare old new %s", options);

@@ -18,7 +18,7 @@ struct Listener : btManifoldResult {
     int contacts = 0;
 };
 
-/* A triangle as a mesh that Bullet reads where it lies here. */
+/* A triangle as a mesh whose memory Bullet reads directly. */
 struct Body {
     Body(const float (&corners)[9], float size)
         : arrays(1, order, 12, 3, numbers, 12), shape(&arrays)

@@ -6,8 +6,8 @@
 extern "C" {
 #endif
 
-/* Contacts of two crossing triangles of side `size` as GImpact meshes that were built around
-   the origin, moved by x along every axis and refitted. */
+/* The number of contacts of two crossing triangles of side `size`, as GImpact meshes built
+   around the origin, moved by x along every axis and refitted. */
 int mote_bullet_contacts_after_a_move(float size, float x);
 
 #ifdef __cplusplus

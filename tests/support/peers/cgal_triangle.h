@@ -12,11 +12,11 @@ extern "C" {
 #endif
 
 typedef struct cgal_verdict {
-    bool degenerate; /* a triangle has no area, exactly: CGAL is not asked, and the rest is 0 */
+    bool degenerate; /* an area is exactly 0: CGAL is not asked, the rest is 0 */
     bool touch;      /* CGAL::do_intersect */
-    double parts;    /* 0 where they touch, or the least of nine distances of edges and six of
-                        corners from triangles; exact but for the final root */
-    double whole;    /* CGAL::squared_distance of the two triangles, likewise */
+    double parts; /* 0 where they touch, or the least of nine edge distances and six distances
+                     of corners from triangles; exact except for the final root */
+    double whole; /* CGAL::squared_distance of the two triangles, also exact but for the root */
 } cgal_verdict;
 
 /* Coordinates are finite. About 100 us. */

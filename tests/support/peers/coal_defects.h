@@ -12,8 +12,8 @@ extern "C" {
 
 typedef enum coal_volume { COAL_AABB, COAL_OBB, COAL_RSS, COAL_OBBRSS, COAL_KIOS } coal_volume;
 
-/* How far a cube of half side 1, turned by so many degrees about (1, -1, 0), reaches out of its
-   sum with a cube that stands 1 above it along z. Should be 0. */
+/* How far a cube of half side 1, turned by `degrees` about (1, -1, 0), sticks out of its sum
+   with a cube 1 above it along z. Should be 0. */
 double mote_coal_sum_outside(double degrees);
 
 /* Volumes of a tree that do not contain their triangles: `failing` of `volumes` by more than
@@ -28,8 +28,8 @@ typedef struct coal_refit {
 coal_refit mote_coal_refit(coal_volume volume, bool bottom_up, const mote_mesh *mesh,
                            const mote_vec3 *vertices, int poses);
 
-/* What AABB::overlap reports as the squared distance of two unit cubes that are 1 apart along x
-   and, the other way, 2 along y. Should be 5. */
+/* The squared distance that AABB::overlap reports for two unit cubes, the first 1 apart along x
+   and, in the opposite direction, 2 along y. Should be 5. */
 double mote_coal_aabb_bound(void);
 
 #ifdef __cplusplus

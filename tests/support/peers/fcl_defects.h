@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* Joins two rectangle swept spheres with operator+, as a bottom-up refit does, and returns the
+/* Joins two rectangle swept spheres with operator+, as a bottom-up refit does. Returns the
    largest cosine between two axes of the sum; they should be orthogonal: 0. */
 double mote_fcl_rss_sum_cosine(void);
 
-/* How far a cube of half side 1, turned by so many degrees about (1, -1, 0), reaches out of its
-   sum, as an oriented box, with a cube that stands 1 above it along z. Should be 0. */
+/* How far a cube of half side 1, turned by `degrees` about (1, -1, 0), sticks out of its sum,
+   as an oriented box, with a cube 1 above it along z. Should be 0. */
 double mote_fcl_obb_sum_outside(double degrees);
 
 /* fcl::distance of two triangles, one above the other at distance 1, as models of oriented
@@ -26,8 +26,7 @@ double mote_fcl_obb_distance(void);
 int mote_fcl_memory_usage(void);
 
 /* The status of beginReplaceModel after an update by beginUpdateModel .. endUpdateModel; 0 is
- * success.
- */
+   success. */
 int mote_fcl_replace_after_update(void);
 
 /* Whether a model with a NaN among its vertices is built without complaint. */

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* The distance of s and t as FCL 0.7 computes it: 0 where it takes them to intersect, and for
+/* The distance of s and t as FCL 0.7 computes it: 0 where FCL takes them to intersect, and for
    some triangles whose normal (edge cross edge) is shorter than 3.2e-8; NaN if FCL throws. */
 double mote_fcl_triangle_distance(const mote_vec3 s[3], const mote_vec3 t[3]);
 

@@ -1,4 +1,4 @@
-/* Two methods and a field as a user compiles them, in C and in C++; for test_plugin. */
+/* Two methods and a field as a user would compile them, in C and in C++; for test_plugin. */
 #include <mote/field_maker.h>
 #include <mote/method.h>
 
@@ -21,7 +21,7 @@ static mote_traits traits(const double *values)
     return own;
 }
 
-/* The distance of the translations: the bodies are points to it. */
+/* Returns the distance of the translations: bodies count as points. */
 static mote_status query(void *state, const mote_frame *frame, mote_answer *answer)
 {
     const mote_setup *setup = (const mote_setup *)state;
@@ -38,7 +38,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
     return MOTE_OK;
 }
 
-/* A function of the library: it is the program's own. */
+/* Calls functions of the library, of which it uses the program's own copy. */
 static mote_status refuse(const mote_setup *setup, void **state)
 {
     (void)setup;

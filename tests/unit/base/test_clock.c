@@ -1,6 +1,6 @@
-/* The wall clock is set back and forth by years while a run measures
+/* A run measures while the wall clock is set back and forth by years
    (tests/support/clock_steps.c): its times come from a steady clock, its records are valid, and
-   it is not led to measure again. */
+   it does not measure again. */
 #define _DEFAULT_SOURCE /* setenv */
 #include "harness/base/record.h"
 #include "tests/support/mote.h"
@@ -24,11 +24,11 @@ static double steady_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* mote WHAT run under the unsteady clock; *seconds: how long it took. */
+/* Runs mote WHAT run under the unsteady clock; *seconds: how long it took. */
 static int run(const char *what, double *seconds)
 {
     assert_int_equal(setenv("LD_PRELOAD", MOTE_CLOCK_STEPS, 1), 0);
-    /* It comes before AddressSanitizer, which minds. */
+    /* The library is loaded before AddressSanitizer, which would object. */
     assert_int_equal(setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1), 0);
     const double from = steady_seconds();
     const int status = mote("%s run", what);
@@ -37,7 +37,7 @@ static int run(const char *what, double *seconds)
     return status;
 }
 
-/* The sum of all times of a cell in ns, none of which is beyond the whole. */
+/* The sum of all times of a cell in ns; none may exceed the duration of the whole run. */
 static double sum_of_times(const char *csv, double seconds)
 {
     double sum = 0;
@@ -81,7 +81,7 @@ TEST(run_while_the_clock_is_set_has_steady_times)
         json_decref(cell);
     }
     assert_true(sum > 0 && sum <= seconds * 1e9);
-    /* Going on: nothing is measured again, whatever the dates say. */
+    /* A resumed run measures nothing again, whatever the dates. */
     assert_int_equal(run(SWEEP, &seconds), 0);
     assert_null(run_files_check("run", FRAMES, &finished));
     assert_int_equal(finished.count, CELLS);
@@ -90,7 +90,7 @@ TEST(run_while_the_clock_is_set_has_steady_times)
     assert_int_equal(run("report", &seconds), 0);
 }
 
-/* The dates are those of the clock as it was set, and well formed. */
+/* The dates are those of the manipulated clock, and well formed. */
 TEST(run_while_the_clock_is_set_writes_the_dates_it_reads)
 {
     json_t *manifest = NULL;

@@ -19,7 +19,7 @@
 #define SANITIZED 0
 #endif
 
-/* The compiler may not take calls away whose result escapes through this. */
+/* Lets results escape, so that the compiler cannot remove the calls. */
 static void *volatile sink;
 
 static void skip_if_not_counted(void)
@@ -28,8 +28,8 @@ static void skip_if_not_counted(void)
         skip();
 }
 
-/* Everything else here, and what else looks at the heap, is left out where it is not counted.
- */
+/* All other tests here, and others that look at the heap, are skipped where it is not
+   counted. */
 TEST(heap_without_sanitizers_is_counted)
 {
     assert_int_equal(mote_heap_read().counted, !SANITIZED);
@@ -82,7 +82,7 @@ TEST(heap_after_realloc_holds_the_new_size_only)
     assert_int_equal(mote_heap_read().live_bytes, before.live_bytes);
 }
 
-/* What could not be had is not counted, and what was there stays counted. */
+/* A failed allocation is not counted, and the existing block stays counted. */
 TEST(heap_of_calls_that_fail_is_what_it_was)
 {
     skip_if_not_counted();

@@ -1,5 +1,5 @@
-/* JSON files as users write them: what is wrong is told by file, line and place; and as mote
-   prints them. */
+/* JSON files as users write them: errors name file, line and place. Also how mote prints
+   JSON. */
 #include "harness/base/file.h"
 #include "harness/base/json_print.h"
 #include "harness/base/json_read.h"
@@ -80,7 +80,7 @@ TEST(json_of_another_kind_is_refused_by_line_and_place)
     static const struct {
         const char *key;
         reader read;
-        const char *says; /* behind the file's name */
+        const char *says; /* after the file's name */
     } cases[] = {
         {"inner", as_object, ":7: inner.nu: unknown key; known here are numbers|number|num"},
         {"list", as_object, ":4: list: is not an object; write {...}"},
@@ -147,7 +147,8 @@ TEST(json_after_a_byte_order_mark_is_read_and_keeps_its_lines)
     assert_non_null(strstr(mote_error_text(), "-marked:2:1: "));
 }
 
-/* The line is told of valid texts; one that is cut off anywhere is not left either. */
+/* The line is meant for valid texts; in one that is cut off anywhere it must still be within
+   the text. */
 TEST(json_line_of_a_cut_text_is_within_it)
 {
     static const char text[] =
@@ -178,7 +179,8 @@ TEST(json_line_of_a_cut_text_is_within_it)
     }
 }
 
-/* What is printed is the same value, in lines of at most 96 characters but for long strings. */
+/* Printed JSON has the same value, in lines of at most 96 characters except for long
+   strings. */
 TEST(json_print_of_any_value_is_read_back)
 {
 #define TWENTY "12345678901234567890"

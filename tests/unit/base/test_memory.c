@@ -1,4 +1,4 @@
-/* Memory that is there, and memory that is not: the process ends with one line and a status. */
+/* Allocations that succeed, and ones that fail: the process ends with one line and a status. */
 #include "harness/base/memory.h"
 
 #include "harness/process/child.h"
@@ -76,7 +76,7 @@ static void grow_to_half_of_all(void)
     free(mote_reserve(NULL, SIZE_MAX / 2, &capacity, 1));
 }
 
-/* The exit status of a process that does this; what it printed goes into text. */
+/* Runs work in a process and returns its exit status; text receives its output. */
 static int status_after(void (*work)(void), char text[512])
 {
     static const char said[] = "test_memory_said";
@@ -109,7 +109,7 @@ TEST(memory_that_runs_out_ends_the_process_with_a_line_and_a_status)
                        "mote: out of memory for another %s bytes; use a machine with more, or "
                        "ask for less at a time: what was finished is kept\n",
                        bytes[i]);
-        /* AddressSanitizer tells of it in a line of its own before. */
+        /* AddressSanitizer reports it first, in a line of its own. */
         const char *line = strncmp(text, "==", 2) == 0 ? strchr(text, '\n') : NULL;
         assert_string_equal(line ? line + 1 : text, expected);
     }

@@ -1,4 +1,4 @@
-/* Figures as a person reads them, and text from elsewhere that does no harm in a page. */
+/* Numbers formatted for people, and foreign text that does no harm in a page. */
 #include "harness/base/number_text.h"
 
 #include "harness/base/escape.h"

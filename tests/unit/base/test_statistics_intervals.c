@@ -1,5 +1,5 @@
-/* Intervals and tests of means, shares and figures of processes, against closed forms: of
-   Student's t with one and two degrees of freedom, and of sums of binomial terms. */
+/* Intervals and tests of means, shares and figures of processes, against closed forms:
+   Student's t with one and two degrees of freedom, and sums of binomial terms. */
 #include "harness/base/statistics.h"
 #include "tests/support/test.h"
 
@@ -15,7 +15,8 @@ static void assert_near(double value, double expected, double tolerance)
         fail_msg("%.17g is not within %g of %.17g", value, tolerance, expected);
 }
 
-/* The value that Student's t exceeds with this probability: one degree of freedom, and two. */
+/* The value that Student's t exceeds with this probability, for one and two degrees of
+   freedom. */
 static double t_one(double above)
 {
     return tan(PI * (0.5 - above));
@@ -107,7 +108,8 @@ TEST(t_test_of_equal_values_is_certain)
 
 TEST(welch_of_equal_variances_is_students_test)
 {
-    /* Two values on each side, variances 2: two degrees of freedom, an error of sqrt 2. */
+    /* Two values on each side, variances 2: two degrees of freedom, a standard error of
+       sqrt 2. */
     const double a[] = {1, 3}, b[] = {6, 8};
     mote_difference d = mote_statistics_welch(a, 2, b, 2);
     assert_near(d.value, 5, 1e-15);
@@ -121,7 +123,8 @@ TEST(welch_of_equal_variances_is_students_test)
 
 TEST(welch_of_one_constant_side_has_the_freedom_of_the_other)
 {
-    /* Five equal values add nothing: the freedom of three values is two, the error sqrt 7/3. */
+    /* Equal values add no variance: three values leave two degrees of freedom; standard error
+       sqrt 7/3. */
     const double constant[] = {1, 1, 1, 1, 1}, values[] = {1, 2, 6};
     mote_difference d = mote_statistics_welch(constant, 5, values, 3);
     assert_near(d.value, 2, 1e-15);
@@ -216,8 +219,9 @@ TEST(median_interval_where_a_process_has_no_frame_is_none)
     }
 }
 
-/* A third of the processes takes four times as long. More than half of twelve drawn do with a
-   probability of 6.6 %, fewer than half with 82 %: the ends are those of the two sorts. */
+/* A third of the processes takes four times as long. Of twelve drawn, more than half are slow
+   with a probability of 6.6 %, fewer than half with 82 %. So the interval's ends are the two
+   levels. */
 TEST(median_interval_of_two_sorts_of_processes_spans_both)
 {
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
@@ -233,8 +237,8 @@ TEST(median_interval_of_two_sorts_of_processes_spans_both)
     }
 }
 
-/* Eleven of twenty drawn of 1 .. 20 are at most 6 with a probability of 1.7 %, ten with 4.8 %.
- */
+/* Of twenty drawn from 1 .. 20, eleven are at most 6 with a probability of 1.7 %, ten with
+   4.8 %. */
 TEST(median_interval_of_twenty_processes_cuts_a_fortieth)
 {
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
@@ -252,8 +256,8 @@ TEST(median_interval_of_twenty_processes_cuts_a_fortieth)
     }
 }
 
-/* Frames of a process differ by a known profile and nothing else: no process adds to it, and
-   the interval has no width. */
+/* Frames differ by a known profile only and processes not at all, so the interval has no
+   width. */
 TEST(median_interval_of_processes_alike_is_a_point)
 {
     for (int logarithmic = 0; logarithmic < 2; ++logarithmic) {
@@ -269,11 +273,11 @@ TEST(median_interval_of_processes_alike_is_a_point)
     }
 }
 
-/* Figures for process_interval: the mean of the numbers that are drawn, each looked up. */
+/* A figure for process_interval: the mean of the drawn numbers. */
 typedef struct figures {
     const double *of;
     size_t count;
-    size_t calls, largest; /* of a call */
+    size_t calls, largest; /* largest: of one call */
 } figures;
 
 static double mean_figure(void *context, const size_t *drawn, size_t count)
@@ -293,7 +297,7 @@ TEST(process_interval_of_few_is_t_on_logarithms)
 {
     const double of[] = {10, 100, 1000, -5, MOTE_NONE};
     mote_confidence interval;
-    /* 10, 100, 1000: a standard deviation of one decade. Those below 0 have no figure. */
+    /* 10, 100, 1000: a standard deviation of one decade. Negative ones have no figure. */
     for (size_t processes = 3; processes <= COUNT(of); ++processes) {
         figures f = {.of = of, .count = processes};
         interval = mote_statistics_process_interval(mean_figure, &f, processes, 1);
@@ -317,7 +321,7 @@ TEST(process_interval_of_many_is_that_of_the_mean)
     interval = mote_statistics_process_interval(mean_figure, &f, MANY, 4);
     assert_int_equal(f.calls, 1000);
     assert_int_equal(f.largest, MANY);
-    /* The mean of 20 drawn of 1 .. 20: a standard deviation of sqrt(399 / 12 / 20). */
+    /* The mean of 20 drawn from 1 .. 20: a standard deviation of sqrt(399 / 12 / 20). */
     const double half = 1.959964 * sqrt(399.0 / 12 / 20);
     assert_near(interval.low, 10.5 - half, 0.04);
     assert_near(interval.high, 10.5 + half, 0.04);
@@ -327,7 +331,7 @@ TEST(process_interval_of_many_is_that_of_the_mean)
     assert_true(other.low != interval.low || other.high != interval.high);
 }
 
-/* A tenth process: the bootstrap; where no draw has a figure: none. */
+/* From ten processes on: the bootstrap. If no draw has a figure, there is no interval. */
 TEST(process_interval_from_ten_on_is_a_bootstrap)
 {
     double of[MOTE_BOOTSTRAP_REPLICATES];
@@ -339,7 +343,7 @@ TEST(process_interval_from_ten_on_is_a_bootstrap)
     assert_int_equal(nine.calls, 9);
     interval = mote_statistics_process_interval(mean_figure, &ten, 10, 1);
     assert_int_equal(ten.calls, 1000);
-    /* 8.25 / 10: the variance of the mean of ten drawn of 1 .. 10. */
+    /* The variance of the mean of ten drawn from 1 .. 10 is 8.25 / 10. */
     assert_near(interval.low, 5.5 - 1.96 * sqrt(0.825), 0.05);
     assert_near(interval.high, 5.5 + 1.96 * sqrt(0.825), 0.05);
     for (size_t k = 0; k < COUNT(of); ++k)
@@ -362,7 +366,7 @@ TEST(detectable_of_two_and_three_values_is_the_closed_form)
     assert_true(isnan(mote_statistics_detectable(logs, 3, 0)));
 }
 
-/* The exponent of x^e, and its interval where nothing is left to chance. */
+/* The exponent of x^e, and its interval for data without noise. */
 static void check_power(const double *x, size_t count, double e)
 {
     double y[16], exponent;
@@ -392,12 +396,12 @@ TEST(exponent_of_exact_powers_is_the_power)
     assert_true(isnan(exponent) && isnan(interval.low) && isnan(interval.high));
 }
 
-/* Half of the values lie above, half below, all equally far: nothing is an outlier, and robust
+/* Half of the values lie above, half below, all equally far: there are no outliers, and robust
    weights change the interval of least squares by a few percent only. */
 TEST(exponent_interval_without_outliers_is_that_of_least_squares)
 {
     enum { POINTS = 5 };
-    static const double off[POINTS] = {1, -2, 2, -2, 1}; /* sum 0, and at right angles to x */
+    static const double off[POINTS] = {1, -2, 2, -2, 1}; /* sum 0, and orthogonal to x */
     double x[POINTS], y[POINTS], exponent;
     for (size_t i = 0; i < POINTS; ++i) {
         x[i] = exp((double)i);
@@ -411,7 +415,7 @@ TEST(exponent_interval_without_outliers_is_that_of_least_squares)
     assert_near((interval.high - interval.low) / 2 / half, 1, 0.25);
 }
 
-/* Weights go to and fro between two fits for ever. */
+/* Weights alternate between two fits for ever. */
 TEST(exponent_of_weights_that_do_not_settle_is_none)
 {
     static const double x[] = {1e3, 1e4, 1e5, 1e6}, y[] = {16, 9, 9, 16};

@@ -15,7 +15,7 @@ static void assert_near(double value, double expected, double tolerance)
 
 TEST(sign_interval_is_that_of_the_table)
 {
-    /* The rank from either end, of a 95 % interval of the median, for 6 .. 25 values. */
+    /* The ranks, from either end, of the 95 % interval of the median, for 6 .. 25 values. */
     static const int ranks[] = {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 8};
     double sorted[25];
     for (size_t i = 0; i < COUNT(sorted); ++i)

@@ -37,8 +37,8 @@ TEST(holm_of_four_values_is_the_textbook_one)
 
 TEST(welch_of_two_samples_is_the_closed_form)
 {
-    /* Variances 1 and 4, three values each: error sqrt(5 / 3), freedom (5/3)^2 / (1/18 + 8/9).
-     */
+    /* Variances 1 and 4, three values each: standard error sqrt(5 / 3), degrees of freedom
+       (5/3)^2 / (1/18 + 8/9). */
     const double a[] = {1, 2, 3}, b[] = {8, 10, 12};
     mote_difference d = mote_statistics_welch(a, 3, b, 3);
     assert_near(d.value, 8, 1e-12);

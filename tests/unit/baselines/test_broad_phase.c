@@ -45,7 +45,7 @@ TEST(mote_broad_phase_pairs_moving_boxes_equal_all_pairs)
     assert_int_equal(mote_broad_phase_create(BODIES, &broad), MOTE_OK);
     for (int step = 0; step < 20; ++step) {
         for (uint32_t i = 0; i < BODIES; ++i) {
-            /* Anew, by leaps, or a little on. */
+            /* A leap every seventh step, small steps otherwise. */
             const mote_vec3 middle = step % 7 == 0
                                          ? random_vec3(&random, 4)
                                          : mote_add(boxes[i].low, random_vec3(&random, 0.1));

@@ -86,7 +86,7 @@ TEST(query_on_convex_bodies_equals_brute_force)
             for (int i = 0; i < 2; ++i) {
                 mote_answer a = answer(state[i], frame);
                 assert_true(a.has_distance && a.has_contact);
-                /* A hull is solid: one inside the other is a contact too. */
+                /* A hull is solid: a body inside the other is a contact, too. */
                 if (!inside || a.distance > 0)
                     assert_true(fabs(a.distance - expected) <= 1e-12 * s.length);
                 assert_int_equal(a.has_witness, a.distance > 0);
@@ -136,7 +136,8 @@ TEST(query_on_letters_is_near_and_misses_no_contact)
     scene_free(&s);
 }
 
-/* The least overlap of the two vertex sets over many directions: not below the penetration. */
+/* The least overlap of the two vertex sets over many directions, an upper bound of the
+   penetration. */
 static double least_overlap(scene *s)
 {
     double least = HUGE_VAL;

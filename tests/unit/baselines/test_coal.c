@@ -1,4 +1,4 @@
-/* Coal's methods against brute force, where Coal was found. */
+/* Coal's methods against brute force, if Coal was found. */
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -123,7 +123,7 @@ TEST(contacts_agree_with_brute_force)
     }
 }
 
-/* The mended bound does what three axes should: fewer boxes are tested. */
+/* The corrected bound covers three axes, as it should, so fewer boxes are tested. */
 TEST(the_mended_bound_tests_fewer_boxes)
 {
     if (is_missing())

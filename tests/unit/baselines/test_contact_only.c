@@ -1,5 +1,5 @@
-/* The baselines that answer for contact alone, those of them that were built, against brute
-   force: Embree, ODE, Bullet and Coal. */
+/* The baselines that report contact only, as far as they were built, against brute force:
+   Embree, ODE, Bullet and Coal. */
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -8,8 +8,8 @@
 typedef struct engine {
     const char *method;
     const char *values; /* "" or "key=value" pairs as on the command line */
-    bool tolerance;     /* answers for tolerances above 0 */
-    bool posed;         /* for rigid bodies alone */
+    bool tolerance;     /* supports tolerances above 0 */
+    bool posed;         /* for rigid bodies only */
 } engine;
 
 static const engine engines[] = {
@@ -28,7 +28,7 @@ static const engine engines[] = {
 #define ENGINES (sizeof engines / sizeof engines[0])
 enum { VALUES_MAX = 8 };
 
-/* The method and its values, or NULL where its library was missing. */
+/* The method and its values, or NULL if its library was missing. */
 static const mote_method *find(const engine *e, double values[VALUES_MAX])
 {
     const mote_method *m = mote_method_find(e->method);
@@ -42,9 +42,9 @@ static const mote_method *find(const engine *e, double values[VALUES_MAX])
     return m;
 }
 
-/* Every engine that can answer on a scene, side by side. */
+/* All engines that support a scene, side by side. */
 typedef struct crowd {
-    const mote_method *method[ENGINES]; /* NULL: not this one */
+    const mote_method *method[ENGINES]; /* NULL: not in use */
     void *state[ENGINES];
 } crowd;
 
@@ -97,8 +97,8 @@ static void move_scene(scene *s, mote_vec3 by)
     }
 }
 
-/* Sixty frames; floats decide at distances of 1e-6 L from the tolerance or less. In each second
-   frame the bodies keep their shape and, in half of these, their rotation. */
+/* Sixty frames. Within 1e-6 L of the tolerance floats decide, so such frames are not checked.
+   In every second frame the bodies keep their shape and, in half of these, their rotation. */
 static void expect_contacts(double size, double tolerance, bool deforming, mote_vec3 away)
 {
     scene s;
@@ -194,7 +194,7 @@ TEST(update_with_a_bad_frame_is_refused)
             frame.body[0].vertices = NULL;
             assert_int_equal(m->update(state, &frame), MOTE_EINVAL);
         }
-        /* And good frames are answered again after it. */
+        /* Good frames after it are answered again. */
         mote_answer a = {0};
         frame = *scene_next(&s, 1, false);
         assert_int_equal(m->update(state, &frame), MOTE_OK);

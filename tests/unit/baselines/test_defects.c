@@ -1,6 +1,6 @@
 /* The libraries' known defects (datasets/defects.md). A test here passes while the library
-   shows the defect; when it fails, the library has been mended, and the adapter can be
-   relieved. */
+   shows the defect. When it fails, the library has been fixed, and the adapter's workaround can
+   go. */
 #include "tests/support/peers/ccd_triangle.h"
 #include "tests/support/peers/fcl_defects.h"
 #include "tests/support/peers/fcl_triangle.h"
@@ -39,8 +39,8 @@ static mote_answer answer(const char *name, void *state, const mote_frame *frame
     return result;
 }
 
-/* Of frames random poses without deformation, how many does a method get wrong? A contact
-   question counts missed contacts; *contacts is how many there were. */
+/* In how many of `frames` random poses without deformation is a method wrong? For a contact
+   question, a missed contact is wrong; *contacts is how many there were. */
 static int count_wrong(const char *name, const char *options, mote_ask ask, int frames,
                        int *contacts)
 {
@@ -101,8 +101,8 @@ TEST(fcl_sum_of_rss_has_skew_axes)
         fail_msg(MENDED);
 }
 
-/* Random pairs of triangles of a size, at least a tenth of it apart: how many does FCL take for
-   intersecting, and how many does libccd? */
+/* Of random pairs of triangles of a size, apart by at least a tenth of it: how many does FCL
+   take for intersecting, and how many does libccd? */
 static void count_false_contacts(double size, int wrong[2])
 {
     scene s = {.random = 5};
@@ -140,7 +140,8 @@ TEST(fcl_distance_of_small_triangles_is_zero)
         fail_msg(MENDED);
 }
 
-/* Triangles of whole numbers: a corner of one, (2, 2, 1) and (2, 2, 2), is in the other. */
+/* Triangles with integer coordinates: a corner of one, (2, 2, 1) and (2, 2, 2), lies in the
+   other. */
 TEST(fcl_distance_of_triangles_that_touch_is_not_zero)
 {
     static const mote_vec3 pairs[2][2][3] = {
@@ -304,8 +305,8 @@ static points sphere_at(double x, double angle)
     return p;
 }
 
-/* The depth at the default tolerance, 1e-4, against that at 1e-9: the tolerance is one of
-   squared lengths, so that at unit size shallow depths are noise. */
+/* The depth at the default tolerance, 1e-4, against that at 1e-9. The tolerance is on squared
+   lengths, so at unit size shallow depths are noise. */
 TEST(ccd_epa_at_the_default_tolerance_is_coarse)
 {
     int coarse = 0, count = 0;
@@ -344,7 +345,7 @@ TEST(bullet_gimpact_of_triangles_apart_is_a_contact)
 {
     static const double first[9] = {-1.25, -0.25, 1.25, -0.5, 0, 2.25, -0.25, 0.25, 2};
     static const double second[9] = {0.25, 0, 1, 0.25, -0.5, 1.5, -0.25, -1, 1.75};
-    if (!mote_method_find("bullet-gimpact")) /* left out where its library is missing */
+    if (!mote_method_find("bullet-gimpact")) /* skipped if its library is missing */
         skip();
     scene s;
     scene_init_meshes(&s, one_triangle(first), one_triangle(second), false);

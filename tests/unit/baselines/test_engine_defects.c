@@ -1,5 +1,5 @@
 /* The known defects of Coal and Bullet (datasets/defects.md). As in test_defects.c, a test
-   passes while the library shows the defect; where the library was not found, it is skipped. */
+   passes while the library shows the defect; it is skipped if the library was not found. */
 #include "core/body/deform.h"
 #include "harness/base/memory.h"
 #include "harness/scene/scenario.h"
@@ -77,7 +77,7 @@ TEST(coal_bound_of_axis_aligned_boxes_leaves_axes_out)
 {
     if (fabs(mote_coal_aabb_bound() - 5) < 1e-12)
         fail_msg(MENDED);
-    assert_true(mote_coal_aabb_bound() < 5); /* lower, so that it is slow and not wrong */
+    assert_true(mote_coal_aabb_bound() < 5); /* too low: slow, but not wrong */
 }
 
 #else

@@ -129,7 +129,7 @@ static void check_distance(const variant *v, const scene *s, const mote_answer *
         assert_true(scene_point_distance(s, b, a->witness[b]) <= limit);
 }
 
-/* Every variant answers every frame; keeps count of the frames in contact. */
+/* Every variant answers every frame; counts the frames in contact. */
 static int run_distance(scene *s, const variant *variants, int count, int frames, double reach,
                         bool pose_only)
 {
@@ -195,7 +195,7 @@ TEST(query_on_rigid_bodies_without_vertices_equals_brute_force)
     scene_free(&s);
 }
 
-/* Contact at a tolerance; frames within 1e-9 L of the tolerance decide nothing. */
+/* Contact at a tolerance; frames within 1e-9 L of the tolerance are not checked. */
 static void run_contact(const variant *variants, int count, double tolerance)
 {
     scene s;
@@ -387,7 +387,7 @@ TEST(update_with_a_bad_frame_is_refused_and_the_next_good)
     scene_free(&s);
 }
 
-/* Bytes a triangle by the sizes of FCL's structures: 2 nodes, 2 indices of nodes, 1 triangle of
+/* Bytes a triangle, from the sizes of FCL's structures: 2 nodes, 2 node indices, 1 triangle of
    3 indices, half a vertex. */
 TEST(create_takes_the_memory_that_fcl_needs)
 {
@@ -433,8 +433,8 @@ static mote_mesh *make_row(uint32_t count, double z)
     return mesh;
 }
 
-/* Sixteen components and one, 1.5 apart: more than the default number of particles, and as many
-   vertices as that is at most. */
+/* Sixteen components or one, 1.5 apart. Sixteen are more than the default number of particles;
+   one has only four vertices, which limit that number. */
 TEST(hybrid_on_more_components_than_particles_raises_their_number)
 {
     static const variant variants[] = {{"hybrid-fcl", ""}, {"hybrid-fcl", "n=1"}};

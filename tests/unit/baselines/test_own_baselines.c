@@ -69,7 +69,7 @@ static void check_distance(const variant *v, const scene *s, const mote_answer *
         assert_true(scene_point_distance(s, b, a->witness[b]) <= limit);
 }
 
-/* Every variant answers every frame of a scene; returns the frames in contact. */
+/* Every variant answers every frame of a scene; returns the number of frames in contact. */
 static int run_distance(scene *s, int frames, double reach, bool pose_only)
 {
     instance made[VARIANTS];

@@ -9,7 +9,7 @@
 #define SEVENTY TEN TEN TEN TEN TEN TEN TEN
 /* Two diamonds that pass each other. */
 #define SCENARIO SCENE("", "2.1", "1.9")
-/* more: keys; from, until: along x, in L. They touch below 0.48. */
+/* more: further keys; from, until: along x, in L. They touch below 0.48. */
 #define SCENE(more, from, until)                                                               \
     "{\"purpose\": \"a test\", \"frames\": 4, \"ask\": \"distance\"" more ", \"bodies\": [{"   \
     "\"file\": \"d.obj\"}, {\"file\": \"d.obj\", \"motion\": [{\"frame\": 1, \"position\": "   \
@@ -172,7 +172,7 @@ TEST(main_bad_line_one_line_and_its_exit_status)
     command_refuses(bad_lines, ROWS_OF(bad_lines));
 }
 
-/* Lines that are right, and what they must say. */
+/* Valid command lines, and what they must print. */
 static const command_line good_lines[] = {
     {"run s.json --dry-run --replicates 1 --particles 1-2 --method particle-paper:n=3", 0,
      "plan: 1 cells, 0 of them done"},

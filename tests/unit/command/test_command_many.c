@@ -1,4 +1,4 @@
-/* Commands that take scenarios of many bodies as they take those of two. */
+/* Commands accept scenarios of many bodies as they accept those of two. */
 #include "harness/base/heap_count.h"
 #include "harness/base/record.h"
 #include "tests/support/diamond.h"
@@ -39,7 +39,7 @@ static json_t *read_json(const char *folder, const char *name)
     return root;
 }
 
-/* The distance of two meshes by a program run that knows nothing of the scenario. */
+/* The distance of two meshes, by a run of the program that does not know the scenario. */
 static double distance_of(int a, int b)
 {
     mote_expect(0, "", "distance e/body-%d.obj e/body-%d.obj --method brute-force --json", a,
@@ -78,7 +78,7 @@ TEST(command_export_writes_every_body_and_the_distances_of_near_pairs)
     mote_expect(4, "b has frames 1-4", "export b.json --frame 5 --out f");
 }
 
-/* Under a sanitizer there is nothing that valgrind could count. */
+/* Under a sanitizer valgrind cannot count anything. */
 TEST(command_instructions_counts_scenes_in_one_thread)
 {
     static const char line[] = "instructions b.json --frames 1-2 --out i --method";
@@ -100,7 +100,7 @@ TEST(command_instructions_counts_scenes_in_one_thread)
     json_decref(root);
 }
 
-/* What tune calls the best is a configuration as `mote run` takes it. */
+/* The best configuration that tune reports is one that `mote run` accepts. */
 TEST(command_tune_finds_the_best_configuration_of_a_scene)
 {
     static const char run[] = "run b.json --out t --replicates 2 --method";
@@ -120,7 +120,7 @@ static json_int_t count_of(const json_t *row, const char *key)
     return json_integer_value(value);
 }
 
-/* The figures of replicates are those of single simulations with the same seeds. */
+/* The statistics of replicates are those of single simulations with the same seeds. */
 static void check_sums(const char *scenario, const char *method, const json_t *row)
 {
     static const char *const keys[] = {"steps", "approaches", "contact_steps", "responses",
@@ -165,8 +165,8 @@ TEST(command_simulate_keeps_replicates_and_goes_on)
     assert_int_equal(folder_count("m1/simulations", ".json"), 4);
 }
 
-/* A damaged file is simulated again; a method that cannot answer is told; a folder that nothing
-   was kept in does not stay. */
+/* A damaged file is simulated again; a method that cannot answer is reported; a folder in which
+   nothing was stored is removed. */
 TEST(command_simulate_tells_what_replicates_did_not_give)
 {
     mote_expect(0, "fcl-kdop18: unsupported: FCL has no distance",

@@ -1,12 +1,12 @@
-/* Commands of meshes and of scenarios, and of studies, run as a user runs them: what each
-   refuses and says. The others are in test_command.c. */
+/* Commands for meshes, scenarios and studies, run as a user runs them: what each refuses and
+   prints. The others are in test_command.c. */
 #include "tests/support/command_lines.h"
 #include "tests/support/diamond.h"
 #include "tests/support/test.h"
 
 #include <unistd.h>
 
-/* Two tetrahedra far apart, and a vertex that no face has. */
+/* Two tetrahedra far apart, and an unused vertex. */
 #define TWO                                                                                    \
     "v 0 5 0\nv 1 5 0\nv 0 6 0\nv 0 5 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nv 0 -6 0\n"       \
     "v 1 -6 0\nv 0 -5 0\nv 0 -6 1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\nv 9 9 9\n"
@@ -200,7 +200,7 @@ TEST(commands_with_a_good_line_say_what_was_asked)
     }
 }
 
-/* What cannot answer a distance answers the contact, and what cannot answer at all says why. */
+/* A method without a distance exports its contact; one that cannot answer at all says why. */
 TEST(command_export_tells_what_a_method_cannot_answer)
 {
     assert_int_equal(mote("export s.json --frame 3 --out e --method fcl-kdop18 --method "
@@ -213,7 +213,7 @@ TEST(command_export_tells_what_a_method_cannot_answer)
     free(text);
 }
 
-/* Rotations of the keys stay, positions are the ones found. */
+/* Keys keep their rotations and get the positions found. */
 TEST(command_approach_replaces_positions_only)
 {
     assert_int_equal(mote("approach s.json --gaps 1:0.1,4:0.05 --every 2 --direction 0,1,0 -o "

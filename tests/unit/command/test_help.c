@@ -1,5 +1,4 @@
-/* The help, the manual and the completion follow from one table, which tells of every option.
- */
+/* Help, manual and completion follow from one table, which lists every option. */
 #include "harness/base/file.h"
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
@@ -25,7 +24,7 @@ static int split(char *line, char *fields[4])
     return count;
 }
 
-/* Without line breaks and indents: help is wrapped. */
+/* Removes line breaks and indents: help is wrapped. */
 static void unwrap(char *text)
 {
     char *to = text;
@@ -65,10 +64,10 @@ TEST(help_of_each_command_explains_each_option_with_its_default)
         if (!strstr(help, told))
             fail_msg("mote %s --help does not say \"%s\"", command, told);
         free(told);
-        /* What takes a value has a default, or needs another option or none. */
+        /* An option with a value has a default, or needs another option or none. */
         if (field[2][0] && !strstr(field[3], "default") && !strstr(field[3], "with --"))
             fail_msg("mote %s: no default of %s is told", command, field[1]);
-        /* The program knows it: without its value it is refused for that alone. */
+        /* The program knows the option: without a value it complains about that alone. */
         if (field[2][0])
             mote_expect(2, "needs a value", "%s %s", command, field[1]);
     }

@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Twice as large as the diamond: not to be taken for it. */
+/* Twice as large as the diamond, and must not be mistaken for it. */
 #define DECOY "v 2 0 0\nv -2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 4\nf 3 2 4\nf 1 2 3\nf 2 1 4\n"
 #define SCENE                                                                                  \
     "{\"purpose\": \"x\", \"frames\": 40, \"ask\": \"distance\", \"active\": [2, 9], "         \
@@ -76,7 +76,7 @@ TEST(approach_written_to_any_folder_can_be_read_and_has_the_wished_gaps)
         mote_expect(0, "", "approach own/s.json" GAPS "%s", outputs[i]);
         check_gaps(outputs[i]);
     }
-    /* What may be named where it is, is not copied. */
+    /* A file that may be named where it is, is not copied. */
     assert_false(file_exists("own/a-body0.obj"));
     assert_false(file_exists("d-body0.obj"));
     assert_true(file_exists("other/c-body0.obj"));
@@ -134,7 +134,7 @@ TEST(output_goes_through_links)
     assert_non_null(strstr(mote_error_text(), "Too many levels"));
 }
 
-/* A FIFO stands for any device: a reader gets what is written, and the node stays. */
+/* A FIFO stands for any device: a reader gets the output, and the node stays. */
 TEST(output_into_a_stream_is_written_and_never_replaces_it)
 {
     struct stat info;
@@ -161,8 +161,8 @@ TEST(output_into_a_stream_is_written_and_never_replaces_it)
     assert_true(S_ISCHR(info.st_mode));
 }
 
-/* What is said of a mesh does not stand in it, also where standard output is a file that has
-   something in it. */
+/* Messages about a mesh do not get into it, and output is appended to a file that standard
+   output already points to. */
 TEST(output_to_standard_output_is_appended_to_it)
 {
     char *text;
@@ -205,7 +205,7 @@ TEST(pair_is_read_from_wherever_its_user_names_it)
         mote_expect(0, "", "%s", lines[i]);
 }
 
-/* JSON has no other names. */
+/* JSON cannot hold other names. */
 TEST(pair_with_a_name_that_is_not_utf_8_is_refused)
 {
     file_put("own/\377.obj", DIAMOND);

@@ -210,7 +210,6 @@ TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
     expect_hash(hash, 0x115a90b56a3882f7u);
 }
 
-/* Tracked queries, counters included, of two bodies that come near, meet and jump. */
 /* Positions of a fixed body, each moved by chance. */
 static mote_vec3 *shaken_positions(const test_body *b, mote_vec3 offset, uint64_t *seed)
 {
@@ -258,6 +257,7 @@ TEST(streamed_queries_of_fixed_bodies_have_the_committed_hash)
     expect_hash(hash, 0x3dcb0e66beeff044u);
 }
 
+/* Tracked queries, counters included, of two bodies that come near, meet and jump. */
 TEST(tracked_queries_of_fixed_bodies_have_the_committed_hash)
 {
     const int sizes[] = {0, 14, -3};

@@ -532,7 +532,6 @@ TEST(mote_run_bad_requests_have_their_exit_codes)
     }
 }
 
-/* Runs with other densities than the three of the figure have no points in it. */
 /* A run without cells. */
 static const mote_summary no_cells;
 
@@ -541,6 +540,7 @@ static const char other_density[] =
     "\"bodies\": 20, \"near_pairs_wanted\": 1.5, \"active_total_ns\": {\"mean\": 2500000}, "
     "\"rss_peak_bytes\": 9000000}]}\n";
 
+/* The figure has three densities; a run of another one has no point in it. */
 TEST(mote_figure_bodies_without_a_point_is_missing)
 {
     const mote_figure_run run = {.directory = "other", .summary = &no_cells};

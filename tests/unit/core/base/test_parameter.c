@@ -165,7 +165,7 @@ TEST(parse_of_an_unknown_key_lists_the_keys)
     assert_string_equal(mote_error_text(), "unknown key \"n\"; nothing can be set here");
 }
 
-/* What there is room for in an error's text. */
+/* The error text names as many keys as it has room for. */
 TEST(parse_of_an_unknown_key_among_many_names_the_first)
 {
     char keys[MOTE_PARAMETERS_MAX][40];
@@ -205,7 +205,7 @@ TEST(parse_failing_at_the_end_changes_nothing)
                  "share=0.8 is not valid; share must be a number from 0.25 to 0.75");
 }
 
-/* The text of a value, read back. */
+/* Writes a value as text and reads it back. */
 static double round_trip(size_t parameter, double value)
 {
     char buffer[64];
@@ -255,6 +255,6 @@ TEST(text_is_short_and_whole_numbers_are_plain)
     assert_string_equal(mote_parameter_text(&table[LAW], 2, buffer, sizeof buffer),
                         "inverse-square");
     assert_string_equal(mote_parameter_text(&table[N], 1000, buffer, sizeof buffer), "1000");
-    /* What no text reads back as equal to. */
+    /* No text reads back as equal to NaN. */
     assert_string_equal(mote_parameter_text(&table[RADIUS], NAN, buffer, sizeof buffer), "nan");
 }

@@ -1,4 +1,4 @@
-/* Random numbers: in their range, evenly, the same on every machine. */
+/* Random numbers: within their range, uniform, the same on every machine. */
 #include "core/base/random.h"
 #include "tests/support/test.h"
 
@@ -16,7 +16,7 @@ TEST(next_of_a_known_seed_as_published)
         assert_true(mote_random_next(&random) == published[k]);
 }
 
-/* Above half of the range, about every second number is drawn again. */
+/* With a bound just above half of the range, about every second number is drawn again. */
 TEST(below_a_bound_that_divides_badly_is_even)
 {
     const uint64_t bound = (UINT64_C(1) << 63) + 1;

@@ -79,7 +79,7 @@ TEST(pose_apply_agrees_with_long_double)
     }
 }
 
-/* A single has 24 bits: of a double's 53 the last 29 are 0. */
+/* A float has 24 bits, so the last 29 of a double's 53 are 0. */
 TEST(as_floats_of_random_vectors_keeps_24_bits)
 {
     uint64_t seed = 4;

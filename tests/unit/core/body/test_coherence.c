@@ -1,5 +1,5 @@
-/* The motion of two bodies against each other: nothing for what they do together, at least what
-   the farthest vertex does, and not much more. */
+/* The relative motion of two bodies: zero for what they do together, otherwise at least the
+   farthest vertex's motion and not much more. */
 #include "core/body/coherence.h"
 #include "core/body/deform.h"
 
@@ -117,7 +117,7 @@ TEST(motion_of_a_shift_its_length)
 }
 
 /* A turn of body 1 about its middle by a small angle moves its farthest points by the angle
-   times their radius of 1; the estimate takes half of L for that. */
+   times their radius of 1; the estimate uses half of L instead. */
 TEST(motion_of_a_turn_angle_times_half_length)
 {
     moving m;
@@ -138,7 +138,7 @@ TEST(motion_of_a_turn_angle_times_half_length)
     moving_free(&m);
 }
 
-/* A shape that changes is seen without any motion of the pose: by the weights, and by the
+/* A change of shape is detected without any motion of the pose: by the weights, and by the
    positions of the probes. */
 TEST(motion_of_a_shape_seen)
 {

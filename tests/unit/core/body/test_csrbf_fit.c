@@ -14,7 +14,7 @@ static mote_field *csrbf_field(const mote_vec3 *centres, uint32_t count, double 
     return field;
 }
 
-/* Points in a cube of half side 1, no two closer than apart. */
+/* Points in a cube of half side 1, no two closer than `apart`. */
 static void spread_points(mote_vec3 *points, uint32_t count, double apart, uint64_t *seed)
 {
     for (uint32_t i = 0; i < count;) {
@@ -26,7 +26,7 @@ static void spread_points(mote_vec3 *points, uint32_t count, double apart, uint6
     }
 }
 
-/* A fan of faces over the points, so that the field can be asked at them. */
+/* A fan of faces over the points, to evaluate the field there. */
 static mote_mesh *mesh_of_points(const mote_vec3 *points, uint32_t count)
 {
     solid s = solid_fan(count, 0);
@@ -34,7 +34,7 @@ static mote_mesh *mesh_of_points(const mote_vec3 *points, uint32_t count)
     return solid_to_mesh(s);
 }
 
-/* The furthest that the field with these weights is from the wanted displacements. */
+/* The largest error of the field with these weights against the wanted displacements. */
 static double interpolation_error(const mote_field *field, const mote_vec3 *centres,
                                   const mote_vec3 *weights, const mote_vec3 *wanted)
 {
@@ -169,7 +169,7 @@ TEST(create_with_disjoint_supports_has_condition_one)
     mote_field_destroy(field);
 }
 
-/* Expects MOTE_ENUMERIC that names the number of centres, and untouched outputs. */
+/* Expects MOTE_ENUMERIC with a text that names the number of centres, and untouched outputs. */
 static void expect_singular(const mote_vec3 *centres, uint32_t count, double support)
 {
     mote_field *field = csrbf_field(centres, count, support);
@@ -242,8 +242,8 @@ TEST(solve_with_a_displacement_not_finite_names_the_point)
     mote_field_destroy(field);
 }
 
-/* Mirrored centres and vectors have mirrored weights; the solution is linear and of the scale
-   of the vectors only. */
+/* Mirrored centres and vectors have mirrored weights. The solution is linear and depends on no
+   scale but that of the vectors. */
 TEST(solve_keeps_symmetry_linearity_and_scale)
 {
     uint64_t seed = 4;

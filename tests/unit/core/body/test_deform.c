@@ -41,7 +41,7 @@ TEST(all_single_and_lazy_positions_are_the_same_bits)
                 assert_memory_equal(&world[v], &one, sizeof one);
                 assert_memory_equal(&visited, &one, sizeof one);
             }
-            /* nothing is written behind the last vertex */
+            /* nothing is written after the last vertex */
             const unsigned char *behind = (const unsigned char *)&world[vertex_counts[n]];
             for (size_t i = 0; i < sizeof *world; ++i)
                 assert_int_equal(behind[i], 0xa5);
@@ -86,8 +86,8 @@ TEST(all_matches_the_definition)
     }
 }
 
-/* A translated pose translates each vertex, and a mode of a linear field rotates with nothing:
-   weights are in world axes, so that they are not rotated with the body. */
+/* A translated pose translates each vertex. A mode of a linear field does not rotate with the
+   body, because weights are in world axes. */
 TEST(all_adds_weights_in_world_axes)
 {
     const mote_vec3 mode[3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}};

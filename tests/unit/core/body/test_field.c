@@ -88,8 +88,8 @@ TEST(csrbf_basis_matches_wendlands_closed_form)
     mote_mesh_destroy(mesh);
 }
 
-/* At fractions of the support on an axis the values are rational: one at the centre, 3/16 half
-   way out, and nothing at the rim and beyond. */
+/* At fractions of the support on an axis the values are rational: 1 at the centre, 3/16 half
+   way out, and 0 at the rim and beyond. */
 TEST(csrbf_basis_at_known_distances_is_exact)
 {
     const double r[] = {0, 0.25, 0.5, 0.75, 1, 1.0000000000000002, 2, 1e100};
@@ -185,8 +185,8 @@ TEST(csrbf_gradient_matches_finite_differences)
     solid_free(&s);
 }
 
-/* Two mirrored centres give mirrored fields, and a moved body with its centres the same values.
- */
+/* Two mirrored centres give mirrored fields; a body translated with its centres keeps its
+   values. */
 TEST(csrbf_basis_is_symmetric_and_translates)
 {
     const mote_vec3 pair[2] = {{0.5, 0.25, 1}, {-0.5, 0.25, 1}};
@@ -244,7 +244,7 @@ TEST(csrbf_scaled_by_powers_of_two_keeps_its_bits)
     }
 }
 
-/* The sum over basis() in eight lanes, added in the order that the header fixes. */
+/* The sum over basis() in eight lanes, added in the order specified in the header. */
 static mote_vec3 sum_by_lanes(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                               const weight_set *set)
 {
@@ -284,8 +284,8 @@ TEST(displacement_equals_lane_sum_over_basis_bit_for_bit)
     mote_mesh_destroy(mesh);
 }
 
-/* Rounding of positions (2^-24 of 1.2), of phi and of the sum is all that single precision may
-   add. */
+/* Single precision may add only the rounding of positions (2^-24 of 1.2), of phi and of the
+   sum. */
 TEST(displacement_single_stays_near_double)
 {
     uint64_t seed = 12;
@@ -319,7 +319,8 @@ TEST(displacement_single_stays_near_double)
     mote_mesh_destroy(mesh);
 }
 
-/* Within the error that it promises, also far from the origin, where a float holds little. */
+/* The estimate stays within its promised error, also far from the origin, where floats are
+   coarse. */
 TEST(estimate_is_as_near_as_it_says)
 {
     uint64_t seed = 21;
@@ -441,7 +442,7 @@ TEST(create_csrbf_with_bad_input_says_what)
                        "the support radius is -1; it must be positive and finite");
     expect_csrbf_error(centre, 2, HUGE_VAL,
                        "the support radius is inf; it must be positive and finite");
-    expect_csrbf_error(centre, 2, 1e-310, /* no finite number times it is 1 */
+    expect_csrbf_error(centre, 2, 1e-310, /* its reciprocal overflows */
                        "the support radius is 1e-310; it must be positive and finite");
     expect_csrbf_error(centre, 2, nan(""),
                        "the support radius is nan; it must be positive and finite");

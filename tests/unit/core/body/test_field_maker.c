@@ -1,4 +1,4 @@
-/* Kinds of fields that scenarios name. */
+/* Field kinds named in scenarios. */
 #include "core/body/field_maker.h"
 #include "harness/scene/scenario.h"
 #include "tests/support/test.h"
@@ -28,8 +28,8 @@ static void write_scenario(const char *field)
     assert_int_equal(fclose(out), 0);
 }
 
-/* Column y of the matrix: every vertex moves by its height above the middle, times the weight.
- */
+/* Column y of the matrix: every vertex moves by its height above the middle, times the
+   weight. */
 TEST(stretch_in_a_scenario_moves_vertices_by_the_matrix)
 {
     mote_scenario *s;

@@ -1,5 +1,5 @@
-/* Lazy positions: the same bits as full evaluation, forgotten with the frame, growing tables.
- */
+/* Lazy positions: the same bits as full evaluation, discarded with the frame, growing
+   tables. */
 #include "core/body/lazy.h"
 
 #include "tests/support/bodies.h"
@@ -105,7 +105,7 @@ TEST(growth_keeps_values_and_counts)
         mote_lazy_begin(&lazy, &state, false);
         mote_vec3 *first = malloc(n * sizeof *first);
         assert_non_null(first);
-        /* In any order: hashes of consecutive numbers hardly ever meet. */
+        /* In random order: hashes of consecutive numbers hardly ever collide. */
         uint32_t *order = malloc(n * sizeof *order);
         assert_non_null(order);
         for (uint32_t i = 0; i < n; ++i) {
@@ -132,7 +132,7 @@ TEST(growth_keeps_values_and_counts)
     test_body_free(&b);
 }
 
-/* A fixed table gives the same positions, and evaluates again what it has no room for. */
+/* A fixed table gives the same positions, and evaluates again what does not fit. */
 TEST(fixed_table_keeps_its_size_and_the_values)
 {
     uint64_t seed = 4;
@@ -160,7 +160,7 @@ TEST(fixed_table_keeps_its_size_and_the_values)
     test_body_free(&b);
 }
 
-/* A table grown in one frame forgets all the same. */
+/* A table grown in one frame still discards its values in the next. */
 TEST(growth_then_begin_evaluates_anew)
 {
     uint64_t seed = 5;
@@ -248,7 +248,7 @@ TEST(single_positions_stay_near_double)
     }
 }
 
-/* Whatever is known before, listed twice or makes the table grow. */
+/* Fetches vertices that are already known, listed twice, or more than the table holds. */
 TEST(fetch_same_bits_as_one_by_one)
 {
     const int sizes[] = {0, 1, 7, 8, 9, 14, 40, 256, -1, -4};
@@ -302,8 +302,8 @@ TEST(fetch_in_single_precision_evaluates_nothing)
     test_body_free(&b);
 }
 
-/* A table of 2^31 places is the largest; it forgets what it has no room for. (No such table is
-   made: only its first place is looked at.) */
+/* A table of 2^31 entries is the largest; it does not remember more. (No such table is
+   allocated: only its first entry is used.) */
 TEST(position_in_the_largest_table_is_not_remembered)
 {
     uint64_t seed = 9;

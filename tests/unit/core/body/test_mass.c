@@ -73,7 +73,7 @@ static void assert_vec3_close(mote_vec3 a, mote_vec3 b, double tolerance)
     assert_close(a.z, b.z, tolerance);
 }
 
-/* The axes are a rotation. */
+/* Checks that the axes are a rotation. */
 static void assert_rotation(const mote_mat3 *r)
 {
     for (int i = 0; i < 3; ++i) {
@@ -192,7 +192,7 @@ TEST(mass_of_mesh_inside_out_is_the_same)
 
 TEST(mass_of_mesh_cavity_is_taken_off)
 {
-    /* A unit sphere's mesh in a twice larger one, wound the other way. */
+    /* A unit sphere inside one twice as large that is wound the other way. */
     solid outer = solid_icosphere(2);
     move_vertices(&outer, (mote_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                   mote_vec3_make(0, 0, 0), 2);
@@ -214,13 +214,13 @@ TEST(mass_of_mesh_bad_input_refused_with_reason)
 {
     solid twisted = solid_box(1, 1, 1);
     flip_faces(&twisted, 3, 4);
-    /* Beside a solid its mirror image, wound as it was: their volumes cancel. */
+    /* A solid and its mirror image with unchanged winding: their volumes cancel. */
     solid mirrored = solid_box(1, 1, 1);
     flip_faces(&mirrored, 0, mirrored.triangle_count);
-    /* Most of a long bar taken off again, far from its middle: no solid has such moments. */
+    /* A long bar with most of it subtracted, far from its middle: no solid has such moments. */
     solid taken = solid_box(1, 1, 1);
     flip_faces(&taken, 0, taken.triangle_count);
-    /* Many plates in one place. */
+    /* Many plates in the same place. */
     solid piled = solid_box(1e60, 1e60, 5e59);
     for (int k = 1; k < 120; ++k)
         piled = solid_join(piled, solid_box(1e60, 1e60, 5e59), 0);
@@ -229,7 +229,7 @@ TEST(mass_of_mesh_bad_input_refused_with_reason)
         {solid_join(solid_box(1, 1, 1.5), taken, 9), 1, "not that of a solid"},
         {solid_box(1e-120, 1e-120, 1e-120), 1, "mass 0 "},
         {solid_box(1e60, 1e63, 1e63), 1, "not that of a solid"}, /* moments of inf */
-        {piled, 2.24e7, "inf is not that of a solid"},           /* the larger ones */
+        {piled, 2.24e7, "inf is not that of a solid"},           /* only the larger moments */
         {solid_grid(3, 3), 1, "open"},
         {twisted, 1, "wound differently"},
         {solid_box(1, 1, 0), 1, "no volume"},

@@ -27,7 +27,7 @@ static triple *allocate_triples(size_t count)
     return list;
 }
 
-/* The face v, a, b as seen from v. */
+/* The face v, a, b, starting from v. */
 static triple corner_triple(uint32_t v, uint32_t a, uint32_t b)
 {
     return (triple){{v, a < b ? a : b, a < b ? b : a}};
@@ -51,9 +51,9 @@ typedef struct fan_counts {
     uint32_t faces, open, closed;
 } fan_counts;
 
-/* Reads the ring of v as the header describes it, appends the faces that it names to list, and
-   checks each fan: an open one has different ends, a closed one among several repeats its first
-   neighbour; between them no neighbour comes twice. */
+/* Reads the ring of v as the header describes it, appends its faces to list, and checks each
+   fan: an open one has different ends; a closed one among several repeats its first neighbour;
+   in between no neighbour occurs twice. */
 static fan_counts read_ring(const mote_mesh *mesh, uint32_t v, triple *list)
 {
     const uint32_t *ring = mesh->ring + mesh->ring_start[v];
@@ -94,8 +94,8 @@ static uint32_t find_root(uint32_t *parent, uint32_t v)
     return v;
 }
 
-/* Brute force: the faces around a vertex, joined where they share an edge at it. A fan is open
-   when one of its edges has one face. parent is scratch, [corner_count]. */
+/* Brute force: the faces around a vertex, joined if they share an edge there. A fan is open if
+   one of its edges has one face. parent is scratch, [corner_count]. */
 static fan_counts fans_by_faces(const triple *corners, size_t corner_count, uint32_t *parent)
 {
     fan_counts counts = {(uint32_t)corner_count, 0, 0};
@@ -135,7 +135,7 @@ static int compare_numbers(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* The neighbours named by the ring, sorted, without the repetition that closes a fan. */
+/* The neighbours in the ring, sorted, without the repetition that closes a fan. */
 static uint32_t ring_neighbours(const mote_mesh *mesh, uint32_t v, uint32_t *out)
 {
     uint32_t count = 0;
@@ -430,8 +430,8 @@ TEST(create_zero_area_faces_are_allowed)
     mote_mesh_destroy(mesh);
 }
 
-/* Random faces, of which those that would give an edge a third face are left out: open and
-   closed fans, several at a vertex, duplicates and mixed winding, in all combinations. */
+/* Random faces, without those that would give an edge a third face: open and closed fans,
+   several at a vertex, duplicates and mixed winding, in all combinations. */
 TEST(create_random_faces_match_brute_force)
 {
     uint64_t seed = 11;

@@ -1,4 +1,4 @@
-/* What mote_mesh_create rejects: each text whole, and the output untouched. */
+/* What mote_mesh_create rejects: the complete text, and untouched outputs. */
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
@@ -137,7 +137,7 @@ TEST(create_with_an_extent_out_of_range_is_an_error)
            "to 1.8e+308");
     s = solid_triangle();
     for (size_t i = 0; i < 9; ++i)
-        s.xyz[i] *= 2 * DBL_TRUE_MIN; /* 6 and 8 of the smallest steps there are */
+        s.xyz[i] *= 2 * DBL_TRUE_MIN; /* 6 and 8 times the smallest positive double */
     expect_error(
         s, "the bounding-box diagonal is 4.94e-323; it must be a normal number, from 2.2e-308 "
            "to 1.8e+308");

@@ -60,7 +60,7 @@ TEST(smallest_angle_matches_law_of_cosines)
 }
 
 /* Differences are taken before anything is rounded again, so a mesh far from the origin keeps
-   the angles that its coordinates have. */
+   the angles given by its coordinates. */
 TEST(smallest_angle_far_from_the_origin_stays_accurate)
 {
     solid s = solid_torus(23, 7);

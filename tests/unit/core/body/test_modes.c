@@ -75,8 +75,8 @@ TEST(modes_with_one_mode_is_exact)
     mote_mesh_destroy(mesh);
 }
 
-/* Of displacements linear in the rest position the gradient is known: column c of basis 3 m + c
-   has the gradient of that coordinate. In a flat ring only its part in the plane is. */
+/* Displacements linear in the rest position have a known gradient: column c of basis 3 m + c
+   has the gradient of that coordinate. In a flat ring only its in-plane part remains. */
 TEST(modes_gradient_of_a_linear_map_is_the_map)
 {
     uint64_t seed = 7;
@@ -130,7 +130,7 @@ TEST(modes_gradient_in_a_flat_ring_has_no_normal_part)
     mote_mesh_destroy(mesh);
 }
 
-/* A ring that has no extent at all tells of no slope. */
+/* A ring without extent determines no slope. */
 TEST(modes_gradient_where_all_neighbours_coincide_is_zero)
 {
     solid s = solid_triangle();

@@ -1,4 +1,4 @@
-/* Lists of pairs against a list that is sorted whole. */
+/* Lists of pairs against a list that is fully sorted. */
 #include "core/body/pairs.h"
 
 #include "tests/support/bodies.h"
@@ -42,8 +42,8 @@ TEST(keep_within_a_ring_only_the_nearest)
     assert_true(pairs.list[0].squared == 3 && pairs.list[1].squared == 6);
 }
 
-/* What was checked exactly stays, even where a vertex pair nearby is nearer; nothing that stood
-   before it is lost by that. */
+/* A refined pair stays, even if a vertex pair nearby is nearer, and the entries before it stay,
+   too. */
 TEST(keep_within_a_ring_of_a_refined_one_nothing)
 {
     mote_pairs pairs = {.count = 0};
@@ -57,16 +57,16 @@ TEST(keep_within_a_ring_of_a_refined_one_nothing)
     mote_pairs_keep(&pairs, &between);
     assert_int_equal(pairs.count, 1);
     mote_pairs_keep(&pairs, &far);
-    mote_pairs_keep(&pairs, &beside); /* farther than its ring from the refined one */
+    mote_pairs_keep(&pairs, &beside); /* more than its ring away from the refined one */
     assert_int_equal(pairs.count, 3);
-    mote_pairs_keep(&pairs, &both); /* within a ring of two */
+    mote_pairs_keep(&pairs, &both); /* within the ring of two pairs */
     assert_int_equal(pairs.count, 3);
     assert_true(pairs.list[0].squared == 2 && pairs.list[1].squared == 3);
     assert_true(pairs.list[2].refined);
 }
 
-/* Two sheets that lie on each other, one mesh: their corners are in the same place, but a walk
-   on one does not come to the other. */
+/* Two sheets on top of each other in one mesh: corners coincide, but a walk on one sheet cannot
+   reach the other. */
 TEST(keep_in_one_place_on_two_sheets_both)
 {
     mote_mesh *sheets = solid_to_mesh(solid_join(solid_grid(2, 2), solid_grid(2, 2), 0));

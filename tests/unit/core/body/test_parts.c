@@ -89,7 +89,7 @@ static mote_mesh *make_letter(char letter, size_t triangles)
     return mesh;
 }
 
-/* Labels are in range and every part has a vertex. */
+/* Checks that labels are in range and every part has a vertex. */
 static mote_parts *checked_parts(const mote_mesh *mesh, const mote_vec3 *positions)
 {
     mote_parts *parts = NULL;
@@ -110,8 +110,8 @@ static mote_parts *checked_parts(const mote_mesh *mesh, const mote_vec3 *positio
 
 TEST(parts_create_of_letters_finds_their_strokes)
 {
-    /* At least one part a stroke; HACD splits a stroke where the rounded joints make it
-       concave, up to three times in what was measured. */
+    /* At least one part a stroke. HACD splits a stroke where the rounded joints make it
+       concave, up to three times in the cases measured. */
     static const struct {
         char letter;
         size_t triangles;
@@ -189,7 +189,7 @@ TEST(parts_create_of_a_mesh_that_cannot_be_simplified_succeeds)
     mote_mesh_destroy(mesh);
 }
 
-/* Components so small that in floats of the mesh's size nothing of them is left. */
+/* Components so small that floats at the mesh's scale lose them entirely. */
 TEST(parts_create_of_components_simplified_to_nothing_is_one_part_each)
 {
     solid all = solid_icosphere(2);
@@ -204,7 +204,7 @@ TEST(parts_create_of_components_simplified_to_nothing_is_one_part_each)
     }
     mote_mesh *mesh = solid_to_mesh(all);
     mote_parts *parts = checked_parts(mesh, NULL);
-    /* All but the first, which the floats are counted from. */
+    /* All components but the first, which is the origin of the floats. */
     for (uint32_t v = (uint32_t)each; v < mesh->vertex_count; ++v)
         assert_int_equal(parts->label[v], parts->label[v / each * each]);
     mote_parts_destroy(parts);

@@ -1,13 +1,13 @@
-/* Trees that are split by sample poses (build=samples): two sheets that lie on each other at
-   rest and part in the sample pose. */
+/* Trees split by sample poses (build=samples): two sheets that coincide at rest and separate in
+   the sample pose. */
 #include "core/body/sample_split.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
 enum { SIDE = 24, SHEET = SIDE * SIDE, SQUARES = (SIDE - 1) * (SIDE - 1) };
 
-/* Vertices of one sheet, then of the other, in the same places; triangles of the two in turn.
- */
+/* Vertices of one sheet, then of the other, in the same places; triangles of the two
+   alternate. */
 static mote_mesh *make_sheets(void)
 {
     static double xyz[2 * SHEET][3];
@@ -66,7 +66,8 @@ static void sheets_init(sheets *s, double height)
     s->body = (mote_body){s->mesh, s->field, &s->sample, 1};
     s->frame.number = 1;
     for (int b = 0; b < 2; ++b) {
-        /* A mode is three functions, with the world's axes, turned, times its weight. */
+        /* A mode has three functions, one an axis; their weights are the rotated axes times the
+           height. */
         for (int c = 0; c < 3; ++c) {
             for (int k = 0; k < 3; ++k)
                 s->lift[b][c][k] = turns[b].m[c][k] * height;
@@ -143,11 +144,11 @@ TEST(split_parts_what_is_apart_in_a_sample)
     assert_int_equal(split.axis, 2);
     for (uint32_t i = 0; i < boxes.triangles; ++i)
         assert_int_equal(mote_sample_key(&boxes, 1, 2, i) < split.at, i / 2 % 2 == 0);
-    /* A part of given size is taken along the same direction. */
+    /* A part of a given size is split along the same direction. */
     const mote_sample_split half =
         mote_sample_split_best(&boxes, all, boxes.triangles, boxes.triangles / 2);
     assert_true(half.pose == 1 && half.axis == 2);
-    /* Nothing parts a triangle from itself. */
+    /* No direction separates equal triangles. */
     const uint32_t same[5] = {7, 7, 7, 7, 7};
     assert_true(isinf(mote_sample_split_best(&boxes, same, 5, 0).at));
     mote_sample_boxes_free(&boxes);
@@ -169,7 +170,7 @@ TEST(boxes_without_samples_are_those_at_rest)
     assert_true(boxes.box[5].low[0] <= (float)corner.x + 1e-6f &&
                 (float)corner.x <= boxes.box[5].high[0] + 1e-6f);
     mote_sample_boxes_free(&boxes);
-    /* Of many samples, nine poses are looked at, the last sample among them. */
+    /* Of many samples, nine poses are used, including the last sample. */
     mote_weights many[20];
     for (int i = 0; i < 20; ++i)
         many[i] = s.sample;

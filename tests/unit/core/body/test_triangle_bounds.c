@@ -1,5 +1,5 @@
-/* What the triangle distance leaves undone when a bound is given, and where two triangles count
-   as touching: pairs that are made so that the answer is known. */
+/* What the triangle distance skips when a bound is given, and where two triangles count as
+   touching: pairs constructed with known answers. */
 #include "core/body/triangle.h"
 
 #include "tests/support/test.h"
@@ -26,8 +26,8 @@ static void turn(const mote_vec3 axes[3], const mote_vec3 from[3], mote_vec3 to[
                             from[k].z, axes[2]);
 }
 
-/* The bound itself comes back where a plane or the line of centres proves the pair to be far,
-   and the points are left alone. */
+/* Checks that the result is the bound itself where a plane or the line of centres proves the
+   pair to be far, and that the points stay unchanged. */
 static void check_cut(const mote_vec3 s[3], const mote_vec3 t[3], double bound_squared)
 {
     mote_vec3 p = {7, 7, 7}, q = {8, 8, 8};
@@ -36,7 +36,7 @@ static void check_cut(const mote_vec3 s[3], const mote_vec3 t[3], double bound_s
     assert_true(p.x == 7 && q.x == 8);
 }
 
-/* Apart by 2 to 4 along z: the plane of the lower one shows it, up to a tenth of a percent. */
+/* Apart by 2 to 4 along z: the plane of the lower one proves it, to a tenth of a percent. */
 TEST(below_of_pairs_beyond_a_plane_is_the_bound)
 {
     uint64_t seed = 31;
@@ -57,8 +57,8 @@ TEST(below_of_pairs_beyond_a_plane_is_the_bound)
     }
 }
 
-/* Two triangles upright on the line through both, each cut by the other's plane: the one around
-   x = 0, the other around x = 10. */
+/* Two perpendicular triangles, both in planes through the line of their centres, one around
+   x = 0, the other around x = 10; each is cut by the other's plane. */
 TEST(below_of_pairs_far_along_their_centres_is_the_bound)
 {
     uint64_t seed = 32;
@@ -74,8 +74,8 @@ TEST(below_of_pairs_far_along_their_centres_is_the_bound)
     }
 }
 
-/* Two points of triangles face each other across a gap of a few roundings: no proof that is
-   itself only rounding may take the distance for the bound. */
+/* Corners of two triangles face each other across a gap of a few roundings. No proof that is
+   itself only rounding may return the bound instead of the distance. */
 TEST(below_of_pairs_apart_by_rounding_is_the_distance)
 {
     uint64_t seed = 33;
@@ -116,12 +116,12 @@ TEST(pairs_apart_by_more_than_rounding_do_not_touch)
     }
 }
 
-/* A triangle that is a segment and goes through a face, at every slope. */
+/* A degenerate triangle, a segment, passes through a face at every slope. */
 TEST(segment_through_a_face_touches_at_any_slope)
 {
     const mote_vec3 s[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     for (int k = 1; k <= 16; ++k) {
-        const double half = 0.125 * k; /* 0.5: the normal's dot with the edge is 1 */
+        const double half = 0.125 * k; /* at 0.5 the dot product of normal and edge is 1 */
         const mote_vec3 t[3] = {
             {0.25, 0.25, -half}, {0.25, 0.25, half}, {0.25, 0.25, half / 2}};
         mote_vec3 p, q;

@@ -224,7 +224,6 @@ static bool is_face(const mote_mesh *mesh, const uint32_t vertex[3])
     return false;
 }
 
-/* Everything that a result promises of itself. */
 /* Two faces with their witnesses, no farther than two vertices. */
 static void assert_measured(const scene *s, const mote_refined *r, uint32_t a, uint32_t b)
 {
@@ -245,6 +244,7 @@ static void assert_measured(const scene *s, const mote_refined *r, uint32_t a, u
     }
 }
 
+/* Checks everything that a result promises. */
 static void assert_result(scene *s, const mote_refined *r, uint32_t a, uint32_t b)
 {
     assert_measured(s, r, a, b);
