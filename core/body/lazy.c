@@ -1,5 +1,6 @@
 #include "core/body/lazy.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* At least twice as many slots as positions are expected, so that probe sequences stay short.
@@ -62,6 +63,7 @@ static void round_weights(mote_lazy *lazy)
 {
     const mote_weights *w = &lazy->state->weights;
     const uint32_t padded = lazy->body->field->padded;
+    assert(padded == 0 || (w->x && w->y && w->z));
     for (uint32_t j = 0; j < padded; ++j) {
         lazy->weights_single[j] = (float)w->x[j];
         lazy->weights_single[padded + j] = (float)w->y[j];

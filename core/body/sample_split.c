@@ -1,5 +1,6 @@
 #include "core/body/sample_split.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -153,6 +154,7 @@ mote_sample_split mote_sample_split_best(const mote_sample_boxes *boxes,
                                          const uint32_t *triangles, uint32_t count,
                                          uint32_t left)
 {
+    assert(count > 0);
     keyed sorted[JUDGED];
     const uint32_t judged = count < JUDGED ? count : JUDGED;
     for (uint32_t i = 0; i < judged; ++i)

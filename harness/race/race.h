@@ -21,7 +21,7 @@
 #define MOTE_RACE_ALPHA 0.01
 #define MOTE_RACE_LOOKS 4
 /* Pairs of processes between two looks; the first comes as soon as there is an interval. */
-#define MOTE_RACE_STEP 4
+#define MOTE_RACE_STEP 8
 /* Answers are the same up to this share of L, as everywhere (an exact answer). */
 #define MOTE_RACE_EXACT 1e-9
 #define MOTE_RACE_BUILDS 64
