@@ -1,7 +1,7 @@
-/* The same bits from every compiler, optimisation and instruction set: hashes of what fixed
-   inputs give, committed here and checked by every build (and by portability.sh). The inputs
-   and all that is hashed use only operations that IEEE 754 rounds exactly. Who changes the
-   method on purpose takes the new hashes from the failing test, once portability.sh agrees on
+/* The same bits from every compiler, optimisation and instruction set: hashes of the results of
+   fixed inputs, committed here and checked by every build (and by portability.sh). The inputs
+   and everything hashed use only operations that IEEE 754 rounds exactly. If you change a
+   method on purpose, take the new hashes from the failing test once portability.sh agrees on
    them. */
 #include "core/certificate/certificate.h"
 #include "core/body/deform.h"
@@ -140,7 +140,7 @@ TEST(particles_of_fixed_bodies_have_the_committed_hash)
     expect_hash(particles_hash(&options), 0x5f62ad1cca5c4d3fu);
 }
 
-/* The exact check from many pairs of vertices of two deforming spheres that meet. */
+/* The exact check from many pairs of vertices of two deforming spheres that touch. */
 TEST(refined_pairs_of_fixed_bodies_have_the_committed_hash)
 {
     uint64_t seed = 4;
@@ -210,7 +210,7 @@ TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
     expect_hash(hash, 0x115a90b56a3882f7u);
 }
 
-/* Positions of a fixed body, each moved by chance. */
+/* Positions of a fixed body, each displaced at random. */
 static mote_vec3 *shaken_positions(const test_body *b, mote_vec3 offset, uint64_t *seed)
 {
     mote_vec3 *made = malloc(b->mesh->vertex_count * sizeof *made);
@@ -299,7 +299,7 @@ TEST(tracked_queries_of_fixed_bodies_have_the_committed_hash)
     expect_hash(hash, 0x850b688448d7a806u);
 }
 
-/* Positions of a body by the three ways to have them. */
+/* Hashes positions of a body computed in the three possible ways. */
 static void hash_positions(uint64_t *hash, const test_body *b, const mote_body_state *state)
 {
     mote_deform *deform = NULL;

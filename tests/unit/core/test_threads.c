@@ -11,7 +11,7 @@
 #define ITEMS 10007
 
 typedef struct tally {
-    uint32_t done[ITEMS]; /* how often each item was */
+    uint32_t done[ITEMS]; /* how often each item was processed */
     uint32_t threads;
     size_t count, grain;
     int bad;
@@ -35,7 +35,7 @@ TEST(mote_pool_run_any_threads_does_each_item_once)
         mote_pool *pool = NULL;
         assert_int_equal(mote_pool_create(threads[a], &pool), MOTE_OK);
         assert_int_equal(mote_pool_threads(pool), threads[a]);
-        for (size_t k = 0; k < 15 * 8; ++k) { /* again and again: no loop takes from another */
+        for (size_t k = 0; k < 15 * 8; ++k) { /* repeated: no loop takes items of another */
             memset(&t, 0, sizeof t);
             t.threads = threads[a];
             t.count = counts[k % 5];
@@ -64,7 +64,7 @@ TEST(mote_pool_create_bad_number_is_refused)
 typedef struct stream {
     mote_frame_queue *queue;
     uint64_t frames[PLACES];
-    uint64_t count; /* that the writer writes */
+    uint64_t count; /* number to write */
     uint64_t written;
 } stream;
 

@@ -1,6 +1,6 @@
 /* Every answer's witnesses lie on the surfaces and are as far apart as the answer says, to
-   1e-12 L: of our own methods on every built-in scenario, and on meshes from random numbers
-   with every kind of field. Checked against all faces of the deformed bodies. */
+   1e-12 L: for our own methods on every built-in scenario, and on random meshes with every kind
+   of field. Checked against all faces of the deformed bodies. */
 #include "core/body/deform.h"
 #include "core/body/triangle.h"
 #include "harness/scene/catalog.h"
@@ -13,10 +13,10 @@
 
 #define RIGHT 1e-12 /* of L */
 
-/* Meshes above are left to runs of the harness, unless MOTE_FULL=1 is set. */
+/* Larger meshes are left to runs of the harness, unless MOTE_FULL=1 is set. */
 #define FACES_MAX 12000
 
-/* Sanitizers are slow: they see every fourth scenario. */
+/* Sanitizers are slow: they test every fourth scenario only. */
 #ifdef __SANITIZE_ADDRESS__
 enum { STRIDE = 4 };
 #else
@@ -76,7 +76,7 @@ static void check_answer(const mote_answer *answer, const mote_body *const bodie
     }
 }
 
-/* Methods that are ready to be asked of a pair of bodies. */
+/* Methods ready to be asked about a pair of bodies. */
 typedef struct panel {
     const mote_body *body[2];
     double length;
@@ -135,7 +135,8 @@ static size_t close_panel(panel *p)
     return p->answers;
 }
 
-/* A few frames in a row at the begin, in the middle and near the end: cold and warm queries. */
+/* A few consecutive frames at the start, in the middle and near the end: cold and warm
+   queries. */
 static size_t check_scenario(const mote_scenario *scenario)
 {
     static const double parts[] = {0, 0.6};
@@ -170,11 +171,11 @@ TEST(answers_of_built_in_scenarios_have_witnesses_on_the_surfaces)
         const char *name = catalog.entries[i].name;
         const bool huge = strstr(name, "00k") || strstr(name, "1m") || strstr(name, "10m");
         if (huge && !getenv("MOTE_FULL"))
-            continue; /* making their meshes alone takes a minute */
+            continue; /* creating their meshes alone takes a minute */
         mote_scenario *scenario;
         if (mote_scenario_load(name, &scenario) != MOTE_OK) {
             if (strstr(mote_error_text(), "several bodies"))
-                continue; /* no pair */
+                continue; /* not a pair */
             fail_msg("%s: %s", name, mote_error_text());
         }
         if (is_small(scenario)) {
@@ -187,8 +188,8 @@ TEST(answers_of_built_in_scenarios_have_witnesses_on_the_surfaces)
     assert_true(checked >= 20 / STRIDE && answers >= 1200 / STRIDE);
 }
 
-/* A mesh that no file has: a sphere of random radii, a torus, or an open sheet, rough, maybe
-   flat, maybe two of them. */
+/* A mesh that exists in no file: a sphere of random radii, a torus, or an open sheet; rough,
+   perhaps flat, perhaps two of them. */
 static mote_mesh *random_mesh(uint64_t *seed)
 {
     const uint64_t kind = random_bits(seed) % 4;

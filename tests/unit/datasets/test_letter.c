@@ -1,4 +1,4 @@
-/* Every property of a letter is recomputed here from its positions and indices alone. */
+/* Recomputes every property of a letter from its positions and indices alone. */
 #include "datasets/letter.h"
 #include "harness/base/hash.h"
 #include "tests/support/test.h"
@@ -42,7 +42,8 @@ static uint32_t find_root(uint32_t *parent, uint32_t v)
     return v;
 }
 
-/* Each directed edge once, and its reverse once: closed, manifold along edges, wound alike. */
+/* Each directed edge occurs once, and so does its reverse: the mesh is closed, manifold along
+   edges, and consistently wound. */
 static void assert_edges_paired(const mote_mesh *mesh)
 {
     const size_t count = 3 * (size_t)mesh->triangle_count;
@@ -62,8 +63,8 @@ static void assert_edges_paired(const mote_mesh *mesh)
     free(edges);
 }
 
-/* The triangles round each vertex form one fan: uniting, at each of its corners, the two edges
-   there leaves one set of edges. */
+/* The triangles around each vertex form one fan: uniting the two edges at each of its corners
+   leaves one set of edges. */
 static void assert_one_fan_each(const mote_mesh *mesh)
 {
     const size_t count = 3 * (size_t)mesh->triangle_count;
@@ -173,7 +174,7 @@ static mote_mesh *letter(char character, size_t triangles)
     return mesh;
 }
 
-/* Euler's number is 2 for a letter without holes. */
+/* The Euler characteristic is 2 for a letter without holes. */
 static void assert_sound(char character, size_t triangles, int64_t euler)
 {
     mote_mesh *mesh = letter(character, triangles);
@@ -254,8 +255,8 @@ static bool covers(const mote_mesh *mesh, double x, double y)
     return false;
 }
 
-/* How many pieces a horizontal line at a height (0 at the foot, 1 at the top) meets; gaps below
-   5 % of the width are the outline's facets. */
+/* The number of pieces in which a horizontal line at a height (0 at the foot, 1 at the top)
+   meets the letter; gaps below 5 % of the width are the outline's facets. */
 static unsigned pieces_at_height(const mote_mesh *mesh, double height)
 {
     const double y = mesh->low.y + height * (mesh->high.y - mesh->low.y);
@@ -273,7 +274,7 @@ static unsigned pieces_at_height(const mote_mesh *mesh, double height)
     return pieces;
 }
 
-/* What a reader sees: the pieces that lines near its foot and its top cross. */
+/* The letter as a reader sees it: the number of pieces on lines near its foot and its top. */
 TEST(create_each_letter_has_its_shape)
 {
     static const struct {

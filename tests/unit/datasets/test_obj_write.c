@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Made for each test. */
+/* Created for each test. */
 static const char path[] = "v.obj";
 static char partial[32];
 static mote_mesh *mesh;
@@ -26,12 +26,12 @@ static int set_up(void)
 static int tear_down(void)
 {
     mote_mesh_destroy(mesh);
-    return folder_count(".", "") > 1; /* a partial file is left behind */
+    return folder_count(".", "") > 1; /* fails if a partial file is left behind */
 }
 
 TEST_EACH(set_up, tear_down);
 
-/* Reads the file back with the C library and compares every number. */
+/* Reads the file with the C library and compares every number. */
 static void assert_file_holds(const mote_vec3 *positions)
 {
     FILE *file = fopen(path, "r");

@@ -1,4 +1,5 @@
-/* The cloth and the jelly: free fall in closed form before they land, and what holds after. */
+/* The cloth and the jelly: free fall in closed form until they land, and invariants
+   afterwards. */
 #include "datasets/glyph.h"
 #include "datasets/simulated.h"
 #include "harness/base/hash.h"
@@ -12,8 +13,8 @@
 #define TRIANGLES 3000
 #define FRAMES 120
 
-/* What both do in a frame before they land: `parts` steps, each of which keeps a share of the
-   velocity and adds gravity's. */
+/* The fall of either in a frame before it lands: `parts` steps, each of which keeps a share of
+   the velocity and adds gravity's. */
 static double fall(double *speed, int parts, double kept, bool damps_last)
 {
     double way = 0;
@@ -96,7 +97,7 @@ static double height_of(const mote_vec3 *at, uint32_t count)
     return high - low;
 }
 
-/* The motion is that of the lattice: a finer surface on it moves in the same way. */
+/* The lattice determines the motion: a finer surface on it moves in the same way. */
 TEST(jelly_of_any_size_makes_the_same_motion)
 {
     mote_mesh *mesh[2];
@@ -116,7 +117,7 @@ TEST(jelly_of_any_size_makes_the_same_motion)
         assert_true(fabs(height[0] - height[1]) < 0.01);
         least = fmin(least, height[0]);
     }
-    /* It has fallen over, and is not squashed. */
+    /* It has fallen over without being squashed. */
     assert_true(least > 0.1 && least < 0.5);
     for (int i = 0; i < 2; ++i) {
         mote_simulated_jelly.destroy(state[i]);

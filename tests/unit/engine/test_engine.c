@@ -1,4 +1,4 @@
-/* An engine: particles after an answer; two bodies, always near or in a scene. */
+/* Engines: particles after an answer; two bodies, always near or in a scene. */
 #include "harness/engine/engine.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-/* What other calls leave where the stack of earlier ones was. */
+/* Overwrites the stack of earlier calls. */
 static void overwrite_stack(void)
 {
     volatile unsigned char used[16384];
@@ -14,8 +14,8 @@ static void overwrite_stack(void)
         used[i] = 0xff;
 }
 
-/* Bodies that touch end the search at once: minima that were found before are then looked at
-   for the first time in this frame when they are asked for. */
+/* Bodies that touch end the search at once. Minima found in earlier frames are then evaluated
+   for this frame only when the particles are asked for. */
 TEST(particles_after_the_answer_are_vertices_of_its_frame)
 {
     void (*volatile between)(void) = overwrite_stack;
@@ -65,7 +65,7 @@ static mote_engine *engine_of(const mote_engine_setup *setup, const char *text)
     return engine;
 }
 
-/* What an engine says of the frame shown: the one pair, or NULL where none is near. */
+/* The engine's answer for the frame: its one pair, or NULL if none is near. */
 static const mote_near_pair *ask(mote_engine *engine, const mote_frame *frame,
                                  mote_engine_cost *cost)
 {
@@ -77,8 +77,9 @@ static const mote_near_pair *ask(mote_engine *engine, const mote_frame *frame,
     return count == 1 ? pairs : NULL;
 }
 
-/* Two bodies that are always near, and the same two in a scene that looks for near pairs: the
-   same distances, those of brute force; and only the scene loses the pair when it is far. */
+/* Two bodies that are always near, and the same two in a scene that searches for near pairs:
+   equal distances, which are those of brute force. Only the scene drops the pair when it is
+   far. */
 TEST(two_bodies_are_a_scene_of_two)
 {
     static const char *const methods[] = {"certified", "aabb-tree", "fcl-aabb"};
@@ -104,7 +105,7 @@ TEST(two_bodies_are_a_scene_of_two)
             assert_non_null(said);
             assert_int_equal(said->steps, k + 1);
             assert_true(said->answer.has_contact);
-            assert_int_equal(one.broad_ns + one.bounds_ns, 0); /* nothing is looked for */
+            assert_int_equal(one.broad_ns + one.bounds_ns, 0); /* no search for pairs */
             near_frames += found != NULL;
             lost_frames += found == NULL;
             if (found)

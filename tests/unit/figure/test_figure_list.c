@@ -1,5 +1,5 @@
 /* results/README.md names every figure that the program draws, with the command that measures
-   what it needs: compared with figures.json, and with the scripts in plots/. */
+   its data: compared with figures.json, and with the scripts in plots/. */
 #include "harness/base/file.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
@@ -29,7 +29,7 @@ static int free_readme(void)
 
 TEST_GROUP(make_run, free_readme);
 
-/* The line of README about a figure: "| 4 | `front-SCENARIO` | ..."; NULL: there is none. */
+/* The line of README about a figure: "| 4 | `front-SCENARIO` | ...", or NULL. */
 static const char *line_of(int number, const char *name)
 {
     char exact[128], each[128];
@@ -61,7 +61,7 @@ TEST(every_drawn_figure_is_in_the_readme)
     json_decref(list);
 }
 
-/* Also the command that README gives; OUT=DIR names this run. */
+/* README also gives the command; OUT=DIR stands for this run. */
 TEST(every_figure_not_drawn_is_in_the_readme_with_its_command)
 {
     size_t i;
@@ -90,7 +90,7 @@ TEST(every_figure_not_drawn_is_in_the_readme_with_its_command)
     json_decref(list);
 }
 
-/* Figures that other commands draw are in no list of the program: plots/NAME.gp is. */
+/* The program does not list figures that other commands draw, but plots/NAME.gp exists. */
 TEST(every_script_that_draws_is_in_the_readme)
 {
     static const char *const shared[] = {"draw", "style", "solid"};

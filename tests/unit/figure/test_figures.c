@@ -1,5 +1,5 @@
-/* mote figures: what a small stored run gives, what is missing, names that would be commands.
- */
+/* mote figures: the output for a small stored run, missing data, and names that look like
+   commands. */
 #include "harness/figure/figure.h"
 #include "harness/figure/figure_scene.h"
 #include "harness/base/hash.h"
@@ -18,7 +18,7 @@
 
 static char text[1 << 18];
 
-/* A scenario whose name is a command to gnuplot and to a shell, were it ever run. */
+/* A scenario name that would be a command to gnuplot and to a shell if it were ever run. */
 #define HOSTILE "'; system(\"touch HACKED\") `touch HACKED` $(touch HACKED)"
 
 static bool exists(const char *name)
@@ -78,8 +78,8 @@ TEST(figures_that_cannot_be_drawn_are_named)
     json_decref(missing);
 }
 
-/* What make ingredients measures, on a few frames: a line an ingredient with its shares and its
-   time over the whole's, and the front over n, launch and track. */
+/* Data of make ingredients on a few frames: a line an ingredient with its shares and its time
+   relative to the whole, and the front over n, launch and track. */
 TEST(figures_of_ingredients_have_the_rows_of_each)
 {
     mote_expect(0, "",
@@ -92,7 +92,7 @@ TEST(figures_of_ingredients_have_the_rows_of_each)
     assert_true(exists("parts/figures/tracked-jump.png"));
     program_read("parts/figures/ingredients.dat", text, sizeof text);
     const char *block = strstr(text, "\"jump\"\n0 0 ");
-    assert_non_null(block); /* the whole is exact there */
+    assert_non_null(block); /* the whole algorithm is exact there */
     assert_non_null(strstr(block, " 1 1 1 \n1 "));
     int lines = 0;
     for (const char *p = strchr(block, '\n') + 1; *p; p = strchr(p, '\n') + 1) {
@@ -105,10 +105,10 @@ TEST(figures_of_ingredients_have_the_rows_of_each)
     assert_int_equal(lines, 8);
     program_read("parts/figures/tracked-jump.dat", text, sizeof text);
     assert_non_null(strstr(text, "\"launch\"\n"));
-    assert_null(strstr(text, "\"n\"\n\n")); /* no empty line of points */
+    assert_null(strstr(text, "\"n\"\n\n")); /* no empty series of points */
 }
 
-/* The footer's run is the manifest's, its data the hash of the file that is drawn. */
+/* The footer names the run of the manifest and the hash of the file that is drawn. */
 TEST(footers_name_run_and_data)
 {
     char expected[128];
@@ -149,7 +149,7 @@ TEST(drawing_again_gives_the_same_bytes)
     }
 }
 
-/* Changes what begins with `from` to `to` in a file of the copy. */
+/* Replaces text that begins with `from` by `to` in a file of the copy. */
 static void rewrite(const char *path, const char *from, const char *to)
 {
     program_read(path, text, sizeof text);
@@ -231,7 +231,7 @@ static void take_frames_away(const char *path)
             "\"frames\": [\n  -9223372036854775807,\n  9223372036854775807\n");
 }
 
-/* The frames that a cell names choose the rows that a figure shows: of the most of them. */
+/* A figure shows the frames named by most cells. */
 TEST(cells_that_name_no_frames_are_drawn)
 {
     copy_run("frames", take_frames_away);
@@ -241,7 +241,7 @@ TEST(cells_that_name_no_frames_are_drawn)
 
 #define FRAMES 400
 
-/* Replicate r of a method in a folder: a row for every step-th frame, of ns each. */
+/* Writes replicate r of a method into a folder: a row for every step-th frame, `ns` each. */
 static void write_replicate(const char *name, const char *method, int r, int step, int ns)
 {
     mote_text rows = {0};
@@ -308,7 +308,7 @@ TEST(figures_of_many_bodies_say_how_many)
     free(drawing);
 }
 
-/* A scenario of 10,000 bodies may stand before one of 10 by its name; lines go from left to
+/* By its name a scenario of 10,000 bodies may sort before one of 10, but lines go from left to
    right. */
 TEST(lines_over_bodies_ascend)
 {
@@ -336,7 +336,7 @@ TEST(lines_over_bodies_ascend)
     free(summary);
 }
 
-/* n alone, as `make bench` varies it: no line of the figure but one would have a point. */
+/* Only n varies, as in `make bench`: every line of the figure but one would be empty. */
 TEST(tracked_particles_of_one_parameter_are_no_figure_14)
 {
     static const int n[] = {2, 4, 8, 16, 32};
@@ -362,7 +362,7 @@ TEST(tracked_particles_of_one_parameter_are_no_figure_14)
     mote_summary_free(&summary);
 }
 
-/* All frames up to the one that is shown are asked again: none may be beyond the scenario. */
+/* All frames up to the one shown are queried again: none may be beyond the scenario. */
 TEST(scene_of_a_cell_with_a_frame_that_is_not_there_is_refused)
 {
     static const uint32_t frames[] = {60, 2001, UINT32_MAX};

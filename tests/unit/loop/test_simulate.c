@@ -1,4 +1,5 @@
-/* The closed loop: what it books against independent truth, what it keeps, what it refuses. */
+/* The closed loop: its records against independent truth, what it stores, and what it
+   refuses. */
 #include "harness/loop/simulate.h"
 
 #include "core/body/triangle.h"
@@ -20,7 +21,7 @@
 #define TRACE "trace.json"
 #define FILM "film.gif"
 
-/* A deforming V flies at a turning T; %s: what more the V has, what the scenario has. */
+/* A deforming V flies at a turning T; the %s are further keys of the V and of the scenario. */
 static const char form[] =
     "{\"purpose\": \"a test\", \"frames\": 160, \"ask\": \"distance\"%s,\n"
     " \"bodies\": [{\"letter\": \"T\", \"triangles\": 400, \"velocity\": [0, 0, 0],\n"
@@ -66,8 +67,8 @@ static mote_method_choice choice_of(const char *text)
     return choice;
 }
 
-/* A method that says what it is told: that the bodies are in contact or not, how far they are
-   apart, that it failed, or nothing. */
+/* A method whose answer the test prescribes: contact or not, a distance, an error, or
+   nothing. */
 static bool told;
 static enum { SAY_CONTACT, SAY_DISTANCE, SAY_NOTHING, SAY_ERROR } told_form;
 
@@ -161,7 +162,7 @@ TEST(simulator_run_blind_method_passes_through)
     assert_true(r.depth_passes > 0.02 && r.depth_max == r.depth_passes);
     assert_int_equal(r.missed_steps, r.contact_steps);
     assert_int_equal(r.responses, 0);
-    /* Replayed as a scenario, the truth of its own code finds the same contacts. */
+    /* Replayed as a scenario, the truth, which has code of its own, finds the same contacts. */
     mote_simulator *simulator = simulator_of(scenario, &blind, &options);
     assert_int_equal(mote_trace_write(&(mote_subject){.scenario = scenario},
                                       mote_simulator_masses(simulator), trace[0],
@@ -273,8 +274,7 @@ TEST(simulator_run_refuses_with_reason)
     mote_scenario_destroy(scenario);
 }
 
-/* What a method says instead of an answer ends the simulation; a distance is as good as a
-   contact. */
+/* Anything else than an answer ends the simulation; a distance serves as well as a contact. */
 TEST(simulator_run_needs_an_answer)
 {
     static const struct {
@@ -308,7 +308,7 @@ TEST(simulator_run_needs_an_answer)
     mote_scenario_destroy(scenario);
 }
 
-/* A scenario of one frame has one shape, but its bodies move. */
+/* A scenario of one frame has one shape, but its bodies still move. */
 TEST(simulator_run_of_one_frame_moves_on)
 {
     static const char text[] =
@@ -334,7 +334,8 @@ TEST(simulator_run_of_one_frame_moves_on)
     assert_int_equal(unlink(ONE), 0);
 }
 
-/* Steps of a half and of two frames: the same paths until the first contact, the same time. */
+/* Steps of half a frame and of two frames: the same paths until the first contact, and the same
+   duration. */
 TEST(simulator_run_time_step_keeps_the_pace)
 {
     mote_scenario *scenario = load("", "1.1, 0.1, 0", FLYING);
@@ -417,8 +418,7 @@ TEST(penetration_depth_random_poses_as_by_solid_angles)
     int deep = 0;
     for (int trial = 0; trial < 60; ++trial) {
         for (int i = 0; i < 2; ++i) {
-            /* Every third time axes stay parallel, so that edges and vertices lie on the rays.
-             */
+            /* Every third time axes stay parallel, so edges and vertices lie on the rays. */
             const mote_pose pose = {trial % 3 ? random_rotation_matrix(&seed)
                                               : (mote_mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                                     mote_scale(random_vec3(&seed, 1.6), i)};
@@ -429,7 +429,7 @@ TEST(penetration_depth_random_poses_as_by_solid_angles)
         const double depth = mote_penetration_depth(penetration, world[0], world[1], 0);
         assert_close(depth, depth_by_angles(mesh, world), 1e-14);
         deep += depth > 0.01;
-        /* What is less deep than asked for is not told. */
+        /* Depths below `above` are not reported. */
         for (int part = -1; part <= 1; ++part) {
             const double above = depth * (1 + 0.1 * part) + 0.01 * (part > 0);
             const double found = mote_penetration_depth(penetration, world[0], world[1], above);
@@ -444,7 +444,8 @@ TEST(penetration_depth_random_poses_as_by_solid_angles)
     }
 }
 
-/* Shifted along the ray, every vertex of one lies on rays through vertices of the other. */
+/* When shifted along the ray, every vertex of one lies on rays through vertices of the
+   other. */
 TEST(penetration_depth_aligned_tori_ties_as_by_solid_angles)
 {
     mote_mesh *mesh[2] = {solid_to_mesh(solid_torus(16, 8)), solid_to_mesh(solid_torus(16, 8))};
@@ -480,7 +481,7 @@ TEST(command_simulate_json_has_the_keys)
     }
 }
 
-/* A GIF of nine pictures, and nothing beside it. */
+/* The film is a GIF of nine pictures, and nothing else is left. */
 TEST(command_simulate_film_is_a_gif)
 {
     static const unsigned char control[] = {0x21, 0xf9, 0x04};
@@ -498,9 +499,9 @@ TEST(command_simulate_film_is_a_gif)
     assert_int_not_equal(access(FILM ".frames", F_OK), 0);
 }
 
-/* More steps with a contact than a film has pictures, bodies one above the other or at one
-   place, and a method without witnesses: pictures that gnuplot can read, twice as many at
-   most. */
+/* More steps with a contact than a film has pictures, bodies above each other or in one place,
+   and a method without witnesses: gnuplot can read the pictures, and there are at most twice as
+   many. */
 TEST(film_watch_of_odd_steps_keeps_its_bounds)
 {
     static const char *const places[] = {"0, 0, 0", "0, 2, 0"};

@@ -1,4 +1,4 @@
-/* Several bodies in the closed loop: what is booked, what is kept, what is refused. */
+/* Several bodies in the closed loop: what is recorded, stored and refused. */
 #include "harness/loop/contact_runs.h"
 #include "harness/loop/simulate.h"
 
@@ -26,7 +26,8 @@ static void write_file(const char *bodies)
     free(text);
 }
 
-/* Pairs of a step: "0-1!" is a contact of bodies 0 and 1, "0-1" a near pair without. */
+/* Parses the pairs of a step: "0-1!" is a contact of bodies 0 and 1, "0-1" a near pair
+   without. */
 static size_t pairs_of(const char *text, mote_near_pair pairs[8])
 {
     size_t count = 0;
@@ -40,7 +41,7 @@ static size_t pairs_of(const char *text, mote_near_pair pairs[8])
     return count;
 }
 
-/* As deep as the number of the second body says. */
+/* The depth is the number of the second body. */
 static mote_status depth_by_body(void *context, const uint32_t body[2], double above,
                                  double *depth)
 {
@@ -123,7 +124,7 @@ TEST(simulator_run_of_many_exact_methods_see_all_and_keep_the_invariants)
     assert_int_equal(r[0].contact_steps, r[2].contact_steps);
 }
 
-/* What impacts lose is booked, and what gravity gives. */
+/* The energy lost by impacts is recorded, and so is the energy gained from gravity. */
 TEST(simulator_run_of_many_losses_and_gravity_are_booked)
 {
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
@@ -131,7 +132,7 @@ TEST(simulator_run_of_many_losses_and_gravity_are_booked)
     assert_true(r.energy_drift < 1e-11 && r.momentum_drift < 1e-11);
 }
 
-/* Particles that see contacts late or never: what they miss is counted. */
+/* Particles that see contacts late or never: the missed ones are counted. */
 TEST(simulator_run_of_many_one_particle_misses_contacts)
 {
     write_file("\"count\": 10, \"near_pairs\": 2, \"speed\": 0.03, \"spin\": 1, " LETTERS);
@@ -162,7 +163,7 @@ TEST(mote_simulate_several_bodies_on_the_command_line)
     mote_expect(4, "shape 1 cannot respond", "simulate " FILE_NAME " --method certified");
 }
 
-/* The number after a key in what was said. */
+/* The number after a key in the output. */
 static double number_of(const char *key)
 {
     const char *found = strstr(said, key);
@@ -185,16 +186,16 @@ TEST(mote_simulate_traces_of_several_bodies_are_scenarios)
     assert_close(number_of("\"pair_contacts\": "), contacts, 0);
     assert_close(number_of("\"near_pairs\": "), near, 1e-12 * near);
     mote_expect(0, "10 bodies", "run " TRACE " --method certified --replicates 1 --out traced");
-    /* Another one, elsewhere, may be like it: the poses are still found. */
+    /* A scenario elsewhere may use "like" on it: the poses are still found. */
     static const char like[] = "{\"purpose\": \"a test\", \"like\": \"../" TRACE "\"}\n";
     assert_int_equal(mote_directory_make("other"), MOTE_OK);
     assert_int_equal(mote_file_write("other/like.json", like, strlen(like)), MOTE_OK);
     mote_expect(0, "10 bodies, 51 frames", "--allow . check other/like.json");
-    /* It goes on from there as it began. */
+    /* A simulation of it starts from the same state. */
     mote_expect(0, "10 bodies, 3 steps", "simulate " TRACE " --method certified --steps 3");
 }
 
-/* A file of poses that is not whole, or is another's, is refused with its line. */
+/* A file of poses that is incomplete or belongs to other bodies is refused with its line. */
 TEST(mote_bodies_load_poses_that_are_wrong_are_refused)
 {
     static const char *const cases[][2] = {
@@ -217,12 +218,12 @@ TEST(mote_bodies_load_poses_that_are_wrong_are_refused)
     }
     write_file("\"count\": 2, \"near_pairs\": 1, \"poses\": \"p.csv\", " LETTERS);
     mote_expect(4, "poses go with a box", "check " FILE_NAME);
-    /* Somebody else's scenario reads no other file. */
+    /* Without --allow a scenario reads no file outside its folder. */
     write_file("\"count\": 2, \"box\": 9, \"poses\": \"/etc/passwd\", " LETTERS);
     mote_expect(4, "--allow", "check " FILE_NAME);
 }
 
-/* Pictures of eight bodies, also where a contact is reported. */
+/* Pictures of eight bodies, also when a contact is reported. */
 TEST(mote_simulate_films_several_bodies)
 {
     char *gif = NULL;
@@ -237,7 +238,7 @@ TEST(mote_simulate_films_several_bodies)
     assert_int_not_equal(access(FILM ".frames", F_OK), 0);
 }
 
-/* Farther apart than scenarios want bodies to be, nearer than this contact. */
+/* Farther apart than scenarios require, but nearer than this contact's distance. */
 TEST(mote_simulate_bodies_that_start_in_contact_are_refused)
 {
     write_file("\"count\": 40, \"near_pairs\": 5, " LETTERS);

@@ -17,7 +17,7 @@ static mote_character *import(const char *path, mote_character_import *facts)
     return made;
 }
 
-/* Where the bones put a vertex, by the sum of the definition. */
+/* The position of a vertex moved by the bones, as the sum of the definition. */
 static mote_vec3 skinned(const mote_character *c, const mote_character_pose *pose, uint32_t v)
 {
     mote_vec3 at = {0, 0, 0}, x = c->mesh->positions[v];
@@ -60,15 +60,15 @@ TEST(mote_character_bends_as_its_bones_say)
     mote_character_pose_set(c, MOTE_RIG_NONE, 0, &pose);
     for (uint32_t v = 0; v < BAR_VERTICES; ++v)
         check_place(c, &pose, c->mesh->positions[v], c->mesh->positions[v]);
-    /* After a second the end stands up or down: files of this format have another handedness.
-     */
+    /* After a second the end points up or down, because files of this format have another
+       handedness. */
     mote_character_pose_set(c, 0, 1, &pose);
     const double up = skinned(c, &pose, 8).y > 0 ? 1 : -1;
     check_place(c, &pose, (mote_vec3){0, 0.25, 0.25}, (mote_vec3){0, 0.25, 0.25});
     check_place(c, &pose, (mote_vec3){2, 0.25, 0.25}, (mote_vec3){1 - up * 0.25, up, 0.25});
     check_place(c, &pose, (mote_vec3){1, 0.25, 0.25},
                 (mote_vec3){1 - up * 0.125, 0.125, 0.25}); /* half of both */
-    /* Halfway the angle is half as large. */
+    /* Half way the angle is half as large. */
     mote_character_pose_set(c, 0, 0.5, &pose);
     const double s = sqrt(0.5);
     check_place(c, &pose, (mote_vec3){2, 0.25, 0.25},
@@ -77,7 +77,7 @@ TEST(mote_character_bends_as_its_bones_say)
     mote_character_destroy(c);
 }
 
-/* The field of the core gives the same places. */
+/* The core's field gives the same positions. */
 TEST(mote_character_is_a_skin_of_the_core)
 {
     bar_write("bar.x", bar_default());
@@ -192,7 +192,7 @@ TEST(mote_character_that_is_wrong_is_refused_with_what_and_where)
     check_refusal(part, "bad.x: the matrix of bone Upper is not finite; give finite numbers");
 }
 
-/* Each number of a rig, replaced by what is wrong. */
+/* Replaces each number of a rig by a wrong one. */
 TEST(mote_character_check_rig_names_what_is_wrong)
 {
     bar_write("bar.x", bar_default());
@@ -239,7 +239,7 @@ TEST(mote_character_of_a_file_that_cannot_move_is_unsupported)
     assert_int_equal(mote_character_import_file("text.x", &c, NULL), MOTE_EINVAL);
 }
 
-/* Two triangles that share an edge, whose vertices stand twice: at one end the copies move
+/* Two triangles that share an edge whose vertices are duplicated: at one end the copies move
    alike, at the other they do not. */
 static void fill_draft(mote_character_draft *draft)
 {
@@ -305,8 +305,8 @@ TEST(mote_character_weights_are_checked)
     }
 }
 
-/* What the child sends is what the parent takes; anything shorter or changed is refused or
-   taken as another draft, and never read beyond its arrays (with AddressSanitizer). */
+/* The parent accepts what the child sends. A shorter or changed message is refused or accepted
+   as another draft, and never read beyond its arrays (with AddressSanitizer). */
 TEST(mote_character_take_refuses_what_is_no_draft)
 {
     mote_character_draft draft = {0}, taken;

@@ -1,4 +1,4 @@
-/* Steps and cubic keys of glTF files. */
+/* Step and cubic keys of glTF files. */
 #include "harness/mesh/character.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
@@ -114,7 +114,7 @@ TEST(mote_character_of_gltf_has_cubic_keys_with_their_tangents)
 TEST(mote_character_of_gltf_has_steps)
 {
     mote_character *c = NULL;
-    write_file("STEP", KEYS, "a.bin"); /* the first KEYS of what are cubic keys above */
+    write_file("STEP", KEYS, "a.bin"); /* the first KEYS values of the cubic keys above */
     if (mote_character_import_file("a.gltf", &c, NULL) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     const buffer b = make_buffer();

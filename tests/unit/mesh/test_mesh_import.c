@@ -65,7 +65,7 @@ static void check_tetrahedron(const char *name, const char *text, bool single)
     assert_int_equal(mesh->open_edge_count, 0);
     assert_int_equal(mote_mesh_euler(mesh), 2);
     assert_int_equal(import.single_precision, single);
-    /* 0.1 is another number in 32 bits. */
+    /* 0.1 is rounded differently in 32 bits. */
     assert_true(mesh->high.z == (single ? (double)0.1f : 0.1));
     mote_mesh_destroy(mesh);
 }
@@ -98,7 +98,7 @@ TEST(mote_mesh_import_off_with_extras_is_read)
     mote_mesh_destroy(mesh);
 }
 
-/* A backslash at the end of a line of OBJ joins the next one to it. */
+/* A backslash at the end of a line of OBJ continues it on the next one. */
 TEST(obj_lines_go_on_after_a_backslash)
 {
     static const char written[] =
@@ -226,10 +226,10 @@ static const bad_text bad_texts[] = {
      "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 0 0\n"
      "endloop\nendfacet\nendsolid t\n",
      "each of its 1 faces has two corners at one place"},
-    /* assimp 5.2 crashes on two groups. */
+    /* Two groups crash assimp 5.2. */
     {"b.raw", "a\n1 1 1 0 0 0 0 1 0 1 0 0\n\nb\n1 1 1 0 0 0 0 1 0 1 0 0\n",
      "b.raw: the reader of this format: crashed: "},
-    /* Faces that are not simple. */
+    /* Polygons that are not simple. */
     {"w.obj", "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nf 1 2 3 4\n",
      "w.obj:5: a face whose edges 1 and 3 cross or touch; give triangles"},
     {"w.off", "OFF\n4 1 0\n0 0 0\n2 2 0\n2 0 0\n0 2 0\n4 0 1 2 3\n",
@@ -238,7 +238,7 @@ static const bad_text bad_texts[] = {
      "w.ply: face 0: a face whose edges 1 and 3 cross"},
     {"w.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 1 4\n",
      "w.obj:5: a face with a vertex twice; give different ones"},
-    /* Lines that go on after a backslash. */
+    /* Lines continued after a backslash. */
     {"c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 \\\n2 \\\n7\n", "c.obj:6: face with vertex 7"},
     {"c.obj", "v 0 0 0\nv 1 \\\r\n0 0\nv 0 1 0\nf 1 2 \\\n3\nf 1 2 9\n",
      "c.obj:7: face with vertex 9"},
@@ -283,7 +283,7 @@ TEST(mote_mesh_import_not_a_file_is_refused)
     assert_null(mesh);
 }
 
-/* Copies text with a few bytes changed, cut or repeated, or numbers made absurd. */
+/* Copies text with a few bytes changed, cut or repeated, or with absurd numbers. */
 static size_t mutate(const char *text, mote_random *random, char *out)
 {
     static const char *const absurd[] = {"-1",         "99999999",   "nan", "1e400",
@@ -311,7 +311,7 @@ static size_t mutate(const char *text, mote_random *random, char *out)
     return size;
 }
 
-/* Whatever comes of them, it comes soon, as a valid mesh or as an error. */
+/* Every result comes soon, as a valid mesh or as an error. */
 TEST(mote_mesh_import_mutated_files_are_read_or_refused)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* Edges of more than two faces are cut apart, and nothing else changes. */
+/* Edges of more than two faces are split, and nothing else changes. */
 #include "core/base/random.h"
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_split.h"
@@ -66,7 +66,7 @@ TEST(split_cubes_that_touch_along_an_edge_both_stay_closed)
     mote_soup_free(&soup);
 }
 
-/* Pages of a book: an edge with `count` faces, all wound alike or in turn. */
+/* Pages of a book: an edge with `count` faces, wound alike or alternately. */
 static mote_mesh *split_book(int count, bool in_turn, mote_split *split)
 {
     static const double places[8][3] = {{0, 0, 0},  {0, 0, 1},  {1, 0, 0},   {1, 1, 0},
@@ -88,7 +88,7 @@ TEST(split_pages_of_a_book_stay_together_where_they_enclose_an_inside)
     mote_mesh *mesh = split_book(6, true, &split);
     assert_int_equal(mesh->component_count, 3);
     assert_int_equal(mesh->open_edge_count, 12);
-    /* The first page goes forward: its inside ends there, and began at the last page. */
+    /* The first page is wound forwards: it closes the inside that began at the last page. */
     assert_int_equal(mesh->component[2], mesh->component[7]);
     assert_int_equal(mesh->component[3], mesh->component[4]);
     mote_mesh_destroy(mesh);
@@ -105,7 +105,7 @@ TEST(split_pages_of_a_book_stay_together_where_they_enclose_an_inside)
 
 TEST(split_leaves_a_mesh_of_edges_with_two_faces_as_it_is)
 {
-    /* Two tetrahedra with one vertex in common: two fans there, which are no fault. */
+    /* Two tetrahedra with one vertex in common: its two fans are not an error. */
     static const double places[7][3] = {{0, 0, 0},  {1, 0, 0},  {0, 1, 0}, {0, 0, 1},
                                         {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
     static const uint32_t faces[8][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
@@ -133,7 +133,7 @@ static bool has(const uint32_t face[3], uint32_t v)
     return face[0] == v || face[1] == v || face[2] == v;
 }
 
-/* How many faces have an edge; *pair are two of them. */
+/* The number of faces that share an edge; *pair receives two of them. */
 static int faces_at(uint32_t (*faces)[3], int count, uint32_t a, uint32_t b, int pair[2])
 {
     int found = 0;
@@ -153,8 +153,8 @@ static uint32_t new_vertex(const mote_soup *soup, uint32_t (*before)[3], int fac
     return UINT32_MAX;
 }
 
-/* What is split has the places of before in the same order, no edge of more than two faces, and
-   every edge of two faces that it had. */
+/* The split mesh has the same positions in the same order, no edge of more than two faces, and
+   every edge that had two faces before. */
 static size_t check_split(const mote_soup *soup, const mote_split *split, uint32_t vertices,
                           uint32_t (*before)[3])
 {
@@ -212,7 +212,7 @@ TEST(split_random_faces_make_a_mesh_of_the_same_places)
     assert_true(heavy > 10000);
 }
 
-/* A hub of many faces on one edge is no trap. */
+/* A hub of many faces at one edge must not be slow. */
 TEST(split_an_edge_of_many_faces_takes_no_time)
 {
     mote_soup soup = {0};
@@ -242,7 +242,7 @@ TEST(split_is_told_once_and_refused_by_strict)
         const char *line;
         int code;
         const char *says;
-        int notes; /* how often it says so */
+        int notes; /* how often the note is printed */
     } cases[] = {
         {"mesh split_book.obj", 0,
          "non-manifold edges  1, cut apart with 2 new vertices: (0, 0, 0) to (0, 0, 1) with 3 "
@@ -269,7 +269,7 @@ TEST(split_is_told_once_and_refused_by_strict)
     }
 }
 
-/* A page ends at x = 1, and the wall is at x = 3. */
+/* A page ends at x = 1; the wall is at x = 3. */
 TEST(split_edges_give_every_method_the_same_distance)
 {
     static const char *const methods[] = {"certified",   "particle", "aabb-tree",

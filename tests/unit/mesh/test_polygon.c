@@ -17,7 +17,7 @@
 
 __extension__ typedef __int128 wide_integer;
 
-/* The same sign from integers that no product overflows. */
+/* The same sign, by integers whose products do not overflow. */
 static int integer_orientation(const int64_t a[2], const int64_t b[2], const int64_t c[2])
 {
     const wide_integer area = (wide_integer)(b[0] - a[0]) * (c[1] - a[1]) -
@@ -49,7 +49,7 @@ TEST(orientation_near_a_line_is_that_of_integers)
     assert_int_equal(on_line, 64);
 }
 
-/* How a flat outline is laid into space: each is exact for small integers. */
+/* How a flat outline is placed in space; each way is exact for small integers. */
 static void lay(int plane, const double at[2], double xyz[3])
 {
     const double u = at[0], v = at[1];
@@ -91,7 +91,7 @@ static double triangle_area(const flat_polygon *p, const uint32_t t[3])
     return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
 }
 
-/* How many of the triangles hold a point that is on no edge. */
+/* The number of triangles that contain a point, which must not be on an edge. */
 static int cover(const flat_polygon *p, uint32_t (*triangles)[3], double x, double y)
 {
     int count = 0;
@@ -104,7 +104,8 @@ static int cover(const flat_polygon *p, uint32_t (*triangles)[3], double x, doub
     return count;
 }
 
-/* Every triangle is wound as the polygon and has area; together they cover it once. */
+/* Checks that every triangle is wound as the polygon and has area; together they cover it
+   once. */
 static void check_triangles(const flat_polygon *p, uint32_t (*triangles)[3])
 {
     const double area = signed_area(p);
@@ -158,7 +159,7 @@ static int turn(const flat_polygon *p, size_t a, size_t b, size_t c)
     return mote_orientation(p->at[a], p->at[b], p->at[c]);
 }
 
-/* Turns part of the outline round where two edges cross, until none do. */
+/* Reverses parts of the outline between crossing edges until none cross. */
 static void untangle(flat_polygon *p)
 {
     for (bool crossed = true; crossed;) {
@@ -199,7 +200,7 @@ TEST(polygon_of_random_corners_is_covered_once)
     }
 }
 
-/* On a small grid many corners lie on lines through others; the outline may touch itself, and
+/* On a small grid many corners lie on lines through others. The outline may touch itself, and
    is then refused. */
 TEST(polygon_on_a_grid_is_covered_once_or_refused)
 {
@@ -243,10 +244,10 @@ TEST(polygon_convex_is_a_fan_from_its_first_corner)
     }
 }
 
-/* Sides 1 in the last bit from a line, far from the origin. */
+/* Edges one unit in the last place off a line, far from the origin. */
 TEST(polygon_nearly_flat_ears_are_cut_exactly)
 {
-    const double bit = ldexp(1, -43); /* of numbers from 512 to 1024 */
+    const double bit = ldexp(1, -43); /* unit in the last place of numbers from 512 to 1024 */
     const flat_polygon p = {8,
                             {{600, 600},
                              {610, 600 - bit},
@@ -292,7 +293,7 @@ TEST(polygon_that_is_not_simple_is_refused)
     }
 }
 
-/* What has no area adds none, and what it is joined to stays right. */
+/* Parts without area add none, and the rest stays right. */
 TEST(polygon_with_parts_of_no_area_keeps_its_area)
 {
     static const struct {
@@ -320,13 +321,14 @@ TEST(polygon_with_parts_of_no_area_keeps_its_area)
     }
 }
 
-/* Not flat: taken where some view is simple; a quadrilateral always has one. */
+/* A polygon that is not flat is accepted if some view of it is simple; a quadrilateral always
+   has one. */
 TEST(polygon_that_is_not_flat_is_seen_along_some_line)
 {
     uint32_t triangles[4][3];
     const double skew[] = {0, 0, 0, 2, 2, 1, 2, 0, 0, 0, 2, 2};
     assert_int_equal(mote_polygon_triangulate(skew, 4, triangles), MOTE_OK);
-    /* A helix of two turns has none. */
+    /* A helix of two turns has no such view. */
     double helix[3 * CORNERS_MAX];
     for (size_t i = 0; i < 32; ++i) {
         helix[3 * i] = cos(0.4 * (double)i);
@@ -337,8 +339,8 @@ TEST(polygon_that_is_not_flat_is_seen_along_some_line)
     assert_int_equal(mote_polygon_triangulate(helix, 32, many), MOTE_EINVAL);
 }
 
-/* A comb of teeth side by side, one unit of width with height 0.5 and one with 5 each, seen
- * along the one axis or the other. */
+/* A comb whose columns, one unit wide, are alternately 0.5 and 5 high, seen along either
+   axis. */
 TEST(polygon_of_ten_thousand_corners_takes_seconds_at_most)
 {
     enum { TEETH = 2500, CORNERS = 4 * TEETH + 2 };

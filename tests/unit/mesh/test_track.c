@@ -36,7 +36,7 @@ TEST(mote_track_of_steps_keeps_the_last_key)
     assert_true(value == 6);
 }
 
-/* A cubic is met by its Hermite piece: x(t) = t^3 - 2 t^2 + 3 with its own derivatives. */
+/* Hermite interpolation reproduces a cubic: x(t) = t^3 - 2 t^2 + 3 with its own derivatives. */
 TEST(mote_track_of_cubics_is_the_polynomial_of_its_tangents)
 {
     const double times[] = {-1, 0.5, 3};
@@ -92,7 +92,7 @@ TEST(mote_track_rotation_turns_at_constant_speed_the_shorter_way)
             b[c] = keys[4 + c] / sqrt(lb);
             dot += a[c] * b[c];
         }
-        double squares = 0; /* of b - a, or of b + a: the angle by its half sine */
+        double squares = 0; /* of b - a or of b + a: gives the sine of half the angle */
         for (int c = 0; c < 4; ++c)
             squares += pow(b[c] * (dot < 0 ? -1 : 1) - a[c], 2);
         const double angle = 2 * asin(fmin(sqrt(squares) / 2, 1));

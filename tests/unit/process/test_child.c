@@ -1,4 +1,4 @@
-/* Children that crash, hang, say rubbish or too much; that are confined; and files that a
+/* Children that crash, hang, or write rubbish or too much; confined children; and files that a
    scenario may not name. */
 #define _DEFAULT_SOURCE /* symlink */
 #include "harness/process/child.h"
@@ -43,7 +43,7 @@ static mote_status hang(void *context, int output)
     return MOTE_OK;
 }
 
-/* As many bytes as the context says, none of them zero, and no answer after them. */
+/* Writes as many bytes as the context says, none of them zero, and no answer after them. */
 static mote_status say_rubbish(void *context, int output)
 {
     char block[4096];
@@ -97,7 +97,7 @@ TEST(run_of_children_that_say_rubbish_is_an_error)
     mote_child_release(&child);
 }
 
-/* The bytes of a good end, as child.c has them: 4 of a status, 1024 of a text. */
+/* The bytes of a successful end, as in child.c: 4 of a status, 1024 of a text. */
 enum { LAST_WORDS = 4 + 1024 };
 
 static mote_status say_endless_text(void *context, int output)
@@ -137,8 +137,8 @@ TEST(run_of_children_whose_last_words_make_no_sense_is_an_error)
     assert_int_equal(mote_child_run("it", say_nothing, NULL, limits, NULL, NULL), MOTE_OK);
 }
 
-/* Asked to stop, a parent ends its child and says how to go on. In a process of its own: the
-   wish is kept. */
+/* When asked to stop, a parent ends its child and says how to resume. Runs in a process of its
+   own, because the request is remembered. */
 static mote_status wait_and_be_stopped(void *context, int output)
 {
     (void)context;
@@ -211,7 +211,7 @@ TEST(spawn_quiet_tells_what_a_program_said_only_where_it_fails)
     assert_string_equal(mote_error_text(), "sh: ended with status 2: line 3: no such column");
 }
 
-/* In the C locale gnuplot would warn once a figure. */
+/* In the C locale gnuplot would warn about every figure. */
 TEST(spawn_in_any_locale_is_in_utf_8)
 {
     const char *user = getenv("LC_ALL");
@@ -241,7 +241,7 @@ static mote_status attempt(void *context, int output)
     (void)snprintf(other, sizeof other, "%s-other", kept);
     attempts a;
     memset(&a, 0, sizeof a);
-    a.landlock = mote_confine(); /* again: says whether there is Landlock */
+    a.landlock = mote_confine(); /* again: reports whether there is Landlock */
     a.privileges = prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) != 1;
     const int made = open(other, O_CREAT | O_WRONLY, 0600);
     a.made = made >= 0;
@@ -309,8 +309,8 @@ TEST(reach_check_of_files_outside_is_an_error_until_allowed)
     assert_int_equal(check("inner/a.json", "inner/none.obj"), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/../outside.obj"), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "--allow DIR"));
-    /* A link in the folder was put there by its owner; a path that leads up counts by where it
-       ends. */
+    /* The owner of the folder made the link, so it is allowed; a path that leads up counts by
+       its target. */
     assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_OK);
     assert_int_equal(check("inner/a.json", "inner/../inner/link.obj"), MOTE_EINVAL);
     assert_int_equal(mote_fence_check(inner, "/etc/passwd"), MOTE_EINVAL);
@@ -322,7 +322,7 @@ TEST(reach_check_of_files_outside_is_an_error_until_allowed)
     assert_int_equal(check("inner/a.json", "inner/link.obj"), MOTE_OK);
     assert_int_equal(mote_fence_check(inner, "/etc/passwd"), MOTE_EINVAL);
     assert_int_equal(mote_fence_check("/nowhere/at/all/a.json", "/etc/passwd"), MOTE_EINVAL);
-    /* Sixteen at most, of which folder was one. */
+    /* At most sixteen, and folder was one of them. */
     for (int k = 1; k < 16; ++k)
         assert_int_equal(mote_fence_allow(inner), MOTE_OK);
     assert_int_equal(mote_fence_allow(inner), MOTE_EINVAL);

@@ -67,8 +67,8 @@ TEST(query_without_a_step_equals_all_pairs)
     scene_free(&s);
 }
 
-/* A mesh of separate triangles in one plane row: no two share a vertex, so that no leaf can be
-   as large as the tree would like. */
+/* A mesh of separate triangles in a plane row: no two share a vertex, so no leaf can be as
+   large as the tree prefers. */
 static mote_mesh *make_shards(uint32_t count)
 {
     double *xyz = malloc(9 * count * sizeof *xyz);
@@ -90,7 +90,7 @@ static mote_mesh *make_shards(uint32_t count)
     return mesh;
 }
 
-/* A scene whose body 0 is replaced. */
+/* Replaces body 0 of a scene. */
 static void use_mesh(scene *s, mote_mesh *mesh)
 {
     mote_deform_destroy(s->deform[0]);
@@ -132,8 +132,8 @@ static mote_mesh *make_cube(void)
     return mesh;
 }
 
-/* Corners, edges and faces that touch exactly: hulls in which the search for a direction ends
-   at none. Asked cold, and warm after another place. */
+/* Corners, edges and faces that touch exactly: hulls for which the search for a direction finds
+   none. Queried cold, and warm after another place. */
 TEST(query_cubes_of_whole_numbers_equals_the_closed_form)
 {
     mote_mesh *mesh = make_cube();
@@ -184,7 +184,7 @@ TEST(query_after_another_history_gives_the_same_distance)
         scene_next(&s, 1.3, false);
         mote_certificate_answer a[3];
         mote_certificate_query(warm, &s.frame, NULL, -1, &a[0]);
-        if (k % 7 == 0) /* knows an earlier frame only */
+        if (k % 7 == 0) /* has seen an earlier frame only */
             mote_certificate_query(other, &s.frame, NULL, -1, &a[1]);
         mote_certificate_query(cold, &s.frame, NULL, -1, &a[2]);
         /* faces that share the nearest point differ in the last bits of its coordinates */

@@ -1,4 +1,4 @@
-/* What certified mode rules out by floats, against the vertices and faces themselves. */
+/* The float bounds of certified mode against the vertices and faces themselves. */
 #include "core/certificate/certificate_state.h"
 #include "core/body/triangle.h"
 
@@ -52,7 +52,7 @@ TEST(deformed_boxes_enclose_their_vertices)
     scene_init(&s, 30, 14, 1, true);
     mote_certificate *c = certificate_of(&s, NULL);
     for (int k = 0; k < 40; ++k) {
-        /* from nearby to so far that a float holds three digits of the size */
+        /* from nearby to so far that a float keeps three digits of the size */
         scene_next(&s, pow(10, k % 5), false);
         c->origin = s.frame.body[0].pose.translation;
         ++c->generation;
@@ -64,7 +64,7 @@ TEST(deformed_boxes_enclose_their_vertices)
             double excess = 0;
             const int boxes = check_boxes(&s, c, b, mote_cert_root(c, b), &excess);
             assert_in_range(boxes, 30, 1000);
-            if (k % 5 == 0) /* and they are not much larger */
+            if (k % 5 == 0) /* and not much farther */
                 assert_true(excess / boxes < 0.1 * s.length * c->scale);
         }
     }
@@ -72,7 +72,7 @@ TEST(deformed_boxes_enclose_their_vertices)
     scene_free(&s);
 }
 
-/* Every vertex of a leaf is where its hull says, within the hull's width. */
+/* Every vertex of a leaf is where its hull says, to within the hull's width. */
 static double check_hull(const scene *s, const mote_certificate *c, const mote_cert_hull *hull)
 {
     const mote_cert_tree *tree = c->side[0].tree;
@@ -92,8 +92,8 @@ static double check_hull(const scene *s, const mote_certificate *c, const mote_c
     return most;
 }
 
-/* No vertex of a leaf of body 0 reaches farther along a direction than its hull, wide as it is.
- */
+/* No vertex of a leaf of body 0 reaches farther along a direction than its hull plus its
+   width. */
 static void check_reach(const scene *s, mote_certificate *c, const mote_cert_node *node,
                         size_t lane, const mote_cert_hull *hull, mote_vec3 direction)
 {
@@ -116,8 +116,8 @@ static void check_reach(const scene *s, mote_certificate *c, const mote_cert_nod
     assert_true(bound - 2 * wide <= reach);
 }
 
-/* Over all leaves below a node; the largest distances of vertices from their places by the
-   linear part of the field, and with the field evaluated. */
+/* Checks all leaves below a node. off: the largest distances of vertices from their places in
+   the hull, with the linear part of the field only and with the field evaluated. */
 static void check_hulls(const scene *s, mote_certificate *c, mote_cert_node *node,
                         double off[2])
 {
@@ -152,7 +152,7 @@ TEST(hulls_of_leaves_are_where_their_vertices_are)
             use_modes(&s);
         mote_certificate *c = certificate_of(&s, NULL);
         for (int k = 0; k < 30; ++k) {
-            /* from nearby to so far that a float holds three digits of the size */
+            /* from nearby to so far that a float keeps three digits of the size */
             const double reach = pow(10, k % 5);
             if (kind == 2)
                 next_of_modes(&s, reach);
@@ -168,7 +168,7 @@ TEST(hulls_of_leaves_are_where_their_vertices_are)
                                 scene_random(&s, -0.2, 0.2));
             double off[2] = {0, 0};
             check_hulls(&s, c, mote_cert_root(c, 0), off);
-            if (k % 5 == 0) /* the field is worth its evaluation */
+            if (k % 5 == 0) /* evaluating the field pays off */
                 assert_true(off[1] < 1e-6 && (kind != 1 || off[1] < 0.01 * off[0]));
         }
         mote_certificate_destroy(c);
@@ -219,7 +219,7 @@ TEST(near_pairs_has_every_pair_below_the_limit_and_few_others)
         assert_int_equal(near >> count, 0);
         for (uint32_t l = 0; l < count; ++l) {
             const double distance = exact_distance(&first, &second, l);
-            /* corners may be off by as much as `loose`, in the worst direction */
+            /* corners may be off by up to `loose`, in the worst direction */
             const bool must = distance - slack < need;
             below += must;
             if (must)

@@ -48,7 +48,7 @@ TEST(principal_axes_diagonalise_by_falling_eigenvalue)
     }
 }
 
-/* Where the eigenvalues' sum is 0, nothing tells how small is small: it ends all the same. */
+/* With a trace of 0 there is no scale to judge small entries by; the iteration ends anyway. */
 TEST(principal_axes_without_a_trace_diagonalise)
 {
     static double m[3][3][3] = {{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}},

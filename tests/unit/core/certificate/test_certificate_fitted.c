@@ -1,5 +1,5 @@
-/* The certified query with more basis functions than fit in a byte, where the field names
-   those that reach a vertex, and where it does not. */
+/* Certified queries with more basis functions than fit in a byte, both for a field that names
+   the functions that reach a vertex and for one that does not. */
 #include <stddef.h>
 
 #include "core/body/field_kinds.h"
@@ -35,7 +35,7 @@ static uint32_t patch_sparse(const mote_field *field, const mote_mesh *mesh, uin
 {
     uint32_t count = 0;
     (void)field;
-    /* ascending, though the three may go round the end */
+    /* ascending, though the three may wrap around */
     for (uint32_t j = 0; j < 2; ++j) {
         for (uint32_t k = 0; k < 3; ++k) {
             const bool round = patch_number(vertex, k) < patch_number(vertex, 0);
@@ -93,7 +93,7 @@ static void use_patches(scene *s, const mote_field_kind *kind)
     }
 }
 
-/* Weights of one frame. */
+/* The weights of one frame. */
 typedef struct patch_weights {
     double at[2][3][PADDED];
 } patch_weights;
@@ -156,8 +156,8 @@ TEST(query_with_700_functions_equals_all_pairs_sparse_or_dense)
     }
 }
 
-/* Every box reaches at least as far as the vertices of its leaves, with every function that
-   there is: a number that is cut to a byte leaves some out. */
+/* Every box reaches at least as far as the vertices of its leaves, with all functions: an index
+   truncated to a byte would omit some. */
 static void check_reaches(const scene *s, mote_certificate *c, mote_cert_node *node)
 {
     const mote_cert_side *side = &c->side[0];

@@ -1,4 +1,4 @@
-/* What certified mode does within limits: of precision, boxes tested, rooms and memory. */
+/* Certified mode at its limits: of precision, boxes tested, room and memory. */
 #include "core/certificate/certificate_state.h"
 #include "harness/base/heap_count.h"
 
@@ -33,8 +33,8 @@ TEST(query_with_slack_returns_a_bracket)
     scene_free(&s);
 }
 
-/* Squares of squares of the distance leave the range of floats: where they decide nothing, all
-   is found in double precision. The start is the worst: faces in the order of the mesh. */
+/* Fourth powers of the distance leave the range of floats. Where floats decide nothing, double
+   precision finds the answer. The start is the worst: faces in the order of the mesh. */
 TEST(query_far_beyond_the_range_of_floats_finds_the_nearest)
 {
     scene s;
@@ -89,7 +89,7 @@ TEST(query_with_budget_returns_an_honest_bracket)
     scene_free(&s);
 }
 
-/* After a leap the search does not start from where the last faces are now. */
+/* After a leap the search does not start from the new place of the last faces. */
 TEST(query_after_a_leap_costs_about_as_much_as_a_cold_one)
 {
     scene s;

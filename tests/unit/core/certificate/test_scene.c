@@ -21,7 +21,7 @@ static void check_contained(const crowd *c, const mote_scene_box *boxes)
 
 TEST(mote_scene_bounds_random_states_contain_every_vertex)
 {
-    /* From the origin to where the last bit of a coordinate is a part of a triangle. */
+    /* From the origin to where the last bit of a coordinate is a fraction of a triangle. */
     static const double sides[] = {3, 1e3, 1e7, 1e12};
     static crowd c;
     const mote_scene_options options = mote_default_scene_options();
@@ -58,7 +58,7 @@ TEST(mote_scene_bounds_large_and_tiny_weights_contain_every_vertex)
     crowd_close(&c, scene);
 }
 
-/* Bounds that were infinite would contain everything, too. */
+/* Tightness must be tested, too: infinite bounds would contain everything. */
 TEST(mote_scene_bounds_gentle_deformation_are_tight)
 {
     static crowd c;
@@ -185,7 +185,7 @@ static void check_same_bits(const mote_scene *one, const mote_scene *many)
         check_same_pair(&a[k], &b[k]);
 }
 
-/* The pairs of every other step only, so that states come and go. */
+/* Queries all pairs and a third of them in turn, so states come and go. */
 TEST(mote_scene_query_more_threads_same_bits)
 {
     static crowd c;
@@ -219,8 +219,8 @@ TEST(mote_scene_query_more_threads_same_bits)
     crowd_free(&c);
 }
 
-/* What a workspace was used for before must not show: each pair has a scene of its own, too.
-   The meshes are large enough for leaves to be told apart by directions that are remembered. */
+/* A workspace's earlier use must not show in an answer, so each pair also has a scene of its
+   own. The meshes are large enough that remembered directions separate leaves. */
 TEST(mote_scene_query_other_pairs_do_not_change_an_answer)
 {
     static crowd c;
@@ -256,8 +256,8 @@ TEST(mote_scene_query_other_pairs_do_not_change_an_answer)
     crowd_free(&c);
 }
 
-/* Answers pairs of a crowd through workspaces in turn, from the last pair to the first or the
-   other way round. */
+/* Queries pairs of a crowd through workspaces in turn, forwards or, if turned, from the last
+   pair to the first. */
 static void ask_pairs(const crowd *c, mote_cert_tree *const *trees, const uint32_t (*pairs)[2],
                       size_t count, bool turned, mote_certificate *const *workspaces,
                       size_t workspace_count, mote_cert_memory *memories,
@@ -384,7 +384,7 @@ TEST(mote_scene_create_bad_input_is_refused)
     crowd_free(&c);
 }
 
-/* The rooms of a query are those of the widest tree, wherever it stands. */
+/* A query's buffers fit the widest tree, wherever it is in the list. */
 TEST(mote_scene_create_shapes_in_any_order_same_bits)
 {
     static const uint32_t pair[1][2] = {{0, 1}}, shape_of[2][2] = {{0, 1}, {1, 0}};
@@ -424,7 +424,7 @@ TEST(mote_scene_query_steady_state_allocates_nothing)
     mote_scene_box boxes[CROWD_MAX];
     mote_heap before = mote_heap_read();
     for (int step = 0; step < 6; ++step) {
-        if (step == 2) /* both lists of pairs have been made */
+        if (step == 2) /* both lists of pairs are allocated */
             before = mote_heap_read();
         assert_int_equal(mote_scene_bounds(scene, c.states, boxes), MOTE_OK);
         assert_int_equal(mote_scene_query(scene, c.states, (const uint32_t(*)[2])pairs, count),
@@ -435,7 +435,7 @@ TEST(mote_scene_query_steady_state_allocates_nothing)
     crowd_close(&c, scene);
 }
 
-/* Each body costs its shape's number, each pair its state; nothing grows with triangles. */
+/* Each body costs its shape's index, each pair its state; nothing grows with triangles. */
 TEST(mote_scene_bytes_do_not_grow_with_bodies_times_triangles)
 {
     static crowd c;

@@ -1,4 +1,4 @@
-/* What stands for the functions that a method leaves out. */
+/* Defaults for the functions that a method leaves out. */
 #include "core/method/method.h"
 #include "tests/support/test.h"
 

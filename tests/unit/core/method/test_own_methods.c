@@ -1,4 +1,5 @@
-/* Our methods behind the contract: what "auto" stands for, and what a contact question says. */
+/* Our methods through the interface: what "auto" stands for, and the answers to contact
+   questions. */
 #include "core/method/method.h"
 #include "core/body/parts.h"
 #include "datasets/letter.h"
@@ -57,13 +58,14 @@ static uint32_t parts_of(const mote_mesh *mesh)
     return count;
 }
 
-/* The same answers, found in the same way, whatever is left to the method. */
+/* Checks that answers and counts are equal with the parameters left to the method and spelled
+   out. */
 static void check_same(scene *s, const char *name, const char *keys, const char *spelled_out)
 {
     mote_setup setup = scene_setup(s, MOTE_ASK_DISTANCE, 0, NULL);
     subject by_itself, told;
     subject_init(&by_itself, name, keys, &setup);
-    setup.seed = 99; /* for nobody */
+    setup.seed = 99; /* no method uses it here */
     subject_init(&told, name, spelled_out, &setup);
     for (int k = 0; k < 6; ++k) {
         const mote_frame *frame = scene_next(s, 1.2, false);
@@ -79,9 +81,9 @@ typedef struct pair {
     mote_mesh *first, *second;
 } pair;
 
-/* Twice the convex parts of the body that has more (paper 3.5), but not more than a body has
-   vertices, and 8 at least when tracked; N_min = n / 10, N_max the square root of the vertices
-   of the larger body. */
+/* n is twice the convex parts of the body that has more (paper 3.5), but at most the number of
+   vertices of a body, and at least 8 when tracked; N_min = n / 10, N_max is the square root of
+   the vertices of the larger body. */
 TEST(automatic_numbers_are_those_of_the_paper)
 {
     const pair pairs[] = {{letter('W', 400), letter('T', 400)},
@@ -126,7 +128,7 @@ TEST(automatic_number_of_one_mesh_twice_is_that_of_one)
     scene_free(&s);
 }
 
-/* A cached influence does not outlive a query that starts anew. */
+/* A cached influence does not outlive a query without coherence. */
 TEST(far_cache_without_coherence_answers_the_same_again)
 {
     scene s;
@@ -146,8 +148,8 @@ TEST(far_cache_without_coherence_answers_the_same_again)
     scene_free(&s);
 }
 
-/* What certified says of a contact is true whenever it says anything, and it says so unless it
-   was told to stop early. */
+/* Whatever certified reports about a contact is true, and it always reports unless it was told
+   to stop early. */
 TEST(certified_contact_question_says_what_it_knows)
 {
     static const struct {
@@ -186,7 +188,7 @@ TEST(certified_contact_question_says_what_it_knows)
     scene_free(&s);
 }
 
-/* Exact is what neither slack nor a budget ends early. */
+/* A method claims to be exact only if neither slack nor a budget ends it early. */
 TEST(certified_claims_to_be_exact_where_nothing_ends_it)
 {
     static const struct {

@@ -37,7 +37,7 @@ static mote_vec3 momentum_of(const collision *c)
                     mote_scale(c->state[1].velocity, c->mass[1].mass));
 }
 
-/* About the origin. */
+/* The angular momentum about the origin. */
 static mote_vec3 angular_of(const collision *c)
 {
     mote_vec3 sum = {0, 0, 0};
@@ -96,7 +96,7 @@ TEST(respond_elastic_conserves_and_reverses)
     assert_true(momentum < 1e-13 && angular < 1e-12 && energy < 1e-12 && closing < 1e-11);
 }
 
-/* The pulse as the paper prints it, p = sign * m_e v n, and dp = p' - p. */
+/* The impulse as printed in the paper, p = sign * m_e v n, and dp = p' - p. */
 static void apply_printed(collision *c, double sign)
 {
     double effective[2], pulse[2], after[2];
@@ -125,7 +125,7 @@ TEST(printed_sign_minus_triples_speed_and_gains_energy)
         apply_printed(&plus, 1);
         assert_close(closing_of(&plus) / closing_of(&before), -1, 1e-9);
         assert_close(energy_of(&plus) / energy_of(&before), 1, 1e-12);
-        /* The second is the one that is used. */
+        /* The plus sign is the one in use. */
         (void)respond(&ours, 1);
         for (int k = 0; k < 2; ++k)
             assert_true(mote_length(mote_sub(ours.state[k].velocity, plus.state[k].velocity)) <
@@ -154,7 +154,7 @@ TEST(apply_pulse_angular_velocity_as_printed)
     }
 }
 
-/* A pulse of 1 along n changes the velocity along n of the point it acts in by 1 / m_e. */
+/* An impulse of 1 along n changes the velocity of its point along n by 1 / m_e. */
 TEST(effective_mass_is_pulse_over_velocity)
 {
     uint64_t seed = 4;
@@ -170,7 +170,7 @@ TEST(effective_mass_is_pulse_over_velocity)
         const double gain = mote_velocity_along(&mass, &s, arm, n) - before;
         assert_close(gain * effective, 1, 1e-12);
         assert_true(effective > 0 && effective <= mass.mass);
-        /* Along a line through the centre the body resists with all of its mass. */
+        /* Along a line through the centre the whole mass of the body resists. */
         assert_close(mote_effective_mass(&mass, &s, mote_scale(n, 0.7), n), mass.mass, 1e-13);
     }
 }
@@ -203,7 +203,7 @@ TEST(respond_moving_apart_changes_nothing)
     }
 }
 
-/* Equal balls head on exchange their velocities. */
+/* In a head-on collision equal balls exchange their velocities. */
 TEST(respond_equal_balls_exchange_velocities)
 {
     const mote_mass ball = {.volume = 1,

@@ -41,7 +41,8 @@ TEST(rigid_step_free_body_conserves_energy_and_length)
     assert_true(worst < 1e-11);
 }
 
-/* About a main axis the turn is even: Cayley's map turns by 2 atan(w step / 2) a step. */
+/* About a main axis the rotation is uniform: Cayley's map turns by 2 atan(w step / 2) a
+   step. */
 TEST(rigid_step_main_axis_turns_evenly)
 {
     const mote_mass mass = top_of(1, 2, 2.5);
@@ -64,7 +65,7 @@ TEST(rigid_step_symmetric_top_precesses_as_known)
         mote_rigid_state at = s;
         steps(&mass, nothing, time / count, count, &at);
         const mote_mat3 axes = mote_rigid_axes(&mass, &at);
-        /* The figure axis turns from z about L by |L| time / I_1. */
+        /* After `time` the figure axis has turned from z about L by |L| time / I_1. */
         const double angle = 1.0 * time / 2, c = cos(angle), d = sin(angle);
         const mote_vec3 l = s.angular_momentum, z = {0, 0, 1};
         const mote_vec3 wanted =
@@ -112,7 +113,7 @@ TEST(rigid_step_at_rest_stays_at_rest)
     }
 }
 
-/* A million steps, the unstable middle axis and steps far too long included. */
+/* A million steps, including the unstable middle axis and steps that are far too long. */
 TEST(rigid_step_million_steps_no_nan)
 {
     const mote_mass mass = top_of(1, 2, 2.9);
@@ -137,7 +138,7 @@ TEST(rigid_pose_centre_of_mass_stands_where_it_should)
         const mote_pose pose = mote_rigid_pose(&mass, &s);
         const mote_vec3 at = mote_pose_apply(&pose, mass.centre);
         assert_true(mote_length(mote_sub(at, s.centre)) < 1e-14);
-        /* Angular velocity and momentum are each other's reverse. */
+        /* Angular velocity and angular momentum convert into each other. */
         const mote_vec3 w = mote_rigid_angular_velocity(&mass, &s);
         const mote_vec3 l = mote_rigid_angular_momentum(&mass, &s, w);
         assert_true(mote_length(mote_sub(l, s.angular_momentum)) < 1e-14);

@@ -1,4 +1,4 @@
-/* Walks over pairs of deforming tori: where they end, and that they only come nearer. */
+/* Walks over pairs of deforming tori: where they end, and that they only approach. */
 #include "core/particle/descent.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
@@ -64,7 +64,7 @@ static void assert_places(const walk_scene *w, const mote_place at[2], double sq
     assert_true(squared == mote_distance_squared(at[0].world, at[1].world));
 }
 
-/* No neighbour on the mesh is nearer, as far as rounding tells. */
+/* No neighbour on the mesh is nearer, up to rounding. */
 static void assert_local_minimum(const walk_scene *w, const mote_place at[2], double squared)
 {
     for (int b = 0; b < 2; ++b) {
@@ -136,8 +136,8 @@ TEST(walk_one_level_stays_on_it)
     walk_scene_free(&w);
 }
 
-/* A descent that gives up says why, and has cost less; any other ends where it would have
-   ended. */
+/* A descent that gives up is justified and costs less; any other ends at the same place as a
+   full one. */
 TEST(descend_not_worth_it_gives_up)
 {
     walk_scene w;
@@ -169,8 +169,8 @@ TEST(descend_not_worth_it_gives_up)
     walk_scene_free(&w);
 }
 
-/* A descent over thousands of vertices evaluates about as many as it has moves, and whole rings
-   only where it ends. */
+/* A descent over thousands of vertices evaluates about as many positions as it makes moves; it
+   evaluates whole rings only at its end. */
 TEST(descend_evaluates_few_positions)
 {
     walk_scene w;
@@ -191,7 +191,8 @@ TEST(descend_evaluates_few_positions)
     walk_scene_free(&w);
 }
 
-/* With the end known, a descent ends beside it, for fewer moves, or comes to it as before. */
+/* If the end is known, a descent stops beside it after at most as many moves, or reaches it as
+   before. */
 TEST(descend_beside_known_ends_there)
 {
     walk_scene w;
@@ -220,7 +221,7 @@ TEST(descend_beside_known_ends_there)
             assert_true(mote_length(mote_sub(w.s.mesh[b]->positions[beside[b].vertex],
                                              w.s.mesh[b]->positions[known[b]])) <=
                         6 * w.s.mesh[b]->mean_edge);
-        assert_same_point(beside[1].world, start[1].world); /* it has waited */
+        assert_same_point(beside[1].world, start[1].world); /* it did not move */
     }
     assert_in_range(joined, 1, 99);
     walk_scene_free(&w);

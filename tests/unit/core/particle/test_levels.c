@@ -36,7 +36,8 @@ static bool *chosen_below(const mote_mesh *mesh, const mote_levels *levels, uint
     return chosen;
 }
 
-/* No two nodes are neighbours below, and each node below is one or has one. */
+/* No two nodes are neighbours in the level below, and every other node below has one as a
+   neighbour. */
 static void assert_independent_maximal(const mote_mesh *mesh, const mote_levels *levels,
                                        uint32_t l)
 {
@@ -73,7 +74,7 @@ static void assert_graph(const mote_level *level)
     }
 }
 
-/* Nodes reached from each other are those of one component of the mesh. */
+/* Checks that nodes connected with each other belong to one component of the mesh. */
 static void assert_connected_alike(const mote_mesh *mesh, const mote_levels *levels, uint32_t l)
 {
     const mote_level *level = &levels->level[l];
@@ -114,7 +115,7 @@ static mote_levels *levels_of(const mote_mesh *mesh)
     return levels;
 }
 
-/* Takes the mesh over. */
+/* Takes ownership of the mesh. */
 static void check_levels(mote_mesh *mesh)
 {
     mote_levels *levels = levels_of(mesh);
@@ -150,7 +151,7 @@ TEST(create_open_and_tiny_meshes_as_defined)
     check_levels(solid_to_mesh(solid_fan(3000, 1)));
 }
 
-/* Squares of its edges are beyond doubles. */
+/* The squares of its edges overflow a double. */
 TEST(create_mesh_as_large_as_1e200_as_defined)
 {
     solid s = solid_torus(40, 15);
@@ -229,7 +230,7 @@ TEST(spread_covers_components_with_different_nodes)
             }
             for (int c = 0; c < 12; ++c)
                 assert_true(seen[c]);
-            /* As many as there are components are the first of those. */
+            /* The first 12 are the same if only as many are wanted as there are components. */
             assert_int_equal(
                 mote_levels_spread(levels, mesh, 0, 12, farthest != 0, seed, again), MOTE_OK);
             assert_memory_equal(node, again, 12 * sizeof *node);
@@ -240,7 +241,7 @@ TEST(spread_covers_components_with_different_nodes)
 }
 
 /* Each vertex is a node or one edge farther from its home than some neighbour with that home,
-   and no neighbour is two edges nearer to any. */
+   and no neighbour is two edges nearer to any node. */
 TEST(home_letter_nearest_by_edges)
 {
     mote_mesh *mesh = letter('V', 3000);

@@ -1,4 +1,4 @@
-/* The method particle-paper behind the contract: scale, rigid motion, seeds, components, tiny
+/* The method particle-paper through the interface: scale, rigid motion, seeds, components, tiny
    and open meshes, bad n. */
 #include "core/method/method.h"
 
@@ -127,7 +127,8 @@ static void move_frame(particle_scene *s, const mote_mat3 *turn, mote_vec3 shift
     }
 }
 
-/* These frames hold no tie: potentials of different places differ by far more than rounding. */
+/* These frames have no ties: potentials of different places differ by far more than
+   rounding. */
 TEST(answers_after_a_rigid_motion_agree_to_1e_12)
 {
     for (int v = 0; v < VARIANTS - 1; ++v) { /* the last one rounds to floats */
@@ -192,7 +193,7 @@ TEST(distance_is_at_least_the_truth_and_between_its_witnesses)
 {
     particle_scene s;
     scene_open(&s, solid_icosphere(1), solid_torus(9, 6), 6, 1);
-    for (int v = 0; v + 1 < VARIANTS; ++v) { /* floats may fall short by their rounding */
+    for (int v = 0; v + 1 < VARIANTS; ++v) { /* floats may be too small by their rounding */
         paper_run r;
         start_run(&r, &s, variants[v]);
         for (int f = 0; f < 8; ++f) {
@@ -268,7 +269,7 @@ TEST(every_component_has_a_particle_that_stays_on_it)
     scene_close(&s);
 }
 
-/* Two single triangles: with a particle on each corner, and the exact check, the truth. */
+/* Two single triangles: a particle on each corner and the exact check give the truth. */
 TEST(single_triangles_are_answered_for_every_n)
 {
     particle_scene s;

@@ -36,7 +36,7 @@ static long double pair_potential(mote_law law, mote_vec3 p, mote_vec3 q, double
                                      : 1 / square;
 }
 
-/* The potential of particle i of body b, were it at place. */
+/* The potential of particle i of body b if it were at place. */
 static long double potential_at(const snapshot *s, const mote_particles_options *o,
                                 double length, int b, uint32_t i, mote_vec3 place)
 {
@@ -51,7 +51,7 @@ static long double potential_at(const snapshot *s, const mote_particles_options 
     return sum;
 }
 
-/* Of all pairs, for one law for all. */
+/* The energy of all pairs, for particles that all follow one law. */
 static long double total_energy(const snapshot *s, const mote_particles_options *o,
                                 double length)
 {
@@ -77,7 +77,7 @@ typedef struct site_list {
 static void add_site(site_list *list, uint32_t a, uint32_t b, uint32_t c, mote_site except)
 {
     uint32_t v[3] = {a, b, c};
-    for (int k = 0; k < 3; ++k) { /* sorted by exchanges */
+    for (int k = 0; k < 3; ++k) { /* bubble sort of three */
         const int m = k % 2;
         if (v[m] > v[m + 1]) {
             const uint32_t swap = v[m];
@@ -103,7 +103,7 @@ static bool face_has(const uint32_t t[3], uint32_t v)
     return t[0] == v || t[1] == v || t[2] == v;
 }
 
-/* Every other site of the faces that contain this one, by looking at all faces. */
+/* Every other site of the faces that contain this one, found by a search through all faces. */
 static void neighbours_by_faces(const mote_mesh *mesh, mote_site site, bool surface,
                                 site_list *list)
 {
@@ -142,8 +142,8 @@ static void check_no_two_share_a_site(const snapshot *s)
     }
 }
 
-/* Follows one sweep, whose moves are known from where it began and ended: each particle moves
-   at most once, after those before it. Returns the number of moves. */
+/* Follows one sweep, whose moves are known from its start and end: each particle moves at most
+   once, after those before it. Returns the number of moves. */
 static uint32_t check_sweep(const particle_scene *s, const mote_particles_options *o,
                             snapshot *now, const snapshot *after, bool one_law)
 {
@@ -178,7 +178,7 @@ static uint32_t check_sweep(const particle_scene *s, const mote_particles_option
     return moves;
 }
 
-/* Relaxes frame after frame, one step at a time, and follows each step. Returns the moves. */
+/* Relaxes frame after frame, one step at a time, and checks each step. Returns the moves. */
 static uint64_t follow_moves(particle_scene *s, mote_particles_options *o, int frames,
                              bool one_law)
 {
@@ -347,7 +347,7 @@ TEST(query_with_a_particle_on_every_vertex_never_moves)
     scene_close(&s);
 }
 
-/* Particles of body 0 on a vertex. */
+/* The number of particles of body 0 on a vertex. */
 static int count_on(const snapshot *s, uint32_t vertex)
 {
     int count = 0;
@@ -356,8 +356,8 @@ static int count_on(const snapshot *s, uint32_t vertex)
     return count;
 }
 
-/* Two different vertices in one place, each with a particle: at the first chance one leaves;
-   with every vertex taken none moves onto another. */
+/* Two different vertices in one place, each with a particle: one leaves at the first chance. If
+   every vertex is taken, none moves onto another. */
 TEST(query_with_coincident_starts_separates_them)
 {
     solid sheet = solid_grid(3, 3);
@@ -395,7 +395,7 @@ TEST(query_with_coincident_starts_separates_them)
     scene_close(&s);
 }
 
-/* Without attraction the bodies know nothing of each other. */
+/* Without attraction the bodies do not affect each other. */
 TEST(relax_without_reach_ignores_the_other_body)
 {
     particle_scene s;

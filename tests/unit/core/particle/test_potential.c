@@ -1,5 +1,5 @@
 /* Potentials of the forces between particles against sums of logarithms and powers in long
-   double; with the distant ones cached, too. */
+   double, also with the distant ones cached. */
 #include "core/particle/far_cache.h"
 #include "core/particle/potential.h"
 
@@ -40,7 +40,8 @@ static mote_candidates draw_candidates(double size, uint64_t *seed)
     return c;
 }
 
-/* The sum of the pair potentials with the sign of repulsion; squares above cut count as cut. */
+/* The sum of the pair potentials with the sign of repulsion; squared distances above cut count
+   as cut. */
 static long double sum_of(const mote_candidates *c, int lane, const mote_sources *s,
                           double length, long double cut)
 {
@@ -59,7 +60,7 @@ static long double sum_of(const mote_candidates *c, int lane, const mote_sources
     return sum;
 }
 
-/* The value that the two parts stand for. */
+/* The value represented by the two parts. */
 static long double value_of(const mote_potentials *p, int lane, bool log_law)
 {
     if (!log_law)
@@ -145,8 +146,8 @@ TEST(potential_of_hundreds_at_extreme_distances_stays_exact)
     }
 }
 
-/* Lane 0 lies on a particle of the same type, 1 on one of the other, 2 on both, 3 on the
-   particle that is moved, the rest nowhere. */
+/* Lane 0 lies on a particle of the same type, 1 on one of the other, 2 on both, 3 on the moved
+   particle, the rest on none. */
 TEST(potential_on_a_particle_is_infinite)
 {
     uint64_t seed = 4;
@@ -197,8 +198,8 @@ TEST(potential_of_attraction_has_no_jump_at_the_reach)
     }
 }
 
-/* The largest error of the differences of potentials at candidates up to h around particle 7,
-   whose distant particles are an expansion. */
+/* The largest error of the differences of potentials at candidates up to h around particle 7
+   when an expansion stands for the distant particles. */
 static double error_of_expansion(const mote_sources *same, const mote_sources *other, double h)
 {
     uint64_t seed = 6;
@@ -229,7 +230,7 @@ static double error_of_expansion(const mote_sources *same, const mote_sources *o
     return most;
 }
 
-/* What is left out of a potential of second order falls with the third power. */
+/* The truncation error of a second-order potential decreases with the third power. */
 TEST(far_cache_with_every_pair_of_laws_is_of_second_order)
 {
     uint64_t seed = 5;
@@ -248,8 +249,8 @@ TEST(far_cache_with_every_pair_of_laws_is_of_second_order)
     }
 }
 
-/* An expansion is computed anew once a particle may have moved by more than half of part times
-   the near distance. */
+/* An expansion is recomputed once a particle may have moved by more than half of part times the
+   near distance. */
 TEST(far_cache_keeps_an_expansion_while_all_moved_little)
 {
     uint64_t seed = 5;

@@ -114,7 +114,7 @@ static mote_mesh *double_cone_mesh(uint32_t n, bool open)
     return mesh;
 }
 
-/* Takes the meshes over. */
+/* Takes ownership of the meshes. */
 static scene *scene_of(mote_mesh *mesh0, mote_mesh *mesh1, uint64_t seed)
 {
     scene *s = calloc(1, sizeof *s);
@@ -138,7 +138,7 @@ static scene *scene_of(mote_mesh *mesh0, mote_mesh *mesh1, uint64_t seed)
     return s;
 }
 
-/* A new pose and shape of both bodies, apart by about `apart` times the diagonal. */
+/* Sets a new pose and shape of both bodies, about `apart` diagonals from each other. */
 static void scene_move(scene *s, double apart, bool given)
 {
     for (int side = 0; side < 2; ++side) {
@@ -184,7 +184,7 @@ static void corners_of(const scene *s, int side, const uint32_t vertex[3], mote_
         corner[i] = s->world[side][vertex[i]];
 }
 
-/* How many vertices the two faces have in common. */
+/* The number of vertices that the two faces share. */
 static int shared(const uint32_t f[3], const uint32_t g[3])
 {
     int count = 0;
@@ -193,7 +193,8 @@ static int shared(const uint32_t f[3], const uint32_t g[3])
     return count;
 }
 
-/* The least squared distance over pairs of faces: all, or those that touch the result's. */
+/* The least squared distance over all pairs of faces, or over those that touch the result's
+   faces. */
 static double brute_force(const scene *s, const mote_refined *around)
 {
     double least = HUGE_VAL;
@@ -224,7 +225,8 @@ static bool is_face(const mote_mesh *mesh, const uint32_t vertex[3])
     return false;
 }
 
-/* Two faces with their witnesses, no farther than two vertices. */
+/* Checks that the result has two faces with their witnesses, no farther apart than vertices a
+   and b. */
 static void assert_measured(const scene *s, const mote_refined *r, uint32_t a, uint32_t b)
 {
     const double size = s->mesh[0]->diagonal;
@@ -305,7 +307,7 @@ static void check_cones(uint32_t n, bool open, uint64_t seed)
         const mote_refined r = refine(s, 0, 0);
         assert_result(s, &r, 0, 0);
         const double least = brute_force(s, NULL);
-        /* Every face shares its apex with every other, so that local is global. */
+        /* Every face shares its apex with every other, so a local minimum is global. */
         assert_true(fabs(sqrt(r.squared) - sqrt(least)) <= 1e-11);
     }
     scene_free(s);
@@ -345,7 +347,7 @@ TEST(vertices_intersecting_zero_at_one_point)
     scene_free(s);
 }
 
-/* Alternate projection may end on a line where faces cross, some rounding apart. */
+/* Alternating projection may end on a line where faces cross, some rounding apart. */
 TEST(vertices_crossing_exactly_zero)
 {
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 14);
@@ -382,7 +384,7 @@ TEST(vertices_enough_stops_early)
     scene_free(s);
 }
 
-/* Above worth the search may end early; below it, it finds what the full one does. */
+/* Above `worth` the search may end early; below it, it finds what the full search finds. */
 TEST(below_finds_what_is_worth_finding)
 {
     scene *s = scene_of(letter_mesh('W', 2000), letter_mesh('W', 2000), 15);
@@ -429,7 +431,7 @@ TEST(vertices_positions_given_same_bits)
     scene_free(given);
 }
 
-/* Multiplies everything of a scene that has a length by factor. */
+/* Copies a scene with all lengths multiplied by factor. */
 static void scene_scale(scene *s, const scene *from, double factor)
 {
     for (int side = 0; side < 2; ++side) {

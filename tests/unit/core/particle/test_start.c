@@ -1,10 +1,10 @@
-/* Where particles are placed first. */
+/* The initial places of particles. */
 #include "core/particle/start.h"
 
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
 
-/* A torus, and the smallest of bodies beside it: five components. */
+/* A torus beside the smallest possible bodies: five components. */
 static mote_mesh *five_components(void)
 {
     solid s = solid_torus(20, 10);

@@ -1,4 +1,4 @@
-/* The method `particle` through the contract, against all pairs of triangles. */
+/* The method `particle` through the interface, against all pairs of triangles. */
 #include "core/particle/tracker.h"
 #include "datasets/letter.h"
 #include "harness/base/heap_count.h"
@@ -38,7 +38,7 @@ static void subject_free(subject *u)
     u->method->destroy(u->state);
 }
 
-/* A smooth motion: both bodies turn, body 1 comes and goes, the shapes swing. */
+/* A smooth motion: both bodies turn, body 1 approaches and recedes, the shapes oscillate. */
 static const mote_frame *smooth_frame(scene *s, double apart)
 {
     const double time = 0.02 * (double)s->frame.number++;
@@ -62,7 +62,7 @@ static const mote_frame *smooth_frame(scene *s, double apart)
     return &s->frame;
 }
 
-/* What every answer promises, whatever the search has found. */
+/* Checks what every answer promises, whatever the search found. */
 static void assert_answer(const scene *s, const mote_answer *a, double truth)
 {
     assert_true(a->has_distance && a->has_witness && a->has_contact);
@@ -74,7 +74,7 @@ static void assert_answer(const scene *s, const mote_answer *a, double truth)
         assert_true(scene_point_distance(s, b, a->witness[b]) <= 1e-12 * s->length);
 }
 
-/* Runs frames and returns the part of them that is exact. */
+/* Runs frames and returns the share of exact ones. */
 static double run(scene *s, const char *parameters, int frames, bool smooth)
 {
     subject u;
@@ -134,8 +134,8 @@ TEST(query_switches_answers_on_surfaces)
     }
 }
 
-/* One query after a jump must not depend on a wrong idea of where things are: a tracker that
-   comes from elsewhere finds what a new one finds. */
+/* A query after a jump must not rely on outdated positions: a tracker that comes from elsewhere
+   finds what a new one finds. */
 TEST(query_after_teleport_as_good_as_new)
 {
     scene s;
@@ -272,8 +272,8 @@ TEST(query_scaled_by_powers_of_two_same_bits)
     }
 }
 
-/* Vertices of their bodies in the frame, the first pair as near as the closest vertices of the
-   faces that the answer is on, and no more than room was given for are written. */
+/* The particles are vertices of their bodies in the frame. The first pair is as near as the
+   closest vertices of the answer's faces, and no more are written than there is room for. */
 TEST(particles_after_query_are_vertices_nearest_first)
 {
     scene s;
@@ -304,7 +304,7 @@ TEST(particles_after_query_are_vertices_nearest_first)
             }
             const double apart = mote_length(mote_sub(p[0][k], p[1][k]));
             assert_true(apart >= a.distance - 1e-12);
-            if (k > 1) /* those that were not walked again keep an earlier distance */
+            if (k > 1) /* those that did not walk again keep an earlier distance */
                 assert_true(apart >= before - 0.1 * s.length);
             before = apart;
         }
@@ -320,7 +320,7 @@ TEST(particles_after_query_are_vertices_nearest_first)
     scene_free(&s);
 }
 
-/* Without seeds there is nothing that forces could move. */
+/* Without seeds there is nothing for forces to move. */
 TEST(forces_without_seeds_change_nothing)
 {
     scene s;

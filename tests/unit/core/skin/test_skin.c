@@ -1,4 +1,4 @@
-/* Skinned tori, with and without morph targets: random affine bones of every sort against all
+/* Skinned tori, with and without morph targets: random affine bones of all sorts against all
    pairs of triangles, and every bound against every vertex. */
 #include <stddef.h>
 
@@ -19,7 +19,7 @@ static mote_certificate *certificate_of(const scene *s)
     return c;
 }
 
-/* Bones, bones of a vertex, targets. */
+/* Bones, bones a vertex, targets. */
 static const skin_plan plans[] = {{1, 1, 0}, {5, 2, 0},  {12, 4, 0}, {40, 9, 0},
                                   {0, 0, 1}, {0, 0, 12}, {12, 4, 6}, {300, 5, 40}};
 
@@ -127,7 +127,7 @@ TEST(boxes_and_hulls_enclose_their_vertices)
         mote_certificate *c = certificate_of(&k.s);
         for (int frame = 0; frame < 16; ++frame) {
             next_pose(&k, wildness[frame % 4], 2);
-            /* from nearby to so far that a float holds three digits of the size */
+            /* from nearby to so far that a float keeps three digits of the size */
             c->origin = mote_vec3_make(pow(10, frame % 5), 0, 0);
             ++c->generation;
             for (int b = 0; b < 2; ++b) {
@@ -146,7 +146,7 @@ TEST(boxes_and_hulls_enclose_their_vertices)
     assert_true(narrowed > 1000);
 }
 
-/* Where the targets put a vertex, from the displacements as they were given. */
+/* The morphed position of a vertex, from the original displacements. */
 static mote_vec3 morphed(const skinned *k, const skin_plan *plan, int b, uint32_t vertex)
 {
     mote_vec3 x = k->s.mesh[b]->positions[vertex];
@@ -155,8 +155,8 @@ static mote_vec3 morphed(const skinned *k, const skin_plan *plan, int b, uint32_
     return x;
 }
 
-/* The formula, written down: sum of w_b M_b (x + sum of m_k d_k), then the pose. Displacements
-   are kept as floats. */
+/* Against the formula: sum of w_b M_b (x + sum of m_k d_k), then the pose. Displacements are
+   stored as floats. */
 TEST(positions_are_blended_matrices_of_morphed_vertices)
 {
     static const skin_plan all[] = {{6, 3, 0}, {0, 0, 4}, {6, 3, 8}};
@@ -185,7 +185,7 @@ TEST(positions_are_blended_matrices_of_morphed_vertices)
     }
 }
 
-/* The sum over the basis, of a field that has one, gives the same bits. */
+/* If a field has a basis, the sum over it gives the same bits. */
 static void check_basis(const mote_field *field, const mote_mesh *mesh,
                         const mote_weights *weights, const mote_weights_single *rounded,
                         uint32_t v)
@@ -203,7 +203,8 @@ static void check_basis(const mote_field *field, const mote_mesh *mesh,
     free(phi);
 }
 
-/* One vertex, eight at once, remembered, summed over the basis and in single precision. */
+/* Checks all ways to get positions: one vertex, eight at once, lazily, summed over the basis,
+   and in single precision. */
 static void check_roads(skinned *k, int b)
 {
     const mote_field *field = k->s.field[b];
@@ -277,7 +278,7 @@ TEST(broad_phase_boxes_hold_every_vertex)
             assert_true(p.x <= high.x && p.y <= high.y && p.z <= high.z);
         }
     }
-    k.weights[0][5] = HUGE_VAL; /* is seen in the bounds, not hidden by a comparison */
+    k.weights[0][5] = HUGE_VAL; /* appears in the bounds, not hidden by a comparison */
     mote_vec3 low, high;
     mote_cert_workspace_bounds(workspace, tree, &k.s.frame.body[0], &low, &high);
     const double sum = low.x + high.x + low.y + high.y + low.z + high.z;
@@ -302,7 +303,7 @@ TEST(skin_of_65535_bones_equals_all_pairs)
     skinned_free(&k);
 }
 
-/* Weights of some poses decide how the tree is split, and change no answer. */
+/* The weights of some poses decide how the tree is split, and change no answer. */
 TEST(sample_poses_change_no_answer)
 {
     skinned k;
@@ -310,7 +311,7 @@ TEST(sample_poses_change_no_answer)
     mote_certificate *c[2];
     c[0] = certificate_of(&k.s);
     next_pose(&k, 1, 2);
-    /* in the body's axes, as if it were not rotated */
+    /* in the body's axes, that is, without rotation */
     const mote_mat3 identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     mote_weights samples[2];
     double *at[2];
@@ -340,7 +341,7 @@ TEST(sample_poses_change_no_answer)
     skinned_free(&k);
 }
 
-/* The methods that look at vertices one by one, all at once, or through trees of their own. */
+/* Methods that read vertices one by one, all at once, or through trees of their own. */
 TEST(other_methods_answer_for_skins)
 {
     static const char *const names[] = {"particle", "particle-paper", "aabb-tree"};
@@ -384,7 +385,7 @@ TEST(other_methods_answer_for_skins)
     skinned_free(&k);
 }
 
-/* A scene of bodies of two skins: each pair is answered as all pairs of triangles are. */
+/* A scene of bodies with two skins: each pair has the answer of all pairs of triangles. */
 TEST(scene_of_skins_equals_all_pairs)
 {
     skinned k;

@@ -1,4 +1,4 @@
-/* What skins and morph targets are made of, and what they refuse. */
+/* How skins and morph targets are created, and what they refuse. */
 #include "core/certificate/certificate_tree.h"
 #include "core/skin/skin.h"
 #include "tests/support/shapes.h"
@@ -45,7 +45,7 @@ TEST(create_skin_with_bad_input_says_what)
     mote_mesh_destroy(mesh);
 }
 
-/* Several weights of a bone are added up, tiny ones dropped, and the sum is 1 exactly. */
+/* Several weights of a bone are added up, tiny ones are dropped, and the sum is exactly 1. */
 TEST(weights_are_merged_and_normalised)
 {
     mote_mesh *mesh = make_torus(3, 3, 1);
@@ -80,7 +80,7 @@ TEST(weights_are_merged_and_normalised)
     mote_mesh_destroy(mesh);
 }
 
-/* Targets that are wrong in one way each. */
+/* Targets with one error each. */
 typedef struct bad_targets {
     uint32_t count, start[3], vertex[3];
     mote_vec3 move[3];
@@ -122,7 +122,7 @@ TEST(create_morphs_with_bad_input_says_what)
     mote_mesh_destroy(mesh);
 }
 
-/* Displacements are kept by vertex, those of 0 are not, and sizes are powers of two. */
+/* Displacements are sorted by vertex, zeros are dropped, and sizes are powers of two. */
 TEST(targets_are_ordered_by_vertex)
 {
     mote_mesh *mesh = make_torus(3, 3, 1);
@@ -155,7 +155,7 @@ TEST(targets_are_ordered_by_vertex)
     mote_mesh_destroy(mesh);
 }
 
-/* A skin that was made for one mesh does not bound another. */
+/* A skin made for one mesh does not bound another. */
 TEST(tree_of_another_mesh_is_refused)
 {
     mote_mesh *own = make_torus(4, 3, 1), *other = make_torus(4, 3, 2),

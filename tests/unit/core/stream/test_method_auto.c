@@ -1,4 +1,4 @@
-/* The methods stream and auto behind the contract. */
+/* The methods stream and auto through the interface. */
 #include "core/method/method.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
@@ -32,7 +32,7 @@ static mote_answer answer_of(subject *u, const mote_frame *frame)
     return answer;
 }
 
-/* A stronger deformation than boxes of the rest tree can follow. */
+/* Deforms more strongly than boxes of the rest tree can follow. */
 static void bend_hard(scene *s, double size)
 {
     for (int b = 0; b < 2; ++b) {
@@ -77,8 +77,8 @@ TEST(stream_and_auto_equal_all_pairs)
     scene_free(&s);
 }
 
-/* Streamed frames count the vertices that were passed over; certified ones only what they look
-   at. */
+/* Streamed frames count every vertex that they read; certified ones only those that they
+   evaluate. */
 static bool was_streamed(const scene *s, const mote_answer *a)
 {
     return a->counters.positions >=
@@ -134,14 +134,14 @@ TEST(auto_where_nothing_changes_repeats_its_answer)
     scene_free(&s);
 }
 
-/* Where no field is known, auto streams; a method that needs one is refused (test_method.c). */
+/* Without a known field auto streams; a method that needs one is refused (test_method.c). */
 TEST(auto_without_a_field_streams)
 {
     scene s;
     scene_init(&s, 25, 11, 1, true);
     mote_field *given = NULL;
     assert_int_equal(mote_field_create_given(&given), MOTE_OK);
-    scene told = s; /* the same bodies, of which one has no field that is known */
+    scene told = s; /* the same bodies, one without a known field */
     told.body[0].field = given;
     subject u;
     subject_init(&u, &told, "auto", "", MOTE_ASK_DISTANCE, 0);

@@ -1,4 +1,4 @@
-/* Streamed queries against all pairs of triangles, and what they promise of their input. */
+/* Streamed queries against all pairs of triangles, and their promises about the input. */
 #include "harness/base/heap_count.h"
 #include "tests/support/certificate_scene.h"
 #include "tests/support/stream_scene.h"
@@ -40,7 +40,7 @@ TEST(query_any_deformation_equals_all_pairs)
     mote_stream_destroy(NULL);
 }
 
-/* Separate triangles: the leaves with the most vertices that there can be, and trees of one
+/* Separate triangles: leaves with the largest possible number of vertices, and trees of one
    leaf, of one group, and of more. */
 TEST(query_separate_triangles_equals_all_pairs)
 {
@@ -74,8 +74,8 @@ TEST(query_separate_triangles_equals_all_pairs)
     }
 }
 
-/* A vertex in another layout: `stride` numbers apart, the rest filled with NaN. The array ends
-   with the last vertex. */
+/* Copies vertices into another layout: `stride` numbers apart, the rest filled with NaN. The
+   array ends with the last vertex. */
 static void *spread_out(const mote_vec3 *from, uint32_t count, size_t stride, bool single)
 {
     const size_t size = single ? sizeof(float) : sizeof(double);
@@ -94,8 +94,8 @@ static void *spread_out(const mote_vec3 *from, uint32_t count, size_t stride, bo
     return made;
 }
 
-/* Whatever the layout, the answers are those of the same numbers as an array of vectors, and
-   nothing beyond the last vertex is read (under AddressSanitizer). */
+/* Every layout gives the same answers as the same numbers in an array of vectors, and nothing
+   after the last vertex is read (under AddressSanitizer). */
 TEST(query_any_layout_gives_the_same_bits)
 {
     static const size_t strides[] = {3, 4, 5, 3, 4, 7};
@@ -106,7 +106,7 @@ TEST(query_any_layout_gives_the_same_bits)
         streams[i] = stream_of(&s, NULL);
     for (int k = 0; k < 12; ++k) {
         scene_next(&s, 1.3, false);
-        for (int b = 0; b < 2; ++b) { /* as floats, so that all layouts hold the same numbers */
+        for (int b = 0; b < 2; ++b) { /* as floats: the same numbers in all layouts */
             for (uint32_t v = 0; v < s.mesh[b]->vertex_count; ++v)
                 s.world[b][v] = mote_as_floats(s.world[b][v]);
         }
@@ -136,7 +136,7 @@ TEST(query_any_layout_gives_the_same_bits)
     scene_free(&s);
 }
 
-/* Every vertex in turn, in frames that end in contact too; the next frame is answered as if
+/* Makes each vertex bad in turn, also in frames of contact. The next frame is answered as if
    nothing had happened. */
 TEST(query_position_that_is_not_finite_is_refused)
 {
@@ -198,8 +198,8 @@ TEST(query_bad_layout_is_refused)
     scene_free(&s);
 }
 
-/* Positions that are large in the meshes' unit, small, or far away: times a power of two, with
-   L, the answer is the same bits times it. */
+/* Positions that are large in the meshes' unit, small, or far away: if positions and L are
+   multiplied by a power of two, the answer is multiplied by it, with the same bits. */
 TEST(query_positions_times_a_power_of_two_give_the_same_bits)
 {
     scene s;
@@ -314,7 +314,7 @@ TEST(query_slack_budget_and_contact_bracket_the_truth)
     scene_free(&s);
 }
 
-/* A body that is said to be unchanged is not passed over again. */
+/* A body reported as unchanged is not read again. */
 TEST(query_unchanged_body_gives_the_same_answers)
 {
     scene s;
@@ -406,7 +406,7 @@ TEST(query_never_allocates_and_bytes_are_those_of_the_heap)
     scene_free(&s);
 }
 
-/* Every vertex once; and a mesh in that order is read in longer stretches, with the same
+/* The order has every vertex once. A mesh in that order is read in longer runs, with the same
    answer. */
 TEST(order_is_a_permutation_that_keeps_the_answer)
 {

@@ -1,5 +1,5 @@
-/* Several bodies of which only positions are known: bounds against all vertices, answers
-   against all pairs of triangles. */
+/* Several bodies known by positions only: bounds against all vertices, answers against all
+   pairs of triangles. */
 #include "core/stream/stream_scene.h"
 
 #include "harness/base/heap_count.h"
@@ -107,7 +107,7 @@ TEST(query_all_pairs_equals_brute_force)
             assert_int_equal(a[k].steps, step + 1);
             contacts += a[k].contact;
         }
-        for (uint32_t i = 0; i < p.c.count; ++i) /* every other step nothing moves */
+        for (uint32_t i = 0; i < p.c.count; ++i) /* nothing moves in every other step */
             unchanged[i] = step % 2 == 0;
         if (step % 2)
             crowd_move(&p.c, 0.02);
