@@ -1,7 +1,7 @@
 #!/bin/sh
-# all_methods.sh MOTE: whether the program has every method that the sources define. The build leaves
-# out a baseline whose library is not there, which is right for a user, and wrong on a machine that
-# has what packages.txt lists.
+# all_methods.sh MOTE: checks that the program has every method that the sources define. The build
+# leaves out a baseline whose library is missing. That is right for a user, but wrong on a machine
+# with everything that packages.txt lists.
 set -eu
 mote=$(realpath "$1")
 cd "$(dirname "$0")/../.."

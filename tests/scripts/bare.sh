@@ -3,11 +3,11 @@
 # nothing but git, make and this machine's apt configuration. Ends with the status of the first
 # command that fails. Needs root (or sudo without a password), mmdebstrap and 10 GB of disk.
 #
-# The bare root is kept as a tarball in ${XDG_CACHE_HOME:-~/.cache}/mote and made again when a list
-# of packages, the apt configuration or this script changes. Each run unpacks it into a folder of its
-# own there and removes that at its end, also when it is interrupted; what a killed run left behind
-# is removed by the next one. Everything is mounted in a namespace that ends with the run, and the
-# root has a /dev of its own: nothing that happens to the root can reach this machine's.
+# The bare root is kept as a tarball in ${XDG_CACHE_HOME:-~/.cache}/mote and rebuilt when a list of
+# packages, the apt configuration or this script changes. Each run unpacks it into a folder of its
+# own there and removes that folder at its end, also when interrupted; the next run removes what a
+# killed one left behind. Everything is mounted in a namespace that ends with the run, and the root
+# has a /dev of its own: nothing that happens to the root can affect this machine.
 set -euo pipefail
 shopt -s nullglob
 
@@ -62,9 +62,9 @@ source=$(git -C "$(dirname "$self")" rev-parse --show-toplevel)
 [ -z "$(git -C "$source" status --porcelain)" ] ||
     echo "bare.sh: HEAD is tested, without the changes that are not committed" >&2
 
-# Runs a command with mounts and processes of its own: all end with it, and it ends with us. It is a
-# background job so that a signal is acted on at once, and a group of its own so that Ctrl-C is not
-# ignored in it, as it would be in a plain background job.
+# Runs a command with mounts and processes of its own: all end with it, and it ends with us. As a
+# background job it lets us act on a signal at once; as a group of its own it does not ignore
+# Ctrl-C, as a plain background job would.
 child=
 apart() {
     set -m
@@ -77,7 +77,7 @@ apart() {
     return $status
 }
 
-# What is mounted below a folder is no part of it; nothing should be.
+# Removes a folder unless something is mounted below it, which should not happen.
 remove() { # FOLDER
     if grep -qF " ${1// /\\040}/" /proc/self/mountinfo; then
         fail "something is mounted below $1, which is left as it is"
@@ -85,7 +85,7 @@ remove() { # FOLDER
     rm -rf --one-file-system "$1"
 }
 
-# Who uses a folder holds its lock, and so do all processes in it.
+# A run that uses a folder holds its lock, and so do all its processes.
 finish() {
     trap '' INT TERM HUP
     if [ -n "$child" ]; then
@@ -115,7 +115,7 @@ work=$(mktemp -d "$cache/run.XXXXXX")
 exec 9< "$work"
 flock 9
 
-# Keys that the configuration names lie elsewhere as often as not.
+# Keys named in the configuration are often stored elsewhere.
 keys=$({ find -L /etc/apt -type f \( -name '*.list' -o -name '*.sources' -o -name '*.conf' \) \
     -exec cat {} + | grep -oE '/[^] ,;"]+\.(gpg|asc|pem|crt)' || true; } | sort -u)
 # shellcheck disable=SC2016 # the hook expands it

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Every function that a header of harness/ or baselines/ declares has a caller in the program: what
-# only tests call belongs to the tests.
+# Checks that every function declared in a header of harness/ or baselines/ has a caller in the
+# program: a function that only tests call belongs to the tests.
 # Usage: callers.sh SOURCE
 set -eu
 export LC_ALL=C
@@ -8,13 +8,13 @@ cd "$1"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Columns become documents in a test, which compares them; front_time is what tests see of a part
-# of the fronts.
+# Exceptions: a test makes documents from columns and compares them; front_time gives tests access to
+# a part of the fronts.
 allowed='mote_columns_markdown mote_columns_schema mote_front_time'
 
 find harness baselines -name '*.h' -o -name '*.hpp' | xargs grep -hvE 'static inline' |
     grep -oE '\bmote_[a-z0-9_]+\(' | tr -d '(' | sort -u > "$work/declared"
-# A name that stands once in all sources is defined and nothing else.
+# A name that occurs at most twice in all sources is declared and defined, but not called.
 find harness baselines core/*/*.h -name '*.c' -o -name '*.cpp' -o -name '*.h' -o -name '*.hpp' |
     xargs cat | sed 's,/\*[^*]*\*/,,g' | grep -oE '\bmote_[a-z0-9_]+\b' | sort | uniq -c |
     awk '$1 <= 2 {print $2}' | sort > "$work/rare"

@@ -1,9 +1,9 @@
 #!/bin/bash
-# cluster.sh MOTE: starts a Slurm of one node on the loopback interface, out of a folder of its own;
+# cluster.sh MOTE: starts a Slurm of one node on the loopback interface, from a folder of its own;
 # submits harness/scripts/cluster/bench.sbatch as an array of 4; stops the programs of two tasks, one by
-# SIGKILL and one by SIGTERM, which are then queued again; waits for the dependent merge; and
-# compares all cells with a run of one process. Stops what it started. Needs root, munge and
-# slurm-wlm; no systemd, no cgroups.
+# SIGKILL and one by SIGTERM, so that Slurm queues them again; waits for the dependent merge; and
+# compares all cells with a run of one process. Stops everything that it started. Needs root, munge
+# and slurm-wlm; no systemd, no cgroups.
 set -euo pipefail
 mote=$(realpath "$1")
 root=$(realpath "$(dirname "$0")/../..")
@@ -15,7 +15,7 @@ fail()
     tail -n 20 "$work"/*.log "$work"/out/*.log >&2 || true
     exit 1
 }
-# Only what was started here, by its number; the controller first, so that it starts nothing more.
+# Stops only processes started here, by number; the controller first, so that it starts no more.
 stop()
 {
     local pid
@@ -34,7 +34,7 @@ stop()
 }
 trap stop EXIT
 
-# free_port FROM: the first port of the loopback interface on which nobody listens.
+# free_port FROM: the first port of the loopback interface without a listener.
 free_port()
 {
     local port=$1
@@ -99,10 +99,10 @@ CONF
 
 cells() { find "$1/cells" -name '*.json' 2> /dev/null | sort; }
 
-# state TASK: of a task of the array, or "" when Slurm no longer knows it.
+# state TASK: the state of a task of the array, or "" when Slurm no longer knows it.
 state() { scontrol show job "${job}_$1" 2> /dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | sed 1q; }
 
-# Whether all who listen on a port do so on 127.0.0.1 only; somebody must.
+# Whether a port has listeners, and all of them listen on 127.0.0.1 only.
 on_loopback()
 {
     local port
@@ -115,7 +115,7 @@ on_loopback()
 start_slurm
 on_loopback SlurmctldPort
 on_loopback SlurmdPort
-# More scenarios than tasks, so that one task has two; slow enough to be killed in time.
+# More scenarios than tasks, so that one task has two; slow enough to be killed before they end.
 arguments=(tt mv tw islands rigid-mv --frames 1-400 --replicates 3 --stride 1 --seed 7
     --method fcl-aabb --method certified --method particle:n=8 --method aabb-tree)
 mkdir "$work/out"
@@ -124,7 +124,7 @@ job=$(MOTE=$mote sbatch --parsable --array=1-4 --output="$work/out/task-%a.log" 
     harness/scripts/cluster/bench.sbatch "$work/out" "${arguments[@]}")
 echo "array of 4: job $job"
 
-# stop_task TASK SIGNAL AFTER: sends a signal to the task's program once so many cells are there, and
+# stop_task TASK SIGNAL AFTER: sends a signal to the task's program once AFTER cells are there, and
 # remembers them.
 stop_task()
 {
@@ -135,7 +135,7 @@ stop_task()
     done
     id=$(scontrol show job "${job}_$1" | sed -n 's/^JobId=\([0-9]*\).*/\1/p' | sed 1q)
     for pid in $(scontrol listpids "$id" | awk 'NR > 1 { print $1 }'); do
-        # Not the process of the cell that is being measured, but its parent: both die.
+        # Signals the parent of the process that measures a cell: both end.
         if [ "$(readlink "/proc/$pid/exe" 2> /dev/null)" = "$mote" ] &&
             [ "$(ps -o comm= -p "$(ps -o ppid= -p "$pid" | tr -d ' ')")" != mote ]; then
             victim=$pid
@@ -149,7 +149,7 @@ stop_task()
     echo "task $1: SIG$2 with $(wc -l < "$work/before-$1") cells measured"
 }
 
-# went_on TASK CELLS: what was there stayed as it was, and the second attempt went on from it.
+# went_on TASK CELLS: the finished cells are unchanged, and the second attempt continued from them.
 went_on()
 {
     local log=$work/out/task-$1.log before done

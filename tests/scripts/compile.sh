@@ -1,6 +1,6 @@
 #!/bin/bash
-# compile.sh ROOT: cmake/compile.sh says what a person wants to know of a build, on a program of two
-# sources: warnings and errors as they are, how far it is, and nothing of CMake's or make's.
+# compile.sh ROOT: tests the output of cmake/compile.sh on a program of two sources: warnings and
+# errors unchanged, the progress, and nothing of CMake's or make's.
 set -eu
 compile=$1/cmake/compile.sh
 work=$(mktemp -d)
@@ -27,7 +27,7 @@ printf 'int two(void)\n{\n    int unused;\n    return 0;\n}\n' >two.c
 echo 'this is no C' >other.c
 cmake -S . -B build -G 'Unix Makefiles' >said 2>&1 || fail 'cannot be configured'
 
-# Of a target, and not of the others; called by a make that names its folders.
+# Builds one target and not the others; called by a make that prints its folders.
 printf 'all:\n\t@%s build 2 two\n' "$compile" >Makefile
 make -w >said 2>&1 || fail 'a program with a warning is not built'
 [ -x build/two ] || fail 'no program'
@@ -36,13 +36,13 @@ has_not 'Built target'
 has_not 'Building C object'
 [ "$(grep -c 'Entering directory' said)" -eq 1 ] || fail 'folders that make entered'
 
-# An error ends it with its status.
+# It ends with the status of an error.
 status=0
 "$compile" build 2 other >said 2>&1 || status=$?
 [ "$status" -ne 0 ] || fail 'an error is no failure'
 has 'error'
 
-# On a terminal one line moves, cut to its width, and is gone at the end.
+# On a terminal one line moves, cut to the terminal's width, and is erased at the end.
 touch one.c two.c
 TERM=xterm script -qec "stty cols 24; $compile build 1 two" /dev/null </dev/null >said 2>&1 ||
     fail 'it fails on a terminal'

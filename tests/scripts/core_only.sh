@@ -1,8 +1,7 @@
 #!/bin/bash
-# core_only.sh: builds the library alone with each C compiler at hand, in C only, installs it, and
-# links the program of docs/extending.md and tests/studies/core_only.c with it, by hand, and by
-# pkg-config for cc -static. No other library may be asked for, and every compiler's answers must be
-# the same bits.
+# core_only.sh: builds the library alone with each C compiler found, in C only, installs it, and links
+# the program of docs/extending.md and tests/studies/core_only.c with it, by hand, and by pkg-config
+# for cc -static. It may need no other library, and all compilers must give the same bits.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
@@ -14,7 +13,7 @@ fail() { echo "core_only.sh: $*" >&2; exit 1; }
 check()
 {
     local compiler=$1 build=$work/$1 root=$work/$1-root
-    # No C++ compiler, so that none is needed.
+    # Without a C++ compiler, to see that none is needed.
     CXX=/nonexistent cmake -S "$tests/../.." -B "$build" -DMOTE_CORE_ONLY=ON -DMOTE_WERROR=ON \
         -DCMAKE_C_COMPILER="$compiler" > log 2>&1 || { cat log; fail "$compiler: configuration"; }
     cmake --build "$build" -j "$(nproc)" > log 2>&1 || { cat log; fail "$compiler: build"; }
@@ -34,7 +33,7 @@ check()
         "$compiler" -std=c17 -Wall -Wextra -Werror -I"$root/include" "$source" \
             -L"$library" -lmote -lm -Wl,-rpath,"$library" -o shared
         grep -q 'NEEDED *libmote' <<< "$(objdump -p shared)" || fail "$compiler: not shared"
-        # Nothing of it is shared, the C library included.
+        # It is fully static, including the C library.
         # shellcheck disable=SC2046 # a list of words
         "$compiler" -std=c17 -static "$source" $(PKG_CONFIG_PATH="$library/pkgconfig" pkg-config \
             --static --cflags --libs mote) -o whole

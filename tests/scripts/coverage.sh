@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# make coverage: runs the tests of a build that counts branches (preset coverage), and prints what
-# share of the branches of core and of harness they take. Fails below 98 and 90 %.
+# make coverage: runs the tests of a build that counts branches (preset coverage), and prints the
+# share of the branches of core and of harness that they take. Fails below 98 and 90 %.
 #   coverage.sh BUILD JOBS OUT [TESTS]   TESTS: only these (ctest -R), added to what has been counted
 # OUT gets coverage.html (line by line), coverage.csv (a row a file), coverage.tsv, tests.log.
-# Left out are branches of exceptions that nobody throws, and lines marked GCOVR_EXCL_*: each mark
-# stands beside the reason why no test can get there.
+# Branches of exceptions that are never thrown and lines marked GCOVR_EXCL_* are left out; each mark
+# gives the reason why no test can get there.
 set -u
 build=$1 jobs=$2 out=$3 only=${4:-}
 mkdir -p "$out"
 [ -n "$only" ] || find "$build" -name '*.gcda' -delete
 (cd "$build" && ctest -j "$jobs" --output-on-failure ${only:+-R "$only"}) >"$out/tests.log" 2>&1 ||
     { sed -n '/tests failed/,$p' "$out/tests.log"; failed=1; }
-# Threads count without a lock; a count that became negative by this is left out with its line.
+# Threads count without a lock; if a count becomes negative for this reason, its line is left out.
 gcovr --gcov-ignore-parse-errors --root . --filter '(core|harness)/' -j "$jobs" \
     --exclude-throw-branches --exclude-unreachable-branches \
     --csv "$out/coverage.csv" --html-details "$out/coverage.html" "$build" || exit 1

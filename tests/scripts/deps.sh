@@ -1,6 +1,6 @@
 #!/bin/sh
-# deps.sh: how cmake/deps.sh installs what is missing, with programs that stand for dpkg-query, apt-get
-# and what it waits with: nothing is installed.
+# deps.sh: tests how cmake/deps.sh installs missing packages, with stand-ins for dpkg-query, apt-get
+# and the program that it waits with: nothing is installed.
 # shellcheck disable=SC2015 # fail does not return
 set -eu
 deps=$(realpath "$(dirname "$0")/../../cmake/deps.sh")
@@ -32,7 +32,7 @@ END
 program sleep <<'END'
 echo "sleep $*" >>calls
 END
-# The first calls fail as often as the file `locked` says.
+# The first calls fail; the file `locked` says how many.
 program apt-get <<'END'
 echo "$*" >>calls
 read -r locked <locked
@@ -64,7 +64,7 @@ cmp -s calls expected || fail "another call of apt-get than expected"
 try 0 '' whole.txt
 [ $status = 0 ] && [ ! -s calls ] || fail "nothing is missing, and apt-get is called"
 
-# apt does not wait for the lock of its lists by itself.
+# apt itself does not wait for the lock of its lists.
 try 2 'E: Could not get lock /var/lib/apt/lists/lock. It is held by process 7 (apt-get)' one.txt
 [ $status = 0 ] || fail "locked twice: status $status"
 [ "$(grep -c '^sleep' calls)" = 2 ] && [ "$(grep -c 'update$' calls)" = 3 ] || fail "locked twice"

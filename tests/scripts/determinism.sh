@@ -2,9 +2,9 @@
 # Builds tests/studies/answers.c, and what it needs, with each compiler and optimisation, and once with
 # sanitizers, and runs each build with 1 to 8 threads: every run must give the answers of
 # tests/answers.txt. Usage: determinism.sh BUILD [RUNS [JOBS [CHECKS]]], from the root; BUILD holds
-# the table of methods. RUNS in all: those beyond eight of each build (56) are shared by the
-# optimised ones; 1: one run of one build, to see that it can be built. CHECKS: a file that make
-# reliability makes its table of.
+# the table of methods. RUNS is the total: those beyond eight of each build (56) are shared among the
+# optimised ones; 1: one run of one build, to see that it can be built. CHECKS: a file from which
+# make reliability makes its table.
 set -eu
 build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# documented.sh NAME [FILE]: prints the code block of docs/extending.md (or FILE) that stands below
-# the comment <!-- NAME -->, so that what is tested is what is read.
+# documented.sh NAME [FILE]: prints the code block of docs/extending.md (or FILE) below the comment
+# <!-- NAME -->, so that tests use the code that readers see.
 set -eu
 file=${2:-$(dirname "$0")/../../docs/extending.md}
 text=$(awk -v mark="<!-- $1 -->" '

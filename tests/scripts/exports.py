@@ -22,7 +22,7 @@ warnings.simplefilter("ignore", RuntimeWarning)  # numpy: medians of rows withou
 MOTE, SCHEMAS = sys.argv[1], pathlib.Path(sys.argv[2])
 RUN = ["run", "tt", "mv", "--frames", "401-460", "--replicates", "8", "--method", "fcl-aabb",
        "--method", "certified", "--method", "particle-paper", "--particles", "2,4",
-       "--method", "fcl-kdop18"]  # which knows no distance: on mv a row without figures
+       "--method", "fcl-kdop18"]  # has no distance: on mv a row without figures
 
 
 def mote(*arguments):

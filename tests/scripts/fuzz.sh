@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # make fuzz: each fuzz target for some seconds, several at a time, from the committed corpus.
 #   fuzz.sh BUILD_FUZZ SECONDS JOBS OUT [SEED]
-# SEED of the tries, 0: another one each time (1).
-# OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings}; what was found lies in
-# OUT as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing tried.
-# A slow machine makes fewer tries, and fails nothing: 120 s for one input are a hang anywhere.
+# SEED: of the inputs tried (1); 0: another one each time.
+# OUT/fuzz.tsv: a line a target, {target, CPU seconds, executions, findings}; the findings are in OUT
+# as crash-*, oom-* or timeout-*. Exit status 1 where something was found or nothing was tried.
+# A slow machine tries fewer inputs but fails none: 120 s for one input are a hang anywhere.
 set -u
 build=$1 seconds=$2 jobs=$3 out=$4 seed=${5:-1}
 targets="scenario mesh character options cell summary"

@@ -10,11 +10,11 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "install.sh: $*" >&2; exit 1; }
 
-# The last line that `make install VARIABLE=VALUE...` runs; what comes before it has been built.
+# The last line that `make install VARIABLE=VALUE...` would run; the lines before it only build.
 install_line() {
     env -u MAKEFLAGS -u MAKELEVEL make -s -n -C "$tests/../.." install BUILD="$build" "$@" | tail -n 1
 }
-# A prefix is one word, whatever it holds, under either name.
+# A prefix is one word, whatever characters it has, under either name.
 odd="$work/it's in \$HOME"
 for variable in prefix PREFIX; do
     sh -e -c "$(install_line "$variable=${odd//\$/\$\$}")" > log
@@ -23,7 +23,7 @@ for variable in prefix PREFIX; do
 done
 grep -q "'/usr/local'" <<< "$(install_line)" || fail "make install: not into /usr/local"
 
-# Staged below DESTDIR, then moved elsewhere: nothing may hold the prefix.
+# Staged below DESTDIR, then moved elsewhere: no file may contain the prefix.
 DESTDIR=$work/stage sh -e -c "$(install_line prefix=/opt/mote)" > log
 [ "$(ls stage)" = opt ] || fail "files outside of DESTDIR/prefix"
 mv stage/opt/mote moved
@@ -32,7 +32,7 @@ library=$root/$(basename "$(dirname "$(find "$root" -name libmote.a)")")
 [ -e "$library/libmote.so" ] || library=$(dirname "$(find "$root" -name libmote.a)")
 if grep -rlI -e /opt/mote -e "$work" "$root"; then fail "files above hold the place of installation"; fi
 
-# One function of another library or of ours that is not public would be a promise.
+# An exported function of another library, or a private one of ours, would be a promise.
 soname=$(objdump -p "$library/libmote.so" | awk '$1 == "SONAME" { print $2 }')
 [[ $soname =~ ^libmote\.so\.[0-9.]+$ && -L $library/$soname ]] || fail "SONAME $soname"
 nm -D --defined-only "$library/libmote.so" | awk '{ sub(/@.*/, "", $3); print $3 }' | sort > exported
@@ -54,7 +54,7 @@ for header in "$root"/include/mote/*.h; do
 done
 echo "$headers headers compile alone, C17 and C++"
 
-# The program of docs/extending.md: two octahedra 3 apart whose corners come nearer by 0.3 a frame.
+# The program of docs/extending.md: two octahedra 3 apart whose corners approach by 0.3 a frame.
 "$tests/documented.sh" track.c > track.c
 seq 8 | awk '{ printf "frame %d: distance %.9f\n", $1, 3 - 0.3 * $1 }' > expected
 flags="-std=c17 -Wall -Wextra -pedantic-errors -Werror"
@@ -62,7 +62,7 @@ export PKG_CONFIG_PATH=$library/pkgconfig
 # shellcheck disable=SC2046,SC2086 # lists of words
 {
     cc $flags track.c $(pkg-config --cflags --libs mote) -o shared
-    # The static library by its name; what it needs follows.
+    # The static library by its file name, followed by the libraries that it needs.
     cc $flags track.c $(pkg-config --cflags mote) $(pkg-config --static --libs mote |
         sed 's/-lmote/-l:libmote.a/') -o static
 }
@@ -147,7 +147,7 @@ for command in $commands; do
         fail "the manual does not tell of mote $command"
 done
 
-# complete WORD...: what is offered for the last word.
+# complete WORD...: the completions offered for the last word.
 source "$root/share/bash-completion/completions/mote"
 compopt() { :; } # works in an interactive completion only
 complete_words()

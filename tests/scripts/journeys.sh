@@ -1,8 +1,8 @@
 #!/bin/bash
-# journeys.sh BUILD: what users do, from the installed program and far from any clone: meshes of their
+# journeys.sh BUILD: what users do, with the installed program and far from any clone: meshes of their
 # own in a folder with an odd name, a pair, a sweep, comparisons, motions found and recorded, exports,
-# reports, figures, the help, output to links and devices, Ctrl-C. Each step is checked by what came
-# out, in numbers that are known in closed form where there are any.
+# reports, figures, the help, output to links and devices, Ctrl-C. Each step is checked by its output,
+# against closed forms where they exist.
 set -euo pipefail
 build=$(realpath "$1")
 work=$(mktemp -d)
@@ -17,7 +17,7 @@ home="$work/Mein Körper's \"100 %\""
 mkdir -p "$home/meshes" "$home/elsewhere/below"
 cd "$home"
 
-# do STATUS ARGUMENT...: runs mote, keeps both outputs, and the status has to be that.
+# do STATUS ARGUMENT...: runs mote, which must end with STATUS, and keeps both outputs.
 do_() {
     local wanted=$1 status=0
     shift
@@ -35,10 +35,10 @@ refuses() {
 number() { awk -v value="$1" -v wanted="$2" -v error="$3" 'BEGIN { d = value - wanted
     exit !(value != "" && d <= error && -d <= error) }' || fail "$1 is not $2 +- $3"; }
 
-# field NAME FILE: a number in JSON that has a line a field.
+# field NAME FILE: a number in JSON with one field a line.
 field() { awk -F '[:,]' -v key="\"$1\"" '$1 ~ key { print $2 + 0; exit }' "$2"; }
 
-# box X Y Z LEFT: a box of that size whose low corner is at LEFT, 0, 0.
+# box X Y Z LEFT: a box of that size with its low corner at LEFT, 0, 0.
 box() {
     awk -v x="$1" -v y="$2" -v z="$3" -v left="$4" 'BEGIN {
         for (i = 0; i < 8; ++i)
@@ -96,7 +96,7 @@ pair=("../../meshes/cube é.obj" "$home/meshes/ring.obj")
 do_ 0 check "pair:${pair[0]}:${pair[1]}"
 awk '/^1000 frames, truth from 0 to 0.4/ { for (i = 1; i < NF; ++i) if ($i == "in") count = $(i + 1) }
     END { exit !(count >= 100 && count <= 200) }' "$work/out" || fail "not the contacts that are promised"
-do_ 0 check "pair:${pair[0]}:../../meshes/mite.obj" --json # sizes as 1,000,000 to 1
+do_ 0 check "pair:${pair[0]}:../../meshes/mite.obj" --json # sizes differ by a factor of 1,000,000
 contacts=$(field contacts "$work/out")
 [ "$contacts" -ge 100 ] && [ "$contacts" -le 200 ] || fail "$contacts contacts"
 ln -s ../../meshes/ring.obj link.obj
@@ -104,7 +104,7 @@ do_ 0 run --pair "${pair[0]}" link.obj --method certified --method particle --me
     --frames 101-220 --replicates 2 --out "run ü"
 says "cube é-link: 12 and 768 triangles, 120 frames, 2 replicates"
 do_ 0 summarize "run ü" --format csv
-# column NAME METHOD: of the CSV, whose names hold no comma.
+# column NAME METHOD: a value of the CSV, whose names have no commas.
 column() { awk -F , -v name="$1" -v method="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
     { gsub(/"/, "") } $at["method"] == method { print $at[name]; exit }' "$work/out"; }
 [ "$(column frames certified)" -eq 120 ] || fail "not 120 frames"
@@ -126,10 +126,10 @@ do_ 2 run --pair "meshes/cube é.obj" "meshes/cube é.obj" --direction 0,0,0
 refuses 4 check "pair:meshes/cube é.obj:meshes/none.obj"
 tells "meshes/none.obj: No such file or directory; name a mesh file"
 
-# --- a sweep, stopped by Ctrl-C, gone on with, and compared
+# --- a sweep, stopped by Ctrl-C, resumed, and compared
 sweep=(run tt --method particle --particles '1,2,4-5' --method certified --frames 140-170
     --replicates 10 --out sweep)
-# interrupt FILE ARGUMENT...: Ctrl-C as soon as there is FILE; as at a terminal, the whole group gets it.
+# interrupt FILE ARGUMENT...: Ctrl-C as soon as FILE exists; as at a terminal, the whole group gets it.
 interrupt() {
     local file=$1 status=0
     shift
@@ -151,7 +151,7 @@ kept=$(wc -l < "$work/before")
 do_ 0 "${sweep[@]}"
 tells "plan: 50 cells, $kept of them done"
 [ -z "$(find sweep -name '*.part*')" ] || fail "parts of files are left"
-# Before anything is measured, a large scenario is loaded.
+# Interrupts while a large scenario is loaded, before anything is measured.
 started=$SECONDS
 interrupt /proc/self run ww-1m --method certified --out never
 [ $((SECONDS - started)) -le 5 ] && [ ! -e never ] || fail "goes on after Ctrl-C"
@@ -171,7 +171,7 @@ tells "meshes: neither cells nor a summary.json"
 do_ 0 tune sweep
 says "of 4"
 do_ 0 merge both sweep other
-# Cells of the same configuration, replicate and program are one and the same.
+# Equal configuration, replicate and program mean the same cell.
 tells "both: 50 cells copied, 10 were there"
 
 # --- motions: found and recorded, read back from other folders
@@ -194,7 +194,7 @@ done
 cd "$home"
 mv moved elsewhere
 
-# Two cubes that come straight at each other, 2 apart, by 0.1 a frame together: they bounce at frame 21.
+# Two cubes 2 apart move straight at each other, by 0.1 a frame together: they bounce at frame 21.
 cat > cubes.json << 'JSON'
 {"purpose": "Two cubes on a line.", "frames": 40, "ask": "distance", "bodies": [
  {"file": "meshes/cube é.obj", "velocity": [0.028867513459481287, 0, 0]},
@@ -218,7 +218,7 @@ do_ 0 simulate "$home/cubes.json" --method certified --trace /dev/stdout --steps
 tells "2 steps"
 cd "$home"
 
-# --- a scenario file names what is in its folder, links included, and nothing outside unless allowed
+# --- a scenario file may name files in its folder, links included, and others only if allowed
 mkdir -p fence/inside
 sed 's,meshes/cube é.obj,link.obj,' cubes.json > fence/linked.json
 ln -s "../meshes/cube é.obj" fence/link.obj
@@ -230,7 +230,7 @@ tells "fence/out.json:2: bodies[0].file: fence/../meshes/away.obj lies outside o
 (cd fence/inside; "$mote" --allow ../../meshes check ../out.json) > "$work/out" || fail "--allow"
 says "truth from 1.155 to 1.155 L"
 
-# --- what is drawn and told of a run
+# --- figures and reports of a run
 do_ 0 figures "elsewhere/below/run ü"
 ! grep -qi warning "$work/err" || fail "warnings"
 front="elsewhere/below/run ü/figures/front-cube___-link"
@@ -276,7 +276,7 @@ step="completion"
 mkdir links
 echo old > links/target.obj
 ln -s target.obj links/link.obj
-exec 3< links/target.obj # whoever has it open goes on reading the old one
+exec 3< links/target.obj # a reader that has it open continues with the old file
 do_ 0 letter T --triangles 500 -o links/link.obj
 [ -L links/link.obj ] && [ "$(head -c 2 links/target.obj)" = "v " ] || fail "not through the link"
 [ "$(cat <&3)" = old ] || fail "written into a file that somebody reads"
@@ -301,7 +301,7 @@ status=0
 [ "$status" -eq 4 ] || fail "status $status"
 tells "standard output: cannot be written"
 
-# --- what is no mesh, no scenario and no run
+# --- files that are not meshes, scenarios or runs
 : > empty.obj
 mkdir hollow gone
 for bad in empty.obj hollow gone/none.obj /dev/null; do refuses 4 mesh "$bad"; done

@@ -32,7 +32,7 @@ import tempfile
 TARGET = 0.85
 EQUIVALENT = "tests/mutants_equivalent.txt"
 
-# Files, and the tests that concern them, the quickest first.
+# Files, and their tests, the quickest first.
 MODULES = {
     "triangle": ("core/body/triangle*.c", ["test_triangle_bounds", "answers", "test_triangle"]),
     "statistics": ("harness/base/statistics*.c", ["test_statistics", "test_statistics_tests",
@@ -43,7 +43,7 @@ MODULES = {
          "test_certificate", "test_scene"],
     ),
 }
-# They put their own allocation functions in the place of libc's, and so cannot look for leaks.
+# They replace libc's allocation functions by their own, and so cannot look for leaks.
 COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_scene"}
 ARGUMENTS = {"answers": ["--check", "tests/answers.txt"]}
 
@@ -71,7 +71,7 @@ OTHER_WORD = {
     "fmin": ["fmax"], "fmax": ["fmin"], "true": ["false"], "false": ["true"],
     "break": ["continue"], "continue": ["break"],
 }
-# The same either way round.
+# Symmetric in their arguments.
 SYMMETRIC = {"mote_dot", "mote_add", "mote_distance_squared", "fmin", "fmax", "max2", "fminf",
              "fmaxf", "mote_dot_lanes", "memcpy", "calloc"}
 
@@ -224,7 +224,7 @@ def compile_command(build, path):
         elif not (word.startswith(("-DMOTE_HAVE_CLONES", "-Werror", "-O", "-W", "-g")) or
                   word.endswith(path)):
             kept.append(word)
-    # Arguments of another type are no mutants; warnings go nowhere.
+    # Arguments of another type do not make mutants; warnings are discarded.
     strict = [f"-Werror={name}" for name in ("incompatible-pointer-types", "int-conversion",
                                              "discarded-qualifiers", "return-type")]
     return kept + ["-O1"] + strict, entry["directory"]
@@ -261,7 +261,7 @@ class Bench:
     def compile(self, path, source, folder):
         """The object of a file with this text; None where it does not compile."""
         words, directory = compile_command(self.build, path)
-        # Beside no other file: the text goes in by standard input, as the file's own lines.
+        # The text comes by standard input, so no source file is written.
         made = f"{folder}/mutant.o"
         result = subprocess.run(
             words + [f"-I{self.source_dir}", "-x", "c", "-c", "-o", made, "-"], cwd=directory,

@@ -109,7 +109,7 @@ async function open(browser, directory, options = {}, before = null) {
     return page;
 }
 
-// The replay unpacks what is chosen.
+// Resolves when the replay has unpacked its choice.
 const settled = (page) => page.locator("#replay-app[aria-busy=false]").waitFor();
 
 async function choose(page, id, option) {
@@ -150,7 +150,7 @@ async function compare(page, rows, frames) {
 
 const worstOf = (rows) => Math.max(...[...rows.values()].map((row) => Math.abs(row.error)));
 
-// Texts whose contrast with what is behind them is below WCAG AA.
+// Texts whose contrast with their background is below WCAG AA.
 function lowContrast() {
     const parse = (text) => {
         const n = text.match(/[\d.]+/g).map(Number);

@@ -1,5 +1,5 @@
-// The page's tables, fronts and figures, for page.mjs: what is shown is compared with summary.json and
-// with the files of figures/.
+// The page's tables, fronts and figures, for page.mjs: compares the page with summary.json and with the
+// files of figures/.
 import { existsSync, readFileSync, renameSync, writeFileSync } from "node:fs";
 
 const units = { ns: 1, "µs": 1e3, ms: 1e6, s: 1e9 };
@@ -248,7 +248,7 @@ export async function testTables(page, tools, run) {
     await tools.check("nothing went wrong in the tables", async () => tools.equal(page.troubles.join("; "), "", "messages"));
 }
 
-// Pages with less than everything: an old browser, no script, files that mote did not write.
+// Pages under poor conditions: an old browser, no script, files that mote did not write.
 export async function testPoor(browser, { check, equal, truth, open, program }, run, work, bundle) {
     await check("a browser that cannot unpack has the tables, and links to the drawings", async () => {
         const page = await open(browser, run, {}, () => delete window.DecompressionStream);

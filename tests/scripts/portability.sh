@@ -1,8 +1,7 @@
 #!/bin/sh
 # Builds tests/unit/core/test_portability.c with each compiler, optimisation and instruction set and runs
 # it: every build must give the hashes that the test holds. Usage: portability.sh SOURCE_DIR
-# Instruction sets that this machine cannot run, and compilers that it lacks, are left out and
-# named.
+# Skips and names instruction sets that this machine cannot run, and compilers that it lacks.
 set -eu
 cd "$1"
 work=$(mktemp -d)

@@ -36,7 +36,7 @@ soak_header() {
 [ -f $errors ] || soak_header >$errors
 [ -f $mutants ] || echo "module,mutants,killed,equivalent,date,commit" >$mutants
 [ -f $branches ] || echo "folder,branches,taken,date,commit" >$branches
-# Adds the lines of a TSV to a CSV; the last of each name, which may be quoted, is kept, in the
+# Adds the lines of a TSV to a CSV. Of each name, which may be quoted, the last line is kept, in the
 # place of the first.
 keep_last() { # CSV TSV
     tr '\t' , <"$2" | sed "s/\$/,$date,$commit/" | cat "$1" - | awk '
@@ -56,14 +56,14 @@ elif [ "$kind" = fuzz ]; then
     awk -F'\t' -v d="$date" -v c="$commit" \
         '{ printf "%s,%s,%s,%d,%d,%d\n", d, c, $1, $2, $3, $4 }' "$1" >>$log
 elif [ "$kind" = checks ]; then
-    # Fuzzing adds up in its own log; names have commas.
+    # Fuzzing is summed in a log of its own; names have commas.
     sed -E '/^fuzz: /d; s/^([^\t]*)/"\1"/' "$1" >"$csv.new"
     keep_last $csv "$csv.new"
     rm "$csv.new"
 fi
 
-# Errors over L, all runs together: the share of queries that is exact or nearly, by method. The
-# names of methods are quoted, for they have commas.
+# Errors over L in all runs: the share of queries that are exact or nearly exact, by method. Method
+# names are quoted, because they have commas.
 distribution() {
     echo
     echo "| errors on random scenarios | queries | exact | below 1e-6 L | 1e-3 L | 1e-2 L | 0.1 L | largest / L | contacts missed |"
@@ -88,7 +88,7 @@ distribution() {
             }
         }'
 }
-# Mutants, module by module; those that change nothing that is promised count neither way.
+# Mutants by module; those that change no promised answer count neither way.
 mutation() {
     echo
     echo "| mutants of | tried | killed | change nothing | score | date, commit |"
@@ -110,7 +110,7 @@ table() {
     echo "| check | tried | failed | date, commit |"
     echo "| --- | ---: | ---: | --- |"
     sed 1d $csv | sed -E 's/^"([^"]*)",([0-9]*),([0-9]*),([^,]*),(.*)$/| \1 | \2 | \3 | \4, \5 |/'
-    # What was found and mended is kept in the corpus as found-*: the rest of the findings is open.
+    # Fixed findings are kept in the corpus as found-*: the other ones are open.
     sed 1d $log | awk -F, -v corpus="$(printf '%s ' tests/corpus/fuzz_*/found-*)" '
         { s[$3] += $4; e[$3] += $5; f[$3] += $6; last[$3] = $1 ", " $2 }
         END {

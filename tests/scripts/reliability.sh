@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# make reliability: what was tried, how often, what failed. Runs the studies one after another,
-# prints a table and writes OUT/reliability.json, a list of {check, tried, failed}.
+# make reliability: runs the studies one after another, prints a table of what was tried, how often,
+# and what failed, and writes OUT/reliability.json, a list of {check, tried, failed}.
 #   reliability.sh BUILD BUILD_ASAN BUILD_FUZZ BUILD_TSAN quick|full OUT [plant|record]
-# plant: one wrong answer, one lost row and one leak, which must be reported, and nothing else.
-# record: the table goes into results/reference. Full takes hours: JOBS=2 fuzzes two
-# targets at a time, ONLY="kills fuzz" runs some of the studies.
+# plant: adds one wrong answer, one lost row and one leak, which must be reported, and nothing else.
+# record: writes the table to results/reference. Full takes hours: JOBS=2 fuzzes two targets at a
+# time, ONLY="kills fuzz" runs some of the studies.
 set -u
 build=$1 asan=$2 fuzz=$3 tsan=$4 profile=$5 out=$6 plant= record=
 case ${7:-} in
@@ -24,14 +24,14 @@ checks=$out/checks.tsv
 add() { # CHECK TRIED FAILED
     printf '%s\t%s\t%s\n' "$1" "$2" "$3" >>"$checks"
 }
-# Runs a command, output into a log.
+# Runs a command with its output in a log.
 log() { # NAME COMMAND...
     local name=$1
     shift
     echo "reliability: $name" >&2
     "$@" >"$out/$name.log" 2>&1
 }
-# A check that is a program: tried is a number found in what it wrote, failed is its status.
+# A check that is a program: tried is a number in its output, failed is its status.
 program() { # CHECK NAME PATTERN COMMAND...
     local check=$1 name=$2 pattern=$3 failed=0
     shift 3
@@ -49,8 +49,8 @@ fuzz() {
     [ $failed -eq 0 ] || tail -30 "$out/fuzz.log" >&2
     return $failed
 }
-# Programs one after another, and how much each tried: a number found in what it wrote, or one
-# where there is no pattern; into OUT/NAME.log.
+# Runs programs one after another and sums what each tried: a number in its output, or 1 without a
+# pattern. Output goes to OUT/NAME.log.
 programs() { # CHECK NAME PATTERN PROGRAM...
     local check=$1 name=$2 pattern=$3 tried=0 failed=0 program count
     shift 3
@@ -66,7 +66,7 @@ programs() { # CHECK NAME PATTERN PROGRAM...
     add "$check" $tried $failed
     [ $failed -eq 0 ]
 }
-# Eight runs under ThreadSanitizer; that of gcc 12 does not start where addresses are spread widely.
+# Eight runs under ThreadSanitizer; that of gcc 12 does not start with wide address randomisation.
 threads() {
     local fixed= k runs=()
     ! setarch -R true 2>"$out/threads.log" || fixed="setarch -R"
@@ -138,7 +138,7 @@ awk -F'\t' 'BEGIN { print "[" }
 } >"$out/reliability.md"
 cat "$out/reliability.md"
 [ -z "$record" ] || tests/scripts/record.sh "$checks"
-# Nothing may be tried in vain, and nothing may fail but what was planted.
+# Every check must have tried something, and only planted failures may occur.
 if awk -F'\t' '$2 < 1 { bad = 1 } END { exit !bad }' "$checks"; then
     echo "reliability: a check tried nothing" >&2
     exit 1

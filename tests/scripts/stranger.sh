@@ -1,12 +1,11 @@
 #!/bin/bash
-# stranger.sh: what docs/extending.md shows of a method, a field and a scenario of your own, done as it
-# says in a copy of the sources: each file dropped in, one `make build`, one run, and all of it is in
-# the table.
+# stranger.sh: follows docs/extending.md in a copy of the sources to add a method, a field and a
+# scenario: each file dropped in, one `make build`, one run, and all of them are in the table.
 set -euo pipefail
 tests=$(realpath "$(dirname "$0")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# No pipe into grep -q: it leaves at the first match, and who writes on would fail.
+# No pipe into grep -q: it exits at the first match, and the writer would fail.
 fail() { echo "stranger.sh: $*" >&2; exit 1; }
 
 cd "$tests/../.."
@@ -29,8 +28,8 @@ for row in 'sampled ' 'certified ' 'brute-force '; do
     grep -q "^$row" table || fail "no row $row in the table"
 done
 
-# Exact methods agree on the bent body, whose distance is no constant; a sample of the vertices is
-# further apart than the surfaces, by some edges at most.
+# Exact methods agree on the bent body, whose distance varies; a sample of the vertices is further
+# apart than the surfaces, by some edge lengths at most.
 build/mote summarize results/bending --format csv > rows.csv
 column() { awk -F, -v name="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) if ($i == name) k = i; next }
     { gsub(/"/, ""); print $4, $k }' rows.csv; }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Shows that the hot loops are vectorised: in each version of them (one an instruction set) the
-# multiplications over several lanes must outnumber those of single numbers.
+# Checks that the hot loops are vectorised: in each version (one an instruction set) multiplications
+# of several lanes must outnumber those of single numbers.
 # Usage: vectorised.sh build/libmote_core.a
 set -eu
 objdump -d --no-show-raw-insn "$1" 2> /dev/null | awk '

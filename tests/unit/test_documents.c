@@ -1,5 +1,5 @@
-/* What the documents mention exists: targets of links, files, commands with their options,
-   targets of make, tests, functions. The files that comments in the sources name exist, too. */
+/* Whatever the documents mention exists: link targets, files, commands with their options, make
+   targets, tests, functions. The files named in comments of the sources exist, too. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "tests/support/program.h"
 #include "tests/support/test.h"
@@ -10,7 +10,7 @@
 #include <regex.h>
 #include <stdbool.h>
 
-/* Files of the project, named from its root, without what runs and builds leave. */
+/* Files of the project, named from its root, without the output of runs and builds. */
 static char *files[4096];
 static size_t file_count;
 static char help_table[1 << 16], makefile[1 << 16];
@@ -32,7 +32,7 @@ static const char *const documents[] = {
 };
 #define DOCUMENTS (sizeof documents / sizeof documents[0])
 
-/* Names of what a run makes, of examples, and of what users have. */
+/* Names of output, of examples, and of users' files. */
 static const char *const not_ours[] = {
     "results/paper",
     "results/quick",
@@ -61,7 +61,7 @@ static bool is_ours(const char *name)
     return true;
 }
 
-/* Runs leave any number of files in results/, where what is ours has these names. */
+/* Runs leave any number of files in results/; these are the names of ours. */
 static bool is_of_a_run(const char *name)
 {
     static const char *const ours[] = {"results/README.md", "results/history.csv",
@@ -122,8 +122,8 @@ static bool starts(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* Keeps only the code of a document: each line of a block and each span as a line. A span may
-   go on in the next line. */
+/* Keeps only the code of a document: each line of a block, and each span, as a line. A span may
+   continue on the next line. */
 static void keep_code(char *text)
 {
     char *end = text;
@@ -142,11 +142,11 @@ static void keep_code(char *text)
     *end = '\0';
 }
 
-/* Called with what a document mentions and with what follows it there. */
+/* Called with what a document mentions and the text that follows it there. */
 typedef void mention_check(const char *document, const char *mentioned, const char *rest);
 
-/* Checks what the second group of a pattern matches in a text; the first is what stands before.
- */
+/* Checks what the second group of a pattern matches in a text; the first is the text before
+   it. */
 static void each_match(const char *document, const char *text, const char *pattern,
                        mention_check *check)
 {
@@ -163,7 +163,7 @@ static void each_match(const char *document, const char *text, const char *patte
     regfree(&compiled);
 }
 
-/* The same in every document, or only in its code. */
+/* The same for every document, or only for its code. */
 static void each_mention(const char *pattern, bool code_only, mention_check *check)
 {
     missing = 0;
@@ -228,7 +228,7 @@ TEST(links_of_documents_lead_somewhere)
     each_mention("(\\]\\()([^) ]+)\\)", false, check_link);
 }
 
-/* A word in capitals within a name stands for any. */
+/* A word in capitals within a name matches anything. */
 static void make_pattern(const char *name, char *pattern, size_t size)
 {
     size_t length = 0;
@@ -241,7 +241,7 @@ static void make_pattern(const char *name, char *pattern, size_t size)
     pattern[length] = '\0';
 }
 
-/* Of a file or a folder; a name without a folder may lie in any. */
+/* Of a file or a folder; a name without a folder may be in any. */
 static void check_file(const char *document, const char *name, const char *rest)
 {
     char file[600], folder[600], anywhere[640];
@@ -284,7 +284,7 @@ TEST(targets_of_make_that_documents_mention_exist)
     assert_int_equal(missing, 0);
 }
 
-/* The part of the help table about a command, up to the next; NULL: there is none. */
+/* The part of the help table about a command, up to the next one, or NULL. */
 static const char *help_of(const char *command)
 {
     char line[600];
@@ -302,7 +302,7 @@ static bool has_option(const char *command, const char *option)
     return found && (!next || found < next);
 }
 
-/* A command and the options that follow it in its line, up to a comment. */
+/* A command and the options after it in its line, up to a comment. */
 static void check_command(const char *document, const char *command, const char *rest)
 {
     char line[1024], *state = NULL;
@@ -322,9 +322,8 @@ TEST(commands_that_documents_mention_exist_and_have_their_options)
     each_mention("(\\<mote )([a-z][a-z-]*)", true, check_command);
 }
 
-/* Of any command, of all (--help, --plugin), of none (`mote --allow DIR COMMAND`), or of
- * Slurm's sbatch.
- */
+/* An option of any command, of all (--help, --plugin), of none (`mote --allow DIR COMMAND`), or
+   of Slurm's sbatch. */
 static void check_option(const char *document, const char *option, const char *rest)
 {
     static const char *const others[] = {"--allow",     "--help", "--plugin",
@@ -342,7 +341,7 @@ TEST(options_that_documents_mention_exist)
     each_mention("(^)(--[a-z][a-z-]*)", true, check_option);
 }
 
-/* What may declare a name: no document. */
+/* Whether a file may declare a name: documents may not. */
 static bool is_source(const char *name)
 {
     static const char *const ends[] = {".c", ".h", ".cpp", ".hpp", ".txt", ".cmake", ".json"};
@@ -372,7 +371,7 @@ static int read_sources(void)
     return size == 0;
 }
 
-/* A test, or a function that tests share. */
+/* A test, or a function shared by tests. */
 static void check_test(const char *document, const char *test, const char *rest)
 {
     char file[600], call[600];
@@ -407,7 +406,7 @@ TEST(names_of_the_code_that_documents_mention_exist)
     sources = NULL;
 }
 
-/* A line that may be of a comment: not what a program includes, and nothing in quotes. */
+/* A line that may belong to a comment: not an include line and nothing in quotes. */
 static void check_comment(const char *source, const char *line, const char *rest)
 {
     (void)rest;

@@ -23,7 +23,7 @@ static const rule rules[] = {
 };
 #define FOLDERS (sizeof rules / sizeof rules[0])
 
-/* The rooms of a folder, bottom up: each may include itself and those before it. */
+/* The rooms of a folder, from the bottom up: each may include itself and those before it. */
 typedef struct house {
     const char *folder;
     const char *rooms[16];
@@ -37,10 +37,10 @@ static const house houses[] = {
 };
 #define HOUSES (sizeof houses / sizeof houses[0])
 
-/* A folder with more files than this is too long to find one's way in. */
+/* In a folder with more files than this it is hard to find one's way. */
 #define FILES_MAX 40
 
-/* A library's headers and how the names of the only files begin that may include them. */
+/* A library's headers, and the prefixes of the only files that may include them. */
 typedef struct library {
     const char *begins; /* of the included name */
     const char *files[2];
@@ -62,8 +62,8 @@ static const library libraries[] = {
     {"assimp/", {"harness/mesh/mesh_assimp", "harness/mesh/character_"}},
 };
 
-/* An include line: both names are from the root; of another library: what stands in the line.
- */
+/* An include line. Both names are relative to the root; for another library: what stands in the
+   line. */
 typedef struct include {
     char file[400];
     char included[160];
@@ -101,7 +101,7 @@ static void read_includes(const char *file)
     (void)fclose(in);
 }
 
-/* Reads the sources below a folder; a folder of too many files is an error. */
+/* Reads the sources below a folder; too many files in one folder are an error. */
 static void read_folder(const char *folder)
 {
     char path[1024];
@@ -168,7 +168,7 @@ TEST(folders_include_only_what_they_may)
     }
 }
 
-/* The place of a file's room in its house, counted from below, or -1. */
+/* The position of a file's room in its house, counted from below, or -1. */
 static int floor_of(const house *h, const char *file)
 {
     if (!lies_in(file, h->folder))
@@ -196,7 +196,7 @@ TEST(rooms_include_only_rooms_below_them)
     }
 }
 
-/* A module is a header and its source: their common name without the ending. */
+/* A module is a header and its source: their common name without the suffix. */
 static size_t module_length(const char *file)
 {
     return (size_t)(strrchr(file, '.') - file);
@@ -210,7 +210,7 @@ static bool same_module(const char *a, const char *b)
 
 static bool visited[sizeof includes / sizeof includes[0]];
 
-/* Whether target's module is reached from a file's module by includes. */
+/* Whether includes lead from a file's module to target's module. */
 static bool reaches(const char *file, const char *target)
 {
     for (size_t i = 0; i < include_count; ++i) {

@@ -1,5 +1,6 @@
 #define _DEFAULT_SOURCE /* usleep */
-/* Tasks shared out to child processes: each once, so many at a time, until one fails. */
+/* Tasks distributed to child processes: each once, a given number at a time, until one
+   fails. */
 #include "harness/process/crew.h"
 
 #include "tests/support/test.h"
@@ -19,7 +20,7 @@ typedef struct job {
 typedef struct record {
     size_t started, ended, running, most;
     size_t said[TASKS]; /* by each task's child, plus 1 */
-    size_t skipped;     /* this task and those of its multiples are not started */
+    size_t skipped;     /* tasks whose number is a multiple of it are not started; 0: none */
     size_t failing;     /* finishing this task fails; TASKS: none */
     unsigned sleep_us;  /* of every child */
 } record;
@@ -91,7 +92,7 @@ TEST(mote_crew_run_goes_on_past_tasks_without_a_child)
     assert_int_equal(run(&none, 0, 2), MOTE_OK);
 }
 
-/* The first failure ends the others: nothing is begun after it. */
+/* The first failure ends the others: nothing starts after it. */
 TEST(mote_crew_run_stops_at_the_first_failure)
 {
     record r = {.failing = 4};

@@ -1,4 +1,4 @@
-/* What a run leaves behind when it is stopped, its parent killed, or the disk taken away. */
+/* The state of a run that was stopped, whose parent was killed, or whose disk was removed. */
 #define _GNU_SOURCE /* unshare */
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
@@ -30,7 +30,7 @@ static void pause_ms(long ms)
     (void)nanosleep(&pause, NULL);
 }
 
-/* A directory of its own, the truth shared by all. */
+/* Uses a directory of its own; all share the truth. */
 static int use_directory(const char *name)
 {
     char truth[160], link[96];
@@ -69,7 +69,7 @@ static int run(const char *what)
     return status;
 }
 
-/* The truth is there: from now on a run measures at once. */
+/* Computes the truth, so that from now on a run measures at once. */
 static int make_truth(void)
 {
     if (next_directory() != 0)
@@ -89,7 +89,7 @@ static void wait_for_cells(int count)
     }
 }
 
-/* Waits until a file of the directory is there. */
+/* Waits until a file of the directory exists. */
 static void wait_for_file(const char *name)
 {
     char path[96];
@@ -107,7 +107,7 @@ static void check(run_files *finished)
         fail_msg("%s: %s", directory, wrong);
 }
 
-/* A process's state ('Z': dead, not yet reaped) and parent; false when it is gone. */
+/* Gets a process's state ('Z': dead, not yet reaped) and parent; false if it is gone. */
 static bool look_at(long pid, char *process_state, long *parent)
 {
     char path[64], stat[512];
@@ -121,7 +121,7 @@ static bool look_at(long pid, char *process_state, long *parent)
     return true;
 }
 
-/* The process that measures, child of pid; 0 when there is none. */
+/* The measuring process, a child of pid; 0 if there is none. */
 static pid_t child_of(pid_t pid)
 {
     DIR *folder = opendir("/proc");
@@ -147,7 +147,7 @@ static bool is_dead(pid_t pid)
            process_state == 'X';
 }
 
-/* Stops a sweep in its middle; it must say so, keep what is finished and go on later. */
+/* Stops a sweep in its middle; it must say so, keep what is finished and be resumable. */
 static void stopped_by(int signal_number)
 {
     pid_t pid = start(SWEEP);
@@ -191,14 +191,14 @@ static pid_t wait_for_child(pid_t pid)
 TEST(child_of_a_killed_run_dies_with_it)
 {
     pid_t pid = start(SLOW);
-    wait_for_file("manifest.json"); /* git has answered what it asks: children measure now */
+    wait_for_file("manifest.json"); /* git has answered: children are measuring now */
     pid_t child = wait_for_child(pid);
     assert_true(child > 0);
     assert_false(is_dead(child));
     assert_int_equal(kill(pid, SIGKILL), 0);
     (void)waitpid(pid, NULL, 0);
     for (int tries = 0; tries < 3000 && !is_dead(child); ++tries)
-        pause_ms(10); /* a disk that is busy keeps the dead for seconds */
+        pause_ms(10); /* a busy disk can delay the end of a process by seconds */
     assert_true(is_dead(child));
 }
 

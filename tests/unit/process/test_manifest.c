@@ -1,4 +1,4 @@
-/* The manifest of a directory that was there before, whatever its file says. */
+/* The manifest of a directory that existed before, whatever its file contains. */
 #include "harness/process/manifest.h"
 
 #include "harness/base/file.h"
@@ -32,7 +32,7 @@ TEST(mote_manifest_write_adds_its_session_to_those_before)
         size_t sessions;
     } cases[] = {{NULL, 1},
                  {"{\"sessions\": [{\"seed\": 3}, {\"seed\": 4}]}\n", 3},
-                 {"{\"sessions\": {\"seed\": 3}}\n", 1}, /* not a list: begun anew */
+                 {"{\"sessions\": {\"seed\": 3}}\n", 1}, /* not a list: a new one begins */
                  {"{\"sessions\": \"two\"}\n", 1},
                  {"[1, 2]\n", 1},
                  {"{\"sessions\": [", 1}};

@@ -1,6 +1,6 @@
-/* Shared libraries with methods and fields, compiled against the headers as they are installed
-   (support/plugins/): what is sound works as if it were built in, and what is not is refused or
-   costs a cell. */
+/* Shared libraries with methods and fields, compiled against the installed headers
+   (support/plugins/). A sound one works as if it were built in; any other is refused or costs a
+   cell. */
 #include "core/base/plugin.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
@@ -55,7 +55,7 @@ TEST(methods_of_a_library_are_measured_as_those_built_in)
         assert_string_equal(json_string_value(json_object_get(row, "status")), "unsupported");
         json_decref(rows);
         mote_expect(0, "plugin-points", "summarize %s --plugin=%s", directory, sound[k]);
-        /* Its rows are read without it too. */
+        /* Its rows can be read without it. */
         mote_expect(0, "plugin-points", "summarize %s", directory);
     }
 }
@@ -101,8 +101,8 @@ TEST(a_method_that_crashes_hangs_or_leaves_costs_its_cell)
     }
 }
 
-/* Body 1 of tt is moved by 3 in z by the field, in a frame where it is 0 and one where it is 1:
-   the truth follows. */
+/* The field moves body 1 of tt by 3 in z times its weight, which is 0 in one frame and 1 in the
+   other: the truth follows. */
 TEST(a_field_of_a_library_deforms_a_body_of_a_scenario)
 {
     file_put(
@@ -128,7 +128,7 @@ TEST(a_field_of_a_library_deforms_a_body_of_a_scenario)
         distance[k] = strtod(line, NULL);
     }
     (void)pclose(cells);
-    /* Both letters fill -h <= z <= h: they intersect, and are then 3 L - 2 h apart. */
+    /* Both letters fill -h <= z <= h: they intersect at first, and are 3 L - 2 h apart then. */
     assert_true(distance[0] == 0);
     assert_true(distance[1] > 1);
 }

@@ -1,4 +1,4 @@
-/* The history as a page: what is in it, where its points lead, and what is refused. */
+/* The history as a page: its contents, the links of its points, and what is refused. */
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
@@ -93,7 +93,8 @@ TEST(points_lead_to_commits_and_reasons)
     file_put("perf-ab/a.json", race("2026-01-01", "slower", 1.1));
     assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);
     char *page = file_text("h.html");
-    /* One chart for both, however the keys stand; a row that only races have is another. */
+    /* One chart for both, whatever the order of keys; a row that only races have gets
+       another. */
     assert_int_equal(count_of(page, "<figure>"), 2);
     assert_int_equal(count_of(page, "<h2>ww/"), 2);
     assert_int_equal(count_of(page, "href=\"#reference-2\""), 1);
@@ -103,7 +104,7 @@ TEST(points_lead_to_commits_and_reasons)
     assert_int_equal(count_of(page, "class=\"point changed\""), 1);
     assert_int_equal(count_of(page, "class=\"point slower\""), 1);
     assert_int_equal(count_of(page, "ww/a:b=c,n=5/hot slower (1.1)"), 1);
-    /* What stands in files is text, and nothing is loaded. */
+    /* File contents appear as text, and nothing is loaded. */
     assert_int_equal(count_of(page, "<script"), 0);
     assert_int_equal(count_of(page, "<two>"), 0);
     assert_int_equal(count_of(page, "counts & more"), 0);
@@ -145,7 +146,7 @@ TEST(what_is_no_race_is_refused)
         mote_expect(4, rows[i].says, "history h.csv");
         assert_false(file_exists("h.html"));
     }
-    /* Rows that are none, or lack everything, are no reason to fail. */
+    /* Invalid or empty rows must not cause a failure. */
     file_put("perf-ab/bad.json",
              "{\"schema\": 1, \"date\": \"\", \"rows\": [5, {}, {\"name\": \"x\"}]}\n");
     assert_int_equal(mote_history_page("h.csv", "perf-ab", "h.html"), MOTE_OK);

@@ -7,15 +7,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The share of all sign patterns of 1 .. count for which the interval leaves out 0: what the
-   interval's alpha promises, by enumeration. */
+/* The share of all sign patterns of 1 .. count for which the interval excludes 0, by
+   enumeration: alpha is a bound on it. */
 static double misses_by_enumeration(size_t count, double alpha)
 {
     size_t misses = 0;
     const size_t patterns = (size_t)1 << count;
     for (size_t p = 0; p < patterns; ++p) {
         double values[16];
-        for (size_t i = 0; i < count; ++i) /* no two means of two are 0 but of opposite signs */
+        for (size_t i = 0; i < count; ++i) /* no mean of two is 0, except of opposite signs */
             values[i] = (p >> i & 1 ? 1 : -1) * (double)(i + 1) * (1 + 1e-6 * (double)(i * i));
         const mote_confidence interval = mote_paired_interval(values, count, alpha);
         misses += interval.low > 0 || interval.high < 0;
@@ -31,7 +31,7 @@ TEST(an_interval_misses_no_more_often_than_it_says)
             test_row("%zu values, alpha %g", count, alphas[k]);
             const double share = misses_by_enumeration(count, alphas[k]);
             assert_true(share <= alphas[k]);
-            /* And is not wider than it has to be: one step narrower would miss too often. */
+            /* The interval is not needlessly wide: one step narrower would miss too often. */
             if (count == 12)
                 assert_true(share > 0.5 * alphas[k]);
         }
@@ -53,7 +53,7 @@ TEST(the_fewest_values_that_give_an_interval)
     assert_true(isnan(mote_paired_centre(values, 0)));
 }
 
-/* Symmetric and heavy-tailed: Student's t with two degrees of freedom, nearly. */
+/* Symmetric and heavy-tailed: nearly Student's t with two degrees of freedom. */
 static double heavy(mote_random *random)
 {
     const double u = 2 * mote_random_unit(random) - 1;
@@ -72,8 +72,8 @@ TEST(an_outlier_moves_centre_and_interval_little)
     assert_true(interval.low < 0.02 && interval.high > 0.02 && interval.high < 0.06);
 }
 
-/* Times of one frame set over passes, with drift that both sides share, neighbours' bursts that
-   last several passes, and interruptions of single frames. */
+/* Times of one frame set over passes, with drift common to both sides, bursts of other
+   processes that last several passes, and interruptions of single frames. */
 #define PASSES 40
 #define FRAMES 50
 typedef struct series {
@@ -118,14 +118,14 @@ TEST(a_known_factor_is_found_through_drift_and_interruptions)
 
 TEST(a_frame_counts_with_its_share_of_the_total)
 {
-    /* Three frames of 1, 2 and 7: the last one takes half as long again. */
+    /* Three frames of 1, 2 and 7; the last one takes half as long again. */
     static const double a[] = {1, 2, 7, 1, 2, 7, 1, 2, 7};
     static const double b[] = {1, 2, 10.5, 1, 2, 10.5, 1, 2, 10.5};
     const mote_bout_times times = {a, b, 3, 3};
     assert_true(fabs(mote_bout_log_ratio(&times, NULL) - log(13.5 / 10)) < 1e-12);
 }
 
-/* A race as harness/race/race.c plays it, of one row: may it look four times? Returns the
+/* Plays a race of one row as harness/race/race.c does, with up to four looks. Returns the
    verdict of the last look. spread: of pairs of processes. */
 static mote_verdict simulate(mote_random *random, double change, double spread)
 {
@@ -147,7 +147,7 @@ static mote_verdict simulate(mote_random *random, double change, double spread)
     return verdict;
 }
 
-/* With 4,000 races the share is known within 0.3 % around 1 %. */
+/* With 4,000 races the share near 1 % is known to within 0.3 %. */
 TEST(looking_again_does_not_inflate_false_alarms)
 {
     static const double spreads[] = {0.002, 0.005, 0.01, 0.05};
@@ -179,7 +179,7 @@ TEST(verdicts)
         mote_verdict verdict;
     } rows[] = {
         {1.02, 1.012, 1.028, MOTE_VERDICT_SLOWER}, {1.02, 0.999, 1.041, MOTE_VERDICT_UNDECIDED},
-        {1.008, 1.001, 1.015, MOTE_VERDICT_SAME}, /* significant, and smaller than is called */
+        {1.008, 1.001, 1.015, MOTE_VERDICT_SAME}, /* significant, but below the threshold */
         {1.0, 0.985, 1.015, MOTE_VERDICT_SAME},    {1.0, 0.97, 1.03, MOTE_VERDICT_UNDECIDED},
         {0.95, 0.93, 0.97, MOTE_VERDICT_FASTER},   {1.5, 1.2, 1.9, MOTE_VERDICT_SLOWER},
         {1.0, NAN, NAN, MOTE_VERDICT_UNDECIDED},

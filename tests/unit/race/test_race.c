@@ -1,4 +1,4 @@
-/* mote race from outside: programs that are slower, wrong, of another format, or no racers. */
+/* mote race from outside: programs that are slower, wrong, of another format, or not racers. */
 #include "tests/support/command_lines.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
@@ -26,7 +26,7 @@ static void put_program(const char *name, const char *text)
     assert_int_equal(chmod(name, 0755), 0);
 }
 
-/* A racer with something planted: tests/studies/race_planted.c. */
+/* Writes a racer with something planted: tests/studies/race_planted.c. */
 static void put_planted(const char *name, const char *plant)
 {
     char text[1024];
@@ -49,7 +49,7 @@ static int put_files(void)
 
 TEST_EACH(put_files, NULL);
 
-/* Whether a process is a racer that runs in this folder. */
+/* Whether a process is a racer running in this folder. */
 static bool is_racer(const char *pid)
 {
     char path[300], words[512] = "", place[512] = "";
@@ -83,7 +83,7 @@ static void sleep_ms(long ms)
     (void)nanosleep(&moment, NULL);
 }
 
-/* Waits until that many racers run, 10 s at most. */
+/* Waits for that many running racers, 10 s at most. */
 static bool racers_become(int count)
 {
     for (int i = 0; i < 500 && racers() != count; ++i)
@@ -141,10 +141,10 @@ TEST(what_a_side_does_not_have_is_left_out)
 {
     put_planted("lacks", "lack:certified:0");
     put_planted("has", "slow:particle:0");
-    /* New in B, and so nothing to compare. */
+    /* The method is new in B, so there is nothing to compare. */
     mote_expect(0, "left out", "race lacks has " QUICK " --method particle:n=5");
     assert_non_null(strstr(said, "A: unknown method certified"));
-    /* Lost in B: nothing is known of it now. */
+    /* B lost the method, so nothing is known about it any more. */
     mote_expect(3, "B: unknown method certified",
                 "race has lacks " QUICK " --method particle:n=5");
 }
@@ -155,7 +155,7 @@ TEST(builds_in_a_folder_take_turns)
     put_planted("builds/one", "slow:certified:0");
     put_planted("builds/two", "slow:certified:0.9");
     file_put("builds/notes.txt", "no program");
-    /* A mixture of equal speed and of nearly twice as slow differs from pair to pair. */
+    /* A mixture of builds of equal and of nearly half the speed varies from pair to pair. */
     (void)mote("race builds/one builds " QUICK " --budget 3 --out race.json >/dev/null");
     char *json = file_text("race.json");
     const char *spread = strstr(json, "\"spread\":");
@@ -198,8 +198,8 @@ TEST(programs_that_cannot_race_are_refused)
     }
 }
 
-/* A race that would go on for a minute, ended by a signal while both racers run: its wait
-   status. */
+/* Starts a race that would last a minute and ends it by a signal while both racers run; returns
+   its wait status. */
 static int killed_race(int signal_number)
 {
     const pid_t pid = fork();
@@ -286,7 +286,7 @@ TEST(scenes_of_many_bodies_race_and_threads_do_not)
                 MOTE_PROGRAM);
 }
 
-/* What a child says to requests that mote race never makes. */
+/* A child's answers to requests that mote race never makes. */
 TEST(a_child_answers_odd_requests)
 {
     static const struct {

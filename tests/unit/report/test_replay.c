@@ -1,4 +1,4 @@
-/* The data of the page's replay, read back as the page reads it. */
+/* The data of the page's replay, as the page reads it. */
 #include "harness/engine/engine.h"
 #include "harness/report/replay.h"
 #include "harness/base/record.h"
@@ -22,7 +22,7 @@ enum { CERTIFIED, TRACKED, PAPER, PAPER_CHECKED, TRACKS };
 static const char *const labels[TRACKS] = {
     "certified", "particle:n=3", "particle-paper:n=3,refine=no", "particle-paper:n=3"};
 
-/* The place of a track among those of a scene. */
+/* The index of a track among those of a scene. */
 static size_t place_of(size_t track)
 {
     size_t i = 0;
@@ -84,7 +84,7 @@ static double number_of(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
-/* Whole numbers from their second differences; the caller frees them. */
+/* Restores integers from their second differences; the caller frees them. */
 static long *read_smooth(const json_t *array, size_t count, size_t columns)
 {
     assert_int_equal(json_array_size(array), count);
@@ -136,7 +136,7 @@ TEST(replay_json_holds_the_poses_and_weights_of_each_frame)
     json_decref(root);
 }
 
-/* Errors have six digits, and 0 stands for those below 1e-12. */
+/* Errors have six digits; those below 1e-12 are stored as 0. */
 TEST(replay_json_holds_the_stored_answers)
 {
     size_t shown;
@@ -164,8 +164,8 @@ TEST(replay_json_holds_the_stored_answers)
     json_decref(root);
 }
 
-/* A method's points, told relative to the truth's, are its distance apart, on a grid of 2^16
-   steps over the scene. */
+/* A method's points, stored relative to the truth's, are as far apart as its distance, on a
+   grid of 2^16 steps over the scene. */
 TEST(replay_json_pairs_are_their_distance_apart)
 {
     size_t shown;
@@ -198,13 +198,13 @@ TEST(replay_json_pairs_are_their_distance_apart)
     json_decref(root);
 }
 
-/* With and without the exact check the particles are the same: they are stored once. */
+/* The particles are the same with and without the exact check, and are stored once. */
 TEST(replay_json_particles_are_stored_once)
 {
     size_t shown;
     json_t *root = read_scenes(&shown);
     json_t *sets = json_object_get(first_scene(root), "particles");
-    assert_int_equal(json_object_size(sets), 2); /* the tracked ones are others */
+    assert_int_equal(json_object_size(sets), 2); /* the tracked ones differ */
     const json_t *tracks = json_object_get(first_scene(root), "tracks");
     const size_t a = place_of(PAPER), b = place_of(PAPER_CHECKED);
     const size_t first = a < b ? a : b;
@@ -219,7 +219,8 @@ TEST(replay_json_particles_are_stored_once)
     json_decref(root);
 }
 
-/* The replicate whose answers are worst is shown, so that its worst frame is that of all. */
+/* The page shows the replicate with the largest error, so its worst frame is the worst of
+   all. */
 TEST(replay_shows_the_replicate_with_the_largest_error)
 {
     mote_report several;
@@ -240,7 +241,7 @@ TEST(replay_shows_the_replicate_with_the_largest_error)
         if (&row->cells[r] == scene.tracks[0].cell)
             shown = largest[r];
     }
-    assert_true(differ); /* or the first would do */
+    assert_true(differ); /* otherwise the first would do */
     for (size_t r = 0; r < 6; ++r)
         assert_true(shown >= largest[r]);
     assert_near(shown, row->error.max, 1e-15);
@@ -248,8 +249,8 @@ TEST(replay_shows_the_replicate_with_the_largest_error)
     mote_report_free(&several);
 }
 
-/* A field that is no CSRBF has its functions at every vertex: of `stretch` the coordinates from
-   the middle of the box, over its diagonal. */
+/* A field other than CSRBF has its functions at every vertex: those of `stretch` are the
+   coordinates relative to the middle of the box, over its diagonal. */
 TEST(replay_of_a_field_of_another_kind_has_its_functions)
 {
     mote_report other;
@@ -337,7 +338,7 @@ static size_t notes_with(const json_t *data, const char *text)
     return count;
 }
 
-/* Down from all that there is: first particles, then tracks are left out, each named; then not
+/* From the full size down: first particles, then tracks are left out, each named, until not
    even the bodies fit. */
 TEST(replay_write_of_any_budget_names_all_that_is_left_out)
 {
@@ -370,7 +371,7 @@ TEST(replay_write_of_any_budget_names_all_that_is_left_out)
     mote_replay_free(&scene);
 }
 
-/* The minima that are followed, the nearest first: its vertices are of the answer's faces. */
+/* The tracked minima, the nearest first: its vertices belong to the answer's faces. */
 TEST(replay_particles_of_tracked_begin_with_the_pair)
 {
     mote_replay_scene scene;
@@ -407,7 +408,8 @@ TEST(replay_particles_of_other_answers_are_not_shown)
     mote_replay_free(&scene);
 }
 
-/* A file that was cut or changed since it was read gives empty places, and no more rows. */
+/* If a file was truncated or changed since it was read, missing values are empty and no rows
+   follow. */
 TEST(replay_read_cell_of_a_changed_file_gives_none)
 {
     static const char *const texts[] = {"", "frame,distance", "frame,distance\n",
@@ -432,7 +434,7 @@ TEST(replay_read_cell_of_a_changed_file_gives_none)
     assert_int_equal(unlink(path), 0);
 }
 
-/* A method that is not known here, more particles than a picture shows, and no rows. */
+/* An unknown method, more particles than a picture shows, and no rows. */
 TEST(replay_particles_of_odd_tracks_are_not_shown)
 {
     static const struct {
@@ -485,7 +487,7 @@ TEST(replay_particles_of_odd_tracks_are_not_shown)
     mote_replay_free(&scene);
 }
 
-/* Numbers of frames are read from a file: one after the scenario's end is of nothing there. */
+/* Frame numbers come from a file: one after the scenario's end has no data. */
 TEST(replay_load_of_a_frame_that_the_scenario_has_not_is_refused)
 {
     static const uint32_t numbers[] = {FRAMES + 1, 100000, UINT32_MAX};

@@ -1,5 +1,4 @@
-/* The skin that the page gets, evaluated from the page's numbers as plots/page/surface.js does.
- */
+/* The page's skin, evaluated from the page's numbers as plots/page/surface.js does. */
 #include "harness/report/replay_skin.h"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
@@ -10,7 +9,8 @@
 #define FIRST 20u
 #define LAST 25u
 
-/* A series of differences, `times` times, as numbers in steps; the caller frees them. */
+/* Sums a series of differences `times` times and converts steps to numbers; the caller frees
+   them. */
 static double *series(const json_t *object, const char *key, size_t columns, int times,
                       double step)
 {

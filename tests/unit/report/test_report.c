@@ -1,4 +1,4 @@
-/* The report of a run, and what it is written with. */
+/* The report of a run, and its building blocks. */
 #include "harness/base/escape.h"
 #include "harness/base/number_text.h"
 #include "harness/base/record.h"
@@ -16,8 +16,8 @@
 /* A name that ends a JavaScript string, a shell word, an attribute and an element. */
 #define EVIL "'; system(\"x\")<script>"
 
-/* Likewise in claims.json: it would end the element that it is embedded in, begin a comment,
-   and hold line ends of JavaScript that JSON has not. */
+/* The same for claims.json: text that would end the element in which it is embedded, begin a
+   comment, and contain line ends of JavaScript that JSON does not have. */
 #define EVIL_CLAIM "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\""
 #define EVIL_CLAIM_JSON "</script><!--<script>\xe2\x80\xa8\xc3\xbc \xf0\x9f\x99\x82 'x\\\""
 
@@ -29,14 +29,14 @@ static void read_page(const char *path)
     program_read(path, page, sizeof page);
 }
 
-/* A run of five frames of a scenario with that name, a figure, claims. */
+/* A run of five frames of a scenario named EVIL, with a figure and claims. */
 static int make_run(void)
 {
     static const char scenario[] =
         "{\"purpose\": \"p\", \"like\": \"mv\", \"frames\": 5, \"pace\": 149.75,\n"
         " \"warmup\": null, \"active\": null}\n";
     file_put(EVIL ".json", scenario);
-    /* The shell is to take the name as it is. */
+    /* The shell must pass the name unchanged. */
     if (mote("run \"'; system(\\\"x\\\")<script>.json\" --method particle-paper:n=2 --method "
              "certified --out run --frames 1-5") != 0 ||
         mote("figures run") != 0) {
@@ -85,7 +85,7 @@ static size_t count_of(const char *text)
     return count;
 }
 
-/* The names arrive as they are, and end no element: scripts are those of the page alone. */
+/* The names arrive unchanged and end no element: the only scripts are the page's own. */
 TEST(report_html_of_hostile_texts_holds_them_as_data)
 {
     json_t *data = read_data();
@@ -116,7 +116,7 @@ TEST(report_markdown_of_hostile_name_is_escaped)
     assert_non_null(strstr(page, "x &lt; y \\| z"));
 }
 
-/* Every cell and figure that the page links is there. */
+/* Every cell and figure to which the page links exists. */
 TEST(report_html_names_files_that_are_there)
 {
     size_t i, k;
@@ -145,7 +145,7 @@ TEST(report_html_names_files_that_are_there)
     json_decref(data);
 }
 
-/* The median of the page is the one that the CSV of the summary gives. */
+/* The page has the median of the summary's CSV. */
 TEST(report_html_has_the_numbers_of_the_summary)
 {
     mote_expect(0, "", "summarize run --format csv");
@@ -169,7 +169,7 @@ TEST(report_html_has_the_numbers_of_the_summary)
     json_decref(data);
 }
 
-/* The drawing in the page is the file's. */
+/* The drawing in the page is that of the file. */
 TEST(report_html_has_the_drawings_of_the_figures)
 {
     json_t *data = read_data();
@@ -184,7 +184,7 @@ TEST(report_html_has_the_drawings_of_the_figures)
     json_decref(data);
 }
 
-/* Sorted by time within a table, whatever the summary's order. */
+/* Rows of a table are sorted by time, whatever the summary's order. */
 TEST(report_rows_are_sorted_by_time)
 {
     size_t i;
@@ -208,7 +208,7 @@ TEST(report_rows_are_sorted_by_time)
     json_decref(data);
 }
 
-/* What other commands draw is one text, not a list. */
+/* Figures of other commands are one text, not a list. */
 TEST(report_names_other_commands_in_one_line)
 {
     json_t *data = read_data();
@@ -251,7 +251,7 @@ TEST(report_of_what_is_missing_names_it)
         assert_non_null(strstr(page, missing[i]));
 }
 
-/* Reports a folder with one file more, and reads the page of that name. */
+/* Reports a folder with an additional file and reads the page of that name. */
 static void report_with(const char *folder, const char *name, const char *content,
                         const char *page_name)
 {
@@ -282,7 +282,7 @@ TEST(report_markdown_of_a_hostile_manifest_is_escaped)
     assert_non_null(strstr(page, "1. mote '&lt;b&gt;' (&lt;script&gt; \\# x\\](y))\n"));
 }
 
-/* An end that was not finite is null in the file, and not 0 on the page. */
+/* A bound that was not finite is null in the file, and not 0 on the page. */
 TEST(report_of_an_interval_without_its_ends_shows_none)
 {
     static const char *const intervals[] = {"[null, null]", "[1, null]", "[\"1\", 2]", "[1]"};
@@ -352,7 +352,7 @@ TEST(escape_script_cannot_end_the_element)
     free(text.data);
 }
 
-/* The vectors of RFC 4648, and a text longer than a line of the writer. */
+/* The test vectors of RFC 4648, and a text longer than a line of the writer. */
 TEST(base64_of_the_standards_vectors_is_theirs)
 {
     static const char *const pairs[][2] = {{"f", "Zg=="},         {"fo", "Zm8="},

@@ -1,4 +1,4 @@
-/* Scenarios of several bodies: places, paths, what every engine says of them, bad input. */
+/* Scenarios of several bodies: positions, paths, the engines' answers, bad input. */
 #include "harness/run/subject.h"
 
 #include "harness/figure/figure.h"
@@ -20,7 +20,7 @@
 
 #define SHAPE "\"shapes\": [{\"letter\": \"T\", \"triangles\": 400}]"
 
-/* %s: what the scenario and what its bodies have more. */
+/* The %s are further keys of the scenario and of its bodies. */
 static const char form[] =
     "{\"purpose\": \"a test\", \"frames\": 40, \"ask\": \"distance\"%s,\n"
     " \"bodies\": {%s}}\n";
@@ -112,7 +112,7 @@ TEST(mote_bodies_frame_set_long_paths_stay_in_the_box)
                     mote_pose_apply(&frame.states[i].pose, shape->body.mesh->positions[v]);
                 assert_true(fabs(p.x) <= b->box.x + 1e-9 && fabs(p.z) <= b->box.z + 1e-9);
             }
-            /* No leap: at most the speed, less where a wall is met. */
+            /* No leap: a step is at most the speed, or less at a wall. */
             assert_true(f == 1 ||
                         mote_distance_squared(at, before[i]) <= 0.091 * b->length * b->length);
             before[i] = at;
@@ -122,7 +122,7 @@ TEST(mote_bodies_frame_set_long_paths_stay_in_the_box)
     mote_bodies_destroy(b);
 }
 
-/* Two bodies of one shape deform apart, and turn with their pose. */
+/* Two bodies of one shape deform differently, and turn with their poses. */
 TEST(mote_bodies_frame_set_each_body_has_its_own_weights)
 {
     mote_bodies *b = load("", "\"count\": 6, \"box\": 4, " SHAPES);
@@ -157,7 +157,7 @@ TEST(mote_bodies_load_same_seed_same_bits)
         mote_bodies_destroy(b[k]);
 }
 
-/* The answer for a pair of bodies, or NULL where it is not near for this engine. */
+/* The answer for a pair of bodies, or NULL if it is not near for this engine. */
 static const mote_answer *find(const mote_engine *engine, const uint32_t body[2])
 {
     size_t count;
@@ -169,7 +169,7 @@ static const mote_answer *find(const mote_engine *engine, const uint32_t body[2]
     return NULL;
 }
 
-/* Every pair within `near` is known to all engines, with one distance and one contact. */
+/* All engines must report every pair within `near`, with equal distance and contact. */
 static void check_agreement(const mote_bodies *b, mote_engine *const *engines, int count,
                             size_t *near, size_t *contacts)
 {
@@ -268,7 +268,7 @@ static char *whole_file(const char *pattern)
     return text;
 }
 
-/* The records of every pair and step, digit for digit. */
+/* Every pair and step has the same record, digit for digit. */
 TEST(mote_run_threads_and_frames_ahead_give_the_same_records)
 {
     static const char *const ways[] = {"certified",         "certified:threads=2",
@@ -324,7 +324,7 @@ TEST(mote_run_writes_a_row_a_frame_and_a_summary)
     free(text);
 }
 
-/* What works for two bodies works for many: going on, replicates, shards, jobs, comparing. */
+/* Features for two bodies work for many: resuming, replicates, shards, jobs, comparing. */
 TEST(mote_run_of_many_bodies_goes_the_road_of_two)
 {
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
@@ -350,7 +350,7 @@ TEST(mote_run_of_many_bodies_goes_the_road_of_two)
                 "--method certified --out until");
 }
 
-/* Two bodies and many in one run, each asked by what it has. */
+/* Two bodies and many in one run, each with the columns of its kind. */
 TEST(mote_run_two_bodies_beside_many)
 {
     write_file("", "\"count\": 12, \"near_pairs\": 2, \"speed\": 0.03, " SHAPES);
@@ -367,7 +367,7 @@ TEST(mote_run_two_bodies_beside_many)
                 "run tt --frames 1-4 --method certified:threads=2 --out keys");
 }
 
-/* Of pairs that are apart no row is kept where only contacts are asked for. */
+/* If only contacts are asked for, pairs that are apart get no row. */
 TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
 {
     static const char *const wishes[] = {"all", "contacts"};
@@ -396,7 +396,7 @@ TEST(mote_run_pairs_contacts_keeps_rows_of_contacts)
     assert_int_equal(contacts[1], contacts[0]);
 }
 
-/* What is refused: the bodies, a part of the message. */
+/* A scenario that is refused: further keys, the bodies, part of the message. */
 typedef struct refusal {
     const char *more, *bodies, *text;
 } refusal;
@@ -555,7 +555,7 @@ TEST(mote_figure_bodies_without_a_point_is_missing)
     free(figure.missing.data);
 }
 
-/* Rows of summary.json, one of them of a cell that failed, and one of two bodies. */
+/* Rows of summary.json, including one of a failed cell and one of two bodies. */
 static const char stored[] =
     "{\"schema\": 1, \"rows\": [{\"label\": \"certified\", \"status\": \"ok\", "
     "\"bodies\": 1000, \"near_pairs_wanted\": 0.1, \"active_total_ns\": {\"mean\": 2500000}, "

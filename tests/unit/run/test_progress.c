@@ -1,6 +1,5 @@
 #define _DEFAULT_SOURCE /* forkpty */
-/* What a person sees while a run goes on: one line that moves on a terminal, lines elsewhere.
- */
+/* What a person sees during a run: one moving line on a terminal, separate lines elsewhere. */
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
 #include "tests/support/program.h"
@@ -60,7 +59,7 @@ TEST(progress_in_a_file_is_a_line_a_cell)
     assert_int_equal(count("\r"), 0);
 }
 
-/* The pause is longer than the run. */
+/* The interval between lines is longer than the run. */
 TEST(progress_in_a_file_with_a_pause_is_a_line_after_each)
 {
     run_into_file("--progress 1000");
@@ -70,7 +69,7 @@ TEST(progress_in_a_file_with_a_pause_is_a_line_after_each)
     assert_true(count(": ok, ") == 4 && count("[0/4] tt ") >= 1);
 }
 
-/* Lines that move are cut to the terminal: one that is longer would not be taken back. */
+/* Moving lines are cut to the terminal's width, because a longer one could not be erased. */
 TEST(progress_on_a_terminal_is_one_line_that_moves)
 {
     static const char begin[] = "\r\033[K";
@@ -84,7 +83,7 @@ TEST(progress_on_a_terminal_is_one_line_that_moves)
     }
     assert_true(moved > 4);
     assert_int_equal(count("\r\033[K4 cells measured in "), 1);
-    assert_int_equal(count(" s left\r\n"), 0); /* none stays */
+    assert_int_equal(count(" s left\r\n"), 0); /* none remains */
 }
 
 /* The table of all columns is twice as wide as a terminal. */

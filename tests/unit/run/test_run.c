@@ -18,7 +18,7 @@
     "frame,deform_ns,update_ns,query_ns,distance,lower,truth,error,contact,contact_truth,"     \
     "ax,ay,az,bx,by,bz,steps,moves,positions,box_tests,triangle_tests,allocations"
 
-/* Each test's own folder shares the truth with all others: it is computed once. */
+/* Each test's folder shares the truth of all others, which is computed once. */
 static int next_directory(void)
 {
     char truth[160];
@@ -177,7 +177,7 @@ TEST(run_with_jobs_marks_times_as_not_comparable)
         assert_true(json_is_number(json_object_get(json_object_get(row, "error"), "max")));
     }
     json_decref(summary);
-    /* Measured one at a time, they are other cells. */
+    /* When measured one at a time, they are different cells. */
     assert_int_equal(run("mv --frames 3-12 --replicates 3 --stride 1 " TWO_METHODS), 0);
     assert_int_equal(count_cells(".json"), 12);
     summary = read_json("summary.json");
@@ -190,8 +190,8 @@ TEST(run_with_jobs_marks_times_as_not_comparable)
     json_decref(summary);
 }
 
-/* The widest interval of the summary, half of it as a share of the median, and the replicates.
- */
+/* Half of the widest interval of the summary as a share of the median, and the number of
+   replicates. */
 static double widest_interval(json_int_t *replicates)
 {
     json_t *summary = read_json("summary.json");
@@ -220,7 +220,7 @@ TEST(run_until_an_interval_is_narrow_adds_replicates)
     double widest = widest_interval(&replicates);
     assert_true(replicates >= 2 && widest <= 1);
     assert_non_null(strstr(said, "the widest interval is"));
-    /* Nothing is narrow enough: one more round or none, for a budget of 0. */
+    /* Nothing is narrow enough: one more round, or none if the budget is 0. */
     assert_int_equal(run(UNTIL "--until-ci 0.001% --budget 0"), 0);
     assert_non_null(strstr(said, "the budget ends"));
 }
@@ -295,13 +295,13 @@ TEST(run_killed_at_any_time_goes_on_without_loss)
     (void)snprintf(line, sizeof line, "run %s --out .", arguments);
     for (long k = 1; k <= 8; ++k) {
         pid_t pid = program_start(line, "said");
-        assert_true(pid > 0); /* kill would take -1 for every process */
+        assert_true(pid > 0); /* kill(-1) would mean every process */
         struct timespec pause = {0, k * 61000000};
         (void)nanosleep(&pause, NULL);
         (void)kill(pid, SIGKILL);
         (void)waitpid(pid, NULL, 0);
     }
-    /* A child of the last run lives on for as long as the kernel takes to end it. */
+    /* A child of the last run lives until the kernel has ended it. */
     struct timespec pause = {0, 200000000};
     (void)nanosleep(&pause, NULL);
     assert_int_equal(run(arguments), 0);
@@ -310,7 +310,7 @@ TEST(run_killed_at_any_time_goes_on_without_loss)
     assert_int_equal(count_cells(".part"), 0);
 }
 
-/* Puts the members of an object, written with ', into the only cell of the run. */
+/* Puts the members of an object, written with ' for ", into the only cell of the run. */
 static void change_cell(const char *members)
 {
     char path[512], plain[256], name[256];
@@ -327,7 +327,7 @@ static void change_cell(const char *members)
     assert_int_equal(mote_record_json(".", name, cell), MOTE_OK);
 }
 
-/* What a stored cell says of itself decides whether it is measured again. */
+/* A stored cell's own status and stride decide whether it is measured again. */
 TEST(run_of_a_changed_cell_goes_by_its_status_and_stride)
 {
     static const struct {
@@ -372,7 +372,7 @@ TEST(run_whose_lock_cannot_be_opened_says_so)
     assert_non_null(strstr(said, ".lock: Is a directory; name a directory that can be writ"));
 }
 
-/* Replicates are added to the reference whatever its interval, and to nothing that failed. */
+/* The reference gets replicates whatever its interval; failed cells get none. */
 TEST(run_until_an_interval_is_narrow_needs_cells_that_end)
 {
     assert_int_equal(
@@ -423,7 +423,7 @@ static mote_status refuse(void *made, const mote_frame *frame, mote_answer *answ
     return mote_fail(MOTE_ENUMERIC, "the reason");
 }
 
-/* Measures two frames of tt with a query of ours; returns how the cell ended. */
+/* Measures two frames of tt with a query of the test's own; returns how the cell ended. */
 static mote_cell_status measure(mote_status (*query)(void *, const mote_frame *, mote_answer *),
                                 char *reason, size_t size)
 {

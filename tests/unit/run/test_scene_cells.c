@@ -1,4 +1,4 @@
-/* Cells of more than two bodies: ends that were not good, budgets, names. */
+/* Cells of more than two bodies: failures, budgets, names. */
 #include "harness/run/cell_process.h"
 #include "harness/run/measure.h"
 #include "harness/run/plan.h"
@@ -35,7 +35,7 @@ static mote_cell cell_of(const mote_method_choice *choice)
     return cell;
 }
 
-/* What a cell's process leaves. */
+/* Checks how a cell's process ended. */
 static void expect_end(const char *method, double timeout, mote_cell_status status,
                        const char *reason)
 {
@@ -65,7 +65,7 @@ TEST(measure_cell_ends_that_are_not_good_are_results)
     expect_end("particle-paper:n=90000", 0, MOTE_CELL_CRASHED, "n=90000 is not");
     /* 40 frames of 60 bodies take longer than a microsecond. */
     expect_end("certified:ahead=1", 1e-6, MOTE_CELL_TIMEOUT, "ended after 1e-06 s");
-    /* The process dies of a mesh that is not there. */
+    /* The process crashes, because its mesh does not exist. */
     void (*const caught)(int) = signal(SIGSEGV, SIG_DFL);
     mote_body *body = &subject.bodies->shapes[0].body;
     const mote_mesh *mesh = body->mesh;
@@ -92,7 +92,7 @@ TEST(mote_plan_make_of_frames_beyond_the_last_is_refused)
     mote_choices_free(&choices);
 }
 
-/* A budget that is spent at once leaves the least number of frames. */
+/* A budget that is spent at once leaves the minimum number of frames. */
 TEST(mote_measure_cell_over_budget_asks_about_the_least_frames)
 {
     static const char *const methods[] = {"certified", "certified:ahead=2"};
@@ -114,7 +114,7 @@ TEST(mote_measure_cell_over_budget_asks_about_the_least_frames)
     }
 }
 
-/* Times of a frame add up, and the closest pair answers for all. */
+/* Times of a frame are summed over pairs, and the closest pair gives the answer. */
 TEST(mote_measure_cell_sums_up_the_near_pairs)
 {
     const mote_method_choice choice = choice_of("certified");
@@ -142,8 +142,8 @@ TEST(mote_measure_cell_sums_up_the_near_pairs)
     mote_cell_result_free(&result);
 }
 
-/* Names of files: what is not plain becomes a dash or underscore, and the hash tells choices
-   apart. */
+/* File names: other than plain characters become a dash or underscore, and the hash
+   distinguishes choices. */
 TEST(mote_cell_name_of_many_bodies_is_plain)
 {
     mote_bodies named = *subject.bodies;
@@ -166,7 +166,7 @@ TEST(mote_cell_name_of_many_bodies_is_plain)
     assert_string_not_equal(ids[0], ids[1]);
 }
 
-/* Another path, another deformation or another shape is another scene. */
+/* Another path, deformation or shape gives another fingerprint. */
 TEST(mote_bodies_fingerprint_tells_scenes_apart)
 {
     uint64_t before, after;

@@ -1,4 +1,4 @@
-/* Shards of a run, and runs merged. */
+/* Shards of a run, and merged runs. */
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
@@ -15,7 +15,7 @@
 #define SCENARIOS 3
 #define CELLS (SCENARIOS * CONFIGURATIONS * 2)
 
-/* Three scenarios of a few frames, so that the truth takes no time. */
+/* Three scenarios of a few frames, for which the truth takes no time. */
 static int put_scenarios(void)
 {
     for (int i = 0; i < SCENARIOS; ++i) {
@@ -45,13 +45,13 @@ static int clear_task(void)
 TEST_GROUP(put_scenarios, NULL);
 TEST_EACH(NULL, clear_task);
 
-/* mote run of all scenarios into a folder */
+/* Runs mote run for all scenarios into a folder. */
 static int run(const char *options, const char *name)
 {
     return mote("run scenario-[012].json %s " METHODS " --out %s", options, name);
 }
 
-/* A cell's file in a run; index from 0 in no order; NULL behind the last. */
+/* Reads a cell of a run; index counts from 0 in any order; NULL after the last. */
 static json_t *read_cell(const char *name, int index)
 {
     char path[512];
@@ -163,15 +163,15 @@ TEST(merge_of_shards_is_the_whole_run)
     }
     json_decref(whole);
     json_decref(merged);
-    json_t *manifest = NULL; /* a session each shard, though one was merged twice */
+    json_t *manifest = NULL; /* one session a shard, though one shard was merged twice */
     assert_int_equal(mote_record_read_json("merged", "manifest.json", &manifest), MOTE_OK);
     assert_int_equal(json_array_size(json_object_get(manifest, "sessions")), 2);
     json_decref(manifest);
     mote_expect(4, "", "merge merged no-such-run");
 }
 
-/* Rewrites the machine of those cells of a run whose replicate and method are these; method
-   "": of all. */
+/* Changes the machine in those cells of a run that have this replicate and method; method "":
+   any. */
 static void move_cells(const char *name, const char *method, int replicate, const char *machine)
 {
     char file[256];
@@ -187,7 +187,7 @@ static void move_cells(const char *name, const char *method, int replicate, cons
     }
 }
 
-/* Replicate 2 was measured elsewhere, and of it the reference on a third machine. */
+/* Replicate 2 was measured elsewhere, and its reference on a third machine. */
 TEST(merge_compares_only_within_one_machine)
 {
     assert_int_equal(run("--shard 3/3", "here"), 0);

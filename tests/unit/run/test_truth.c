@@ -54,7 +54,7 @@ TEST(mote_truth_compute_small_scenario_is_exact_where_known)
     assert_int_equal(mote_truth_compute(scenario, &truth), MOTE_OK);
     assert_int_equal(truth->frames, 30);
     assert_true(truth->checked >= 20);
-    /* Bodies on the same spot intersect; far apart ones have witnesses that far apart. */
+    /* Bodies in the same place intersect; distant ones have witnesses that far apart. */
     assert_true(truth->distance[29] == 0 && truth->contact[29]);
     assert_true(truth->distance[0] > 0.3 && !truth->contact[0]);
     const double apart = sqrt(mote_distance_squared(truth->witness_a[0], truth->witness_b[0]));
@@ -69,7 +69,7 @@ TEST(mote_truth_load_or_compute_twice_gives_the_same_bits)
     assert_int_equal(mote_truth_load_or_compute(scenario, ".", &first), MOTE_OK);
     char *path = truth_path(scenario);
     assert_int_equal(access(path, R_OK), 0);
-    /* It is the file that is read: without the right to write, nothing is computed anew. */
+    /* The file is really read: without permission to write, nothing is computed again. */
     assert_int_equal(mote_truth_read(scenario, first->fingerprint, path, &second), MOTE_OK);
     assert_int_equal(second->checked, first->checked);
     for (uint32_t k = 0; k < 30; ++k) {
@@ -85,14 +85,14 @@ TEST(mote_truth_load_or_compute_twice_gives_the_same_bits)
     mote_truth_destroy(second);
 }
 
-/* Triangles around the middle, and far from it two that make it the middle. */
+/* Triangles around the middle of the box, and two far ones that put it there. */
 #define FACES "f 1 2 3\nf 4 5 6\nf 7 8 9\n"
 #define CORNERS(out, in)                                                                       \
     "v " out " " out " " out "\nv " in " " out " " out "\nv " out " " in " " out "\n"          \
     "v -" out " -" out " -" out "\nv -" in " -" out " -" out "\nv -" out " -" in " -" out "\n"
 
-/* datasets/defects.md 11: corners that lie in a triangle of the other body, which FCL tells
-   apart. */
+/* datasets/defects.md 11: corners that lie in a triangle of the other body, for which FCL
+   reports a distance above 0. */
 TEST(mote_truth_compute_frame_that_fcl_gets_wrong_is_settled)
 {
     static const struct {
@@ -182,7 +182,7 @@ TEST(mote_truth_read_changed_or_cut_file_is_refused)
     free(path);
 }
 
-/* Writes a truth file of the scenario with a hash that is right, of these rows. */
+/* Writes a truth file of the scenario with these rows and a valid hash. */
 static void write_rows(const char *path, const char *first, const char *columns,
                        const char *rows)
 {
@@ -204,12 +204,12 @@ static void write_rows(const char *path, const char *first, const char *columns,
     ",1,,,,,,,\n25,1,,,,,,,\n26,1,,,,,,,\n27,1,,,,,,,\n28,1,,,,,,,\n29,1,,,,,,,\n30,1,,,,,,,"  \
     "\n"
 
-/* The hash withstands no forger: what it covers must be a truth, too. */
+/* The hash does not stop forgers: the rows must be a valid truth, too. */
 TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
 {
     const mote_scenario *scenario = small;
     static const struct {
-        const char *first, *columns, *rows; /* NULL: as it must be */
+        const char *first, *columns, *rows; /* NULL: valid */
         bool good;
     } cases[] = {
         {NULL, NULL, "1,0.5,1,2,3,4,5,6,0.25\n2,0,,,,,,,7\n" REST, true},
@@ -255,7 +255,8 @@ TEST(mote_truth_read_wrong_rows_with_a_right_hash_are_refused)
     free(path);
 }
 
-/* A name may hold what the first line is made of: its truth is computed once all the same. */
+/* A name may contain the separators of the first line: its truth is still computed once
+   only. */
 TEST(mote_truth_read_of_an_odd_name_reads_what_was_written)
 {
     static const char *const names[] = {"a#b", "a frames, 7", "a 100% checked,%s"};

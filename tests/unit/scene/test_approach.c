@@ -1,4 +1,4 @@
-/* Where an approach stops, against a closed form, and what it refuses. */
+/* The stopping point of an approach against a closed form, and what is refused. */
 #include "harness/scene/approach.h"
 
 #include "harness/base/file.h"
@@ -43,7 +43,7 @@ static int clean(void)
 
 TEST_GROUP(load, clean);
 
-/* Comes along x to an absolute distance. */
+/* Approaches along x to an absolute distance. */
 static mote_status come(double distance, mote_vec3 *place)
 {
     static const uint32_t frames[] = {1};

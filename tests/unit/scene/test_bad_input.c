@@ -1,5 +1,5 @@
 /* Bad input at the command line: an error within 5 seconds and 1 GiB, exit 4, one line that
-   names the file; and what is only unusual is read. */
+   names the file. Input that is merely unusual is read. */
 #include "harness/base/file.h"
 #include "harness/mesh/mesh_import.h"
 #include "tests/support/folder.h"
@@ -53,7 +53,7 @@
 #define GLTF_DATA                                                                              \
     "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAA"  \
     "AAAAAAAADNzMw9AAACAAEAAAABAAMAAAADAAIAAQACAAMA"
-/* The last index is 99 here. */
+/* The last vertex index is 99. */
 #define GLTF_DATA_99                                                                           \
     "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAA"  \
     "AAAAAAAADNzMw9AAACAAEAAAABAAMAAAADAAIAAQACAGMA"
@@ -64,7 +64,7 @@
 typedef struct input {
     const char *file, *text;
     int status;
-    const char *says; /* part of what is said */
+    const char *says; /* part of the output */
 } input;
 
 static const input inputs[] = {
@@ -169,7 +169,7 @@ static void expect(const char *line, int status, const char *says)
         fail_msg("mote %s: not one line:\n%s", line, said);
 }
 
-/* Scenarios are checked, meshes shown. */
+/* Scenarios are checked, meshes are shown. */
 static void expect_file(const char *file, int status, const char *says)
 {
     char line[256];
@@ -195,7 +195,7 @@ TEST(program_bad_files_exit_4_in_time_and_memory)
     }
 }
 
-/* A process whose environment asks for decimal commas reads points all the same. */
+/* A process whose locale has decimal commas still reads decimal points. */
 TEST(program_in_a_comma_locale_reads_points)
 {
     assert_int_equal(setenv("LC_ALL", "de_DE.UTF-8", 1), 0);
@@ -247,7 +247,7 @@ TEST(program_bad_binary_stl_exits_4)
     expect_file("b.stl", 4, "not finite");
 }
 
-/* Every prefix of a good file is read or refused, soon, with its name. */
+/* Every prefix of a good file is read or refused quickly, with an error that names it. */
 TEST(mote_mesh_import_truncated_anywhere_is_read_or_refused)
 {
     static const struct {

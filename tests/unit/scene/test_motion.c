@@ -52,7 +52,7 @@ TEST(mote_curve_evaluate_keys_are_met_exactly)
     mote_curve_destroy(curve);
 }
 
-/* A parabola's inner pieces are reproduced by tangents taken from parabolas. */
+/* Tangents taken from parabolas reproduce a parabola's inner pieces. */
 TEST(mote_curve_evaluate_parabola_is_reproduced)
 {
     static const uint32_t frames[] = {1, 3, 8, 10, 20};

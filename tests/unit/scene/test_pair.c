@@ -48,8 +48,8 @@ TEST(mote_scenario_load_pair_of_spider_and_teapot_touches_as_promised)
     check_pair("pair:" MESHES "spider.obj:" MESHES "teapot.obj");
 }
 
-/* What is hashed is computed in every build; the largest only where it is quick, or with
-   MOTE_FULL=1 in the environment: ww-10m takes two minutes and 9 GB. */
+/* Computed in every build, the largest only where it is quick or with MOTE_FULL=1 in the
+   environment: ww-10m takes two minutes and 9 GB. */
 #ifdef NDEBUG
 #define WORK_MAX 1.6e8
 #else

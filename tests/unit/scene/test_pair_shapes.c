@@ -1,4 +1,4 @@
-/* The default scenario of two meshes keeps its promise for the meshes that people have. */
+/* The default scenario of two meshes keeps its promise for typical meshes. */
 #include "harness/base/file.h"
 #include "harness/run/truth.h"
 #include "tests/support/folder.h"
@@ -16,7 +16,7 @@ static void box_text(double x, double y, double z, mote_text *text)
     mote_text_add(text, "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
 }
 
-/* A sphere of 12 by 12; only its southern half, open, where half is true. */
+/* A sphere of 12 by 12; if `half`, only its southern half, open. */
 static void sphere_text(double radius, bool half, mote_text *text)
 {
     const double pi = 3.14159265358979323846;
@@ -76,7 +76,7 @@ static void put(const char *name, mote_text *text)
     *text = (mote_text){0};
 }
 
-/* A "U": the middle of its box is in the air. */
+/* A "U": the middle of its box is outside. */
 static const double u[][2] = {{0, 0},     {3, 0},     {3, 3},   {2.8, 3},
                               {2.8, 0.2}, {0.2, 0.2}, {0.2, 3}, {0, 3}};
 
@@ -113,8 +113,7 @@ static int make_meshes(void)
 
 TEST_GROUP(make_meshes, NULL);
 
-/* Each frame of the scenario differs in the displacement of the controls from the one before.
- */
+/* The controls' displacements differ from frame to frame. */
 static void check_deformation(const mote_scenario *scenario)
 {
     mote_frame_buffer *buffer;
@@ -128,7 +127,7 @@ static void check_deformation(const mote_scenario *scenario)
 }
 
 /* 1,000 frames, the first contact between frames 100 and 200, contact in 10 to 20 % of frames,
-   then apart; the truth is from two methods that did not make the motion. */
+   apart at the end. The truth is from two methods that were not used to make the motion. */
 static void check_pair(const char *a, const char *b, const char *direction)
 {
     char name[256];
@@ -180,7 +179,7 @@ TEST(pair_of_very_different_sizes_touches_as_promised)
     check_pair("bowl", "mite", "");
 }
 
-/* Why no motion is sought for bodies of such sizes. */
+/* Checks why bodies of such sizes get no motion. */
 static void check_refused(const char *a, const char *b, const char *why)
 {
     char name[256];

@@ -79,7 +79,7 @@ static void write_sequences(void)
 {
     for (int k = 1; k <= FRAMES; ++k) {
         char name[32];
-        (void)snprintf(name, sizeof name, "o%d.obj", 8 + k); /* from 9 on: digits grow */
+        (void)snprintf(name, sizeof name, "o%d.obj", 8 + k); /* o9, o10: more digits */
         sheet_write_obj(name, k);
         (void)snprintf(name, sizeof name, "a%03d.ply", k);
         sheet_write_ply(name, k, SHEET_ASCII);
@@ -114,7 +114,7 @@ TEST(positions_of_every_format_give_the_distances_of_the_sheet)
         uint64_t fingerprint = 0;
         assert_int_equal(mote_scenario_fingerprint(s, &fingerprint), MOTE_OK);
         first = i == 0 ? fingerprint : first;
-        assert_true(fingerprint == first); /* the numbers are the same bits in all of them */
+        assert_true(fingerprint == first); /* all formats hold the same bits */
         check_frames(s, 1);
         mote_scenario_destroy(s);
     }
@@ -149,14 +149,15 @@ TEST(positions_follow_scale_and_motion)
         assert_true(fabs(p.y - sheet_at(v, 1, 3)) <= 1e-15 * length);
         assert_true(fabs(p.z + 2 * sheet_at(v, 0, 3)) <= 1e-15 * length);
     }
-    /* What changed is told: the pose stays, the shape only where another frame is shown. */
+    /* Changes are reported: the pose never changes, the shape only when another frame is
+       shown. */
     frame = mote_scenario_frame(s, buffer, 3, 3);
     assert_false(frame->body[0].shape_changed || frame->body[0].pose_changed);
     mote_frame_buffer_destroy(buffer);
     mote_scenario_destroy(s);
 }
 
-/* An unused vertex, and an edge of three faces: the mesh's vertices are not the file's. */
+/* An unused vertex and an edge of three faces: the mesh's vertices differ from the file's. */
 TEST(positions_find_the_vertices_that_the_mesh_kept)
 {
     for (int k = 1; k <= 2; ++k) {
@@ -171,7 +172,7 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
     write_scenario("\"positions\": \"n1.obj\"", "", 2);
     mote_scenario *s = load();
     const mote_mesh *mesh = s->body[0].mesh;
-    assert_true(mesh->vertex_count > 5); /* cut apart */
+    assert_true(mesh->vertex_count > 5); /* split */
     mote_frame_buffer *buffer = mote_frame_buffer_create(s);
     for (uint32_t k = 1; k <= 2; ++k) {
         const mote_frame *frame = mote_scenario_frame(s, buffer, k, 0);
@@ -182,7 +183,7 @@ TEST(positions_find_the_vertices_that_the_mesh_kept)
     mote_scenario_destroy(s);
 }
 
-/* What a child process reads is not what its parent reads. */
+/* Reads the frames backwards in a child process, which must not affect its parent's reads. */
 static mote_status read_backwards(void *context, int output)
 {
     mote_frame_buffer *buffer = ((void **)context)[1];

@@ -1,9 +1,9 @@
-/* Sample poses of a scenario's bodies show the shapes that its frames do. */
+/* Sample poses of a scenario's bodies have the shapes of its frames. */
 #include "harness/scene/sample_poses.h"
 #include "tests/support/test.h"
 
-/* The farthest that a vertex of the sample is from its place in the frame, once the pose is
-   undone. */
+/* The largest distance of a vertex of the sample from its place in the frame, after undoing the
+   pose. */
 static double apart(const mote_body *body, uint32_t sample, const mote_body_state *state)
 {
     double most = 0;
@@ -35,7 +35,7 @@ TEST(samples_are_shapes_of_frames_evenly_over_the_scenario)
             assert_true(apart(&body[b], 1 + k, &frame->body[b]) < 1e-13 * scenario->length);
             moved += apart(&body[b], 0, &frame->body[b]);
         }
-        assert_true(moved > 0.01 * scenario->length); /* the shape at rest is another */
+        assert_true(moved > 0.01 * scenario->length); /* the rest shape differs */
     }
     /* A body that has samples keeps them. */
     const mote_weights own = body[1].samples[0];

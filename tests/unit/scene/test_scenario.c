@@ -39,7 +39,7 @@ static const char good_text[] =
     "  ]\n"
     "}\n";
 
-/* good_text with the first `from` replaced. */
+/* Writes good_text with the first `from` replaced. */
 static void write_changed(const char *from, const char *to)
 {
     const char *at = strstr(good_text, from);
@@ -116,7 +116,7 @@ TEST(mote_scenario_frame_changes_are_told_against_the_previous)
     assert_true(frame->body[1].shape_changed && frame->body[1].pose_changed);
     frame = mote_scenario_frame(s, buffer, 30, 25);
     assert_true(frame->body[0].shape_changed && frame->body[0].pose_changed);
-    /* Body 1 is rigid, and rests from frame 20 on. */
+    /* Body 1 is rigid, and does not move from frame 20 on. */
     assert_false(frame->body[1].shape_changed || frame->body[1].pose_changed);
     frame = mote_scenario_frame(s, buffer, 12, 11);
     assert_false(frame->body[1].shape_changed);
@@ -127,7 +127,8 @@ TEST(mote_scenario_frame_changes_are_told_against_the_previous)
     mote_scenario_destroy(s);
 }
 
-/* 60 degrees in 39 frames, eased in by the curve: the same from two frames' matrices. */
+/* 60 degrees in 39 frames, starting slowly along the curve: the same as from two frames'
+   matrices. */
 TEST(mote_scenario_velocity_absent_follows_from_frames_1_and_2)
 {
     mote_scenario *s = load_good();
@@ -153,7 +154,7 @@ TEST(mote_scenario_velocity_absent_follows_from_frames_1_and_2)
     mote_scenario_destroy(s);
 }
 
-/* An FNV-1a of our own, over bytes written out. */
+/* An independent FNV-1a over explicit bytes. */
 TEST(mote_scenario_fingerprint_matches_a_hash_of_written_bytes)
 {
     mote_scenario *s = load_good();
@@ -182,11 +183,11 @@ TEST(mote_scenario_fingerprint_matches_a_hash_of_written_bytes)
 
 typedef struct bad_case {
     const char *from, *to; /* change of good_text */
-    const char *place;     /* what the message begins with, after the file's name */
+    const char *place;     /* start of the message, after the file's name */
     const char *what;      /* part of it */
 } bad_case;
 
-/* A field of body 1, in line 15, whose displacement is so. */
+/* A field of body 1, in line 15, with this displacement. */
 #define FIELD(displacement)                                                                    \
     "\"triangles\": 500",                                                                      \
         "\"triangles\": 500, \"field\": {\"centres\": [[0, 0, 0], [0.2, 0, 0]], \"support\": " \
@@ -239,7 +240,7 @@ static const bad_case bad_cases[] = {
     {POSE("\"frame\": 20, \"speed\": 1"), ":17: bodies[1].motion[1].speed: ", "unknown key"},
     {"\"motion\": [{\"frame\": 1, \"position\": [2, 0, 0]}", "\"motion\": [3",
      ":16: bodies[1].motion[0]: ", "not an object"},
-    /* Short steps beside a long one: the curve swings through the origin. */
+    /* Short steps beside a long one: the curve overshoots through the origin. */
     {"\"degrees\": 0}",
      "\"degrees\": 90}, " TURN("2", "0")
          TURN("12", "180") "{\"frame\": 13, \"axis\": [0, 0, 1], \"degrees\": 90}",
@@ -320,7 +321,7 @@ TEST(mote_scenario_load_bad_file_names_line_and_path)
     }
 }
 
-/* Every prefix of a valid file is refused, none crashes. */
+/* Every prefix of a valid file is refused without a crash. */
 TEST(mote_scenario_load_truncated_anywhere_is_refused)
 {
     for (size_t size = 0; size + 2 < sizeof good_text; ++size) {
@@ -382,9 +383,8 @@ static void write_like(const char *text)
     file_put("like.json", text);
 }
 
-/* Frame k of the one is frame 1 + 3 (k - 1) + 4 of the other; the second body's path is its
- * own.
- */
+/* Frame k of one is frame 1 + 3 (k - 1) + 4 of the other; the second body has a path of its
+   own. */
 TEST(mote_scenario_load_like_takes_what_it_does_not_name)
 {
     mote_scenario *base = load_good();
@@ -429,7 +429,7 @@ TEST(mote_scenario_load_like_in_a_circle_or_missing_is_refused)
     assert_null(scenario);
 }
 
-/* One of ours, and one in a folder below. */
+/* One in our folder, and one in a folder below. */
 TEST(mote_scenario_load_like_one_elsewhere_finds_its_meshes)
 {
     mote_scenario *like;
@@ -450,7 +450,7 @@ TEST(mote_scenario_load_like_one_elsewhere_finds_its_meshes)
     mote_scenario_destroy(like);
 }
 
-/* What is named replaces what the other one says, whatever that was. */
+/* A key given here replaces the other scenario's, whatever that was. */
 TEST(mote_scenario_load_like_with_what_does_not_fit_is_refused)
 {
     static const struct {
@@ -492,7 +492,7 @@ TEST(mote_scenario_load_missing_mesh_file_is_refused)
     assert_null(scenario);
 }
 
-/* The paper's scenarios are what the paper says. */
+/* The paper's scenarios have the sizes stated in the paper. */
 TEST(mote_scenario_load_paper_scenarios_have_the_paper_s_sizes)
 {
     static const struct {

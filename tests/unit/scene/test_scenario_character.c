@@ -24,8 +24,8 @@ static mote_scenario *load(const char *bodies)
     return scenario;
 }
 
-/* Where the bar's end, from the middle of the bar's end face, points in a frame: the angle that
-   the second bone has turned by. */
+/* The angle by which the second bone has turned in a frame, from the middles of the bar's end
+   faces. */
 static double bent(const mote_scenario *s, mote_frame_buffer *buffer, uint32_t frame)
 {
     const mote_frame *f = mote_scenario_frame(s, buffer, frame, 0);
@@ -60,7 +60,7 @@ static void check_bends(const char *more, const double wanted[3])
     mote_scenario_destroy(s);
 }
 
-/* The clip turns by 90 degrees in its second, and 60 frames are a second. */
+/* The clip turns by 90 degrees in one second, which is 60 frames. */
 TEST(mote_scenario_character_plays_its_clip)
 {
     check_bends("", (const double[]){0, 45, 0});
@@ -72,7 +72,7 @@ TEST(mote_scenario_character_plays_its_clip)
     check_bends(", \"scale\": 3, \"subdivide\": 0", (const double[]){0, 45, 0});
 }
 
-/* What a method is told: a clip that is still changes no shape. */
+/* A clip that does not move is reported to methods as no change of shape. */
 TEST(mote_scenario_character_tells_what_changes)
 {
     mote_scenario *s = load("[" BAR("") ", " BAR(", \"clip\": \"Still\"") "]");
@@ -85,7 +85,7 @@ TEST(mote_scenario_character_tells_what_changes)
     mote_scenario_destroy(s);
 }
 
-/* The area is the same, and so is the surface: midpoints are on it. */
+/* The area and the surface are the same: midpoints are on it. */
 TEST(mote_scenario_character_subdivided_has_four_times_the_triangles)
 {
     mote_scenario *s = load("[" BAR(", \"subdivide\": 2") ", " BAR("") "]");
@@ -149,8 +149,8 @@ TEST(mote_scenario_character_errors_say_what_and_where)
     }
 }
 
-/* A crowd of bars, each with a time of its own: poses differ, and the weights are those of the
-   clip. */
+/* A crowd of bars, each with a clip time of its own: poses differ, and the weights are those of
+   the clip. */
 TEST(mote_bodies_play_clips_at_times_of_their_own)
 {
     mote_bodies *bodies = NULL;
@@ -175,8 +175,8 @@ TEST(mote_bodies_play_clips_at_times_of_their_own)
     mote_bodies_destroy(bodies);
 }
 
-/* "like" finds the character from the other file's folder; a scenario that is written elsewhere
-   takes a copy along. */
+/* "like" finds the character from the other file's folder; writing a scenario elsewhere copies
+   the character, too. */
 TEST(mote_scenario_character_is_found_from_elsewhere)
 {
     uint64_t there = 0, here = 1, moved = 2;

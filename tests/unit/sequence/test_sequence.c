@@ -1,4 +1,4 @@
-/* Files of a sequence that are damaged, changed or strange; and long ones. */
+/* Damaged, changed and unusual files of a sequence, and long ones. */
 #include "harness/sequence/frame_file.h"
 #include "harness/sequence/point_cache.h"
 #include "harness/sequence/sequence_reader.h"
@@ -12,7 +12,7 @@
 
 TEST_EACH(folder_next, NULL);
 
-/* Opens what is there of a sequence and reads all of it; what went wrong first. */
+/* Opens a sequence and reads all of it; returns the first error. */
 static mote_status read_all(const char *path, const char *mesh_path, uint32_t frames)
 {
     mote_sequence *sequence = NULL;
@@ -44,7 +44,7 @@ static void expect(mote_status status, const char *says, const char *path, const
                  mote_error_text());
 }
 
-/* The file with `from` replaced once. */
+/* Replaces `from` once in a file. */
 static void replace(const char *path, const char *from, const char *to)
 {
     char *text = file_text(path), *at = strstr(text, from);
@@ -105,7 +105,7 @@ TEST(sequence_names_the_frame_and_what_is_wrong_with_it)
         expect(MOTE_OK, "", first, NULL, 4);
         replace(name, rows[i].from, rows[i].to);
         expect(MOTE_EINVAL, rows[i].says, first, NULL, 4);
-        expect(MOTE_OK, "", first, NULL, 2); /* what comes before is fine */
+        expect(MOTE_OK, "", first, NULL, 2); /* the frames before it are good */
     }
 }
 
@@ -119,7 +119,7 @@ TEST(sequence_goes_on_after_a_frame_that_could_not_be_read)
     assert_int_equal(mote_sequence_open_files("f1.obj", 4, &sequence, &mesh, &import), MOTE_OK);
     mote_sequence_reader *reader = mote_sequence_reader_create(sequence);
     assert_int_equal(mote_sequence_read(reader, 1, at), MOTE_OK);
-    assert_int_equal(folder_remove("f2.obj"), 0); /* after it was there */
+    assert_int_equal(folder_remove("f2.obj"), 0); /* it existed when the sequence was opened */
     assert_int_equal(mote_sequence_read(reader, 2, at), MOTE_EIO);
     assert_non_null(strstr(mote_error_text(), "frame 2: f2.obj: "));
     assert_int_equal(mote_sequence_read(reader, 3, at), MOTE_OK);
@@ -129,7 +129,7 @@ TEST(sequence_goes_on_after_a_frame_that_could_not_be_read)
     mote_mesh_destroy(mesh);
 }
 
-/* Every number that an OBJ may have, as strtod reads it. */
+/* Every form of number allowed in OBJ, read as strtod reads it. */
 TEST(sequence_reads_numbers_as_strtod_does)
 {
     static const char *const numbers[] = {"0",
@@ -174,7 +174,7 @@ TEST(sequence_reads_numbers_as_strtod_does)
     }
 }
 
-/* The number that a header has at a place. */
+/* Sets a number in a header. */
 static void set_word(const char *path, size_t place, uint32_t value, bool big)
 {
     FILE *file = fopen(path, "r+b");
@@ -252,7 +252,7 @@ TEST(point_cache_that_is_cut_short_or_not_finite_names_the_frame)
     expect(MOTE_EINVAL, "frame 3: c.mdd: vertex 5 is at (nan", "c.mdd", "m.obj", 5);
     set_word("c.mdd", 8 + 20 + 2 * FRAME_BYTES + 12 * 4, 0xff800000, true);
     expect(MOTE_EINVAL, "frame 3: c.mdd: vertex 5 is at (-inf", "c.mdd", "m.obj", 5);
-    /* Cut after it was opened. */
+    /* Truncated after it was opened. */
     mote_sequence *sequence;
     mote_mesh *mesh;
     mote_import import;
@@ -277,7 +277,7 @@ static long resident_kb(int who)
     return usage.ru_maxrss;
 }
 
-/* As large a file as a quick test can write: 30 MB. */
+/* The largest file that a quick test can write: 30 MB. */
 #define LONG_FRAMES 10000
 #define LONG_VERTICES 250
 

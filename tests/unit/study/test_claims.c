@@ -1,4 +1,4 @@
-/* Claims: verdicts follow from figures and thresholds; what the experiments stand on. */
+/* Claims: verdicts follow from figures and thresholds; the foundations of the experiments. */
 #include "harness/study/claims.h"
 
 #include "harness/figure/figure.h"
@@ -107,7 +107,7 @@ TEST(estimate_of_ratios_is_their_geometric_mean)
     assert_true(fabs(e.interval.low * e.interval.high - 16) < 1e-9 && e.interval.low > 0);
 }
 
-/* A small variant of a scene, and queries that allocate nothing once they are warm. */
+/* A small variant of a scene; its queries allocate nothing once warm. */
 TEST(queries_from_frame_50_on_allocate_nothing)
 {
     mote_study study;
@@ -132,7 +132,7 @@ TEST(queries_from_frame_50_on_allocate_nothing)
     mote_study_close(&study);
 }
 
-/* The claims table of a file that is not quite what mote writes: nothing is made up. */
+/* The claims table of a file that mote would not write: nothing is invented. */
 TEST(figure_of_odd_claims_shows_what_is_there)
 {
     static const struct {
@@ -182,7 +182,7 @@ TEST(figure_of_odd_claims_shows_what_is_there)
     }
 }
 
-/* Figures of studies that were not made say what makes them. */
+/* Figures of missing studies name the command that makes them. */
 TEST(figures_without_a_study_name_what_measures_it)
 {
     const mote_figure_run run = {"/tmp/no/such/run", NULL, NULL};
@@ -210,7 +210,7 @@ TEST(figure_of_extremes_is_their_data)
     assert_string_equal(figure.data.data, "1 2\n");
     free(figure.data.data);
     free(figure.caption.data);
-    /* What is there and cannot be read is an error. */
+    /* A file that exists and cannot be read is an error. */
     assert_int_equal(unlink(path) || mkdir(path, 0777), 0);
     figure = (mote_figure){{0}, {0}, {0}};
     assert_int_equal(mote_figure_extremes(&run, NULL, &figure), MOTE_EINVAL);

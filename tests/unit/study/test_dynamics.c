@@ -1,5 +1,4 @@
-/* The study of the closed loop: its rows, its approaches, and that it goes on where it stopped.
- */
+/* The study of the closed loop: its rows, its approaches, and resuming it. */
 #include "harness/study/dynamics.h"
 
 #include "harness/base/file.h"
@@ -109,7 +108,7 @@ TEST(approaches_json_comes_back)
     json_t *object = mote_approaches_json(&sum);
     assert_true(mote_approaches_read(object, &again));
     assert_memory_equal(&sum, &again, sizeof sum);
-    /* None of its keys may be missing or a text; a figure may be whole. */
+    /* No key may be missing or a text; a whole number is allowed. */
     const char *key;
     json_t *value;
     json_object_foreach(object, key, value)
@@ -128,7 +127,7 @@ TEST(approaches_json_comes_back)
     mote_scenario_destroy(scenario);
 }
 
-/* A row that is stored and was damaged: no share may be more than all, no count negative. */
+/* A stored row that was damaged: no share may exceed 1, no count be negative. */
 TEST(approaches_read_of_impossible_counts_is_false)
 {
     static const struct {
@@ -156,7 +155,7 @@ TEST(approaches_read_of_impossible_counts_is_false)
     }
 }
 
-/* Rows without an approach: nothing is a share, and nothing is drawn of them. */
+/* Rows without an approach have no shares and are not drawn. */
 TEST(row_without_approaches_has_no_share)
 {
     const mote_dynamics_row row = {.scene = "tt", .method = "certified", .wanted = 3};
@@ -176,7 +175,7 @@ TEST(row_without_approaches_has_no_share)
     mote_claim_free(&claim);
 }
 
-/* Drawn are rows of the law as printed that came to a contact; the claim counts those of the
+/* The figure shows rows of the printed law with a contact; the claim counts those of the
    paper's scenes. */
 TEST(figure_and_claim_take_rows_of_the_printed_law)
 {
@@ -209,7 +208,7 @@ TEST(figure_and_claim_take_rows_of_the_printed_law)
     mote_claim_free(&claim);
 }
 
-/* Bodies of two motes each seldom meet: the approaches end, and are said to be too few. */
+/* Bodies of two particles each seldom meet: the approaches end, and are reported as too few. */
 TEST(approaches_that_seldom_come_to_a_contact_end)
 {
     static const char motes[] =
@@ -290,7 +289,7 @@ static void run_study(void)
     mote_expect(0, "", LINE);
 }
 
-/* Rows that are there are taken; one of another build, and one that is damaged, are not. */
+/* Existing rows are reused, except one of another build and a damaged one. */
 TEST(command_dynamics_goes_on_where_it_stopped)
 {
     char *row;
@@ -319,7 +318,7 @@ TEST(command_dynamics_goes_on_where_it_stopped)
     assert_null(strstr(second + 1, "dynamics: tt,"));
 }
 
-/* With --keep rows of other builds stay, and tell what sources they are of. */
+/* With --keep rows of other builds stay, and name their sources. */
 TEST(command_dynamics_keeps_rows_of_other_builds_when_asked)
 {
     static const char changed[] = "0123456789abcdef0123456789abcdef01234567";
@@ -328,7 +327,7 @@ TEST(command_dynamics_keeps_rows_of_other_builds_when_asked)
     assert_non_null(program);
     assert_non_null(commit);
     program[12] = program[12] == '0' ? '1' : '0';
-    commit += strlen("\"commit\": \""); /* nothing follows where git does not answer */
+    commit += strlen("\"commit\": \""); /* empty if git does not answer */
     char *other =
         mote_format("%.*s%s%s", (int)(commit - row), row, changed, strchr(commit, '"'));
     file_put(ROW, other);

@@ -1,5 +1,6 @@
 /* The study of numerical extremes: its truth against formulas, its verdicts against answers
-   that are right or wrong by construction, and our methods where they were wrong before. */
+   that are right or wrong by construction, and our methods in cases that they once got
+   wrong. */
 #include "harness/study/extreme.h"
 #include "tests/support/test.h"
 
@@ -58,7 +59,7 @@ TEST(mote_extreme_measure_of_cubes_is_their_gap)
     mote_extreme_free(&e);
 }
 
-/* The gaps that the plain scene asks for, and the same in another unit of length. */
+/* The gaps that the plain scene asks for, also in another unit of length. */
 TEST(mote_extreme_measure_of_plain_scene_is_its_gaps_at_any_scale)
 {
     static const double gaps[] = {0.2, 0.02, 5e-4};
@@ -106,7 +107,7 @@ TEST(mote_extreme_families_have_labels_of_their_own)
 }
 
 typedef struct judged {
-    double factor, add; /* the answer: truth times factor, and add * L */
+    double factor, add; /* the answer is truth times factor plus add * L */
     bool exact, hulls;
     mote_extreme_verdict verdict;
 } judged;
@@ -187,7 +188,7 @@ TEST(mote_extreme_judge_of_bounds_points_and_contacts)
     mote_extreme_free(&e);
 }
 
-/* Every number of an answer is looked at, each by itself. */
+/* Every number of an answer is checked separately. */
 TEST(mote_extreme_judge_of_what_is_not_finite_says_so)
 {
     mote_extreme e;
@@ -199,7 +200,7 @@ TEST(mote_extreme_judge_of_what_is_not_finite_says_so)
                                    &said.answer.witness[1].x, &said.answer.witness[1].y,
                                    &said.answer.witness[1].z};
         *numbers[k] = k % 2 ? (double)NAN : -HUGE_VAL;
-        expect(&e, 0, &said, MOTE_EXTREME_RIGHT); /* it is not part of the answer */
+        expect(&e, 0, &said, MOTE_EXTREME_RIGHT); /* not part of the answer */
         said.answer.has_lower = k == 0;
         said.answer.has_witness = k > 0;
         expect(&e, 0, &said, MOTE_EXTREME_NAN);
@@ -207,8 +208,8 @@ TEST(mote_extreme_judge_of_what_is_not_finite_says_so)
     mote_extreme_free(&e);
 }
 
-/* What is excused: hulls off the surface, 32 bits their rounding, contacts nearer than that,
-   and no contact where the distance is too large anyway. */
+/* Excused are hulls off the surface, the rounding of 32 bits, contacts nearer than that, and a
+   missing contact where the distance is too large anyway. */
 TEST(mote_extreme_judge_excuses_what_a_method_declares)
 {
     mote_extreme e;
@@ -234,7 +235,7 @@ TEST(mote_extreme_judge_excuses_what_a_method_declares)
     e.truth[0] = 1e-13 * e.length;
     expect(&e, 0, &near, MOTE_EXTREME_INEXACT);
     e.truth[0] = truth;
-    /* The distance of who was asked for a contact is not judged. */
+    /* If only a contact was asked for, the distance is not judged. */
     near.answer.contact = false;
     near.answer.has_distance = true;
     near.answer.distance = 7 * truth;
@@ -265,7 +266,7 @@ TEST(mote_extreme_run_of_what_cannot_be_asked_says_why)
     mote_extreme_free(&e);
 }
 
-/* The process of a method dies of weights that are not there; the study goes on. */
+/* The method's process crashes on missing weights; the study continues. */
 TEST(mote_extreme_run_of_a_method_that_dies_is_crashed)
 {
     mote_extreme e;
@@ -290,7 +291,7 @@ static void expect_verdict(const mote_extreme *e, const char *method,
         fail_msg("%s: %s: %s", method, mote_extreme_verdicts[cell.verdict], cell.reason);
 }
 
-/* Closest points that are rounded to a millionth of L are no basis for the distance. */
+/* Closest points rounded to a millionth of L must not determine the distance. */
 TEST(methods_of_ours_far_from_the_origin_are_right)
 {
     static const char *const methods[] = {"certified", "aabb-tree", "brute-force",
@@ -301,7 +302,7 @@ TEST(methods_of_ours_far_from_the_origin_are_right)
         make("offset", powers[i], true, &e);
         for (size_t m = 0; m < sizeof methods / sizeof methods[0]; ++m)
             expect_verdict(&e, methods[m], MOTE_EXTREME_RIGHT);
-        if (mote_method_find("embree-contact")) /* left out where its library is missing */
+        if (mote_method_find("embree-contact")) /* skipped if its library is missing */
             expect_verdict(&e, "embree-contact", MOTE_EXTREME_RIGHT);
         mote_extreme_free(&e);
     }

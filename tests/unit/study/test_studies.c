@@ -1,5 +1,5 @@
-/* The studies with planted measurements: their verdicts, tables and files follow from what was
-   measured, and whatever fails beneath them is handed up with its text. */
+/* The studies with planted measurements: verdicts, tables and files follow from the
+   measurements, and any failure of a call is passed on with its text. */
 #include "harness/study/claims.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
@@ -139,8 +139,8 @@ static void hand_up(size_t k, long n, long all)
                  mote_status_text(status), mote_error_text());
 }
 
-/* The n-th call beneath an experiment fails: for the first ones, the last ones, and some
-   between (there are thousands of the same kind). */
+/* The n-th call made by an experiment fails: the first ones, the last ones, and some in between
+   (there are thousands of the same kind). */
 TEST(claims_hand_up_what_fails_beneath)
 {
     for (size_t k = 0; k < EXPERIMENTS; ++k) {
@@ -237,9 +237,9 @@ TEST(dynamics_are_measured_once_and_met_where_exact_methods_let_nothing_pass)
     const long simulated = planted.simulated;
     assert_true(simulated > 10);
     assert_true(dynamics_met(false));
-    assert_int_equal(planted.simulated, simulated); /* not again */
+    assert_int_equal(planted.simulated, simulated); /* not simulated again */
     planted.others_pass = true;
-    assert_true(dynamics_met(true)); /* the rows that are there */
+    assert_true(dynamics_met(true)); /* from the existing rows */
     char rows[96];
     (void)snprintf(rows, sizeof rows, "%s/rows", base);
     assert_int_equal(folder_remove(rows), 0);
@@ -292,11 +292,11 @@ static const char *profile_of(const char *name)
     return full ? "full" : "quick";
 }
 
-/* Every way of not being met is told apart in what is written. */
+/* The output distinguishes all unmet requirements. */
 TEST(bodies_say_which_requirement_is_not_met)
 {
     plant_good();
-    planted.bodies_failed = true; /* and there is no gain to tell */
+    planted.bodies_failed = true; /* and there is no gain to report */
     assert_false(bodies_met());
     assert_int_equal(size_of("bodies.json", "gains"), 0);
     assert_true(text_has("bodies.csv", ",,,,,,,,,,,,,,,,,,,crashed\n"));
@@ -312,7 +312,8 @@ TEST(bodies_say_which_requirement_is_not_met)
     assert_string_equal(profile_of("bodies.json"), "quick");
 }
 
-/* The exit code says whether the requirements are met, the profile what was measured. */
+/* The exit code tells whether the requirements are met; the profile contains the
+   measurements. */
 TEST(commands_of_studies_exit_as_the_requirements_are_met)
 {
     char name[] = "study", out[] = "--out", quick[] = "--quick";

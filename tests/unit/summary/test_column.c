@@ -1,4 +1,4 @@
-/* The list of columns against what is made from it: the schema and the document in the
+/* The list of columns against everything made from it: the schema and the document in the
    repository, a run's summary.json and CSV. */
 #include "harness/base/data.h"
 #include "harness/summary/column_docs.h"
@@ -79,8 +79,8 @@ TEST(views_are_sorted_by_place)
     }
 }
 
-/* Every column stands in every row of summary.json, but for those that may be left out, with
-   the number that the CSV has, too. */
+/* Every row of summary.json has every column, apart from optional ones, with the same number as
+   the CSV. */
 TEST(rows_hold_the_values_of_their_columns)
 {
     assert_int_equal(summary.count, 2);
@@ -107,7 +107,8 @@ TEST(rows_hold_the_values_of_their_columns)
     assert_null(mote_column_find(NULL, "max"));
 }
 
-/* What a row says is all in summary.json: read back, it says it again, to the last bit. */
+/* summary.json holds everything of a row: written again after reading, it is the same to the
+   last bit. */
 TEST(rows_that_are_read_are_written_alike)
 {
     mote_summary read;
@@ -126,7 +127,7 @@ TEST(rows_that_are_read_are_written_alike)
     mote_summary_free(&read);
 }
 
-/* Nothing is known of a row that says nothing, nor of what is of another type. */
+/* A missing member, or one of another type, has no value. */
 TEST(rows_that_lack_a_column_have_no_value_there)
 {
     static const char *const files[] = {
@@ -149,7 +150,7 @@ TEST(rows_that_lack_a_column_have_no_value_there)
     }
 }
 
-/* The number of fields of a line of a CSV; quotes inside fields are doubled. */
+/* The number of fields in a line of a CSV; quotes inside fields are doubled. */
 static size_t count_fields(const char *line)
 {
     size_t fields = 1;
@@ -175,7 +176,7 @@ TEST(csv_has_a_field_a_column_whatever_names_hold)
     free(text.data);
 }
 
-/* Leaves what should be there in /tmp, and says so. */
+/* Writes the expected text to /tmp and reports the path. */
 static void differs(const char *file, const char *expected)
 {
     char path[512];
@@ -209,7 +210,7 @@ TEST(document_holds_the_table_of_the_columns)
     free(expected.data);
 }
 
-/* What a page needs to draw a table from rows alone. */
+/* The data that a page needs to draw a table from rows alone. */
 TEST(columns_as_data_say_where_a_value_is_and_how_it_is_shown)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {

@@ -1,4 +1,4 @@
-/* Comparisons of summaries that the test writes itself; what lies beside them is in
+/* Comparisons of summaries that the test writes itself; other files of a run are compared in
    test_compare_beside.c. */
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
@@ -76,7 +76,8 @@ TEST(compare_with_more_bytes_errors_or_misses_is_worse)
     mote_comparison_free(&c);
 }
 
-/* A significant change that such runs cannot tell from noise four times in five is none. */
+/* A significant change is not reported if such runs could not tell it from noise four times in
+   five. */
 TEST(compare_below_the_smallest_change_is_undecided)
 {
     figures slow = usual;
@@ -95,7 +96,7 @@ TEST(compare_below_the_smallest_change_is_undecided)
     mote_comparison_free(&c);
 }
 
-/* Where cells ran at the same time nothing is said of times. */
+/* Times of cells that ran at the same time are not compared. */
 TEST(compare_of_times_measured_with_jobs_is_refused)
 {
     figures slow = usual;
@@ -214,7 +215,7 @@ TEST(compare_of_changed_rows_says_what_is_worse_better_or_unknown)
     }
 }
 
-/* Gives a run the rows of another one, too, with other frames; they are put first. */
+/* Adds the rows of another run with other frames to a run, before its own. */
 static void add_row(const char *directory, const char *members)
 {
     json_t *summary = NULL;
@@ -238,7 +239,7 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
     write_beside("old", "one", 1000);
     write_beside("new", "one", 1100);
     expect("", 1, "WORSE : instructions 1000 to 1100 (+10 %)");
-    /* Rows of instructions that are of nothing that is compared, or know nothing. */
+    /* Rows of instructions that match nothing compared, or contain nothing. */
     static const char *const members[] = {"{'scenario': 'tt'}", "{'method': 'certified'}",
                                           "{'parameters': {'n': 6}}", "{'per_frame': null}"};
     for (size_t i = 0; i < ROWS_OF(members); ++i) {
@@ -250,7 +251,7 @@ TEST(compare_of_rows_without_a_partner_is_undecided)
     remove_beside();
 }
 
-/* A run of before a parameter was added had its default. */
+/* A run from before a parameter was added had the default. */
 TEST(compare_of_rows_with_a_parameter_that_is_new_finds_the_default)
 {
     static const struct {
@@ -272,11 +273,11 @@ TEST(compare_of_rows_with_a_parameter_that_is_new_finds_the_default)
         change_row("new", "summary.json", members);
         const char *text = cases[i].status ? "no configuration in common" : "same or better";
         expect("", cases[i].status, text);
-        mote_expect(cases[i].status, text, "compare new old"); /* the other way about */
+        mote_expect(cases[i].status, text, "compare new old"); /* in the opposite order */
     }
 }
 
-/* Of one configuration on three machines, that of the same machine is compared, or else the
+/* Of one configuration on three machines, the row of the same machine is compared, or else the
    first. */
 TEST(compare_prefers_the_row_of_the_same_machine)
 {
@@ -291,7 +292,7 @@ TEST(compare_prefers_the_row_of_the_same_machine)
     expect("", 1, "missed 2 to 6");
 }
 
-/* Two rows of the base with one partner: no row of the new run is without one. */
+/* Two rows of the base match one row of the new run, which therefore has a partner. */
 TEST(compare_of_several_machines_with_one_counts_rows_without_a_partner)
 {
     write_run("old", &usual, 1);
@@ -303,7 +304,7 @@ TEST(compare_of_several_machines_with_one_counts_rows_without_a_partner)
     expect("", 0, "without a partner: 0 rows of BASE, 1 of NEW\n");
 }
 
-/* On another machine only ratios are compared; a floor that is wider still stays. */
+/* On another machine only ratios are compared; a wider noise floor still applies. */
 TEST(compare_on_another_machine_without_ratios_knows_no_time)
 {
     write_run("old", &usual, 1);
@@ -320,7 +321,7 @@ TEST(compare_on_another_machine_without_ratios_knows_no_time)
     remove_beside();
 }
 
-/* One row that is worse is enough. */
+/* One worse row is enough. */
 TEST(compare_of_two_rows_is_worse_when_the_first_is)
 {
     write_run("old", &usual, 1);

@@ -1,5 +1,5 @@
-/* Comparisons with what lies beside a summary: instructions, and a manifest that tells the
-   processor and the compiler. */
+/* Comparisons with other files of a run: instructions, and a manifest that names the processor
+   and the compiler. */
 #include "harness/summary/summary_json.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/two_runs.h"
@@ -78,7 +78,7 @@ TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
     put("new", "manifest.json",
         json_pack("{s:s, s:s}", "processor", "one", "compiler", "Clang 14"));
     expect("", 0, "instructions (another processor or compiler) 1000 to 1100");
-    /* What is not known does not differ. */
+    /* Unknown values do not differ. */
     assert_int_equal(unlink("new/manifest.json"), 0);
     expect("", 1, "WORSE : instructions 1000 to 1100");
     assert_int_equal(unlink("new/instructions.json"), 0);
@@ -87,7 +87,8 @@ TEST(compare_of_another_compiler_or_without_a_manifest_judges_no_instructions)
     remove_beside();
 }
 
-/* What only one run has counted, or over other frames, is not compared, and not passed over. */
+/* A count that only one run has, or over other frames, is not compared, and this is
+   reported. */
 TEST(compare_of_instructions_of_other_frames_is_undecided)
 {
     static const struct {
@@ -112,7 +113,7 @@ TEST(compare_of_instructions_of_other_frames_is_undecided)
     remove_beside();
 }
 
-/* What is there and damaged is not taken for what is not there: nothing would be compared. */
+/* A damaged file is not treated as a missing one: nothing would be compared. */
 TEST(compare_of_damaged_files_beside_the_summary_is_bad_input)
 {
     static const char *const names[] = {"instructions.json", "manifest.json"};
@@ -144,7 +145,7 @@ TEST(compare_of_summaries_by_name_is_that_of_their_runs)
     remove_beside();
 }
 
-/* A summary.json that was written before the cells were measured again says what was. */
+/* A summary.json from before the cells were measured again is out of date. */
 TEST(compare_reads_the_cells_and_not_a_stale_summary)
 {
     static const char rows[] = "1,0,0,5,0.5,0,0,0,7\n2,0,0,6,0.5,0,0,0,7\n";
@@ -166,7 +167,7 @@ TEST(compare_reads_the_cells_and_not_a_stale_summary)
         assert_non_null(strstr(c.changes[0].what.data, "max 0 to 0.25"));
         mote_comparison_free(&c);
     }
-    /* A file by another name is a summary of its own. */
+    /* Under another name the file is a summary of its own. */
     assert_int_equal(rename("stale/summary.json", "stale/kept.json"), 0);
     mote_comparison c;
     assert_int_equal(mote_compare("stale/kept.json", "stale", 0.02, &c), MOTE_OK);

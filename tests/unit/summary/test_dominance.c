@@ -1,5 +1,5 @@
-/* Which rows dominate others, which are on the front, and what is compared with what: runs that
-   the test writes itself. */
+/* Which rows dominate others, which are on the front, and what is compared with what, in runs
+   that the test writes itself. */
 #include "harness/summary/dominance.h"
 #include "harness/summary/front.h"
 #include "harness/summary/table.h"
@@ -21,11 +21,11 @@ TEST_EACH(folder_next, free_summary);
 
 #define FRAMES 200
 
-/* What a method's answers are like over FRAMES frames, of which the first 100 are contacts. */
+/* A method's answers over FRAMES frames, of which the first 100 are contacts. */
 typedef struct answers {
     double deform_ns, query_ns;
     double error;      /* of the frames that are not exact */
-    int inexact;       /* how many these are */
+    int inexact;       /* the number of these */
     int missed, wrong; /* contacts missed, and false ones */
 } answers;
 
@@ -45,7 +45,7 @@ static void write_answers(stored_cell cell, answers a)
     stored_cell_put(".", cell);
 }
 
-/* Three replicates that differ by 1 % in time. */
+/* Writes three replicates that differ by 1 % in time. */
 static void write_row(stored_cell cell, answers a)
 {
     const double query_ns = a.query_ns;
@@ -75,7 +75,7 @@ static const mote_summary_row *row_of(const char *method, bool given)
     return NULL;
 }
 
-/* A row that is faster and worse in a single figure, the others being equal. */
+/* A row that is faster and worse in one figure only. */
 TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
 {
     static const struct {
@@ -110,7 +110,7 @@ TEST(a_row_that_is_worse_in_one_figure_dominates_nothing)
     }
 }
 
-/* A scene that asks for contacts only: some methods give a distance beside, others none. */
+/* A scene that asks for contacts only: some methods also give a distance, others none. */
 TEST(distances_do_not_count_where_contacts_are_asked_for)
 {
     static const char contact[] = ", \"ask\": \"contact\", \"tolerance\": 0.0";
@@ -149,7 +149,7 @@ TEST(speed_at_exact_is_of_rows_exact_in_every_frame)
     mote_fronts_free(&fronts);
 }
 
-/* FCL needs 200 ns and 800 ns for deformation; with positions given it needs 250. */
+/* FCL needs 200 ns and, for deformation, 800 ns; with positions given it needs 250. */
 TEST(rows_with_positions_given_are_compared_without_deformation)
 {
     static const char given[] = "{\"positions\": \"given\"}";
@@ -163,7 +163,7 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
                 fabs(ours->ratio_best.value - 10) < 1e-9);
     assert_true(fabs(charged->ratio.value - 1002.0 / 120.2) < 0.1);
     assert_true(fabs(charged->ratio_given.value - 10) < 1e-9);
-    /* Faster than all, and exact; yet it dominates only its like. */
+    /* Fastest of all and exact, yet it dominates only rows of its kind. */
     assert_true(charged->on_front && ours->on_front);
     mote_fronts fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < fronts.count; ++i) {
@@ -176,7 +176,7 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
               (answers){.query_ns = 250});
     make_summary();
     ours = row_of("ours", true);
-    /* Below the table stands what the ratios of either accounting are taken to. */
+    /* The lines below the table name the reference of the ratios for either accounting. */
     char *table = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&table, &size);
@@ -193,8 +193,8 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
     assert_true(row_of("ours", false)->ratio.to == row_of("fcl-aabb", false));
 }
 
-/* In three processes of five the fewer particles happen to be exact, in all together they are
-   not: the interval is of those that are, and the estimate lies within it. */
+/* In three of five processes the smaller number of particles happens to be exact, in all five
+   it is not: the interval is that of exact configurations, and contains the estimate. */
 TEST(interval_of_a_speed_lies_on_both_sides_of_it)
 {
     static const double noise[] = {1, 1.03, 0.98, 1.01, 0.99, 1.02, 1.005, 0.97, 1.015, 0.995};
@@ -231,7 +231,7 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
     }
 }
 
-/* What is 1 whatever was measured has no interval; every other figure lies inside its own. */
+/* A ratio to itself is always 1 and has no interval; every other figure lies inside its own. */
 TEST(intervals_lie_around_their_figures_and_a_ratio_to_itself_has_none)
 {
     write_row((stored_cell){.method = "fcl-aabb"}, (answers){.query_ns = 1000});
@@ -259,8 +259,8 @@ TEST(intervals_lie_around_their_figures_and_a_ratio_to_itself_has_none)
     mote_fronts_free(&fronts);
 }
 
-/* One row a method and accounting: the fastest that is good enough, or else the one with the
-   fewest wrong contacts, then the smallest error. */
+/* One row a method and accounting: the fastest one that is good enough, or else the one with
+   the fewest wrong contacts, then the smallest error. */
 TEST(the_row_that_stands_for_a_method_is_its_fastest_good_one)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* What mote summarize writes for other tools; more of it in tests/scripts/exports.py. */
+/* What mote summarize writes for other tools; tests/scripts/exports.py tests more. */
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
 #include "tests/support/test.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Two rows of three replicates, and one of a method that knows no distance. */
+/* Two rows of three replicates, and one of a method without distances. */
 static int make_run(void)
 {
     file_put("few.json", "{\"purpose\": \"a test\", \"like\": \"mv\", \"frames\": 5,"
@@ -79,7 +79,7 @@ TEST(trackers_get_the_median_of_each_row_with_figures)
     json_decref(bencher);
 }
 
-/* Fields of a line, commas in quotes apart. */
+/* Counts the fields of a line; commas in quotes do not separate. */
 static int count_fields(const char *line, size_t length)
 {
     int fields = 1;
@@ -109,7 +109,7 @@ TEST(csv_leaves_empty_what_there_is_not)
     assert_int_equal(lines, 4);
 }
 
-/* The last of the tests: it adds a run of fewer frames. */
+/* Must be the last test: it adds a run of fewer frames. */
 TEST(names_tell_rows_of_other_frames_apart)
 {
     mote_expect(0, "", "run few.json --replicates 3 --frames 1-3 --method certified --out run");

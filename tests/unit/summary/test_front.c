@@ -1,4 +1,4 @@
-/* Fronts of time against error: known answers, and a run that the test writes itself. */
+/* Fronts of time against error: known results, and a run that the test writes itself. */
 #include "harness/summary/front.h"
 #include "harness/summary/summary_json.h"
 #include "harness/base/record.h"
@@ -39,14 +39,14 @@ TEST(front_time_of_an_exact_point_is_not_interpolated)
 
 TEST(front_time_leaves_out_points_that_are_dominated)
 {
-    /* The second is slower and worse than the first; the third is the next on the front. */
+    /* The second is slower and worse than the first; the third is next on the front. */
     const double times[] = {100, 200, 50}, errors[] = {1e-4, 1e-3, 1e-2};
     near(mote_front_time(times, errors, 3, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
 }
 
 TEST(front_time_of_points_in_any_order_takes_the_next)
 {
-    /* Worse ones last and slower ones between: from 100 at 1e-4 to 50 at 1e-2. */
+    /* With a worse one last and slower ones between: from 100 at 1e-4 to 50 at 1e-2. */
     const double times[] = {100, 10, 50, 500}, errors[] = {1e-4, 1e-1, 1e-2, 1e-2};
     near(mote_front_time(times, errors, 4, 1e-3), 100 * pow(0.5, 0.5), 1e-12);
     const double turned[] = {100, 50, 10}, wrong[] = {1e-4, 1e-2, 1e-1};
@@ -94,14 +94,14 @@ TEST(process_interval_of_many_processes_is_near_the_normal_one)
     for (size_t i = 0; i < 100; ++i)
         values[i] = exp((double)i / 100);
     mote_confidence interval = mote_statistics_process_interval(first_of, values, 100, 1);
-    /* Mean 0.495, deviation 0.2887 / sqrt(100) of the mean: 1.96 of them to each side. */
+    /* Mean 0.495, standard error 0.2887 / sqrt(100): 1.96 of them to each side. */
     assert_true(fabs(log(interval.low) - (0.495 - 1.96 * 0.02887)) < 0.01);
     assert_true(fabs(log(interval.high) - (0.495 + 1.96 * 0.02887)) < 0.01);
 }
 
 static const char *scenario = "s";
 
-/* A cell of 20 frames that all take `ns` and are wrong by `error`. */
+/* Writes a cell of 20 frames that all take `ns` and are off by `error`. */
 static void write_cell(const char *method, const char *label, double n, int replicate,
                        double ns, double error)
 {
@@ -170,7 +170,7 @@ TEST(fronts_of_a_run_say_how_much_faster_at_each_error)
     near(ours->speed[3].faster, 100, 1e-3);
     near(ours->speed[4].faster, 100, 1e-3);
     assert_true(ours->speed[3].interval.low <= 100.1 && ours->speed[3].interval.high >= 99.9);
-    /* FCL's best is FCL AABB; OBB is half as fast. */
+    /* FCL's best is FCL AABB; OBB has half the speed. */
     near(find_front(&fronts, "fcl-aabb")->speed[0].faster, 1, 1e-9);
     near(find_front(&fronts, "fcl-obb")->speed[0].faster, 0.5, 1e-3);
     assert_true(isnan(find_front(&fronts, "other")->speed[3].faster));
@@ -205,7 +205,7 @@ TEST(fronts_of_a_run_say_who_dominates_whom)
     assert_int_equal(lines, 1 + 4 * MOTE_FRONT_LEVELS);
 }
 
-/* The parameters of a method that this build does not have stand in its label as JSON. */
+/* Parameters of a method that this build lacks appear in its label as JSON. */
 TEST(fronts_of_odd_names_are_fields_of_their_csv)
 {
     static const char *const names[] = {"fronts.csv", "speed.csv"};

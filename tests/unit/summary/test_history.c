@@ -1,4 +1,4 @@
-/* The history of accepted references: what is added to it, drawn of it, and refused. */
+/* The history of accepted references: what is added, drawn and refused. */
 #include "tests/support/folder.h"
 #include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
@@ -8,7 +8,7 @@
 
 #include <sys/stat.h>
 
-/* A gnuplot that draws nothing: what is drawn from is looked at. */
+/* A gnuplot that draws nothing: the test reads the data. */
 #define GNUPLOT "#!/bin/sh\nfor f in $8; do echo drawn > \"$5.$f\"; done\n"
 
 static int make_gnuplot(void)
@@ -51,7 +51,7 @@ TEST(history_of_what_is_none_is_refused_by_line)
     mote_expect(4, "/no/such/history.csv: No such file", "history /no/such/history.csv");
 }
 
-/* What a file holds, until the next one is read. */
+/* A file's contents, valid until the next call. */
 static const char *read_data(const char *name)
 {
     static char *text;
@@ -74,7 +74,7 @@ TEST(history_marks_what_moves_more_than_usual)
     file_put("h.csv", lines);
     mote_expect(0, "h.svg", "history h.csv");
     assert_string_equal(read_data("h.dat"), data);
-    /* A name without .csv, shorter than it, and no date. */
+    /* A name shorter than ".csv" and without it, and no date. */
     static const char undated[] = HEADER ",c,w,r,100,,,,,,\n";
     file_put("h", undated);
     mote_expect(0, "h.svg", "history %s/h", folder_path());
@@ -83,7 +83,7 @@ TEST(history_marks_what_moves_more_than_usual)
     assert_string_equal(read_data("h.dat"), "\"r\"\n1 1 0 c\n");
 }
 
-/* Times against fcl-aabb and times in ns have no scale in common: neither is a change of the
+/* Times against fcl-aabb and times in ns have no common scale, so neither is a change of the
    other. */
 TEST(history_of_a_row_with_and_without_ratios_is_two_series)
 {
@@ -97,8 +97,7 @@ TEST(history_of_a_row_with_and_without_ratios_is_two_series)
                                             "\"a \u201db\u201d\"\n2 1 0 b\n4 1.01 0 d\n");
 }
 
-/* What would end a field is none, whatever was accepted; a row that did not end well is left
-   out. */
+/* Accepted names must not end a field; a row that failed is left out. */
 TEST(history_add_of_odd_names_can_be_drawn)
 {
     const stored_cell cells[] = {
@@ -118,7 +117,7 @@ TEST(history_add_of_odd_names_can_be_drawn)
     assert_non_null(strstr(text, "\n,,a;b;c,a;b/fcl-aabb/hot,5,1,"));
     assert_non_null(strstr(text, "\ntoday,9;9,a;b;c,s/certified:slack=1;2/hot,0,,"));
     assert_null(strstr(text, "aabb-tree"));
-    /* Added to behind a last line that was not ended. */
+    /* Appended after a last line without its newline. */
     text[strlen(text) - 1] = '\0';
     file_put("n.csv", text);
     free(text);
@@ -128,7 +127,7 @@ TEST(history_add_of_odd_names_can_be_drawn)
         strstr(read_data("n.dat"), "\"a;b/fcl-aabb/hot\"\n1 1 0 -\n2 1 0 9;9\n2 1 0 9;9\n"));
 }
 
-/* Only to a history is added. */
+/* Rows are added to histories only. */
 TEST(history_add_to_another_file_leaves_it_alone)
 {
     file_put("h.csv", "my thesis\n");

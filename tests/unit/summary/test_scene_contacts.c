@@ -1,4 +1,4 @@
-/* Contacts of more than two bodies against those of an exact method of the same run. */
+/* Contacts of more than two bodies against those of an exact method in the same run. */
 #include "harness/summary/scene_contacts.h"
 
 #include "harness/base/file.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Contacts (frame, a, b) that are missed or false count up to the last common frame. */
+/* Missed and false contacts (frame, a, b) count up to the last common frame. */
 TEST(mote_scene_contacts_lacking_counts_by_frame_and_pair)
 {
     static const struct {
@@ -42,7 +42,7 @@ TEST(mote_scene_contacts_lacking_counts_by_frame_and_pair)
 
 #define HEADER "frame,body_a,body_b,steps,distance,lower,contact,ax\n"
 
-/* A stored cell of two frames at which, in all, `contacts` pairs touch. */
+/* A stored cell of two frames with a total of `contacts` touching pairs. */
 static mote_stored_cell cell_of(const char *method, const char *refit, const char *id,
                                 double *columns)
 {
@@ -117,7 +117,8 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
         assert_true(rows[k].missed == missed[k] && rows[k].false_contacts == wrong[k]);
         assert_true(rows[k].near_pairs == 3.5 && rows[k].contacts == 7);
     }
-    /* Without it, or on other frames, the next best; of none that is exact, nothing. */
+    /* If it is missing, or on other frames, the next best is used; without an exact method,
+       none. */
     rows[3].finished = 0;
     cells[2].last = 3;
     for (int k = 0; k < 3; ++k)
@@ -133,7 +134,7 @@ TEST(mote_scene_contacts_count_takes_the_best_exact_row)
         json_decref(cells[k].json);
 }
 
-/* A cell that ended before its first frame: nothing is a number. */
+/* A cell that ended before its first frame has no numbers. */
 TEST(mote_scene_contacts_count_of_cells_that_failed_compares_nothing)
 {
     mote_stored_cell cell = cell_of("certified", "near", "none", numbers);

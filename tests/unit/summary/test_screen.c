@@ -1,9 +1,9 @@
-/* What `mote summarize --best` shows, at the end of `make bench`: runs that the test writes
-   itself. */
+/* What `mote summarize --best` shows, also at the end of `make bench`: runs that the test
+   writes itself. */
 #include "harness/summary/screen.h"
 #include "tests/support/stored_run.h"
 
-/* Two replicates that answer two frames, in `error` of the first. */
+/* Writes two replicates of two frames; the first is off by `error`. */
 static void write_method(stored_cell cell, double ns, double error, int missed)
 {
     static int number;
@@ -33,7 +33,7 @@ static size_t longest_line(const char *of)
     return most;
 }
 
-/* The texts stand in this order. */
+/* Checks that the texts occur in this order. */
 static void in_order(const char *const *parts, size_t count)
 {
     const char *at = said;
@@ -64,8 +64,8 @@ TEST(best_rows_are_sorted_by_time_and_the_front_is_marked)
     assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
 }
 
-/* Of the configurations of one method those that are on no front and do not stand for it are
-   counted, and no more. */
+/* A method's configurations that are neither on a front nor its representative are only
+   counted. */
 TEST(rows_that_are_not_among_the_best_are_counted)
 {
     static const char *const numbers[] = {"{\"n\": 1}", "{\"n\": 2}", "{\"n\": 3}"};
@@ -77,8 +77,8 @@ TEST(rows_that_are_not_among_the_best_are_counted)
     assert_null(strstr(said, "ours:n=2"));
 }
 
-/* The front has more rows than a screen: the least accurate go, and those that stand for a
-   method stay. */
+/* The front has more rows than a screen: the least accurate are dropped, and the
+   representatives of methods stay. */
 TEST(a_long_front_is_cut_where_it_is_least_accurate)
 {
     for (int k = 1; k <= 30; ++k) {
@@ -92,7 +92,7 @@ TEST(a_long_front_is_cut_where_it_is_least_accurate)
     size_t rows = 0;
     for (const char *at = said; (at = strstr(at, "\n* ")) != NULL; ++at)
         ++rows;
-    assert_int_equal(rows, MOTE_SCREEN_ROWS + 1); /* and the line that explains them */
+    assert_int_equal(rows, MOTE_SCREEN_ROWS + 1); /* including the line that explains them */
     IN_ORDER("\n* poor ", "\n* ours:n=12 ", "\n* ours:n=30 ", "11 more in the report");
     assert_null(strstr(said, "n=11 "));
 }
@@ -109,7 +109,7 @@ TEST(rows_with_positions_given_stand_apart)
              "\n* ours:positions=\"given\" ");
 }
 
-/* Of one replicate each, none is surely faster than another. */
+/* With one replicate each, no row is certainly faster than another. */
 TEST(rows_without_intervals_are_not_marked)
 {
     static const char *const methods[] = {"a", "b"};

@@ -1,5 +1,5 @@
-/* Runs whose files the test wrote: what is damaged is refused by file and line, and what a
-   summary and a merge say of the rest follows from it. */
+/* Runs whose files the test wrote: damaged ones are refused by file and line, and summaries and
+   merges follow from the rest. */
 #include "harness/figure/figure.h"
 #include "harness/summary/merge.h"
 #include "harness/base/record.h"
@@ -13,7 +13,7 @@ TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
 {
     static const char json[] = "cells/fcl-aabb-1.json: a field of a cell is missing or wrong";
     static const struct {
-        const char *key, *value; /* NULL: without it */
+        const char *key, *value; /* NULL: without the key */
     } changes[] = {{"id", NULL},
                    {"id", "7"},
                    {"status", NULL},
@@ -72,8 +72,8 @@ TEST(stored_read_of_a_cell_with_a_wrong_field_names_the_file)
     refused("name", "cells/fcl-aabb-12.json: its id is fcl-aabb-1; a cell is named by its id");
 }
 
-/* Up to 2^62 - 1, where doubles are 512 apart: neither the draws nor the groups are another
-   run's. */
+/* Up to 2^62 - 1, where doubles are 512 apart: neither draws nor groups are mixed up with
+   another run's. */
 TEST(stored_read_keeps_every_bit_of_a_seed)
 {
     static const struct {
@@ -141,7 +141,7 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
     static const char rows[] = ROWS;
     static const struct {
         const char *more;
-        int bytes;                                       /* of the rows that are left */
+        int bytes;                                       /* of the remaining rows */
     } cuts[] = {{", \"rows\": 4", (int)sizeof rows - 2}, /* without its last line feed */
                 {", \"rows\": 4", 0},
                 {", \"rows\": 5", (int)sizeof rows - 1},
@@ -162,7 +162,7 @@ TEST(stored_read_of_a_damaged_csv_names_the_line)
     assert_non_null(strstr(said, "fcl-aabb-1.csv:3: not a frame's row"));
 }
 
-/* What a method cannot answer is empty, and is no answer in the summary. */
+/* If a method cannot answer, the field is empty and the summary has no answer. */
 TEST(summary_of_empty_fields_has_no_figures_of_them)
 {
     write_cell((stored_cell){.rows = "1,,,,,,,,\n2,,,5,0.5,,,0,\n3,,,7,0,,1,1,\n"
@@ -185,11 +185,11 @@ TEST(summary_of_empty_fields_has_no_figures_of_them)
     json_decref(summary);
 }
 
-/* A number that no clock has is not told to other tools. */
+/* An impossible clock rate is not passed on to other tools. */
 TEST(summary_clock_of_a_core_is_told_where_it_can_be_one)
 {
     static const struct {
-        const char *more, *says; /* says: NULL: nothing of it */
+        const char *more, *says; /* says NULL: nothing about it */
     } cells[] = {{", \"clock_mhz\": [2400.5, 2400.5]", "\"mhz_per_cpu\": 2400"},
                  {", \"clock_mhz\": [1e300, 1e300]", NULL},
                  {", \"clock_mhz\": [-1, -1]", NULL},
@@ -202,7 +202,7 @@ TEST(summary_clock_of_a_core_is_told_where_it_can_be_one)
     }
 }
 
-/* Cells of other programs are left out, where the manifest names one. */
+/* Cells of other programs are left out if the manifest names a program. */
 TEST(stored_read_keeps_the_cells_of_the_manifests_program)
 {
     static const struct {
@@ -236,8 +236,8 @@ static const mote_summary_row *find_row(const mote_summary *summary, const char 
     return NULL;
 }
 
-/* Replicate r of a method: frame k takes scale * k + r ns; frames as digits, 'x' after one for
-   no time at all. */
+/* Writes replicate r of a method: frame k takes scale * k + r ns. frames lists digits; 'x'
+   after one stands for no time. */
 static void write_times(const char *method, int replicate, const char *frames, double scale)
 {
     char rows[256] = "";
@@ -278,23 +278,23 @@ TEST(summary_quiet_times_are_the_fastest_of_each_frame_in_a_group)
     about(row->quiet.total[0], 351); /* median over 4 frames of 100 k + 1 */
     about(row->quiet.total[1], 355);
     about(row->quiet.total[2], (206.0 + 406) / 2);
-    assert_true(isnan(row->quiet.total[3])); /* none of its replicates ran */
+    assert_true(isnan(row->quiet.total[3])); /* none of its replicates has run */
     about(row->quiet.total[4], 361);
     about(row->quiet.ratio[0], (3001.0 / 301 + 4001.0 / 401) / 2); /* frames 3 and 4 */
     about(row->quiet.ratio[1], (3004.0 / 305 + 4004.0 / 405) / 2);
     about(row->quiet.ratio[2], 4006.0 / 406); /* frame 3 took no time */
     assert_true(isnan(row->quiet.ratio[3]) && isnan(row->quiet.ratio[4]));
-    /* The halves that the noise floor is of: replicates 1-6 and 7-12. */
+    /* The halves compared for the noise floor: replicates 1-6 and 7-12. */
     about(summary.noise_floor, (4001.0 / 401) / (4007.0 / 407) - 1);
     mote_summary_free(&summary);
 }
 
-/* Frames that only one of two has, and times of 0, are in no ratio. */
+/* Frames that only one of the two has, and times of 0, are in no ratio. */
 TEST(summary_ratio_is_of_common_frames_with_a_time)
 {
     write_times("certified", 1, "12x4", 10);
     write_times("certified", 2, "1", 10);
-    write_times("certified", 3, "6", 10); /* of no frame of the reference */
+    write_times("certified", 3, "6", 10); /* no frame of the reference */
     write_times("aabb-tree", 1, "1x2x", 10);
     write_times("brute-force", 1, "6", 10);
     write_times("fcl-aabb", 1, "234", 100);
@@ -310,7 +310,7 @@ TEST(summary_ratio_is_of_common_frames_with_a_time)
     mote_summary_free(&summary);
 }
 
-/* Labels: parameters of a method that is gone, of one that never had them, and numbers. */
+/* Labels: parameters of an unknown method, unknown parameters, and numbers. */
 TEST(summary_label_names_what_is_not_default)
 {
     write_cell((stored_cell){.rows = ROWS,
@@ -325,7 +325,7 @@ TEST(summary_label_names_what_is_not_default)
     mote_summary_free(&summary);
 }
 
-/* A parameter of another kind than the method's is shown as it is. */
+/* A parameter of another type than the method's is shown unchanged. */
 TEST(summary_label_of_a_parameter_of_another_kind_is_its_json)
 {
     write_cell((stored_cell){.rows = ROWS, .parameters = "{\"queue\": true, \"seed\": null}"});
@@ -333,13 +333,13 @@ TEST(summary_label_of_a_parameter_of_another_kind_is_its_json)
     mote_summary summary;
     assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     (void)find_row(&summary, "fcl-aabb:queue=true,seed=null");
-    (void)find_row(&summary, "fcl-aabb:queue=64.5"); /* a choice is stored by its name */
+    (void)find_row(&summary, "fcl-aabb:queue=64.5"); /* a choice is stored by name */
     assert_int_equal(summary.count, 2);
     mote_summary_free(&summary);
 }
 
-/* What ratios are taken to: fcl-aabb as it is by default, else the first, on the same frames,
-   caches and machine. */
+/* The reference of ratios: fcl-aabb with default parameters, else the first row, on the same
+   frames, caches and machine. */
 TEST(summary_reference_is_of_the_same_frames_and_caches)
 {
     static const stored_cell cells[] = {
@@ -379,7 +379,7 @@ TEST(summary_reference_is_of_the_same_frames_and_caches)
     mote_summary_free(&summary);
 }
 
-/* A cell that ended well without a frame, and contacts of which one side is not known. */
+/* A successful cell without frames, and contacts of which one side is unknown. */
 TEST(summary_of_a_cell_without_frames_or_vertices_has_no_figures)
 {
     write_cell((stored_cell){.rows = "", .method = "certified"});
@@ -411,7 +411,7 @@ TEST(figure_quantile_of_many_replicates_takes_them_all)
     mote_figure_quantile(&summary.rows[0], 0.5, 0.001, &figure);
     assert_int_equal(sscanf(figure.data, "%lf %lf %lf", &value, &low, &high), 3);
     assert_true(value == 0.001 && low <= value);
-    assert_true(high > 0.01); /* a mean of 0.0046, and 2 standard errors of 0.0036 */
+    assert_true(high > 0.01); /* a mean of 0.0046 and 2 standard errors of 0.0036 */
     free(figure.data);
     mote_summary_free(&summary);
 }
@@ -439,7 +439,7 @@ TEST(merge_copies_what_is_not_there_and_adds_sessions)
     merge(4, "in/manifest.json: No such file");
     file_put("in/manifest.json", "{" BY_ONE ", \"sessions\": [1, 2]}\n");
     merge(0, "out: 1 cells copied, 0 were there");
-    /* One that crashed has no frames to copy, and a session is added once. */
+    /* A crashed cell has no frames to copy, and a session is added once. */
     stored_cell_put("in",
                     (stored_cell){.replicate = 2, .status = "crashed", .more = ", " BY_ONE});
     file_put("in/manifest.json", "{" BY_ONE ", \"sessions\": [2, 3]}\n");

@@ -1,4 +1,4 @@
-/* What tune makes of runs whose files the test wrote. */
+/* The output of tune for runs whose files the test wrote. */
 #include "harness/summary/tune.h"
 
 #include "harness/base/record.h"
@@ -28,7 +28,7 @@ TEST(tune_of_right_and_wrong_configurations_names_the_fastest_right_one)
         {.method = "fcl-rss", .id = "k", .status = "timeout", .scenario = "u"}};
     mote_expect(4, "/cells: No such file or directory; name the directory", "tune .");
     write_cell(cells[0]);
-    mote_expect(0, "", "tune ."); /* nothing ended well: no row */
+    mote_expect(0, "", "tune ."); /* all failed: no row */
     assert_string_equal(said, "");
     for (size_t i = 0; i < ROWS_OF(cells); ++i)
         write_cell(cells[i]);

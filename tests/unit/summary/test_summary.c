@@ -1,4 +1,4 @@
-/* Which cells are put into one row, and which rows are compared with each other. */
+/* Which cells form one row, and which rows are compared with each other. */
 #include "harness/figure/figure.h"
 #include "harness/summary/front.h"
 #include "harness/summary/summary.h"
@@ -23,7 +23,7 @@ static int free_summary(void)
 
 TEST_EACH(folder_next, free_summary);
 
-/* Of some frames that all take `ns`, and are wrong by `error` L. */
+/* Writes frames that all take `ns` and are off by `error` L. */
 static void write_frames(stored_cell cell, int first, int last, double ns, double error)
 {
     char rows[512];
@@ -75,8 +75,8 @@ TEST(summary_of_other_questions_keeps_their_cells_apart)
     }
 }
 
-/* What was measured on another machine, or on other frames of that name, is faster by what
-   these are. */
+/* A row of another machine, or of other frames under the same name, may be faster for that
+   reason alone. */
 TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
 {
     static const stored_cell scenes[] = {{.more = ", \"machine\": \"slow\""},
@@ -112,7 +112,7 @@ TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
     mote_fronts_free(&fronts);
 }
 
-/* Without an interval nothing is sure. */
+/* Without an interval nothing is certain. */
 TEST(fronts_of_one_replicate_have_no_dominator)
 {
     write_cell((stored_cell){.method = "certified"}, 10, 0);
@@ -153,7 +153,8 @@ TEST(summary_best_engine_is_the_fastest_that_is_right)
     refers_to("c", &row_of("c")->ratio_engine, "c", 1);
 }
 
-/* FCL is fast around a touch (frames 3-4), where a second leg of the run measured all again. */
+/* FCL is fast near a touch (frames 3-4), and a second part of the run measured all methods
+   there again. */
 TEST(summary_ratios_are_of_rows_on_the_same_frames)
 {
     static const char touch[] = "[3, 4]", obb[] = "fcl-obb";
@@ -174,7 +175,7 @@ TEST(summary_ratios_are_of_rows_on_the_same_frames)
     refers_to("f", &row_of("f")->ratio_best, "f", 1);
     refers_to("g", &row_of("g")->ratio, "e", 0.2);
     refers_to("g", &row_of("g")->ratio_best, "f", 1.0 / 500);
-    assert_true(isnan(row_of("h")->ratio.value)); /* nobody has its frame */
+    assert_true(isnan(row_of("h")->ratio.value)); /* no other row has its frame */
     assert_null(row_of("h")->ratio_best.to);
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
@@ -190,8 +191,8 @@ TEST(summary_ratios_are_of_rows_on_the_same_frames)
     mote_fronts_free(&fronts);
 }
 
-/* Two processes in five are lost: then the 99th percentile over all frames is far off, though
-   that of most processes is not. */
+/* Two processes in five err: the 99th percentile over all frames is then large, though that of
+   most processes is not. */
 TEST(fronts_are_of_the_figures_of_the_rows)
 {
     static const char *const numbers[] = {"{\"n\": 8}", "{\"n\": 16}"};
@@ -221,7 +222,7 @@ TEST(fronts_are_of_the_figures_of_the_rows)
     mote_fronts_free(&fronts);
 }
 
-/* Where the reference has crashed there is no ratio; the time must not stand for it. */
+/* If the reference has crashed there is no ratio; the time must not replace it. */
 TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others)
 {
     for (int r = 1; r <= 4; ++r) {
@@ -237,7 +238,7 @@ TEST(summary_noise_of_a_row_with_a_ratio_missing_is_of_the_others)
     assert_true(summary.noise_floor < 0.01);
 }
 
-/* --until-ci gives the reference more replicates than others: these must not make it faster. */
+/* --until-ci gives the reference more replicates than others: they must not make it faster. */
 TEST(summary_quiet_ratio_is_of_replicates_of_one_number)
 {
     for (int r = 1; r <= 40; ++r) {
@@ -259,10 +260,11 @@ TEST(summary_status_is_the_worst_where_no_replicate_ended_well)
     }
     make_summary();
     assert_int_equal(summary.rows[0].status, MOTE_CELL_CRASHED);
-    assert_int_equal(summary.rows[0].first->replicate, 2); /* whose reason is told */
+    assert_int_equal(summary.rows[0].first->replicate, 2); /* the reason is reported for it */
 }
 
-/* Process by process, though the reference lacks the first, and the first was cut short. */
+/* Ratios are taken process by process, though the reference lacks the first process, and the
+   first was cut short. */
 TEST(figure_ratios_are_of_replicates_of_one_number)
 {
     write_frames((stored_cell){.method = "certified", .replicate = 1}, 1, 1, 10, 0);
@@ -283,7 +285,7 @@ TEST(figure_ratios_are_of_replicates_of_one_number)
     free_figure(&figure);
 }
 
-/* Of 1,000 bodies at two densities one was asked by the control that the caption names. */
+/* Of 1,000 bodies at two densities, the control named in the caption answered only one. */
 TEST(figure_bodies_caption_is_of_what_is_drawn)
 {
     static const struct {
@@ -314,7 +316,7 @@ TEST(figure_bodies_caption_is_of_what_is_drawn)
     free_figure(&figure);
 }
 
-/* A run of some of the frames has no figure of the others. */
+/* A run of some frames has no figure of the others. */
 TEST(figure_queries_tells_of_which_frames_it_is)
 {
     static const char paper[] = "particle-paper", five[] = "{\"n\": 5}";
@@ -333,7 +335,7 @@ TEST(figure_queries_tells_of_which_frames_it_is)
     free_figure(&figure);
 }
 
-/* The interval of two processes is wider above than below. */
+/* The interval of two processes extends farther above than below. */
 TEST(run_until_ci_tells_the_wider_side_of_the_interval)
 {
     char expected[64];
@@ -350,7 +352,7 @@ TEST(run_until_ci_tells_the_wider_side_of_the_interval)
         fail_msg("no \"%s\" in\n%s", expected, said);
 }
 
-/* mote COMMAND, and what is then in a file, or what it said where that is NULL. */
+/* Runs mote COMMAND and returns the contents of a file or, if that is NULL, the output. */
 static const char *after(const char *command, const char *file)
 {
     mote_expect(0, "", "%s", command);
@@ -414,7 +416,7 @@ TEST(scenes_of_one_name_are_told_apart_wherever_rows_are_shown)
     free_figure(&figure);
 }
 
-/* What is given its positions is no answer to what is fastest of those that pay for them. */
+/* Rows with given positions do not compete for the fastest that includes deformation. */
 TEST(report_begins_with_rows_that_pay_for_deformation)
 {
     static const char given[] = "{\"positions\": \"given\"}";
@@ -422,17 +424,17 @@ TEST(report_begins_with_rows_that_pay_for_deformation)
     write_cell((stored_cell){.method = "particle", .parameters = given}, 20, 0);
     write_cell((stored_cell){0}, 100, 0);
     make_summary();
-    /* Row 0 is the one whose positions are given, row 1 certified. */
+    /* Row 0 is the one with given positions, row 1 certified. */
     assert_non_null(strstr(after("report .", "report.html"),
                            "\"first\":0,\"end\":3,\"right\":1,\"fastest\":null}]"));
-    /* And in report.md it is in a table of its own, below. */
+    /* In report.md it is also in a table of its own, below. */
     const char *apart = strstr(after("report .", "report.md"), "With positions given");
     assert_non_null(apart);
     assert_null(strstr(apart, "| certified"));
     assert_non_null(strstr(apart, "| particle:positions"));
 }
 
-/* Times of cells that ran at once, and rows that lack replicates, must not look like others. */
+/* Times of cells that ran at once, and rows that lack replicates, must be recognisable. */
 TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
 {
     static const char beside[] = "times not comparable: 2 cells at once",
@@ -452,7 +454,7 @@ TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
         if (!strstr(text, beside) || !strstr(text, badly))
             fail_msg("%s: %s does not say both", outputs[i].command, outputs[i].file);
     }
-    /* Row 0 has no time that can be compared: it comes last, and is not the fastest. */
+    /* Row 0 has no comparable time: it comes last, and is not the fastest. */
     assert_non_null(strstr(after("report .", "report.html"),
                            "\"first\":0,\"end\":2,\"right\":0,\"fastest\":null}]"));
     const char *csv = after("summarize . --format csv", NULL);

@@ -25,7 +25,8 @@ static const char *string_of(const json_t *row, const char *key)
     return json_string_value(json_object_get(row, key));
 }
 
-/* Least and largest median of a method in the summary, of the rows that are right or not. */
+/* The least and the largest median of a method in the summary, among rows that are right or
+   wrong. */
 static size_t extremes(const json_t *rows, const char *method, bool right, double range[2])
 {
     size_t count = 0, k;
@@ -73,7 +74,7 @@ TEST(tune_names_the_fastest_right_configuration)
                          compared + others);
         assert_non_null(strstr(said, string_of(row, "configuration")));
     }
-    /* The fastest right row of FCL, whichever method. */
+    /* The fastest right row of FCL, of any FCL method. */
     const char *best = "";
     double least = HUGE_VAL;
     json_array_foreach(tuned, k, row)
@@ -94,7 +95,7 @@ TEST(tune_names_the_fastest_right_configuration)
     json_decref(summary);
 }
 
-/* tune.json may be edited: a time below 0 is not the least of them. */
+/* tune.json may be edited: a negative time is not the least. */
 TEST(tune_best_fcl_of_a_damaged_file_is_of_what_has_a_time)
 {
     static const struct {
