@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The slope at key k: that of the parabola through it and its neighbours. */
+/* The slope at key k: that of the parabola through the key and its neighbours. */
 static void fit_tangents(mote_curve *curve)
 {
     const uint32_t width = curve->width;

@@ -1,4 +1,4 @@
-/* Where the files are that the program reads: datasets/ and plots/. */
+/* Finds the files that the program reads: datasets/ and plots/. */
 #ifndef MOTE_HARNESS_DATA_H
 #define MOTE_HARNESS_DATA_H
 
@@ -6,12 +6,12 @@
 
 #include <stddef.h>
 
-/* The folder that holds datasets/ and plots/: ../share/mote beside the folder of an
-   installed program, else the sources that it was built from. Never NULL, and valid until
-   the program ends. Not thread-safe. */
+/* The folder that holds datasets/ and plots/: ../share/mote beside the folder of an installed
+   program, otherwise the sources it was built from. Never NULL; valid until the program ends.
+   Not thread-safe. */
 const char *mote_data_directory(void);
 
-/* mote_file_read of a file in there: "plots/page/report.css". */
+/* mote_file_read of a file in that folder: "plots/page/report.css". */
 mote_status mote_data_read(const char *name, size_t limit, char **text, size_t *size);
 
 #endif

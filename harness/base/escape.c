@@ -8,7 +8,7 @@ static bool is_control(char c)
     return (unsigned char)c < 0x20 || c == 0x7f;
 }
 
-/* The entity of a character, or NULL. */
+/* The entity for a character, or NULL. */
 static const char *entity(char c)
 {
     switch (c) {
@@ -27,7 +27,8 @@ static const char *entity(char c)
     }
 }
 
-/* Length of what needs no escape: up to the next of `special` or a control character. */
+/* The length of the part that needs no escape: up to the next of `special` or control
+   character. */
 static size_t plain_length(const char *value, const char *special)
 {
     size_t length = 0;

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define LINKS_MAX 40 /* links followed for one path; the kernel's limit is the same */
+#define LINKS_MAX 40 /* links followed for one path; the same limit as the kernel's */
 
 static mote_status read_descriptor(int descriptor, const char *path, size_t limit, char **text,
                                    size_t *size)
@@ -93,7 +93,7 @@ static bool sync_directory(const char *path)
     return synced;
 }
 
-/* Standard output or error, where it is this file; else -1. */
+/* The descriptor of standard output or error if it is this file, otherwise -1. */
 static int own_stream(const struct stat *file)
 {
     for (int descriptor = STDOUT_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
@@ -124,7 +124,7 @@ int mote_stream_open(const char *path)
     const int own = stat(path, &info) == 0 ? own_stream(&info) : -1;
     if (own < 0)
         return open(path, O_WRONLY | O_CLOEXEC);
-    /* Opened again, a file would be written from its start. */
+    /* If the file were opened again, writing would start at its beginning. */
     (void)fflush(own == STDOUT_FILENO ? stdout : stderr);
     return fcntl(own, F_DUPFD_CLOEXEC, 0);
 }
@@ -159,7 +159,7 @@ static mote_status write_stream(const char *path, const void *data, size_t size)
                    : mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(error));
 }
 
-/* Writes the file beside `target`, where no link is at the end, and renames it. */
+/* Writes the file beside `target`, which does not end in a link, and renames it. */
 static bool replace_file(const char *target, const char *beside, const void *data, size_t size)
 {
     int descriptor = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

@@ -1,4 +1,4 @@
-/* Files: read whole with a cap, written whole or not at all. */
+/* Files: read whole up to a size limit, written whole or not at all. */
 #ifndef MOTE_HARNESS_FILE_H
 #define MOTE_HARNESS_FILE_H
 
@@ -14,43 +14,44 @@
    frees *text. */
 mote_status mote_file_read(const char *path, size_t limit, char **text, size_t *size);
 
-/* The text after its UTF-8 byte-order mark, which some editors write, or all of it. */
+/* The text after its UTF-8 byte-order mark, which some editors write, or all of it if it has
+   none. */
 const char *mote_skip_mark(const char *text);
 
-/* Writes a file beside its final name, syncs and renames it: a file of that name is always
-   whole. Links at the end of path are followed and stay. A stream is written to and never
-   replaced. MOTE_EIO with a text. */
+/* Writes a file under a temporary name beside path, syncs it and renames it, so a file at path
+   is always complete. Links at the end of path are followed and kept. A stream is written to
+   and never replaced. MOTE_EIO with a text. */
 mote_status mote_file_write(const char *path, const void *data, size_t size);
 
-/* Whether a path is that of a stream: a device, a FIFO or a socket, or whatever this program's
-   standard output or error goes to. Nothing can be put in its place, nor beside it. */
+/* Whether path names a stream: a device, a FIFO, a socket, or the file that this program's
+   standard output or error goes to. A stream cannot be replaced by a rename. */
 bool mote_path_is_stream(const char *path);
 
-/* Whether a path is that of what this program's standard output goes to. */
+/* Whether path names the file that this program's standard output goes to. */
 bool mote_path_is_output(const char *path);
 
 /* A descriptor for writing to a stream, which the caller closes; -1 with errno. */
 int mote_stream_open(const char *path);
 
-/* path with the links at its end followed, also to where there is no file yet. NULL, with
-   errno ELOOP, where links form a circle. The caller frees it. */
+/* path with the links at its end followed, even if the target does not exist yet. NULL with
+   errno ELOOP if the links form a circle. The caller frees it. */
 char *mote_path_follow(const char *path);
 
-/* Makes a directory and those above it, if missing. MOTE_EIO when one cannot be made, is no
-   directory, or cannot be written to; errno then says why. */
+/* Makes a directory and its missing parents. MOTE_EIO if one cannot be made, is not a
+   directory, or cannot be written to; errno then holds the reason. */
 mote_status mote_directory_make(const char *path);
 
 /* printf into new memory. The caller frees it. */
 char *mote_format(const char *format, ...) MOTE_PRINTF(1, 2);
 
-/* The path of what the file at `file` calls `name`: seen from that file's folder, unless it is
-   absolute. The caller frees it. */
+/* The path of the file that the file at `file` calls `name`: relative to that file's folder
+   unless absolute. The caller frees it. */
 char *mote_path_beside(const char *file, const char *name);
 
-/* Whether a name is longer than this ending and has it: mote_name_ends(name, ".json"). */
+/* Whether a name is longer than this ending and ends with it: mote_name_ends(name, ".json"). */
 bool mote_name_ends(const char *name, const char *ending);
 
-/* Text that grows, ended by a 0 byte. Zero-initialise: data is NULL until something is added.
+/* A growing text with a final 0 byte. Zero-initialise: data is NULL until something is added.
    Free data. */
 typedef struct mote_text {
     char *data;

@@ -1,5 +1,5 @@
-/* 64-bit FNV-1a (Fowler, Noll and Vo): tells contents apart, and withstands no forger. Numbers
-   go in from their lowest byte on, so that every machine gives the same hash. */
+/* 64-bit FNV-1a (Fowler, Noll and Vo): tells contents apart, but does not resist forgery.
+   Numbers are hashed from their lowest byte up, so every machine gives the same hash. */
 #ifndef MOTE_HARNESS_HASH_H
 #define MOTE_HARNESS_HASH_H
 
@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The hash of nothing, which the others go on from. */
+/* The hash of no bytes; the start value of every other hash. */
 #define MOTE_HASH_START 0xcbf29ce484222325u
 
 static inline uint64_t mote_hash_bytes(uint64_t hash, const void *data, size_t size)
@@ -18,7 +18,7 @@ static inline uint64_t mote_hash_bytes(uint64_t hash, const void *data, size_t s
     return hash;
 }
 
-/* Of the text alone, without its end. */
+/* The hash of the text without its final 0 byte. */
 static inline uint64_t mote_hash_text(const char *text)
 {
     return mote_hash_bytes(MOTE_HASH_START, text, strlen(text));

@@ -37,7 +37,7 @@ void *__libc_memalign(size_t alignment, size_t size);
 void __libc_free(void *block);
 /* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
 
-/* Shared libraries must find these symbols in the program. */
+/* Exported so that shared libraries use them, too. */
 #define EXPORTED __attribute__((visibility("default")))
 
 static _Atomic int64_t live_bytes, peak_bytes;

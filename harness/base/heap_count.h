@@ -1,6 +1,6 @@
-/* Counts the heap of this process: the program's own malloc, calloc, realloc and free count
-   each call and pass it on to the C library. Allocations by C++ operator new and by
-   libraries are included. */
+/* Counts this process's heap: malloc, calloc, realloc and free of the program count each call
+   and pass it on to the C library. Allocations by C++ operator new and by libraries are
+   included. */
 #ifndef MOTE_HARNESS_HEAP_COUNT_H
 #define MOTE_HARNESS_HEAP_COUNT_H
 
@@ -8,16 +8,17 @@
 #include <stdint.h>
 
 typedef struct mote_heap {
-    bool counted;         /* false where sanitizers own the allocator: the rest is 0 then */
+    bool counted;         /* false where sanitizers own the allocator: everything else is then
+                             0 */
     int64_t live_bytes;   /* usable bytes of the blocks in use */
     int64_t peak_bytes;   /* the most live bytes since the last mote_heap_reset_peak */
     uint64_t allocations; /* blocks handed out since the process started */
 } mote_heap;
 
-/* Any thread; no allocation. */
+/* May be called from any thread; does not allocate. */
 mote_heap mote_heap_read(void);
 
-/* Sets the peak to what is live now. */
+/* Sets the peak to the live bytes. */
 void mote_heap_reset_peak(void);
 
 #endif

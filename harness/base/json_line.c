@@ -1,5 +1,5 @@
-/* Where a value stands in a JSON text. jansson does not keep the lines of what it read, so
-   the text, known to be valid, is searched again along the path when an error is reported. */
+/* Finds the line of a value in a JSON text. jansson does not keep line numbers, so when an
+   error is reported, the text, known to be valid, is searched along the value's path. */
 #include "harness/base/json_read.h"
 
 #include <stdlib.h>

@@ -14,7 +14,7 @@ static void print_object(const json_t *object, int digits, size_t indent, mote_t
     const json_t *member;
     size_t left = json_object_size(object);
     mote_text_add(text, "{\n");
-    /* Iteration casts const away, and changes nothing. */
+    /* The iterator's type casts const away; nothing is changed. */
     for (void *at = json_object_iter((json_t *)(uintptr_t)object); at;
          at = json_object_iter_next((json_t *)(uintptr_t)object, at)) {
         key = json_object_iter_key(at);

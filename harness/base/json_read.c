@@ -144,7 +144,7 @@ mote_status mote_json_real(const mote_json *node, double minimum, double maximum
     if (!json_is_number(node->value))
         return mote_json_fail(node, "is not a number; give one from %g to %g", minimum,
                               maximum);
-    /* Written so that a NaN would fail. */
+    /* A NaN fails this test. */
     if (!(number >= minimum && number <= maximum))
         return mote_json_fail(node, "%.17g is out of range; give a number from %g to %g",
                               number, minimum, maximum);

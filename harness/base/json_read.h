@@ -1,4 +1,4 @@
-/* Reading a JSON file strictly: every error names the file, the line and the path within. */
+/* Reads a JSON file strictly: every error names the file, the line and the path within it. */
 #ifndef MOTE_HARNESS_JSON_READ_H
 #define MOTE_HARNESS_JSON_READ_H
 
@@ -13,7 +13,7 @@ typedef struct mote_json_file {
     char *path;
     char *text;
     json_t *root;
-    bool own; /* made by this program of files that its user named: it may name any */
+    bool own; /* written by this program from files its user named: it may name any file */
 } mote_json_file;
 
 /* A value in a file. value is NULL where an optional key is absent. */
@@ -23,22 +23,22 @@ typedef struct mote_json {
     char path[160];             /* "bodies[1].field.support"; "" at the root */
 } mote_json;
 
-/* Parses a whole JSON text; a key that stands twice is an error. path is for the message:
-   MOTE_EINVAL with "PATH:LINE:COLUMN: what; ADVICE". The caller decrefs *root. */
+/* Parses a whole JSON text; a duplicate key is an error. path is for the message: MOTE_EINVAL
+   with "PATH:LINE:COLUMN: what; ADVICE". The caller decrefs *root. */
 mote_status mote_json_parse(const char *path, const char *text, size_t size, const char *advice,
                             json_t **root);
 
-/* Reads and parses a file of at most 16 MiB; a key that stands twice is an error. MOTE_EINVAL
-   with "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
+/* Reads and parses a file of at most 16 MiB; a duplicate key is an error. MOTE_EINVAL with
+   "FILE:LINE:COLUMN: what", MOTE_EIO. Close with mote_json_close. */
 mote_status mote_json_open(const char *path, mote_json_file *file);
 void mote_json_close(mote_json_file *file);
 mote_json mote_json_root(const mote_json_file *file);
 
-/* MOTE_EINVAL with "FILE:LINE: PATH: TEXT", the line being that of the value. */
+/* MOTE_EINVAL with "FILE:LINE: PATH: TEXT"; the line is that of the value. */
 mote_status mote_json_fail(const mote_json *node, const char *format, ...) MOTE_PRINTF(2, 3);
 
-/* Puts the node's place before the text of a failure that its value caused, which becomes
-   MOTE_EINVAL; MOTE_OK and MOTE_ENOMEM stay as they are. */
+/* Puts the node's place before the error text of a failure that its value caused; the status
+   becomes MOTE_EINVAL. MOTE_OK and MOTE_ENOMEM stay as they are. */
 mote_status mote_json_blame(const mote_json *node, mote_status status);
 
 /* The member of an object, or a node without a value. */
@@ -46,7 +46,7 @@ mote_json mote_json_member(const mote_json *object, const char *key);
 /* The element of an array, index < json_array_size(array->value). */
 mote_json mote_json_element(const mote_json *array, size_t index);
 
-/* Checks that the node is an object whose keys all stand in known ("a|b|c"). */
+/* Checks that the node is an object with keys from known ("a|b|c") only. */
 mote_status mote_json_object(const mote_json *node, const char *known);
 
 /* Checks that the node is an array of minimum to maximum elements; *size is their number. */
@@ -66,8 +66,8 @@ mote_status mote_json_vec3(const mote_json *node, double minimum, double maximum
 /* A string that is not empty, borrowed from the file. */
 mote_status mote_json_string(const mote_json *node, const char **value);
 
-/* The line, from 1, on which the value at a path begins in a valid JSON text; the line of the
-   deepest part found where the path does not exist. */
+/* The line, from 1, on which the value at a path begins in a valid JSON text. If the path does
+   not exist, the line of its deepest part that does. */
 int mote_json_line(const char *text, const char *path);
 
 #endif

@@ -25,8 +25,8 @@ static mote_status unknown_method(const char *name)
     return mote_fail(MOTE_EINVAL, "unknown method %s; known are: %s", name, known);
 }
 
-/* Copies the text and splits it: name becomes the method's, *keys what follows the colon, or
-   NULL. */
+/* Copies the text and splits it: name becomes the method's name; *keys becomes the text after
+   the colon, or NULL. */
 static mote_status begin(const char *text, mote_method_choice *choice,
                          char name[sizeof choice->text], char **keys)
 {
@@ -54,7 +54,8 @@ static mote_status parse(const mote_parameter *table, size_t count, const char *
     return status == MOTE_OK ? status : mote_fail(status, "%s: %s", text, mote_error_text());
 }
 
-/* Which of mote_scene_parameters "key=value,..." begins with; MOTE_SCENE_KEYS: none. */
+/* Which of mote_scene_parameters the text "key=value,..." begins with; MOTE_SCENE_KEYS:
+   none. */
 static int scene_key(const char *text)
 {
     int k = 0;
@@ -66,7 +67,7 @@ static int scene_key(const char *text)
     return k;
 }
 
-/* Moves the keys of scenes from keys to scene; both are then "key=value,...". */
+/* Moves the scene keys from keys to scene; both are "key=value,..." texts afterwards. */
 static void split_keys(char *keys, char *scene, mote_method_choice *choice)
 {
     char *own = keys, *other = scene;

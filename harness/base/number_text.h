@@ -4,7 +4,7 @@
 
 #define MOTE_NUMBER_TEXT 24
 
-/* Each writes into text and returns it, or a constant. */
+/* Writes into text and returns text, or returns a constant. */
 typedef const char *(*mote_number_show)(double value, char text[MOTE_NUMBER_TEXT]);
 
 const char *mote_show_time(double ns, char text[MOTE_NUMBER_TEXT]);       /* "7.42 us" */

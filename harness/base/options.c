@@ -33,7 +33,7 @@ int mote_command_finish(int code)
     return MOTE_EXIT_BAD_INPUT;
 }
 
-/* The option that an argument names, or -1; *inline_value: what follows its '=', or NULL. */
+/* The option that an argument names, or -1; *inline_value: the text after its '=', or NULL. */
 static int find_option(const mote_option_reader *reader, const char *argument,
                        const char **inline_value)
 {
@@ -81,7 +81,7 @@ mote_option_reader mote_option_begin(const mote_option *options, int argc, char 
     return reader;
 }
 
-/* Passes over an option that has done its work; its value is known to be there. */
+/* Skips an option that has already taken effect; its value is known to be there. */
 static bool skip_plugin(mote_option_reader *reader)
 {
     const char *argument = reader->argv[reader->next];
@@ -195,7 +195,7 @@ bool mote_read_real(const char *text, double minimum, double maximum, double *va
 {
     char *end;
     double number = strtod(text, &end);
-    /* Written so that a NaN fails. */
+    /* A NaN fails this test. */
     if (end == text || *end != '\0' || !(number >= minimum && number <= maximum))
         return false;
     *value = number;

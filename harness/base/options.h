@@ -48,20 +48,19 @@ typedef struct mote_option_reader {
     int argc;
     char **argv;
     int next;   /* argument to be read */
-    bool ended; /* "--" was read: what follows are no options */
+    bool ended; /* "--" was read: no options follow */
 } mote_option_reader;
 
-/* A reader of what follows argv[0], the command's name. */
+/* A reader for the arguments after argv[0], the command's name. */
 mote_option_reader mote_option_begin(const mote_option *options, int argc, char **argv);
 
-#define MOTE_OPTION_PLAIN (-1) /* an argument that is no option */
+#define MOTE_OPTION_PLAIN (-1) /* an argument that is not an option */
 #define MOTE_OPTION_END (-2)   /* nothing left */
 #define MOTE_OPTION_ERROR (-3) /* reported on stderr: return MOTE_EXIT_USAGE */
 
-/* "--plugin FILE", which every command takes, is passed over: its library was loaded before
-   the command began.
-   The next option's index in reader->options, or one of the above. *value: the option's value
-   or the plain argument, else NULL. "--" ends the options. */
+/* The next option's index in reader->options, or one of the constants above. *value: the
+   option's value or the plain argument, otherwise NULL. "--" ends the options. "--plugin FILE",
+   which every command accepts, is skipped: its library was loaded before the command began. */
 int mote_option_next(mote_option_reader *reader, const char **value);
 
 /* Reads a whole decimal number in [minimum, maximum]. False for anything else. */
@@ -73,7 +72,8 @@ bool mote_read_real(const char *text, double minimum, double maximum, double *va
 /* Reads "x,y,z", finite numbers. False for anything else; value is then undefined. */
 bool mote_read_triple(const char *text, double value[3]);
 
-/* The same, not all 0, scaled by a power of two so that squares neither overflow nor vanish. */
+/* The same, but not all 0; scaled by a power of two so that squares neither overflow nor
+   vanish. */
 bool mote_read_direction(const char *text, double direction[3]);
 
 /* Reads "A-B" or "A", A <= B, both at least 1 and at most maximum. MOTE_EINVAL with a text. */

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* No file of a run is larger. */
+/* No file of a run is larger than this. */
 #define FILE_LIMIT ((size_t)1 << 30)
 
 static mote_status write_at(const char *directory, const char *name, const void *data,

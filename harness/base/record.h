@@ -1,4 +1,4 @@
-/* Files of a run directory: whole or absent. */
+/* Files of a run directory: complete or absent. */
 #ifndef MOTE_HARNESS_RECORD_H
 #define MOTE_HARNESS_RECORD_H
 
@@ -14,28 +14,29 @@ bool mote_record_exists(const char *directory, const char *name);
 /* Writes directory/name. Frees text. */
 mote_status mote_record_text(const char *directory, const char *name, mote_text *text);
 
-/* Writes directory/name, numbers with 17 digits, and decrefs object. An object that is NULL,
-   as jansson returns for text that is not UTF-8, is MOTE_EINVAL. */
+/* Writes directory/name, numbers with 17 digits, and decrefs object. MOTE_EINVAL if object is
+   NULL, which jansson returns for text that is not UTF-8. */
 mote_status mote_record_json(const char *directory, const char *name, json_t *object);
 
-/* Reads directory/name as JSON; MOTE_EINVAL with file, line and column when it is not. The
+/* Reads directory/name as JSON; MOTE_EINVAL with file, line and column if it is not JSON. The
    caller decrefs. */
 mote_status mote_record_read_json(const char *directory, const char *name, json_t **object);
 
 /* A real, or null where it is not finite. */
 json_t *mote_json_number(double value);
 
-/* The number that a JSON value is, or that object[key] is; NaN where it is none. The text
-   object[key]; "" where it is none. */
+/* The number that a JSON value or object[key] is; NaN if it is not a number. The text
+   object[key]; "" if it is not a string. */
 double mote_number_of(const json_t *value);
 double mote_number_at(const json_t *object, const char *key);
 const char *mote_text_at(const json_t *object, const char *key);
 
-/* Prints object with jansson's flags and a line end, and decrefs it; NULL is MOTE_EINVAL as
-   above. The caller checks out for errors. */
+/* Prints object with jansson's flags and a line end, and decrefs it; MOTE_EINVAL if object is
+   NULL, as above. The caller checks out for errors. */
 mote_status mote_json_put(json_t *object, size_t flags, FILE *out);
 
-/* for each item of a JSON array, of none where it is no array: item is never NULL. */
+/* Iterates over the items of a JSON array, over nothing if it is not an array; item is never
+   NULL. */
 #define MOTE_EACH(i, item, array)                                                              \
     for ((i) = 0; (i) < json_array_size(array) && ((item) = json_array_get(array, i), true);   \
          ++(i))

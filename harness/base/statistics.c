@@ -83,7 +83,7 @@ static size_t longest(const mote_replicate *replicates, size_t count)
     return most;
 }
 
-/* Medians of the processes; work holds as many values as the longest. */
+/* Medians of the processes; work holds as many values as the longest process. */
 static void process_medians(const mote_replicate *replicates, size_t count, bool logarithmic,
                             double *work, double *medians)
 {
@@ -111,13 +111,13 @@ static mote_confidence t_of_medians(const mote_replicate *replicates, size_t cou
     return logarithmic ? exponentials(interval) : interval;
 }
 
-/* What the resampling works on: all processes ran the same frames, so the frames are no sample,
-   and only what processes add to them is drawn again. */
+/* The input of the resampling. All processes ran the same frames, so the frames are not a
+   sample; only the residuals of the processes are resampled. */
 typedef struct resample {
     size_t count, frames;
     bool logarithmic;
     double *profile;   /* [frames], the median over the processes */
-    double *residuals; /* [count][frames], a value over (or less) its frame's profile */
+    double *residuals; /* a value divided by (or minus) its frame's profile */
     double *drawn;     /* [count * frames] */
     double *medians;   /* [RESAMPLES] */
 } resample;
@@ -145,8 +145,8 @@ static void make_resample(const mote_replicate *replicates, size_t count, bool l
     }
 }
 
-/* Draws one process: blocks of consecutive residuals (around the end), so that the dependence
-   of neighbouring frames stays in the resample, on the profile of the frames. */
+/* Draws one process: the profile of the frames plus blocks of consecutive residuals (wrapping
+   around the end), which preserve the dependence of neighbouring frames. */
 static void draw_process(gsl_rng *random, const resample *s, double *to)
 {
     const double *from = s->residuals + gsl_rng_uniform_int(random, s->count) * s->frames;
@@ -160,7 +160,7 @@ static void draw_process(gsl_rng *random, const resample *s, double *to)
     }
 }
 
-/* GSL's errors are returned, except that memory which runs out ends the program. */
+/* GSL's errors are returned, except that running out of memory ends the program. */
 static void handle_error(const char *reason, const char *file, int line, int code)
 {
     (void)reason, (void)file, (void)line;
@@ -176,7 +176,7 @@ static gsl_rng *make_generator(uint64_t seed)
     return random;
 }
 
-/* From the 2.5 % to the 97.5 % of sorted values. */
+/* The 2.5 % and 97.5 % quantiles of sorted values. */
 static mote_confidence percentiles(const double *sorted, size_t count)
 {
     const mote_confidence interval = {mote_statistics_quantile(sorted, count, 0.025),
@@ -219,7 +219,7 @@ mote_confidence mote_statistics_median_interval(const mote_replicate *replicates
     return bootstrap(replicates, count, logarithmic, seed);
 }
 
-/* Figures of each process alone, as logarithms; returns how many there are. */
+/* Computes the figure for each process alone, as logarithms; returns how many there are. */
 static size_t single_figures(mote_process_figure figure, void *context, size_t processes,
                              double *logs)
 {
@@ -232,7 +232,7 @@ static size_t single_figures(mote_process_figure figure, void *context, size_t p
     return known;
 }
 
-/* Figures of resampled processes, sorted; returns how many there are. */
+/* Computes the figure for resampled processes, sorted; returns how many there are. */
 static size_t drawn_figures(mote_process_figure figure, void *context, size_t processes,
                             gsl_rng *random, size_t *drawn, double *values)
 {
@@ -248,7 +248,7 @@ static size_t drawn_figures(mote_process_figure figure, void *context, size_t pr
     return known;
 }
 
-/* The interval of resampled processes; values has room for RESAMPLES. */
+/* The interval from resampled processes; values has room for RESAMPLES. */
 static mote_confidence resampled(mote_process_figure figure, void *context, size_t processes,
                                  uint64_t seed, double *values)
 {

@@ -1,6 +1,6 @@
-/* Statistics of the experiments; the one file that uses GSL's. All arrays are borrowed and
-   left as they were unless said otherwise; all values are finite. A result that does not
-   exist (no values, one replicate) is MOTE_NONE. */
+/* Statistics of the experiments; statistics.c is the only file that uses GSL's. All arrays are
+   borrowed and left unchanged unless said otherwise; all values are finite. A result that does
+   not exist (no values, one replicate) is MOTE_NONE. */
 #ifndef MOTE_HARNESS_STATISTICS_H
 #define MOTE_HARNESS_STATISTICS_H
 
@@ -11,10 +11,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Stands for a value that does not exist: a NaN. */
+/* A value that does not exist: NaN. */
 #define MOTE_NONE ((double)NAN)
 
-/* A two-sided 95 % interval; both MOTE_NONE when there are too few values. */
+/* A two-sided 95 % interval; both MOTE_NONE if there are too few values. */
 typedef struct mote_confidence {
     double low, high;
 } mote_confidence;
@@ -34,7 +34,7 @@ double mote_statistics_mean(const double *values, size_t count);
 /* Student's t interval of the mean; MOTE_NONE below two values. */
 mote_confidence mote_statistics_t_interval(const double *values, size_t count);
 
-/* Clopper and Pearson's exact interval of a share: successes of trials that are independent.
+/* Clopper and Pearson's exact interval of a proportion: successes in independent trials.
    MOTE_NONE without a trial. */
 mote_confidence mote_statistics_share_interval(size_t successes, size_t trials);
 
@@ -47,71 +47,70 @@ typedef struct mote_replicate {
     size_t count;
 } mote_replicate;
 
-/* From this many replicates on, the bootstrap is used, below it the t interval: the bootstrap
+/* The bootstrap is used from this many replicates on, the t interval below it: the bootstrap
    over few replicates is too narrow. */
 #define MOTE_BOOTSTRAP_REPLICATES 10
 
-/* Interval of the median over all frames of processes that ran the same frames. values are
-   positive when logarithmic. Below MOTE_BOOTSTRAP_REPLICATES, or where frames are missing: t
-   interval of the process medians (of their logarithms when logarithmic). From there on:
-   percentiles of 1,000 hierarchical resamples, replicates first, then blocks of frames, drawn
-   from seed. The frames themselves are no sample: what is drawn is how processes differ from
-   the median over processes at each frame. */
+/* Interval of the median over all frames, for processes that ran the same frames. values are
+   positive if logarithmic. Below MOTE_BOOTSTRAP_REPLICATES, or where frames are missing: t
+   interval of the process medians (of their logarithms if logarithmic). Otherwise: percentiles
+   of 1,000 hierarchical resamples, replicates first, then blocks of frames, drawn from seed.
+   The frames are not a sample, so what is resampled is each process's deviation from the median
+   over processes at each frame. */
 mote_confidence mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
                                                 bool logarithmic, uint64_t seed);
 
-/* A positive figure of some processes, drawn[count] of them, numbered from 0; a process may
-   be drawn more than once. MOTE_NONE where these do not give one. */
+/* A positive figure computed from some processes: drawn[count], numbered from 0; a process may
+   be drawn more than once. MOTE_NONE if they do not give one. */
 typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t count);
 
-/* Interval of a figure of processes: below MOTE_BOOTSTRAP_REPLICATES processes the t interval
-   of the logarithms of the figure of each alone; from there on percentiles of 1,000 resamples
-   of the processes, drawn from seed. MOTE_NONE when too few of them give a figure. */
+/* Interval of a figure of processes. Below MOTE_BOOTSTRAP_REPLICATES processes: the t interval
+   of the logarithms of each process's own figure; otherwise: percentiles of 1,000 resamples of
+   the processes, drawn from seed. MOTE_NONE if too few of them give a figure. */
 mote_confidence mote_statistics_process_interval(mote_process_figure figure, void *context,
                                                  size_t processes, uint64_t seed);
 
-/* Interval of the median without any assumption but independence: order statistics by the sign
-   test, at least 95 %. sorted ascending; MOTE_NONE below six values. */
+/* Interval of the median that assumes only independence: order statistics by the sign test, at
+   least 95 %. sorted ascending; MOTE_NONE below six values. */
 mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count);
 
-/* Corrects p-values of one table by Holm's method, in place; those that are MOTE_NONE stay and
-   do not count. work holds count doubles. */
+/* Corrects the p-values of one table by Holm's method, in place; MOTE_NONE stays and does not
+   count. work holds count doubles. */
 void mote_statistics_holm(double *p, size_t count, double *work);
 
-/* The difference of two means by Welch's unequal variances. Fewer than two values on a side:
-   interval and p are MOTE_NONE. */
+/* The difference of two means by Welch's unequal-variances t-test. With fewer than two values
+   on a side, interval and p are MOTE_NONE. */
 typedef struct mote_difference {
     double value; /* mean of b minus mean of a */
     mote_confidence interval;
-    double p; /* two-sided, of no difference */
+    double p; /* two-sided, for no difference */
 } mote_difference;
 mote_difference mote_statistics_welch(const double *a, size_t a_count, const double *b,
                                       size_t b_count);
 
 /* The exponent e of y ~ x^e, by robust (bisquare) regression of the logarithms, with its 95 %
-   interval. x, y > 0. MOTE_NONE for fewer than four points, one x only, or where the weights do
-   not settle. MOTE_ENUMERIC. */
+   interval. x, y > 0. MOTE_NONE for fewer than four points, for a single x, or if the weights
+   do not converge. MOTE_ENUMERIC. */
 mote_status mote_statistics_exponent(const double *x, const double *y, size_t count,
                                      double *exponent, mote_confidence *interval);
 
-/* A difference counts as a change when its p is below this: half of the usual 0.05, so that
-   a method compared with itself is called faster or slower in clearly fewer than 5 % of
-   comparisons. */
+/* A difference counts as a change if its p is below this: half of the usual 0.05, so comparing
+   a method with itself reports faster or slower in clearly fewer than 5 % of comparisons. */
 #define MOTE_SIGNIFICANT 0.025
 
-/* The smallest ratio of times that a comparison calls a change four times in five, when both
-   sides are like these logarithms of one side (its processes, or groups of them) and it is one
-   of that many comparisons: from Student's t at MOTE_SIGNIFICANT / comparisons. MOTE_NONE below
-   two values. */
+/* The smallest ratio of times that a comparison detects with a power of 80 %, if both sides
+   vary like logs (one side's processes, or groups of them) and it is one of `comparisons`
+   comparisons: from Student's t at MOTE_SIGNIFICANT / comparisons. MOTE_NONE below two
+   values. */
 double mote_statistics_detectable(const double *logs, size_t count, size_t comparisons);
 
-/* What a ratio of times new / old says, given its interval, its p (corrected when it is one of
-   many) and the smallest effect that counts (floor: 0.02 for 2 %). */
+/* The verdict on a ratio of times new / old, given its interval, its p (corrected if it is one
+   of many) and the smallest effect that counts (floor: 0.02 for 2 %). */
 typedef enum mote_verdict {
     MOTE_VERDICT_SAME,     /* the interval lies within 1 / (1 + floor) .. 1 + floor */
     MOTE_VERDICT_FASTER,   /* significant, the interval below 1, the ratio below 1 / (1 + floor)
                             */
-    MOTE_VERDICT_SLOWER,   /* likewise above */
+    MOTE_VERDICT_SLOWER,   /* the same above 1 */
     MOTE_VERDICT_UNDECIDED /* anything else, or no interval */
 } mote_verdict;
 extern const char *const mote_verdict_names[]; /* "same", "faster", "slower", "undecided" */

@@ -16,7 +16,7 @@ static inline mote_affine mote_affine_identity(void)
     return i;
 }
 
-/* b, then a. */
+/* a after b: applies b first. */
 static inline mote_affine mote_affine_multiply(const mote_affine *a, const mote_affine *b)
 {
     mote_affine p;
@@ -28,7 +28,7 @@ static inline mote_affine mote_affine_multiply(const mote_affine *a, const mote_
     return p;
 }
 
-/* Of a direction: without the translation. */
+/* Maps a direction: without the translation. */
 static inline mote_vec3 mote_affine_turn(const mote_affine *a, mote_vec3 v)
 {
     return mote_vec3_make(a->m[0][0] * v.x + a->m[0][1] * v.y + a->m[0][2] * v.z,
@@ -49,8 +49,8 @@ static inline bool mote_affine_is_finite(const mote_affine *a)
     return sum == 0;
 }
 
-/* False, with *inverse unchanged, where the map is singular: where it shrinks volumes by more
-   than 1e12 times as much as the product of its columns does. */
+/* False, with *inverse unchanged, if the map is singular: if it shrinks volumes by more than
+   1e12 relative to the product of its columns' lengths. */
 static inline bool mote_affine_invert(const mote_affine *a, mote_affine *inverse)
 {
     const mote_vec3 x = mote_vec3_make(a->m[0][0], a->m[1][0], a->m[2][0]);

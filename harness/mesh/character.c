@@ -127,7 +127,7 @@ mote_status mote_character_import_file(const char *path, mote_character **charac
     if (status == MOTE_OK)
         status = make_character(path, &draft, character);
     if (status == MOTE_OK) {
-        mote_soup_free(&draft.soup); /* the character has taken the rest over */
+        mote_soup_free(&draft.soup); /* the character now owns everything else */
         if (import)
             *import = draft.import;
     } else {

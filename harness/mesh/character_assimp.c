@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A vertex's weight for a bone, or its displacement by a target. */
+/* A vertex's weight for a bone, or its displacement by a morph target. */
 typedef struct influence {
     uint32_t vertex, of;
     double weight;
@@ -29,9 +29,10 @@ typedef struct reader {
     size_t node_capacity;
     mote_node_name *names; /* [nodes], sorted */
     mote_affine *globals;  /* [nodes] as stored */
-    mote_affine stand;     /* puts meshes with bones where those do: see find_stand */
-    bool *is_added;  /* [meshes] with bones: where several nodes have one, it is the same */
-    uint32_t *slots; /* a hash table of bones; a power of two, MOTE_RIG_NONE: free */
+    mote_affine stand;     /* moves skinned meshes to where their bones put them: see
+                              find_stand */
+    bool *is_added;        /* [meshes] with bones; several nodes may refer to one mesh */
+    uint32_t *slots;       /* a hash table of bones; a power of two, MOTE_RIG_NONE: free */
     size_t slot_count;
     influences weights, shifts;
     mote_character_draft *draft;
@@ -93,8 +94,8 @@ static mote_status node_of_bone(const reader *r, const struct aiBone *bone, uint
     return MOTE_OK;
 }
 
-/* A node's map as stored, or the identity where it is singular: a mesh with bones does not
-   depend on it, and one without is then kept as it is in the file. */
+/* A node's map as stored, or the identity if it is singular: a mesh with bones does not depend
+   on it, and one without bones then stays as it is in the file. */
 static mote_affine home_of(const reader *r, uint32_t node)
 {
     mote_affine inverse;
@@ -102,7 +103,7 @@ static mote_affine home_of(const reader *r, uint32_t node)
                                                            : mote_affine_identity();
 }
 
-/* The bone with the largest weight of all, and the node of its mesh. */
+/* The bone with the largest total weight, and the node of its mesh. */
 static const struct aiBone *heaviest_bone(const reader *r, uint32_t *home)
 {
     const struct aiBone *heaviest = NULL;
@@ -125,14 +126,14 @@ static const struct aiBone *heaviest_bone(const reader *r, uint32_t *home)
     return heaviest;
 }
 
-/* How far a linear part may be from the identity where a mesh counts as standing already. */
+/* If the linear part is closer to the identity than this, a mesh already stands in place. */
 #define STANDS 0.01
 
 /* Vertices of a mesh with bones are where the bones put them, whatever its node says: a file
-   may keep them in centimetres and the bones in metres. The rest pose should have the size of
-   the poses that follow. So where the map by which the heaviest bone moves the mesh, as nodes
-   are stored, is not about the identity, it is applied to the meshes of all bones; one map for
-   all, so that vertices at one place stay so. */
+   may store them in centimetres and the bones in metres. The rest pose should have the size of
+   the later poses. So if the map by which the heaviest bone moves the mesh, with nodes as
+   stored, is not close to the identity, it is applied to all meshes with bones. There is one
+   map for all of them so that coincident vertices stay coincident. */
 static mote_status find_stand(reader *r)
 {
     uint32_t home = 0, node = 0;
@@ -157,7 +158,7 @@ static mote_status find_stand(reader *r)
     return MOTE_OK;
 }
 
-/* The bone with this node and bind, which is made where there is none. */
+/* Finds the bone with this node and bind matrix, or adds it. */
 static mote_status find_bone(reader *r, uint32_t node, const mote_affine *bind, uint32_t *bone)
 {
     mote_rig *rig = &r->draft->made.rig;
@@ -187,8 +188,8 @@ static void add_influence(influences *to, influence one)
     to->list[to->count++] = one;
 }
 
-/* The weights of the mesh's vertices, which follow `base` others. back: from rest coordinates
-   to those of the mesh. */
+/* Adds the weights of the mesh's vertices, whose numbers begin at base. back: from rest
+   coordinates to those of the mesh. */
 static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t base,
                                const mote_affine *back)
 {
@@ -219,7 +220,7 @@ static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t ba
     return status;
 }
 
-/* Vertices that no bone moves follow their node. */
+/* Binds vertices that no bone moves to their node. */
 static mote_status follow_node(reader *r, const struct aiMesh *mesh, uint32_t base,
                                uint32_t node, const mote_affine *back, size_t first)
 {
@@ -242,7 +243,8 @@ static mote_status follow_node(reader *r, const struct aiMesh *mesh, uint32_t ba
     return status;
 }
 
-/* The morph targets of a mesh: assimp gives places, and 0 weights mean the mesh's own. */
+/* Adds the morph targets of a mesh. assimp gives positions, and with all weights 0 they are the
+   mesh's own. */
 static mote_status add_targets(reader *r, const struct aiMesh *mesh, uint32_t base,
                                uint32_t node, const mote_affine *place)
 {
@@ -316,7 +318,8 @@ static int compare_influences(const void *a, const void *b)
     return order ? order : (p->of > q->of) - (p->of < q->of);
 }
 
-/* start[v]: the first of the sorted influences of a vertex not below v. */
+/* start[v]: the index of the first of the sorted influences that belongs to vertex v or a later
+   one. */
 static void index_influences(influences *from, size_t vertices, uint32_t *start)
 {
     size_t at = 0;
@@ -384,7 +387,7 @@ static mote_status read_scene(reader *r)
     return status;
 }
 
-/* Whether anything in a file can move. */
+/* Whether anything in the file can move. */
 static bool has_bones(const struct aiScene *scene)
 {
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) {

@@ -24,7 +24,7 @@ static mote_status check_nodes(const char *path, const mote_rig *rig)
     return MOTE_OK;
 }
 
-/* What the messages are about. */
+/* What the messages refer to. */
 typedef struct subject {
     const char *path;
     const mote_rig *rig;

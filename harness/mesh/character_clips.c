@@ -1,4 +1,5 @@
-/* Clips read by assimp, which knows linear keys only: see character_gltf.c for others. */
+/* Clips read by assimp, which supports linear keys only: see character_gltf.c for the
+   others. */
 #include "harness/mesh/character_parts.h"
 #include "harness/mesh/mesh_assimp.h"
 
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ticks of a second where a file does not say: assimp's own viewer takes as many. */
+/* Ticks per second if the file does not say; assimp's own viewer uses the same number. */
 #define TICKS 25.0
 
 typedef struct clip_reader {
@@ -18,10 +19,10 @@ typedef struct clip_reader {
     double last; /* key, seconds */
     const mote_node_name *names;
     mote_rig *rig;
-    bool *taken; /* [nodes, then targets] that have keys in this clip */
+    bool *taken; /* [nodes, then targets]: whether they have keys in this clip */
 } clip_reader;
 
-/* Room for keys; *times and *values are set to it. */
+/* Reserves memory for keys; *times and *values point to it. */
 static mote_rig_track add_track(clip_reader *r, uint32_t count, uint32_t width, double **times,
                                 double **values)
 {
@@ -42,7 +43,7 @@ static double key_time(clip_reader *r, double ticks)
     return seconds;
 }
 
-/* One key where there is none: the part of the node's own map. */
+/* Without keys, makes one key from the node's own map. */
 static mote_rig_track add_vectors(clip_reader *r, const struct aiVectorKey *keys,
                                   unsigned count, struct aiVector3D otherwise)
 {
@@ -89,7 +90,8 @@ static void split_rest(const mote_affine *rest, struct aiVector3D *position,
     aiDecomposeMatrix(&m, scale, rotation, position);
 }
 
-/* Of two channels for a node the first counts; one for no node moves nothing here. */
+/* Adds a channel. Of two channels for a node the first counts; a channel for an unknown node
+   moves nothing here. */
 static void add_channel(clip_reader *r, const struct aiNodeAnim *from)
 {
     const uint32_t node = mote_node_find(r->names, r->rig->nodes_count, from->mNodeName.data);
@@ -108,7 +110,7 @@ static void add_channel(clip_reader *r, const struct aiNodeAnim *from)
     r->taken[node] = true;
 }
 
-/* The weight of one target in all keys; where a key does not name it, 0. */
+/* The weight of one target at all keys; 0 at a key that does not name it. */
 static mote_rig_track add_weights(clip_reader *r, const struct aiMeshMorphAnim *from,
                                   uint32_t number)
 {
@@ -125,7 +127,7 @@ static mote_rig_track add_weights(clip_reader *r, const struct aiMeshMorphAnim *
     return track;
 }
 
-/* A channel names a node; that of an FBX file, "NODE*" and a number. */
+/* A channel names a node; in an FBX file, as "NODE*" and a number. */
 static void add_morph(clip_reader *r, const struct aiMeshMorphAnim *from)
 {
     char name[MAXLEN];

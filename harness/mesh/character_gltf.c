@@ -1,5 +1,5 @@
-/* What assimp leaves out of a glTF file's animations: that keys are steps, and the tangents of
-   cubic ones (glTF 2.0, section 3.11). */
+/* The parts of a glTF file's animations that assimp leaves out: step interpolation, and the
+   tangents of cubic keys (glTF 2.0, section 3.11). */
 #include "harness/mesh/character_parts.h"
 
 #include "harness/base/file.h"
@@ -16,15 +16,15 @@
 typedef struct gltf {
     const char *path;
     json_t *root;
-    const char *bin; /* of a binary file; or NULL */
+    const char *bin; /* of a binary file; otherwise NULL */
     size_t bin_size;
-    int64_t buffer; /* the one that is loaded; -1: none */
+    int64_t buffer; /* the loaded one; -1: none */
     char *bytes;
     size_t size;
     mote_rig *rig;
 } gltf;
 
-/* Numbers of an accessor. */
+/* The numbers of an accessor. */
 typedef struct numbers {
     double *values;
     size_t count; /* of elements */
@@ -43,7 +43,7 @@ static const json_t *entry(const gltf *g, const char *list, int64_t index)
     return index < 0 ? NULL : json_array_get(json_object_get(g->root, list), (size_t)index);
 }
 
-/* A member that is a whole number of at least 0, or -1. */
+/* The value of a member that is a whole number of at least 0, otherwise -1. */
 static int64_t whole(const json_t *object, const char *key)
 {
     const json_t *value = json_object_get(object, key);
@@ -65,7 +65,7 @@ static int digit(char c)
     return at ? (int)(at - digits) : -1;
 }
 
-/* Base 64 up to its end, or to what is none. */
+/* Decodes base 64 up to the end or the first character that is not base 64. */
 static char *decode(const char *text, size_t *size)
 {
     char *bytes = mote_allocate(strlen(text) / 4 * 3 + 3, 1);
@@ -112,7 +112,7 @@ static mote_status load_buffer(gltf *g, int64_t index)
     return status;
 }
 
-/* Reads an accessor of floats, `width` each. */
+/* Reads an accessor with `width` floats per element. */
 static mote_status read_accessor(gltf *g, int64_t index, size_t width, numbers *out)
 {
     const json_t *accessor = entry(g, "accessors", index);
@@ -143,7 +143,8 @@ static mote_status read_accessor(gltf *g, int64_t index, size_t width, numbers *
 }
 
 /* Makes a track cubic. keys[3 k + j] is the arriving tangent, the value or the leaving tangent
-   (j) of key k: `width` numbers at `first` of each element of `stride` numbers. */
+   (j) of key k; each is `width` numbers from position `first` of an element of `stride`
+   numbers. */
 static void set_cubic(gltf *g, mote_rig_track *track, const numbers *times, const double *keys,
                       size_t first, size_t stride, size_t width)
 {
@@ -161,7 +162,7 @@ static void set_cubic(gltf *g, mote_rig_track *track, const numbers *times, cons
     }
 }
 
-/* The tracks of a channel: one, or those of all targets of a node. */
+/* The tracks of a channel: one, or one for each morph target of a node. */
 typedef struct tracks {
     mote_rig_track **list;
     size_t count, width;
@@ -204,7 +205,7 @@ static void find_tracks(gltf *g, const mote_rig_clip *clip, uint32_t node, const
     }
 }
 
-/* Targets of a primitive stand in their order; several primitives of a node repeat them. */
+/* The targets of a primitive are in order; further primitives of a node repeat them. */
 static mote_status set_cubics(gltf *g, const json_t *sampler, const tracks *found,
                               const char *path)
 {
@@ -239,7 +240,7 @@ static mote_status set_channel(gltf *g, const json_t *animation, const json_t *c
         return MOTE_OK;
     const uint32_t node = find_node(g, whole(target, "node"));
     if (node == MOTE_RIG_NONE)
-        return MOTE_OK; /* moves nothing that assimp has read */
+        return MOTE_OK; /* moves nothing that assimp read */
     tracks found;
     mote_status status = MOTE_OK;
     find_tracks(g, clip, node, path, &found);
@@ -278,7 +279,7 @@ static uint32_t word(const char *bytes)
     return value;
 }
 
-/* The text of a file, and of a binary one its buffer. */
+/* The JSON text of a file, and the buffer of a binary one. */
 static bool find_text(const char *data, size_t size, gltf *g, const char **text, size_t *length)
 {
     *text = data;

@@ -1,4 +1,4 @@
-/* A draft on its way from the child process that read it. */
+/* Sends a draft from the child process that read it to the parent. */
 #include "harness/mesh/character_parts.h"
 
 #include "harness/base/memory.h"
@@ -18,7 +18,7 @@ typedef struct header {
 } header;
 #undef COUNT
 
-/* Sends more bytes, unless sending has failed. */
+/* Sends more bytes unless an earlier send failed. */
 static mote_status put(mote_status status, int output, const void *data, size_t size)
 {
     return status == MOTE_OK && size > 0 ? mote_child_put(output, data, size) : status;
@@ -90,7 +90,7 @@ static void take_arrays(cursor *from, const header *head, mote_character_draft *
     MOTE_CHARACTER_ARRAYS(TAKE_OWN)
 }
 
-/* start[vertices + 1] rises from 0 to the end of an array. */
+/* Whether start[vertices + 1] rises from 0 to the end of an array. */
 static bool is_index(const uint32_t *start, size_t count, size_t vertices, size_t end)
 {
     if (count != vertices + 1 || start[0] != 0 || start[vertices] != end)
@@ -102,7 +102,7 @@ static bool is_index(const uint32_t *start, size_t count, size_t vertices, size_
     return true;
 }
 
-/* Weights and shifts of the vertices. */
+/* Whether the arrays of weights and shifts are valid. */
 static bool are_arrays_whole(const mote_character_draft *draft)
 {
     const mote_character *c = &draft->made;

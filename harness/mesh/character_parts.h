@@ -1,12 +1,13 @@
-/* The steps from a file to a character; used by the importer and its tests only. */
+/* The steps from a file to a character; used only by the importer and its tests. */
 #ifndef MOTE_HARNESS_CHARACTER_PARTS_H
 #define MOTE_HARNESS_CHARACTER_PARTS_H
 
 #include "harness/mesh/character_data.h"
 #include "harness/mesh/mesh_soup.h"
 
-/* A character on its way: its triangles are in soup, and start, bone, weight, shift_start,
-   target and shift are those of the soup's vertices. made.mesh is NULL. Zero-initialise. */
+/* A character under construction: its triangles are in soup, and start, bone, weight,
+   shift_start, target and shift refer to the soup's vertices. made.mesh is NULL.
+   Zero-initialise. */
 typedef struct mote_character_draft {
     mote_soup soup;
     mote_character made;
@@ -18,48 +19,48 @@ void mote_character_draft_free(mote_character_draft *draft);
 /* Frees start, bone, weight, shift_start, target and shift. */
 void mote_character_free_arrays(mote_character *character);
 
-/* Replaces these arrays by those of another one, which are then its own no more. */
+/* Replaces these arrays with those of another character, which loses them. */
 void mote_character_set_arrays(mote_character *character, mote_character *from);
 
-/* Reads meshes, nodes, bones, weights, morph targets and clips by assimp. Vertices are as many
-   as in the file, their weights as given. Call it in a child process with limits. */
+/* Reads meshes, nodes, bones, weights, morph targets and clips with assimp. Vertices are as
+   many as in the file, weights as given. Call it in a child process with limits. */
 mote_status mote_character_read_assimp(const char *path, mote_character_draft *draft);
 
-/* A node by the name that the file gives it. */
+/* A node, by its name in the file. */
 typedef struct mote_node_name {
     const char *name;
     uint32_t node;
 } mote_node_name;
 
-/* The first node of a name, MOTE_RIG_NONE where there is none. names[count] are sorted. */
+/* The first node with a name, or MOTE_RIG_NONE. names[count] are sorted. */
 uint32_t mote_node_find(const mote_node_name *names, size_t count, const char *name);
 
-/* The clips of a file's animations, added to a rig whose nodes, as many as names, and targets
-   are known: a part of the above. */
+/* Adds the clips of a file's animations to a rig whose nodes (as many as names) and targets are
+   known. A step of mote_character_read_assimp. */
 struct aiScene;
 void mote_character_read_clips(const struct aiScene *scene, const mote_node_name *names,
                                mote_rig *rig);
 
-/* Makes tracks of a rig steps or cubic where a glTF file, text or binary, says so; assimp has
-   read all as linear. path finds buffers in other files. MOTE_EINVAL: cubic keys that cannot be
-   read. */
+/* Makes tracks of a rig step or cubic where a glTF file, text or binary, says so; assimp reads
+   all of them as linear. path locates buffers in other files. MOTE_EINVAL: cubic keys that
+   cannot be read. */
 mote_status mote_character_set_gltf_keys(const char *path, const char *data, size_t size,
                                          mote_rig *rig);
 
-/* Makes weights add up to 1, welds vertices at one place that move alike, cuts edges of more
-   than two faces apart, and notes what was done. MOTE_EINVAL: a weight that is negative or not
-   finite. */
+/* Normalises weights to a sum of 1, welds vertices at one place that move alike, cuts edges of
+   more than two faces apart, and records what was done. MOTE_EINVAL: a weight that is negative
+   or not finite. */
 mote_status mote_character_weld(const char *path, mote_character_draft *draft);
 
-/* Sends a draft to the parent process; takes it from what was sent. What arrives is checked as
-   if it came from a stranger: MOTE_EIO where it is not a draft. Nothing in a draft that was
-   taken leads outside its arrays. */
+/* Sends a draft to the parent process, and reads it there. Received data is not trusted:
+   MOTE_EIO if it is not a valid draft. No index in a draft that was read points outside its
+   arrays. */
 mote_status mote_character_put(int output, const mote_character_draft *draft);
 mote_status mote_character_take(const char *path, const char *data, size_t size,
                                 mote_character_draft *draft);
 
-/* What a user's file may have wrong: numbers that are not finite, times that fall, rotations of
-   no length. MOTE_EINVAL, naming node, clip and key. */
+/* Checks for numbers that are not finite, decreasing times and rotations of zero length.
+   MOTE_EINVAL, naming node, clip and key. */
 mote_status mote_character_check_rig(const char *path, const mote_rig *rig);
 
 #endif

@@ -6,14 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Midpoints by the two ends of their edge: an open-addressing table. */
+/* Midpoints keyed by the two ends of their edge: an open-addressing table. */
 typedef struct midpoints {
-    uint64_t *ends; /* the larger vertex above the smaller one; 0: free, as no edge is */
+    uint64_t *ends; /* larger vertex in the upper half, smaller in the lower; 0, which no edge
+                       has: free */
     uint32_t *vertex;
     size_t slots; /* a power of two */
 } midpoints;
 
-/* The character that is made: its vertices, and whether they fit. */
+/* The character being made: its vertices, and whether they fit. */
 typedef struct finer {
     const mote_character *from;
     mote_character to;
@@ -58,7 +59,7 @@ static void mean_shifts(finer *f, uint32_t a, uint32_t b)
     }
 }
 
-/* Appends the vertex in the middle of two; of one and the same, a copy. */
+/* Appends the midpoint of two vertices; of a vertex and itself, a copy. */
 static void add_vertex(finer *f, uint32_t a, uint32_t b)
 {
     const mote_vec3 p = f->from->mesh->positions[a], q = f->from->mesh->positions[b];

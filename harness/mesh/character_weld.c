@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sums of weights nearer to 1 than this are rounding: single precision, a few weights. */
+/* Deviations of a weight sum from 1 below this are rounding: single precision, a few
+   weights. */
 #define OFF_COUNTS 1e-4
 
 static mote_status check_weight(const char *path, const mote_character_draft *draft,
@@ -25,8 +26,8 @@ static mote_status check_weight(const char *path, const mote_character_draft *dr
                      c->rig.names + c->rig.nodes[bone->node].name);
 }
 
-/* Makes the weights of a vertex add up to 1, each bone once and none 0. They are moved to *end,
-   which goes on. */
+/* Makes the weights of a vertex add up to 1, with each bone once and no weight 0. They are
+   moved to *end, which advances. */
 static mote_status normalise_vertex(const char *path, mote_character_draft *draft,
                                     uint32_t vertex, uint32_t begin, uint32_t *end)
 {
@@ -75,7 +76,7 @@ static mote_status normalise(const char *path, mote_character_draft *draft)
     return status;
 }
 
-/* Whether two vertices move alike, wherever they are. */
+/* Whether two vertices move alike, regardless of their positions. */
 static bool same_motion(const mote_character *c, uint32_t a, uint32_t b)
 {
     const size_t weights = c->start[a + 1] - c->start[a];
@@ -103,7 +104,7 @@ static uint64_t hash_motion(const mote_character *c, uint32_t v)
     return mote_hash_bytes(hash, c->shift + s, (c->shift_start[v + 1] - s) * sizeof *c->shift);
 }
 
-/* The kind of a vertex is the first one that moves like it. */
+/* Sets the kind of each vertex: the first vertex that moves like it. */
 static void set_kinds(mote_character_draft *draft)
 {
     const uint32_t count = (uint32_t)draft->soup.vertex_count;
@@ -125,7 +126,7 @@ static void set_kinds(mote_character_draft *draft)
     draft->soup.kind = kind;
 }
 
-/* The largest difference of a weight between two vertices of the file. */
+/* The largest difference of a bone's weight between two vertices of the file. */
 static double weight_difference(const mote_character *c, uint32_t a, uint32_t b)
 {
     uint32_t i = c->start[a], k = c->start[b];
@@ -150,7 +151,7 @@ static int compare_places(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Counts the vertices that are kept apart from another one at their place. */
+/* Counts the vertices kept apart from another one at the same place. */
 static void count_apart(mote_character_draft *draft)
 {
     const mote_soup *soup = &draft->soup;
@@ -159,7 +160,7 @@ static void count_apart(mote_character_draft *draft)
     for (size_t v = 0; v < count; ++v)
         places[v] = soup->xyz + 3 * v;
     qsort(places, count, sizeof *places, compare_places);
-    size_t first = 0; /* at this place */
+    size_t first = 0; /* vertex at this place */
     for (size_t i = 1; i < count; ++i) {
         const double *a = places[first], *b = places[i];
         if (a[0] != b[0] || a[1] != b[1] || a[2] != b[2]) {
@@ -174,7 +175,7 @@ static void count_apart(mote_character_draft *draft)
     free(places);
 }
 
-/* Replaces the arrays of the file's vertices by those of the mesh's. */
+/* Replaces the arrays of the file's vertices with those of the mesh's vertices. */
 static void set_arrays(mote_character_draft *draft)
 {
     mote_character *old = &draft->made, made = {.mesh = NULL};

@@ -52,7 +52,7 @@ static mote_status add_vertices(const char *path, const struct aiMesh *mesh,
     return status;
 }
 
-/* corners: room for those of the face, whose vertices follow `base` others in the soup. */
+/* corners: room for the face's corners, whose vertices begin at number base in the soup. */
 static mote_status add_face(const char *path, const struct aiMesh *mesh, unsigned f,
                             uint32_t base, uint32_t *corners, mote_soup *soup)
 {
@@ -83,7 +83,7 @@ static mote_status add_faces(const char *path, const struct aiMesh *mesh, uint32
     uint32_t *corners = mote_allocate(most, sizeof *corners);
     mote_status status = MOTE_OK;
     for (unsigned f = 0; f < mesh->mNumFaces && status == MOTE_OK; ++f) {
-        if (mesh->mFaces[f].mNumIndices >= 3) /* no points and lines */
+        if (mesh->mFaces[f].mNumIndices >= 3) /* skip points and lines */
             status = add_face(path, mesh, f, base, corners, soup);
     }
     free(corners);
@@ -145,8 +145,8 @@ mote_status mote_assimp_open(const char *path, const struct aiScene **scene)
     char dropped = 0;
     const struct aiLogStream log = {note_dropped, &dropped};
     aiAttachLogStream(&log);
-    /* We weld vertices ourselves, after checking that they are finite, and triangulate
-       polygons ourselves: assimp makes wrong triangles where a face is concave and not flat. */
+    /* We check that vertices are finite, weld them and triangulate polygons ourselves: assimp
+       makes wrong triangles if a face is concave and not flat. */
     const struct aiScene *opened = aiImportFile(path, 0);
     aiDetachLogStream(&log);
     if (!opened)

@@ -1,5 +1,5 @@
-/* What the readers that use assimp share: mesh_assimp.c and character_assimp.c, the only files
-   that include it. Call them in a child process with limits: assimp may crash, hang or ask for
+/* Shared by the readers that use assimp: mesh_assimp.c and character_assimp.c, the only files
+   that include it. Call them in a child process with limits: assimp may crash, hang or request
    any amount of memory. */
 #ifndef MOTE_HARNESS_MESH_ASSIMP_H
 #define MOTE_HARNESS_MESH_ASSIMP_H
@@ -11,23 +11,23 @@
 
 #define MOTE_SAID_MAX 200
 
-/* A file may nest nodes without end; real ones do not go this deep. */
+/* A file may nest nodes to any depth; real ones stay below this. */
 #define MOTE_ASSIMP_DEPTH_MAX 256
 
-/* What assimp or a file says, fit for one line: no control characters, no full stop at the
-   end. */
+/* Text of assimp or of a file, made fit for one line: no control characters, no full stop at
+   the end. */
 const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX]);
 
-/* " of mesh NAME", where it has a name. */
+/* " of mesh NAME" if it has a name. */
 const char *mote_assimp_of_mesh(const struct aiMesh *mesh, char text[MOTE_SAID_MAX]);
 
 mote_affine mote_assimp_affine(const struct aiMatrix4x4 *m);
 
 /* Reads a file as it is. MOTE_EINVAL: assimp refuses it, a face has an index out of range, or
-   there is no mesh in it. Release *scene with aiReleaseImport. */
+   it contains no mesh. Release *scene with aiReleaseImport. */
 mote_status mote_assimp_open(const char *path, const struct aiScene **scene);
 
-/* Adds vertices, moved by `place`, and faces. */
+/* Adds vertices, mapped by `place`, and faces. */
 mote_status mote_assimp_add_mesh(const char *path, const struct aiMesh *mesh,
                                  const mote_affine *place, mote_soup *soup);
 

@@ -1,6 +1,6 @@
-/* Checks a file before assimp reads it, for errors that assimp passes over in silence: it
-   believes declared counts, and then loops or allocates for minutes; it takes a comma for a
-   decimal point, and an index modulo 2^32. */
+/* Checks a file before assimp reads it, for errors that assimp silently accepts: it trusts
+   declared counts and then loops or allocates for minutes; it takes a comma for a decimal
+   point, and an index modulo 2^32. */
 #include "harness/mesh/mesh_text.h"
 
 #include <stdlib.h>
@@ -11,10 +11,10 @@
 #define ELEMENTS_MAX 16
 
 typedef struct ply_element {
-    char name[16]; /* cut */
+    char name[16]; /* truncated */
     unsigned long long count;
     bool has_properties, begins_with_list; /* its first property is a list */
-    size_t bytes;                          /* of one, in a binary file, its lists being empty */
+    size_t bytes;                          /* of one in a binary file, if its lists are empty */
 } ply_element;
 
 typedef struct ply_header {
@@ -31,7 +31,7 @@ static const char *next_line(const char *at)
     return at + (*at == '\n');
 }
 
-/* "element NAME COUNT"; an element takes a byte at least. */
+/* Reads "element NAME COUNT"; an element takes at least one byte. */
 static mote_status read_element(const char *path, const char *at, size_t size, ply_header *h)
 {
     if (h->count == ELEMENTS_MAX)
@@ -52,7 +52,7 @@ static mote_status read_element(const char *path, const char *at, size_t size, p
     return MOTE_OK;
 }
 
-/* What follows `word` and blanks, or NULL. */
+/* The text after `word` and blanks, or NULL. */
 static const char *after(const char *at, const char *word)
 {
     const size_t length = strlen(word);
@@ -61,7 +61,7 @@ static const char *after(const char *at, const char *word)
     return mote_skip_blanks(at + length);
 }
 
-/* Bytes of a number in a binary file; 0: a type that is not known. */
+/* Bytes of a number in a binary file; 0 for an unknown type. */
 static size_t type_bytes(const char *type)
 {
     static const struct {
@@ -87,8 +87,8 @@ static void note_property(ply_element *e, const char *property)
     e->bytes += type_bytes(list ? list : property);
 }
 
-/* Reads up to the line end_header, without which assimp would never end; *body is what
-   follows. */
+/* Reads up to the line end_header; without that line assimp would never end. *body is the text
+   after it. */
 static mote_status read_header(const char *path, const char *text, size_t size, ply_header *h,
                                const char **body)
 {
@@ -112,7 +112,7 @@ static mote_status read_header(const char *path, const char *text, size_t size, 
     return mote_fail(MOTE_EINVAL, "%s: a header without a line end_header; add it", path);
 }
 
-/* "3 0 1 2", and anything else on the line. */
+/* Checks "3 0 1 2"; anything may follow on the line. */
 static mote_status check_face(const char *path, size_t number, const char *line,
                               unsigned long long vertices)
 {
@@ -142,7 +142,7 @@ static mote_status comma_at(const char *path, size_t number)
                      number);
 }
 
-/* The lines of an ASCII body, one an element. */
+/* Checks the lines of an ASCII body, one per element. */
 static mote_status check_ply_body(const char *path, const ply_header *h, const char *body)
 {
     size_t number = h->lines;
@@ -172,7 +172,7 @@ static mote_status check_ply_body(const char *path, const ply_header *h, const c
     return MOTE_OK;
 }
 
-/* The declared elements must not be longer than a binary body is. */
+/* Checks that the declared elements fit into a binary body. */
 static mote_status check_binary_ply(const char *path, const ply_header *h, size_t body_size)
 {
     size_t least = 0;
@@ -202,7 +202,7 @@ static bool begins(const char *line, const char *word)
     return strncasecmp(line, word, strlen(word)) == 0;
 }
 
-/* Three numbers and nothing else. */
+/* Whether a line has three numbers and nothing else. */
 static bool has_three_numbers(const char *at)
 {
     for (int i = 0; i < 3; ++i) {
@@ -218,8 +218,8 @@ static bool has_three_numbers(const char *at)
     return true;
 }
 
-/* ASCII STL: facets of three vertices of three numbers, up to a line endsolid. assimp invents
-   what is missing. */
+/* Checks ASCII STL: facets of three vertices of three numbers, up to a line endsolid. assimp
+   makes up missing numbers. */
 static mote_status check_stl_text(const char *path, const char *text)
 {
     size_t number = 1;
@@ -243,7 +243,8 @@ static mote_status check_stl_text(const char *path, const char *text)
     return MOTE_OK;
 }
 
-/* Binary files may begin with "solid", too: 80 bytes, a count, 50 bytes a triangle. */
+/* Checks STL. A binary file (80 bytes, a count, 50 bytes per triangle) may also begin with
+   "solid". */
 static mote_status check_stl(const char *path, const char *text, size_t size)
 {
     const bool is_text = strlen(text) == size && begins(mote_skip_mark(text), "solid");

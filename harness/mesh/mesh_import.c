@@ -17,8 +17,8 @@
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
-#define MEMORY_BYTES ((size_t)128 << 20) /* and sixty times the file */
-#define SECONDS 4.0                      /* and one for every 8 MB of the file */
+#define MEMORY_BYTES ((size_t)128 << 20) /* plus sixty times the file's size */
+#define SECONDS 4.0                      /* plus one for every 8 MB of the file */
 
 typedef struct header {
     uint64_t vertex_count, triangle_count;
@@ -32,7 +32,7 @@ static bool has_ending(const char *path, const char *ending)
     return length > end && strcasecmp(path + length - end, ending) == 0;
 }
 
-/* A format that we read ourselves. */
+/* Reads a format that we parse ourselves. */
 static mote_status read_text(const char *path, const char *text, size_t size, bool is_off,
                              mote_soup *soup)
 {
@@ -84,7 +84,7 @@ static mote_status read_soup(const char *path, mote_soup *soup)
     return status;
 }
 
-/* assimp prints its failed assertions; our own text says what is wrong. */
+/* Discards output: assimp prints its failed assertions; our own text says what is wrong. */
 static void silence(void)
 {
     int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
@@ -95,7 +95,7 @@ static void silence(void)
     (void)close(nowhere);
 }
 
-/* A crash ends the child, whatever handlers the caller has. */
+/* Lets a crash end the child, whatever handlers the caller has. */
 static void crash_for_good(void)
 {
     static const int signals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -182,7 +182,7 @@ void mote_import_tell_split(const char *path, const mote_import *import)
                   import->split.edges > MOTE_SPLIT_EDGES_TOLD ? "; ..." : "");
 }
 
-/* Makes a mesh of the child's output. The counts are checked against its size. */
+/* Makes a mesh from the child's output. The counts are checked against its size. */
 static mote_status make_mesh(const char *path, const char *data, size_t size, mote_mesh **mesh,
                              mote_import *import)
 {

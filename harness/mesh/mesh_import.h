@@ -1,16 +1,16 @@
-/* Meshes of users, from files. */
+/* Reads users' mesh files. */
 #ifndef MOTE_HARNESS_MESH_IMPORT_H
 #define MOTE_HARNESS_MESH_IMPORT_H
 
 #include "core/body/mesh.h"
 #include "harness/mesh/mesh_split.h"
 
-/* What happened to a file's triangles on the way to a mesh. */
+/* What happened to a file's triangles before they became a mesh. */
 typedef struct mote_import {
     bool single_precision; /* coordinates went through 32-bit floats (all but OBJ and OFF) */
-    size_t welded;         /* vertices at the place of another one, welded to it */
-    size_t collapsed;      /* faces left out: two vertices at one place */
-    size_t unused;         /* vertices left out: in no face */
+    size_t welded;         /* vertices welded to another one at the same place */
+    size_t collapsed;      /* faces left out: two of their vertices at one place */
+    size_t unused;         /* vertices left out: not in any face */
     mote_split split;      /* edges of more than two faces, cut apart */
 } mote_import;
 
@@ -18,21 +18,20 @@ typedef struct mote_import {
    apart. Not thread-safe. */
 void mote_mesh_import_strictly(void);
 
-/* MOTE_EINVAL, with where they are, if edges of the file were cut apart. */
+/* MOTE_EINVAL if edges of the file were cut apart; the text says where. */
 mote_status mote_import_refuse_split(const char *path, const mote_import *import);
 
-/* Says on stderr, once for each file, that edges of it were cut apart, if any were. Not
-   thread-safe. */
+/* Reports on stderr, once per file, that some of its edges were cut apart. Not thread-safe. */
 void mote_import_tell_split(const char *path, const mote_import *import);
 
-/* Reads a mesh: OBJ and OFF in double precision by ourselves; PLY, STL, glTF and others by
-   assimp, merging vertices at the same place. It works in a child process with limits of time
-   and memory (4 seconds and 128 MB for a small file, more in proportion for large ones), so
-   that no file can end or stop the caller. An edge of more than two faces is cut apart
+/* Reads a mesh: OBJ and OFF with our own parsers in double precision; PLY, STL, glTF and others
+   with assimp, merging vertices at the same place. It works in a child process with limits of
+   time and memory (4 seconds and 128 MB for a small file, proportionally more for large ones),
+   so no file can end or block the caller. An edge of more than two faces is cut apart
    (mesh_split.h): the surface stays the same bit for bit. MOTE_EINVAL with a text that names
    the file and the place: a coordinate that is not finite, an index out of range, a face that
    is not simple, no face. MOTE_EIO: the file cannot be read, or the child crashed or took too
-   long. *import may be NULL. The caller destroys *mesh. */
+   long. import may be NULL. The caller destroys *mesh. */
 mote_status mote_mesh_import(const char *path, mote_mesh **mesh, mote_import *import);
 
 #endif

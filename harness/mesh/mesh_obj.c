@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads "7", "7/1", "7//2" or "-1/..." as a vertex from 0. */
+/* Reads "7", "7/1", "7//2" or "-1/..." as a vertex number from 0. */
 static mote_status read_corner(mote_mesh_reader *reader, const char **at, uint32_t *vertex)
 {
     const size_t count = reader->soup->vertex_count;
@@ -41,8 +41,8 @@ static mote_status read_face(mote_mesh_reader *reader, const char *at)
     return status == MOTE_OK ? mote_mesh_end_face(reader) : status;
 }
 
-/* The line after this one and those joined to it; *line counts them. A comment ends with its
-   line, even with a backslash there. */
+/* The line after this one and the lines joined to it; *line counts them. A comment ends with
+   its line, even after a backslash. */
 static const char *next_line(const mote_mesh_reader *reader, const char *at, size_t *line)
 {
     for (bool in_comment = false; *at && *at != '\n'; ++at) {

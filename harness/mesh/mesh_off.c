@@ -7,7 +7,7 @@
 
 typedef struct off_reader {
     mote_mesh_reader common;
-    const char *at; /* what is not read yet */
+    const char *at; /* unread text */
     size_t size;    /* of the text */
     size_t vertices, faces;
 } off_reader;
@@ -19,7 +19,7 @@ static const char *skip_word(const char *at)
     return mote_skip_blanks(at);
 }
 
-/* The next line that is neither blank nor a comment: its first word, or NULL at the end. */
+/* The first word of the next line that is neither blank nor a comment, or NULL at the end. */
 static const char *next_line(off_reader *reader)
 {
     while (*reader->at) {
@@ -38,7 +38,8 @@ static mote_status fail_at(const off_reader *reader, const char *what)
     return mote_fail(MOTE_EINVAL, "%s:%zu: %s", reader->common.path, reader->common.line, what);
 }
 
-/* A whole number >= 0, up to the file's size: nothing can be more. */
+/* Reads a whole number >= 0 of elements that fit into the file, each at least least_bytes
+   long. */
 static mote_status read_count(const off_reader *reader, const char **at, const char *what,
                               size_t least_bytes, size_t *count)
 {
@@ -56,7 +57,7 @@ static mote_status read_count(const off_reader *reader, const char **at, const c
     return MOTE_OK;
 }
 
-/* "OFF", and vertices, faces and edges on the same line or the next. */
+/* Reads "OFF", and the counts of vertices, faces and edges on the same line or the next. */
 static mote_status read_header(off_reader *reader)
 {
     const char *at = next_line(reader);
@@ -75,12 +76,12 @@ static mote_status read_header(off_reader *reader)
         at = next_line(reader);
     if (!at)
         return fail_at(reader, "no counts; write the numbers of vertices, faces and edges");
-    /* A vertex takes three digits and blanks, a face four. */
+    /* A vertex takes at least three digits and three blanks; a face a further digit. */
     mote_status status = read_count(reader, &at, "vertices", 6, &reader->vertices);
     return status == MOTE_OK ? read_count(reader, &at, "faces", 7, &reader->faces) : status;
 }
 
-/* "3 0 1 2": how many corners, and vertices from 0. */
+/* Reads "3 0 1 2": the number of corners, and vertices from 0. */
 static mote_status read_face(off_reader *reader, const char *at)
 {
     char *end;

@@ -53,7 +53,7 @@ static mote_status check_corners(const uint32_t *corners, size_t count, uint32_t
     return MOTE_OK;
 }
 
-/* places: room for the corners' coordinates; triangles: for three numbers a corner. */
+/* places: room for the corners' coordinates; triangles: room for three numbers per corner. */
 static mote_status add_polygon(mote_soup *soup, const uint32_t *corners, size_t count,
                                double *places, uint32_t (*triangles)[3])
 {
@@ -110,8 +110,8 @@ static bool same_kind(const mote_soup *soup, uint32_t a, uint32_t b)
     return !soup->kind || soup->kind[a] == soup->kind[b];
 }
 
-/* map[v]: the first vertex at the place of v that is of its kind. slots: a power of two, all
- * UINT32_MAX. */
+/* map[v]: the first vertex with the position and kind of v. slots: a power of two, all
+   UINT32_MAX. */
 static void find_first(const mote_soup *soup, uint32_t *slots, size_t slot_count, uint32_t *map)
 {
     for (uint32_t v = 0; v < soup->vertex_count; ++v) {
@@ -164,7 +164,7 @@ void mote_soup_weld(mote_soup *soup)
     free(slots);
     free(map);
     mote_soup_compact(soup);
-    /* Welded vertices are in no face any more; they count as welded only. */
+    /* Welded vertices are in no face; they count as welded only. */
     soup->unused -= soup->welded - welded_before;
 }
 

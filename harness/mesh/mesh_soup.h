@@ -1,4 +1,4 @@
-/* A triangle soup: the triangles of a file, before they become a mesh. */
+/* A triangle soup: the triangles of a file before they become a mesh. */
 #ifndef MOTE_HARNESS_MESH_SOUP_H
 #define MOTE_HARNESS_MESH_SOUP_H
 
@@ -11,57 +11,57 @@
 typedef struct mote_soup {
     double *xyz;       /* [3 * vertex_count] */
     uint32_t *indices; /* [3 * triangle_count] */
-    uint32_t *lines;   /* [triangle_count] of the file; 0: unknown */
-    uint32_t line;     /* of the triangles that are added next */
+    uint32_t *lines;   /* [triangle_count] in the file; 0: unknown */
+    uint32_t line;     /* line of the triangles added next */
     uint32_t *kind;    /* [vertex_count], or NULL; vertices of different kinds stay apart */
     size_t vertex_count, triangle_count;
     size_t vertex_capacity, index_capacity, line_capacity;
     bool single_precision; /* coordinates went through 32-bit floats */
-    size_t welded;         /* vertices at the place of another one, welded to it */
+    size_t welded;         /* vertices welded to another one at the same place */
     size_t collapsed;      /* faces that had two equal vertices after welding, left out */
-    size_t unused;         /* vertices in no face, left out */
+    size_t unused;         /* vertices not in any face, left out */
 } mote_soup;
 
-/* Adding to a zero-initialised soup. MOTE_EINVAL: 2^31 vertices. Free with mote_soup_free. */
+/* Adds to a zero-initialised soup. MOTE_EINVAL: 2^31 vertices. Free with mote_soup_free. */
 mote_status mote_soup_add_vertex(mote_soup *soup, double x, double y, double z);
 void mote_soup_add_triangle(mote_soup *soup, uint32_t a, uint32_t b, uint32_t c);
 
 /* Adds a polygon as triangles, convex or not. corners: count >= 3 vertices of the soup, in
-   order around it. MOTE_EINVAL: a vertex is named twice, or mote_polygon_triangulate refuses
-   the polygon; the text says what is wrong and what would be right, but not where. */
+   order around it. MOTE_EINVAL: a vertex occurs twice, or mote_polygon_triangulate refuses the
+   polygon; the text says what is wrong and what would be right, but not where. */
 mote_status mote_soup_add_polygon(mote_soup *soup, const uint32_t *corners, size_t count);
 void mote_soup_free(mote_soup *soup);
 
-/* Merges vertices with equal coordinates and kinds, and leaves out the faces that collapse.
+/* Merges vertices with equal coordinates and kinds, and removes the faces that collapse.
    Expected cost O(v + t). */
 void mote_soup_weld(mote_soup *soup);
 
-/* Leaves out the vertices that are in no face, keeping the order of the others. Indices must be
-   in range. */
+/* Removes the vertices that are in no face, keeping the order of the others. Indices must be in
+   range. */
 void mote_soup_compact(mote_soup *soup);
 
-/* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, any
-   simple polygon, indices from 1 or from the end; other lines are passed over. path is for
-   messages: MOTE_EINVAL with "FILE:LINE: what". */
+/* Reads a Wavefront OBJ text (ended by a 0 byte) in double precision: v and f lines, any simple
+   polygon, indices from 1 or from the end; other lines are ignored. path is for messages:
+   MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_soup_read_obj(const char *path, const char *text, mote_soup *soup);
 
 /* Reads an ASCII OFF text (ended by a 0 byte) in double precision: OFF, COFF, NOFF, STOFF and
-   their combinations, any simple polygon. What follows a vertex's coordinates or a face's
-   corners is passed over. assimp would round the coordinates to 32 bits, leave out faces of
-   more than nine corners, and replace an index that is out of range by another one. MOTE_EINVAL
-   with "FILE:LINE: what". */
+   their combinations, any simple polygon. Anything after a vertex's coordinates or a face's
+   corners is ignored. assimp would round the coordinates to 32 bits, drop faces of more than
+   nine corners, and replace an index out of range with another one. MOTE_EINVAL with
+   "FILE:LINE: what". */
 mote_status mote_soup_read_off(const char *path, const char *text, size_t size,
                                mote_soup *soup);
 
-/* Finds what assimp would get wrong without a word (text ends with a 0 byte). PLY: a header
-   that has no end, or declares more than the file can hold; in ASCII, fewer lines than
-   declared, an index out of range, a comma. ASCII STL: an incomplete vertex or facet, or no
-   end. MOTE_EINVAL with the file, and the line where there is one. Other formats, by the path's
-   ending, pass. */
+/* Finds errors that assimp silently gets wrong (text ends with a 0 byte). PLY: a header that
+   has no end, or declares more than the file can hold; in ASCII, fewer lines than declared, an
+   index out of range, a comma. ASCII STL: an incomplete vertex or facet, or no end. MOTE_EINVAL
+   with the file, and the line if there is one. Other formats, judged by the path's ending,
+   pass. */
 mote_status mote_soup_check_text(const char *path, const char *text, size_t size);
 
 /* Reads any format that assimp knows; coordinates go through 32-bit floats. Call it in a child
-   process with limits: assimp may crash, hang or ask for any amount of memory. */
+   process with limits: assimp may crash, hang or request any amount of memory. */
 mote_status mote_soup_read_assimp(const char *path, mote_soup *soup);
 
 #endif

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #define NONE UINT32_MAX
-/* This many times only the edges that need it are opened completely; then all are. */
+/* For this many rounds, only the edges that need it are opened completely; then all are. */
 #define ROUNDS_MAX 8
-/* Lines that are named for an edge. */
+/* Lines listed for an edge. */
 #define LINES_TOLD 6
 
 /* A face at an edge of more than two. */
@@ -33,14 +33,15 @@ typedef struct splitter {
     mote_soup *soup;
     uint32_t *first_corner; /* [v + 1] start of a vertex's corners in corner_of */
     uint32_t *corner_of;    /* [3 t] */
-    uint32_t *mark;         /* [v] of each neighbour, while one vertex is looked at */
-    uint32_t *parent;       /* [3 t] corners of one vertex that stay together */
-    uint32_t *vertex;       /* [3 t] the vertex of each corner when all is done */
+    uint32_t *mark;         /* [v] one per neighbour, while a vertex is processed */
+    uint32_t *parent;       /* [3 t] union-find over the corners of a vertex that stay
+                               together */
+    uint32_t *vertex;       /* [3 t] final vertex of each corner */
     uint64_t *scratch;      /* [wing_count] */
     heavy_edge *edges;
     wing *wings;
     size_t edge_count, edge_capacity, wing_count, wing_capacity;
-    uint32_t vertex_count; /* when all is done */
+    uint32_t vertex_count; /* at the end */
 } splitter;
 
 static void splitter_free(splitter *s)
@@ -73,7 +74,7 @@ static void splitter_create(mote_soup *soup, splitter *s)
         s->corner_of[--s->first_corner[soup->indices[c]]] = (uint32_t)c;
 }
 
-/* The other two vertices of a corner's face, in the order of its winding. */
+/* The other two vertices of a corner's face, in winding order. */
 static void neighbours_of(const splitter *s, uint32_t corner, uint32_t others[2])
 {
     const uint32_t face = corner / 3, k = corner % 3;
@@ -87,7 +88,7 @@ static void add_wing(splitter *s, uint32_t face, bool forward)
     s->wings[s->wing_count++] = (wing){face, NONE, forward, 0};
 }
 
-/* The edge from a to the larger vertex b, with all of its faces. */
+/* Adds the edge from a to the larger vertex b, with all of its faces. */
 static void add_edge(splitter *s, uint32_t a, uint32_t b)
 {
     s->edges = mote_reserve(s->edges, s->edge_count + 1, &s->edge_capacity, sizeof *s->edges);
@@ -102,7 +103,8 @@ static void add_edge(splitter *s, uint32_t a, uint32_t b)
     edge->wing_count = (uint32_t)s->wing_count - edge->first_wing;
 }
 
-/* Adds the edges of more than two faces from v to larger vertices. mark: 0 before and after. */
+/* Adds the edges of more than two faces from v to larger vertices. mark is 0 before and
+   after. */
 static void find_edges_at(splitter *s, uint32_t v)
 {
     uint32_t others[2];
@@ -126,7 +128,7 @@ static int compare_edges(const void *a, const void *b)
     return first ? first : (p->end[1] > q->end[1]) - (p->end[1] < q->end[1]);
 }
 
-/* The record of an edge between two vertices, or NULL when it has one or two faces. */
+/* The record of an edge between two vertices, or NULL if it has one or two faces. */
 static heavy_edge *edge_between(const splitter *s, uint32_t a, uint32_t b)
 {
     const heavy_edge wanted = {{a < b ? a : b, a < b ? b : a}, 0, 0};
@@ -144,7 +146,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* From vertex a to vertex b, as a unit vector; 0 where they are at one place. */
+/* The unit vector from vertex a to vertex b; 0 if they are at one place. */
 static void direction(const splitter *s, uint32_t a, uint32_t b, double out[3])
 {
     const double *from = s->soup->xyz + (size_t)3 * a, *to = s->soup->xyz + (size_t)3 * b;
@@ -178,8 +180,8 @@ static int compare_wings(const void *a, const void *b)
     return (p->face > q->face) - (p->face < q->face);
 }
 
-/* Orders the faces about the edge, as the fingers of a right hand close whose thumb points to
-   the edge's second end. */
+/* Sorts the faces about the edge counterclockwise, seen with its second end towards the viewer
+   (right-hand rule). */
 static void sort_wings(const splitter *s, const heavy_edge *edge)
 {
     wing *wings = s->wings + edge->first_wing;
@@ -196,12 +198,12 @@ static void sort_wings(const splitter *s, const heavy_edge *edge)
     qsort(wings, edge->wing_count, sizeof *wings, compare_wings);
 }
 
-/* Joins faces with the inside between them. The inside of a face that goes backward along the
-   edge begins at its angle, that of one that goes forward ends there: they match as brackets
-   do. */
+/* Pairs the faces that have the inside between them. The inside begins at the angle of a face
+   that runs backward along the edge, and ends at one that runs forward: they match like
+   brackets. */
 static void pair_wings(const splitter *s, const heavy_edge *edge)
 {
-    uint64_t *stack = s->scratch; /* of '(' without a ')' so far */
+    uint64_t *stack = s->scratch; /* '(' without a ')' so far */
     wing *wings = s->wings + edge->first_wing;
     uint32_t depth = 0;
     sort_wings(s, edge);
@@ -227,7 +229,7 @@ static uint32_t root_of(splitter *s, uint32_t corner)
     return corner;
 }
 
-/* The smaller root stays. */
+/* Joins two sets; the smaller root stays the root. */
 static void join(splitter *s, uint32_t a, uint32_t b)
 {
     a = root_of(s, a);
@@ -241,13 +243,13 @@ static uint32_t corner_at(const splitter *s, uint32_t face, uint32_t v)
     return 3 * face + (t[0] == v ? 0 : t[1] == v ? 1 : 2);
 }
 
-/* Joins the corners at v of the faces that stay together along the edge from v to u, one of
-   them being `corner`. Of an edge of one or two faces, mark keeps the first corner (+ 1). */
+/* Joins the corners at v of the faces that stay together along the edge from v to u; `corner`
+   is one of them. For an edge of one or two faces, mark keeps the first corner (+ 1). */
 static void join_along(splitter *s, uint32_t v, uint32_t u, uint32_t corner)
 {
     const uint32_t before = s->mark[u];
     if (before == NONE)
-        return; /* of more faces, and done */
+        return; /* an edge of more faces, already done */
     if (before)
         join(s, before - 1, corner);
     const heavy_edge *edge = before ? NULL : edge_between(s, v, u);
@@ -260,7 +262,8 @@ static void join_along(splitter *s, uint32_t v, uint32_t u, uint32_t corner)
     }
 }
 
-/* Gives each group of corners of v that stay together a vertex; the first keeps v. */
+/* Gives each group of corners of v that stay together its own vertex; the first group keeps
+   v. */
 static void split_vertex(splitter *s, uint32_t v)
 {
     const uint32_t begin = s->first_corner[v], end = s->first_corner[v + 1];
@@ -274,7 +277,8 @@ static void split_vertex(splitter *s, uint32_t v)
     }
     for (uint32_t i = begin; i < end; ++i) {
         const uint32_t corner = s->corner_of[i], root = root_of(s, corner);
-        /* Corners come in the order of their faces: the root, the smallest, was met before. */
+        /* Corners come in the order of their faces, so the root, being the smallest, came
+           first. */
         if (root != corner)
             s->vertex[corner] = s->vertex[root];
         else
@@ -284,7 +288,7 @@ static void split_vertex(splitter *s, uint32_t v)
     }
 }
 
-/* Splits the ends of all edges of more than two faces, as they are paired now. */
+/* Splits the ends of all edges of more than two faces, as currently paired. */
 static void split_all(splitter *s)
 {
     const size_t corners = 3 * s->soup->triangle_count;
@@ -293,7 +297,7 @@ static void split_all(splitter *s)
     for (size_t e = 0; e < s->edge_count; ++e) {
         for (int k = 0; k < 2; ++k) {
             const uint32_t v = s->edges[e].end[k], first = s->corner_of[s->first_corner[v]];
-            /* Each edge once: afterwards its first corner has a parent. */
+            /* Each edge once: after that its first corner has a parent. */
             if (s->parent[first] == NONE)
                 split_vertex(s, v);
         }
@@ -306,7 +310,7 @@ static int compare_keys(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Whether more than two faces still have both ends of an edge in common. */
+/* Whether more than two faces still share both ends of an edge. */
 static bool is_still_heavy(const splitter *s, const heavy_edge *edge)
 {
     const wing *wings = s->wings + edge->first_wing;
@@ -329,9 +333,9 @@ static void open_edge(splitter *s, const heavy_edge *edge)
         s->wings[edge->first_wing + i].partner = NONE;
 }
 
-/* Where the fans of two pairs run into each other at both ends of their edge, the edge stays
-   heavy. It is then opened completely, which always helps: every fan of faces at its end has
-   two ends at most, so that at most two faces of the edge share a vertex. */
+/* If the fans of two pairs meet at both ends of their edge, the edge still has more than two
+   faces. It is then opened completely, which always helps: every fan of faces at one of its
+   ends has at most two ends itself, so at most two faces of the edge share a vertex. */
 static void split_until_light(splitter *s)
 {
     bool heavy = true;

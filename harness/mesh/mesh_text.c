@@ -24,7 +24,7 @@ mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, cons
     for (int i = 0; i < 3; ++i) {
         at = mote_mesh_next_word(reader, at);
         char *end;
-        /* strtod would go on to the next line for a number. */
+        /* strtod would skip the line end and read a number from the next line. */
         xyz[i] = mote_is_end(*at) ? (double)NAN : strtod(at, &end);
         if (mote_is_end(*at) || end == at || !mote_mesh_word_ends(reader, end))
             return mote_fail(MOTE_EINVAL, "%s:%zu: a vertex without three numbers; %s",

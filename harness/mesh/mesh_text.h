@@ -1,4 +1,4 @@
-/* What the readers of mesh files as text share: lines, blanks, comments, vertices, faces. */
+/* Shared by the readers of mesh files as text: lines, blanks, comments, vertices, faces. */
 #ifndef MOTE_HARNESS_MESH_TEXT_H
 #define MOTE_HARNESS_MESH_TEXT_H
 
@@ -40,7 +40,7 @@ static inline size_t mote_continuation(const mote_mesh_reader *reader, const cha
     return at[1] == '\n' ? 2 : at[1] == '\r' && at[2] == '\n' ? 3 : 0;
 }
 
-/* Goes to the next word of a line; counts the lines that are joined to it. */
+/* Goes to the next word of a line; counts the lines joined to it. */
 const char *mote_mesh_next_word(mote_mesh_reader *reader, const char *at);
 
 /* Whether a word or a number ends here. */
@@ -49,15 +49,15 @@ static inline bool mote_mesh_word_ends(const mote_mesh_reader *reader, const cha
     return mote_is_blank(*at) || mote_is_end(*at) || mote_continuation(reader, at) > 0;
 }
 
-/* Reads three finite numbers, whatever follows them, and adds them as a vertex. MOTE_EINVAL
-   with file and line; `right` says what would be right ("write v x y z"). */
+/* Reads three finite numbers, ignoring what follows them, and adds them as a vertex.
+   MOTE_EINVAL with file and line; `right` gives the correct form ("write v x y z"). */
 mote_status mote_mesh_read_vertex(mote_mesh_reader *reader, const char *at, const char *right);
 
 /* Adds a corner to the face being read. */
 void mote_mesh_add_corner(mote_mesh_reader *reader, uint32_t vertex);
 
-/* Ends the face being read: its triangles go into the soup. MOTE_EINVAL with file and line for
-   fewer than three corners and for what mote_soup_add_polygon refuses. */
+/* Ends the face being read: its triangles go into the soup. MOTE_EINVAL with file and line if
+   it has fewer than three corners or mote_soup_add_polygon refuses it. */
 mote_status mote_mesh_end_face(mote_mesh_reader *reader);
 
 /* Frees the reader's own memory, not its soup. */

@@ -3,7 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-/* A sum without rounding: components in increasing size that do not overlap. */
+/* A sum without rounding: non-overlapping components in increasing magnitude. */
 typedef struct exact_sum {
     double part[12];
     int count;
@@ -43,7 +43,7 @@ static int exact_orientation(const double a[2], const double b[2], const double 
     add_product(&sum, -b[1], c[0]);
     add_product(&sum, c[0], a[1]);
     add_product(&sum, -c[1], a[0]);
-    /* The largest component that is not 0 outweighs all others together. */
+    /* The largest nonzero component outweighs all others together. */
     for (int i = sum.count; i-- > 0;) {
         if (sum.part[i] != 0)
             return sign(sum.part[i]);
@@ -55,7 +55,8 @@ int mote_orientation(const double a[2], const double b[2], const double c[2])
 {
     const double left = (a[0] - c[0]) * (b[1] - c[1]);
     const double right = (a[1] - c[1]) * (b[0] - c[0]);
-    /* Three roundings on each side and one of the difference: less than 4 units of 2^-53. */
+    /* Each side is rounded three times and the difference once: an error below 4 units of
+       2^-53. */
     const double bound = 2 * DBL_EPSILON * (fabs(left) + fabs(right));
     const double area = left - right;
     if (fabs(area) > bound && bound > DBL_MIN / DBL_EPSILON)

@@ -8,31 +8,31 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* A polygon thinner than this part of its length counts as lying on a line: coordinates that
-   went through 32-bit floats are off by 6e-8 of it. */
+/* A polygon thinner than this fraction of its length counts as a line: coordinates that went
+   through 32-bit floats are off by 6e-8 of it. */
 #define THIN 1e-6
-/* A quadrilateral no thicker than this part of its length is flat. */
+/* A quadrilateral no thicker than this fraction of its length is flat. */
 #define FLAT 1e-3
-/* A projection in which the polygon covers less than this part of what it covers in the best
-   one shows its edge, and mostly rounding. */
+/* A projection in which the polygon covers less than this fraction of its area in the best
+   projection is edge-on and mostly rounding. */
 #define EDGE_ON 1e-3
 
 typedef enum ear_state { EAR_UNKNOWN, EAR_YES, EAR_NO } ear_state;
 
 typedef struct span {
     double low, high; /* of an edge, in the projection's first coordinate */
-    uint32_t edge;    /* the corner where it starts */
+    uint32_t edge;    /* number of its first corner */
 } span;
 
 /* The part of a polygon that remains while corners are cut off; corners are numbered from 0. */
 typedef struct outline {
-    double (*at)[2]; /* projected; counterclockwise once orient() was called */
+    double (*at)[2]; /* projected; counterclockwise after orient() */
     uint32_t *next, *previous;
-    uint32_t *obstacle; /* corners with an inner angle of 180 degrees or more, at first */
+    uint32_t *obstacle; /* corners whose inner angle was 180 degrees or more at first */
     unsigned char *ear; /* ear_state */
     span *spans;
     uint32_t count, left, obstacle_count;
-    uint32_t (*triangles)[3]; /* those cut off so far */
+    uint32_t (*triangles)[3]; /* cut off so far */
     uint32_t triangle_count;
 } outline;
 
@@ -57,7 +57,7 @@ static void outline_create(size_t count, outline *o)
     o->spans = mote_allocate(count, sizeof *o->spans);
 }
 
-/* The whole polygon, in the coordinates u and v of xyz, times unit. */
+/* Starts with the whole polygon: the coordinates u and v of xyz, times unit. */
 static void outline_begin(outline *o, const double *xyz, double unit, int u, int v)
 {
     for (uint32_t i = 0; i < o->count; ++i) {
@@ -89,7 +89,7 @@ static void cut(outline *o, uint32_t i)
     --o->left;
 }
 
-/* Whether the outline goes to corner i and back along the same line, or corner i repeats a
+/* Whether the outline runs to corner i and back along the same line, or corner i repeats a
    neighbour. */
 static bool is_spike(const outline *o, uint32_t i)
 {
@@ -100,8 +100,8 @@ static bool is_spike(const outline *o, uint32_t i)
     return before[k] == at[k] || after[k] == at[k] || (before[k] < at[k]) == (after[k] < at[k]);
 }
 
-/* Cuts off what has no area, and returns a corner of the rest, of which fewer than three may be
-   left. */
+/* Cuts off the parts without area, and returns a corner of the rest, which may have fewer than
+   three. */
 static uint32_t cut_spikes(outline *o)
 {
     uint32_t at = 1, checked = 0;
@@ -123,14 +123,14 @@ static bool is_between(double value, double a, double b)
     return (a <= value && value <= b) || (b <= value && value <= a);
 }
 
-/* Whether p, on the line through a and b, lies on the segment. */
+/* Whether p, which is on the line through a and b, lies on the segment. */
 static bool is_on_segment(const double p[2], const double a[2], const double b[2])
 {
     return is_between(p[0], a[0], b[0]) && is_between(p[1], a[1], b[1]);
 }
 
-/* Whether two segments have a point in common. Most are told apart by their second
-   coordinates: edges that are compared overlap in the first. */
+/* Whether two segments have a point in common. The second coordinates decide most cases: the
+   edges compared overlap in the first. */
 static bool segments_meet(const double a[2], const double b[2], const double c[2],
                           const double d[2])
 {
@@ -145,7 +145,7 @@ static bool segments_meet(const double a[2], const double b[2], const double c[2
            (ca == 0 && is_on_segment(a, c, d)) || (cb == 0 && is_on_segment(b, c, d));
 }
 
-/* Successive edges meet in their common corner only, since spikes have been removed. */
+/* Successive edges meet only at their common corner, since spikes have been removed. */
 static bool edges_clash(const outline *o, uint32_t i, uint32_t j)
 {
     if (o->next[i] == j || o->next[j] == i)
@@ -159,7 +159,7 @@ static int compare_spans(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* Whether two edges meet that are not neighbours; clash: where they start. */
+/* Whether two edges meet that are not neighbours; clash: their first corners. */
 static bool find_clash(outline *o, uint32_t start, uint32_t clash[2])
 {
     uint32_t corner = start;
@@ -180,8 +180,8 @@ static bool find_clash(outline *o, uint32_t start, uint32_t clash[2])
     return false;
 }
 
-/* Makes a simple outline counterclockwise, mirrored if need be: at its leftmost corner, the
-   lowest of these, it turns the way it does as a whole. Lists the obstacles. */
+/* Makes a simple outline counterclockwise, mirroring it if necessary: its orientation is that
+   of the turn at its leftmost corner (the lowest of these). Lists the obstacles. */
 static void orient(outline *o, uint32_t start)
 {
     uint32_t lowest = start, corner = start;
@@ -201,9 +201,9 @@ static void orient(outline *o, uint32_t start)
     }
 }
 
-/* Whether the triangle at corner i is inside, and the diagonal opposite to i meets nothing.
-   Obstacles are enough: a corner that turns left is only in the way where one of them is, too.
- */
+/* Whether the triangle at corner i is inside and the diagonal opposite to i meets nothing.
+   Checking the obstacles is enough: a left-turning corner can be in the way only if an obstacle
+   is, too. */
 static bool is_ear(const outline *o, uint32_t i)
 {
     const uint32_t before = o->previous[i], after = o->next[i];
@@ -224,8 +224,8 @@ static bool is_ear(const outline *o, uint32_t i)
     return true;
 }
 
-/* Cuts off ears until nothing is left; false where none is found, which no simple polygon
-   gives. A cut changes what is an ear at its two neighbours only. */
+/* Cuts off ears until nothing is left; false if it finds none, which cannot happen for a simple
+   polygon. A cut affects only whether its two neighbours are ears. */
 static bool cut_ears(outline *o, uint32_t start)
 {
     uint32_t at = start, refused = 0;
@@ -245,7 +245,7 @@ static bool cut_ears(outline *o, uint32_t start)
 
 typedef enum view { VIEW_SIMPLE, VIEW_NO_AREA, VIEW_CLASH } view;
 
-/* Triangulates one projection, if it can be. */
+/* Triangulates one projection if possible. */
 static view triangulate_view(outline *o, uint32_t clash[2])
 {
     const uint32_t start = cut_spikes(o);
@@ -259,9 +259,9 @@ static view triangulate_view(outline *o, uint32_t clash[2])
 
 /* The polygon seen along each axis. */
 typedef struct areas {
-    double net[3];   /* Newell's normal: twice the area, less where it is covered backwards */
-    double total[3]; /* the same, of absolute values */
-    double best;     /* the largest of these */
+    double net[3];   /* Newell's normal: twice the signed area */
+    double total[3]; /* the same with absolute values */
+    double best;     /* the largest component */
     double length_squared;
 } areas;
 
@@ -288,7 +288,7 @@ static areas measure_areas(const double *xyz, size_t count, double unit)
     return sum;
 }
 
-/* The axes, that nearest to the normal first. */
+/* The axes, starting with the one nearest to the normal. */
 static void order_axes(const areas *sum, int axes[3])
 {
     for (int k = 0; k < 3; ++k)
@@ -304,8 +304,8 @@ static void order_axes(const areas *sum, int axes[3])
     }
 }
 
-/* Whether four corners do not lie in a plane: a line from one diagonal to the other then shows
-   the quadrilateral convex, and it is simple. */
+/* Whether four corners do not lie in a plane: seen along the line that connects its diagonals,
+   the quadrilateral is then convex, hence simple. */
 static bool is_skew(const double *xyz, double unit, const areas *sum)
 {
     double edge[3][3];
@@ -328,7 +328,7 @@ static void fan(size_t count, uint32_t (*triangles)[3])
     }
 }
 
-/* The power of two that brings all coordinates into -2 .. 2, where their products neither
+/* The power of two that scales all coordinates into -2 .. 2, where their products neither
    overflow nor vanish. */
 static double unit_of(const double *xyz, size_t count)
 {
@@ -338,8 +338,8 @@ static double unit_of(const double *xyz, size_t count)
     return largest > 0 ? ldexp(1, -ilogb(fmax(largest, DBL_MIN))) : 1;
 }
 
-/* Triangulates the first projection that can be, or else one without area; the edges that clash
-   in the best one otherwise. */
+/* Triangulates the first projection that allows it, otherwise one without area; if there is
+   neither, gives the clashing edges of the best projection. */
 static view triangulate_views(outline *o, const double *xyz, double unit, const areas *sum,
                               uint32_t clash[2])
 {

@@ -76,7 +76,7 @@ void mote_rig_globals(const mote_rig *rig, uint32_t clip, double seconds, mote_a
             globals[channel->node] = local_map(rig, channel, seconds);
         }
     }
-    for (size_t n = 0; n < rig->nodes_count; ++n) { /* parents come first */
+    for (size_t n = 0; n < rig->nodes_count; ++n) { /* a parent precedes its children */
         if (rig->nodes[n].parent != MOTE_RIG_NONE)
             globals[n] = mote_affine_multiply(&globals[rig->nodes[n].parent], &globals[n]);
     }

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Where a time is among the keys. */
+/* The position of a time among the keys. */
 typedef struct place {
-    uint32_t before, after; /* keys; the same one where the value stays */
-    double part, step;      /* of the way, 0 .. 1; seconds from key to key */
+    uint32_t before, after; /* keys; equal where the value is constant */
+    double part, step;      /* fraction of the way, 0 .. 1; seconds from key to key */
 } place;
 
 static place find(const mote_track *track, double seconds)
@@ -27,7 +27,7 @@ static place find(const mote_track *track, double seconds)
     return (place){low, high, (seconds - track->times[low]) / step, step};
 }
 
-/* The value of a key: 0, or the tangent that arrives or leaves: -1, 1. */
+/* The value (which = 0), arriving tangent (-1) or leaving tangent (1) of a key. */
 static const double *key_value(const mote_track *track, uint32_t width, uint32_t key, int which)
 {
     const size_t at =
@@ -67,7 +67,7 @@ static double dot(const double a[4], const double b[4])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/* Makes the length 1; false where there is none. */
+/* Scales q to length 1; false if its length is 0. */
 static int normalise(double q[4])
 {
     const double length = sqrt(dot(q, q));
@@ -91,7 +91,8 @@ static double sine_ratio(double t, double x)
     return sum;
 }
 
-/* Along the great circle from a to b, both of length 1, at most a quarter turn apart. */
+/* Interpolates along the great circle from a to b, both of length 1, at most a quarter turn
+   apart. */
 static void slerp(const double a[4], const double b[4], double part, double value[4])
 {
     double middle[4];
@@ -119,7 +120,7 @@ void mote_track_rotation(const mote_track *track, double seconds, double value[4
     } else if (track->mode == MOTE_TRACK_CUBIC) {
         cubic(track, 4, &p, value);
     } else {
-        const double sign = dot(from, to) < 0 ? -1 : 1; /* q and -q are one rotation */
+        const double sign = dot(from, to) < 0 ? -1 : 1; /* q and -q are the same rotation */
         for (int c = 0; c < 4; ++c)
             to[c] *= sign;
         slerp(from, to, p.part, value);

@@ -39,9 +39,7 @@ void mote_child_heed_signals(void)
     action.sa_handler = ask_to_stop;
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
-    (void)signal(
-        SIGXFSZ,
-        SIG_IGN); /* a file that becomes too large makes write fail, without a signal */
+    (void)signal(SIGXFSZ, SIG_IGN); /* write then fails, without a signal */
 }
 
 bool mote_child_stop_asked(void)
@@ -69,7 +67,7 @@ mote_status mote_child_put(int output, const void *data, size_t size)
     return MOTE_OK;
 }
 
-/* Pages that this process has mapped, in bytes: a limit on top of it leaves room to work. */
+/* The bytes this process has mapped: a limit above that leaves room to work. */
 static size_t mapped_bytes(void)
 {
     char line[64] = "";
@@ -104,9 +102,9 @@ static _Noreturn void be_child(mote_child_work work, void *context,
 {
     (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
-        _exit(1); /* the parent died before the line above */
-    /* Ctrl-C reaches every process of the terminal's group: children ignore it and the
-       parent ends them, so that no cell is recorded as crashed. */
+        _exit(1); /* the parent ended before the prctl call */
+    /* Ctrl-C reaches every process of the terminal's group: children ignore it and the parent
+       ends them, so no cell is recorded as crashed. */
     (void)signal(SIGINT, SIG_IGN);
     (void)signal(SIGTERM, SIG_IGN);
     if (limits->confined)
@@ -139,7 +137,7 @@ mote_status mote_child_start(mote_child_work work, void *context, mote_child_lim
     *child = none;
     if (pipe(ends) != 0)
         return mote_fail(MOTE_EIO, "no pipe: %s", strerror(errno));
-    (void)fflush(NULL); /* or the child would print it again */
+    (void)fflush(NULL); /* or the child would print the buffers again */
     pid_t parent = getpid();
     pid_t pid = fork();
     if (pid == 0) {
@@ -169,7 +167,8 @@ static bool append(mote_child *child, const char *data, size_t size)
     return true;
 }
 
-/* Reads what has arrived. RUNNING until the child has closed its side: then DONE. */
+/* Reads what has arrived. Returns RUNNING until the child closes its end of the pipe, then
+   DONE. */
 static mote_child_end receive(mote_child *child)
 {
     static char block[1 << 16];
@@ -181,7 +180,7 @@ static mote_child_end receive(mote_child *child)
     return append(child, block, (size_t)got) ? MOTE_CHILD_RUNNING : MOTE_CHILD_TOO_MUCH;
 }
 
-/* How a child that closed its side ended, given its wait status. */
+/* How a child that closed its end of the pipe ended, from its wait status. */
 static void conclude(mote_child *child, int ended)
 {
     final_words last;
@@ -245,7 +244,7 @@ static bool is_late(const mote_child *child)
     return child->deadline > 0 && seconds_now() > child->deadline;
 }
 
-/* How long to wait in one go: until the next deadline, or the next look for a signal. */
+/* How long one poll may wait: until the next deadline or the next check for a signal. */
 static int patience_ms(const mote_child *children, size_t count)
 {
     double seconds = POLL_MS * 1e-3;

@@ -9,10 +9,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* Later than the headers of Debian 12. */
+/* Newer than the headers of Debian 12. */
 #define ACCESS_TRUNCATE (UINT64_C(1) << 14)
 
-/* Each kind of access that is handled and that no rule allows is refused. */
+/* Every handled kind of access that no rule allows is refused. */
 static bool refuse_changes(void)
 {
     const long version =
@@ -37,7 +37,7 @@ static bool refuse_changes(void)
 bool mote_confine(void)
 {
     const struct rlimit nothing = {0, 0};
-    (void)signal(SIGXFSZ, SIG_IGN); /* write then fails instead */
+    (void)signal(SIGXFSZ, SIG_IGN); /* write then fails without a signal */
     (void)setrlimit(RLIMIT_FSIZE, &nothing);
     return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && refuse_changes();
 }

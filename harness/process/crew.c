@@ -3,7 +3,7 @@
 
 #include <time.h>
 
-/* The processes that work at the same time. */
+/* The processes that run at the same time. */
 typedef struct places {
     mote_child children[MOTE_CHILDREN_MAX]; /* [crew->places] */
     size_t tasks[MOTE_CHILDREN_MAX];

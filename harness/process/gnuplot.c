@@ -29,7 +29,7 @@ void mote_gnuplot_block(mote_text *text, const char *title)
 mote_status mote_gnuplot_draw(const char *folder, const char *script, const char *base,
                               const char *heading, const char *footer, const char *formats)
 {
-    /* gnuplot takes a file's name that begins with '<' or '|' for a command. */
+    /* gnuplot takes a file name that begins with '<' or '|' for a command. */
     char *file = mote_format("%s%s", base[0] == '/' ? "" : "./", base);
     char *plots = mote_format("%s/plots", mote_data_directory());
     char *draw = mote_format("%s/plots/draw.gp", mote_data_directory());

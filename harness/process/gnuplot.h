@@ -1,12 +1,12 @@
-/* gnuplot: the text that it reads, and a figure drawn by it. */
+/* gnuplot: its input text, and drawing a figure with it. */
 #ifndef MOTE_HARNESS_GNUPLOT_H
 #define MOTE_HARNESS_GNUPLOT_H
 
 #include "harness/base/file.h"
 
-/* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: this one), where BASE.dat
-   is: all text reaches gnuplot as arguments that are never run. formats: "svg png pdf", or
-   "gif". MOTE_EIO when gnuplot is missing or refuses. */
+/* Runs plots/draw.gp, which loads plots/SCRIPT.gp, in folder (NULL: the current one), which
+   holds BASE.dat. All text reaches gnuplot as arguments that are never executed. formats: "svg
+   png pdf", or "gif". MOTE_EIO if gnuplot is missing or fails. */
 mote_status mote_gnuplot_draw(const char *folder, const char *script, const char *base,
                               const char *heading, const char *footer, const char *formats);
 
@@ -14,7 +14,7 @@ mote_status mote_gnuplot_draw(const char *folder, const char *script, const char
    similar ones. */
 void mote_gnuplot_quote(mote_text *text, const char *string);
 
-/* Starts a block below a title, after two empty lines unless it is the first. */
+/* Starts a data block with a title, after two empty lines unless it is the first. */
 void mote_gnuplot_block(mote_text *text, const char *title);
 
 #endif

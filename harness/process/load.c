@@ -32,8 +32,7 @@ double mote_core_clock(int core)
     return mhz;
 }
 
-/* Ticks that all cores were idle (or waited for disks), and all their ticks, since the start.
- */
+/* Clock ticks since boot, summed over all cores: idle (or waiting for disks), and all. */
 static bool read_ticks(double *idle, double *all)
 {
     char line[512];

@@ -8,7 +8,7 @@ double mote_load_average(void);
 /* The clock of a core (-1: any) in MHz; 0 where the kernel does not say. */
 double mote_core_clock(int core);
 
-/* How many cores other processes keep busy during the next tenth of a second, in which this
+/* How many cores other processes keep busy during the next tenth of a second, while this
    process sleeps; 0 when unknown. */
 double mote_busy_cores(void);
 

@@ -18,7 +18,7 @@
 
 mote_status mote_program_hash(uint64_t *hash)
 {
-    /* /proc/self/exe is a link; the file behind it is a regular one. */
+    /* /proc/self/exe is a link, but only a regular file can be read. */
     char path[4096];
     ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
     if (length <= 0)
@@ -36,7 +36,7 @@ mote_status mote_program_hash(uint64_t *hash)
     return MOTE_OK;
 }
 
-/* The value of a line "KEY : VALUE" of a file in /proc; "" when there is none. */
+/* The value of the line "KEY : VALUE" of a file in /proc; "" if there is none. */
 static void proc_value(const char *path, const char *key, char *value, size_t size)
 {
     value[0] = '\0';
@@ -62,7 +62,7 @@ static json_t *text_or_null(const char *text)
     return text[0] ? json_string(text) : json_null();
 }
 
-/* Commit, and whether tracked files differ from it; null outside a clone. */
+/* The commit, and whether tracked files differ from it; null outside a clone. */
 static void add_sources(json_t *object)
 {
     static const char *const commit[] = {"git", "rev-parse", "HEAD", NULL};
@@ -85,8 +85,8 @@ void mote_machine_name(char *text, size_t size)
                    uname(&system) == 0 ? system.nodename : "", processor);
 }
 
-/* The processor's name and, where the system tells them, the numbers that set apart those of
-   one name: virtual machines often hide all but a family's name. */
+/* The processor's name and, where the system gives them, the numbers that distinguish
+   processors of one name: virtual machines often show only a family's name. */
 static void processor_name(char *text, size_t size)
 {
     char name[128], family[16], model[16], stepping[16];

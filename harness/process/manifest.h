@@ -7,17 +7,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Hash of this program's own file, which changes with anything compiled in, and of the
-   libraries that were loaded into it (plugin.h). MOTE_EIO when it cannot be read. */
+/* The hash of this program's own file, which changes with anything compiled in, and of the
+   libraries loaded into it (plugin.h). MOTE_EIO if it cannot be read. */
 mote_status mote_program_hash(uint64_t *hash);
 
-/* Which machine this is, for telling whether two times may be compared: "name, processor", as
-   far as the system says; cut to size. */
+/* Identifies the machine, to decide whether two times may be compared: "name, processor", as
+   far as the system tells; cut to size. */
 #define MOTE_MACHINE_SIZE 320
 void mote_machine_name(char *text, size_t size);
 
 /* Writes directory/manifest.json: the present state, and under "sessions" an entry for each
-   time that something was measured into the directory, this one included. */
+   session that measured something into the directory, this one included. */
 mote_status mote_manifest_write(const char *directory, uint64_t program, uint64_t seed,
                                 int argc, char **argv);
 

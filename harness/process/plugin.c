@@ -15,12 +15,12 @@
 #include <string.h>
 
 #define LIBRARIES_MAX 16
-#define LIBRARY_BYTES ((size_t)1 << 30) /* of a file at most */
-#define OFFER_BYTES ((size_t)1 << 22)   /* what a library may tell of itself */
+#define LIBRARY_BYTES ((size_t)1 << 30) /* largest library file */
+#define OFFER_BYTES ((size_t)1 << 22)   /* largest description that a library may give */
 #define OFFER_SECONDS 5.0
 
-/* Methods, and fields, of all libraries together. Each slot has functions of its own, since the
-   contract calls traits and create with nothing that tells whose they are. */
+/* Methods, and fields, of all libraries together. Each slot has its own functions, because the
+   contract passes traits and create nothing that identifies the method. */
 #define SLOTS(X)                                                                               \
     X(0) X(1) X(2) X(3) X(4) X(5) X(6) X(7) X(8) X(9) X(10) X(11) X(12) X(13) X(14) X(15)
 enum { SLOTS_MAX = 16 };
@@ -31,12 +31,12 @@ typedef struct library {
     const mote_plugin_item *const *items; /* NULL until this process has loaded it */
 } library;
 
-/* What stands for a method or a field until its library is loaded. */
+/* Represents a method or a field until its library is loaded. */
 typedef struct slot {
     library *from;
     size_t item;
     mote_method method;     /* once loaded, a copy of the library's own */
-    mote_field_maker field; /* likewise */
+    mote_field_maker field; /* once loaded, the same */
 } slot;
 
 static library libraries[LIBRARIES_MAX];
@@ -45,7 +45,7 @@ static slot method_slots[SLOTS_MAX], field_slots[SLOTS_MAX];
 static size_t method_count, field_count;
 static uint64_t files_hash;
 
-/* Loads the library of a slot; its item is then in *item. */
+/* Loads the library of a slot; *item is then the slot's item. */
 static mote_status load(const slot *s, const void **item)
 {
     size_t count = 0;
@@ -69,7 +69,7 @@ static mote_status create_method(size_t k, const mote_setup *setup, void **state
     const mote_status status = load(s, &item);
     if (status != MOTE_OK)
         return status;
-    /* From here on the method is called as one that is built in. */
+    /* From here on the method is called like a built-in one. */
     s->method = *(const mote_method *)item;
     return mote_method_create(&s->method, setup, state);
 }
@@ -90,8 +90,8 @@ static mote_status ask_traits(void *context, int output)
     return mote_child_put(output, &traits, sizeof traits);
 }
 
-/* Asked of a child: this process has not loaded the library. Where that fails, the method's
-   cells will say so. */
+/* Asks a child, since this process has not loaded the library. If that fails, the method's
+   cells will report it. */
 static mote_traits traits_of(size_t k, const double *values)
 {
     traits_question question = {&method_slots[k], values};
@@ -264,7 +264,7 @@ mote_status mote_plugin_open(const char *path)
     if (status == MOTE_OK)
         status = take_offer(l, offer, size);
     free(offer);
-    /* What a library is, its user named: a crash while it is loaded is bad input too. */
+    /* The user named the library, so a crash while loading it is bad input, too. */
     return status == MOTE_OK ? MOTE_OK : blame(path, MOTE_EINVAL);
 }
 

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ITEMS_MAX 64  /* of a library */
-#define NAME_MOST 48  /* characters of a name, which becomes a part of files' names */
+#define ITEMS_MAX 64  /* per library */
+#define NAME_MOST 48  /* characters of a name, which becomes part of file names */
 #define TEXT_MOST 400 /* characters of a summary or a help */
 
 static const char lower[] = "abcdefghijklmnopqrstuvwxyz";
@@ -24,7 +24,7 @@ mote_status mote_plugin_load(const char *path, const mote_plugin_item *const **i
         return mote_fail(MOTE_EINVAL, "cannot be loaded: %s", dlerror());
     mote_plugin_items_type list;
     void *symbol = dlsym(library, "mote_plugin_items");
-    /* ISO C has no conversion from a pointer to data to one to a function. */
+    /* ISO C has no conversion from a data pointer to a function pointer. */
     memcpy(&list, &symbol, sizeof list);
     *items = list ? list(count) : NULL;
     if (!*items || *count == 0)
@@ -42,7 +42,7 @@ mote_status mote_plugin_load(const char *path, const mote_plugin_item *const **i
     return MOTE_OK;
 }
 
-/* Whether the structs are as large in the library as here. */
+/* Whether the structs have the same size in the library as here. */
 static bool same_sizes(const mote_plugin_item *item)
 {
     return item->size ==
@@ -98,7 +98,7 @@ static mote_status check_parameter(const char *name, const mote_parameter *p)
     return MOTE_OK;
 }
 
-/* What methods and fields have in common. */
+/* Describes the parts that methods and fields have in common. */
 static mote_status describe(size_t item, const char *name, const char *summary,
                             const mote_parameter *table, size_t count, json_t *list)
 {

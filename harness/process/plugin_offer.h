@@ -1,5 +1,5 @@
-/* The side of a shared library with methods or fields that runs its code: loading it and
-   telling what it offers. See plugin.h. */
+/* The code that loads a shared library with methods or fields, runs it and reports what it
+   offers. See plugin.h. */
 #ifndef MOTE_HARNESS_PLUGIN_OFFER_H
 #define MOTE_HARNESS_PLUGIN_OFFER_H
 
@@ -8,16 +8,16 @@
 
 #include <stddef.h>
 
-/* Loads the library into this process for good. items[count] are its own. MOTE_EINVAL with a
-   text without the path: no shared library, none of mote's, or one of another version of the
-   contract. */
+/* Loads the library into this process for good. The library owns items[count]. MOTE_EINVAL with
+   a text without the path: not a shared library, not one for mote, or built for another version
+   of the contract. */
 mote_status mote_plugin_load(const char *path, const mote_plugin_item *const **items,
                              size_t *count);
 
-/* For mote_child_run, context being the path: loads the library, checks all of its items and
-   puts {"methods": [...], "fields": [...]} as JSON, each {"item": index, "name", "summary",
-   "parameters": [{"key", "kind", "minimum", "maximum", "choices", "fallback", "help"}...]}, the
-   numbers as text since some are infinite. MOTE_EINVAL likewise. */
+/* Work for mote_child_run; context is the path. Loads the library, checks all of its items and
+   sends {"methods": [...], "fields": [...]} as JSON, each item being {"item": index, "name",
+   "summary", "parameters": [{"key", "kind", "minimum", "maximum", "choices", "fallback",
+   "help"}...]}, with numbers as text since some are infinite. MOTE_EINVAL as above. */
 mote_status mote_plugin_offer(void *context, int output);
 
 #endif

@@ -13,7 +13,7 @@
 
 #define STATUS_NOT_RUN 127
 
-/* out: where its output goes, and with errors_too its errors; -1: where ours do. */
+/* out: receives its output, and with errors_too its errors; -1: both go where ours go. */
 static _Noreturn void run(const char *const argv[], const char *directory, int out,
                           bool errors_too)
 {
@@ -25,7 +25,8 @@ static _Noreturn void run(const char *const argv[], const char *directory, int o
     if (out >= 0 && dup2(errors_too ? out : nowhere, STDERR_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
     (void)setenv("LC_ALL", "C.UTF-8", 1);
-    /* execvp does not write to its arguments: POSIX keeps the type for old callers. */
+    /* execvp does not write to its arguments; POSIX keeps the non-const type for old
+       callers. */
     union {
         const char *const *given;
         char *const *wanted;
@@ -34,7 +35,7 @@ static _Noreturn void run(const char *const argv[], const char *directory, int o
     _exit(STATUS_NOT_RUN);
 }
 
-/* Reads to the end; keeps what fits. */
+/* Reads to the end; keeps as much as fits. */
 static void keep_output(int in, char *output, size_t size)
 {
     size_t used = 0;

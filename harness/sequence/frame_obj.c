@@ -1,5 +1,5 @@
-/* The positions of a Wavefront OBJ, quickly: a sequence has thousands of such files. The
-   grammar is that of mesh_obj.c, whose reader made the mesh of the first one. */
+/* Reads the positions of a Wavefront OBJ quickly: a sequence has thousands of such files. The
+   grammar is that of mesh_obj.c, which read the mesh of the first file. */
 #include "harness/sequence/frame_file.h"
 
 #include "harness/mesh/mesh_text.h"
@@ -20,8 +20,8 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* strtod. Where digits make an integer below 2^53 and the power of ten is exact, one
-   multiplication or division rounds as strtod does, in a fifth of its time. */
+/* Does what strtod does. If the digits make an integer below 2^53 and the power of ten is
+   exact, one multiplication or division rounds as strtod does, in a fifth of its time. */
 static double read_number(const char *at, const char **end)
 {
     const char *p = at + (*at == '-' || *at == '+');
@@ -82,8 +82,8 @@ static mote_status read_vertex(mote_mesh_reader *reader, const char *at, mote_fr
     return MOTE_OK;
 }
 
-/* "7", "7/1", "7//2" or "-1/..." as a vertex from 0; *index is what no file has where it is
-   something else. */
+/* Reads "7", "7/1", "7//2" or "-1/..." as a vertex from 0; for anything else, *index is a
+   number that no file has. */
 static const char *read_corner(mote_mesh_reader *reader, const char *at, size_t count,
                                uint64_t *index)
 {
@@ -118,8 +118,8 @@ static mote_status read_face(mote_mesh_reader *reader, const char *at, mote_fram
     return MOTE_OK;
 }
 
-/* The line after this one and those joined to it. A comment ends with its line, even with a
-   backslash there. */
+/* The line after this one and the lines joined to it. A comment ends with its line, even after
+   a backslash. */
 static const char *next_line(const char *at, size_t *line)
 {
     for (;;) {

@@ -1,5 +1,5 @@
-/* PLY with its vertices as the file has them. assimp, which reads a single PLY, rounds them to
-   32 bits and loses their order where they are welded. */
+/* Reads PLY, keeping the vertices as in the file. assimp, which reads single PLY files, rounds
+   them to 32 bits and loses their order when it welds them. */
 #include "harness/sequence/frame_file.h"
 
 #include "harness/base/memory.h"
@@ -13,7 +13,7 @@
 
 #define ELEMENTS_MAX 16
 #define PROPERTIES_MAX 64
-#define CORNERS_MAX 1000000 /* of a face */
+#define CORNERS_MAX 1000000 /* per face */
 
 typedef enum number_type { NONE, I8, U8, I16, U16, I32, U32, F32, F64 } number_type;
 
@@ -23,7 +23,7 @@ static const size_t type_bytes[] = {
 typedef enum role { OTHER, X, Y, Z, CORNERS } role;
 
 typedef struct property {
-    number_type length; /* of a list: the type of its number of entries; else NONE */
+    number_type length; /* of a list: the type of its count; otherwise NONE */
     number_type type;
     role role;
 } property;
@@ -37,8 +37,8 @@ typedef struct element {
 
 typedef struct ply {
     const char *path;
-    const char *at, *end; /* what is left */
-    size_t line;          /* of a text */
+    const char *at, *end; /* unread data */
+    size_t line;          /* of an ASCII file */
     bool ascii, big_endian;
     element element[ELEMENTS_MAX];
     size_t elements;
@@ -94,7 +94,7 @@ static mote_status add_element(ply *p, const char *name, const char *count)
         return fail(p, "more than %d elements; leave some out", ELEMENTS_MAX);
     if (count[0] < '0' || count[0] > '9' || *end)
         return fail(p, "an element without its number; write element vertex 8");
-    /* An element takes a byte at least. */
+    /* An element takes at least one byte. */
     if (number > (uint64_t)(p->end - p->at))
         return fail(p, "declares %llu elements, which the %zu bytes left cannot hold", number,
                     (size_t)(p->end - p->at));
@@ -217,7 +217,7 @@ static double number_of(uint64_t bits, number_type type)
     }
 }
 
-/* The next number, of a text or of bytes. */
+/* Reads the next number, from text or binary. */
 static mote_status next_number(ply *p, number_type type, double *value)
 {
     if (!p->ascii) {
@@ -321,7 +321,7 @@ static mote_status read_entry(ply *p, const element *e, uint64_t number)
     return e->is_vertex ? add_vertex(p, number, xyz) : MOTE_OK;
 }
 
-/* Whether vertices with coordinates and faces with corners are declared, in this order. */
+/* Checks that vertices with coordinates and faces with corners are declared, in this order. */
 static mote_status check_header(const ply *p)
 {
     unsigned coordinates = 0, known = 0;

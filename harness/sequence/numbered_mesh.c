@@ -12,8 +12,8 @@
 #include <sys/stat.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
-#define MEMORY_BYTES ((size_t)128 << 20) /* and sixty times the file, as mote_mesh_import */
-#define SECONDS 4.0                      /* and one for every 8 MB of the file */
+#define MEMORY_BYTES ((size_t)128 << 20) /* plus 60 times the file, as mote_mesh_import */
+#define SECONDS 4.0                      /* plus one for every 8 MB of the file */
 
 typedef struct header {
     uint64_t file_vertices, vertex_count, triangle_count, topology;
@@ -26,7 +26,7 @@ static bool is_ply(const char *path)
     return length > 4 && strcasecmp(path + length - 4, ".ply") == 0;
 }
 
-/* The triangles, and the hash of what they were made from. */
+/* Reads the triangles, and the hash of the faces they came from. */
 static mote_status read_file(const char *path, mote_soup *soup, mote_frame_file *file)
 {
     char *data;
@@ -76,7 +76,8 @@ static mote_status read_in_child(void *context, int output)
     uint32_t *before = mote_copy(soup.indices, corners * sizeof *before);
     mote_soup_compact(&soup);
     mote_soup_split(&soup, &head.import.split);
-    /* Both keep the triangles in their order, so a corner tells which vertex it was. */
+    /* Both keep the order of the triangles, so each corner shows which vertex it had in the
+       file. */
     uint32_t *file_vertex = mote_allocate(soup.vertex_count, sizeof *file_vertex);
     for (size_t c = 0; c < corners; ++c)
         file_vertex[soup.indices[c]] = before[c];
@@ -92,7 +93,7 @@ static mote_status read_in_child(void *context, int output)
     return status;
 }
 
-/* Whether the child's numbers are what it said they would be. */
+/* Whether the sizes match what the child announced. */
 static bool is_whole(const header *head, const uint32_t *file_vertex, size_t size)
 {
     const uint64_t vertex_bytes = 3 * sizeof(double) + sizeof(uint32_t);

@@ -10,7 +10,7 @@ struct mote_playback {
     const mote_sequence *sequence;
     mote_sequence_reader *reader;
     mote_vec3 *frame[2]; /* as they are in the sequence */
-    uint32_t number[2];  /* 0: nothing yet */
+    uint32_t number[2];  /* 0: none yet */
     mote_vec3 *world;
 };
 
@@ -36,7 +36,7 @@ void mote_playback_destroy(mote_playback *playback)
     free(playback);
 }
 
-/* Has frame number in p->frame[slot]. */
+/* Makes p->frame[slot] hold frame number. */
 static mote_status fetch(mote_playback *p, int slot, uint32_t number)
 {
     if (p->number[slot] == number)

@@ -1,12 +1,12 @@
-/* The vertices of a body that has a sequence (harness/sequence/sequence.h) in place of a field.
- */
+/* The vertices of a body that has a sequence (harness/sequence/sequence.h) instead of a
+   field. */
 #ifndef MOTE_HARNESS_PLAYBACK_H
 #define MOTE_HARNESS_PLAYBACK_H
 
 #include "core/body/body.h"
 #include "harness/sequence/sequence.h"
 
-/* Two frames of the sequence and the vertices that were made of them: 72 bytes a vertex. */
+/* Two frames of the sequence and the vertices interpolated from them: 72 bytes per vertex. */
 typedef struct mote_playback mote_playback;
 
 /* The sequence is borrowed. */
@@ -14,10 +14,10 @@ mote_playback *mote_playback_create(const mote_sequence *sequence);
 void mote_playback_destroy(mote_playback *playback); /* NULL is allowed */
 
 /* *world [vertex_count]: the vertices at a place of the sequence, moved by the pose. Place 1 is
-   frame 1; between two frames each vertex moves on a straight line; before the first and after
-   the last it stays there. *world lives until the next call. Errors of mote_sequence_read; what
-   *world was is then lost. Reads what it does not have: one frame a call where frames follow
-   each other. */
+   frame 1; between two frames each vertex moves on a straight line; before the first frame and
+   after the last it does not move. *world is valid until the next call. Errors of
+   mote_sequence_read, after which the previous *world is lost. Reads only missing frames: one
+   per call if frames follow each other. */
 mote_status mote_playback_at(mote_playback *playback, double place, const mote_pose *pose,
                              const mote_vec3 **world);
 

@@ -24,7 +24,7 @@ static void put_word(uint32_t value, unsigned char *at)
         at[k] = (unsigned char)(value >> (8 * k));
 }
 
-/* Reads all of a range. */
+/* Reads all bytes of a range. */
 static bool read_at(int file, void *data, size_t size, uint64_t place)
 {
     unsigned char *to = data;
@@ -41,7 +41,7 @@ static bool read_at(int file, void *data, size_t size, uint64_t place)
     return true;
 }
 
-/* The header in one byte order. */
+/* Reads the header in one byte order. */
 static mote_point_cache interpret(const unsigned char *header, bool is_mdd, bool big_endian)
 {
     mote_point_cache cache = {.big_endian = big_endian};
@@ -57,7 +57,7 @@ static mote_point_cache interpret(const unsigned char *header, bool is_mdd, bool
     return cache;
 }
 
-/* How long the file of a header is; 0: no numbers of a cache. */
+/* The length of the file that a header describes; 0 if its numbers are impossible. */
 static uint64_t length_of(const mote_point_cache *cache)
 {
     const uint64_t points = cache->points, frames = cache->frames;
@@ -122,7 +122,7 @@ static mote_status read_header(const char *path, int file, mote_point_cache *cac
 
 mote_status mote_point_cache_open(const char *path, mote_point_cache *cache)
 {
-    /* Not blocking: a FIFO is then refused, and not waited for. */
+    /* Not blocking, so a FIFO is refused without waiting for a writer. */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0)
         return mote_fail(MOTE_EIO, "%s: %s; name a point cache", path, strerror(errno));

@@ -84,7 +84,7 @@ static void take_mesh(mote_sequence *s, const mote_mesh *mesh)
                                     fmax(fmax(fabs(high.x), fabs(high.y)), fabs(high.z)));
 }
 
-/* Takes what was read over, but for its mesh. */
+/* Takes over everything that was read except the mesh. */
 static void take_numbers(mote_sequence *s, mote_numbered_mesh *read)
 {
     s->file_vertex = read->file_vertex;

@@ -21,13 +21,13 @@
 #include <unistd.h>
 
 #define FILE_LIMIT ((size_t)4 << 30)
-#define MEMORY_BYTES ((size_t)128 << 20) /* and 1,024 for every vertex: a file of text */
+#define MEMORY_BYTES ((size_t)128 << 20) /* plus 1,024 per vertex, for a text file */
 #define VERTEX_BYTES 1024
-#define SECONDS 10.0 /* for a frame, and one for every 100,000 vertices */
+#define SECONDS 10.0 /* per frame, plus one per 100,000 vertices */
 #define VERTICES_A_SECOND 1e5
-#define POLL_MS 200 /* how often a signal is looked for */
+#define POLL_MS 200 /* interval of the checks for a signal */
 
-/* What the reading process says of a frame. */
+/* The child's reply about a frame. */
 typedef struct reply {
     uint64_t topology, count;
     uint32_t status;
@@ -36,9 +36,9 @@ typedef struct reply {
 
 struct mote_sequence_reader {
     const mote_sequence *sequence;
-    pid_t owner; /* the process that reads */
+    pid_t owner; /* the process that reads frames */
     mote_child child;
-    int socket;     /* frame numbers go out, replies come in; -1: no process */
+    int socket;     /* sends frame numbers, receives replies; -1: no process */
     double *shared; /* [3 * file_vertices], written by the child */
     size_t shared_bytes;
 };
@@ -52,7 +52,7 @@ mote_sequence_reader *mote_sequence_reader_create(const mote_sequence *sequence)
     return made;
 }
 
-/* Gives up the process, which ends where it is this process's own. */
+/* Drops the child; ends it if it belongs to this process. */
 static void let_go(mote_sequence_reader *r)
 {
     if (r->socket >= 0)
@@ -77,13 +77,13 @@ void mote_sequence_reader_destroy(mote_sequence_reader *reader)
     free(reader);
 }
 
-/* What the child needs. */
+/* The child's state. */
 typedef struct server {
     const mote_sequence *sequence;
     int socket, other_end;
     double *xyz;
     int cache;            /* an open file, or -1 */
-    unsigned char *bytes; /* of a frame of it */
+    unsigned char *bytes; /* buffer for a frame of the cache */
 } server;
 
 static bool is_ply(const char *path)
@@ -188,7 +188,7 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Waits for the child's reply. It is told apart from the child's end, a crash included. */
+/* Waits for the child's reply; distinguishes it from the child's end, including a crash. */
 static mote_status wait_for(mote_sequence_reader *r, reply *said)
 {
     const double deadline =
@@ -232,7 +232,7 @@ static mote_status ask(mote_sequence_reader *r, uint32_t frame, reply *said)
     return MOTE_OK;
 }
 
-/* Puts the frame before the text, and the file too where the text does not begin with it. */
+/* Prefixes the error text with the frame, and with the file unless the text begins with it. */
 static mote_status blame(const mote_sequence *s, uint32_t frame, mote_status status)
 {
     char text[1024];
@@ -287,6 +287,6 @@ mote_status mote_sequence_read(mote_sequence_reader *reader, uint32_t frame,
         status = copy(s, reader->shared, positions);
     if (status == MOTE_OK)
         return status;
-    let_go(reader); /* the next frame starts afresh, whatever this one did */
+    let_go(reader); /* the next frame starts a new child */
     return blame(s, frame, status);
 }
