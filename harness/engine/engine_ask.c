@@ -1,4 +1,4 @@
-/* What harness/engine/engine.h says, for bodies of any number. */
+/* The functions of harness/engine/engine.h, for any number of bodies. */
 #include "harness/engine/engine_kind.h"
 
 #include "harness/base/clock.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How a choice is asked of more than two bodies. */
+/* The way a choice is asked about more than two bodies. */
 static const mote_engine_kind *kind_of_many(const mote_method_choice *choice)
 {
     const char *name = choice->method->name;
@@ -81,14 +81,14 @@ void mote_engine_show(mote_engine *engine, const mote_body_state *states)
         engine->kind->show(engine);
 }
 
-/* A function of its own, so that callgrind can count in it alone (harness/run/instructions.c).
- */
+/* A separate function, so that callgrind can count within it alone
+   (harness/run/instructions.c). */
 __attribute__((noinline)) static mote_status timed_step(mote_engine *e, mote_engine_cost *cost)
 {
     return e->kind->ask(e, cost);
 }
 
-/* Of more than two bodies: all time that is neither deformation nor refit counts as query. */
+/* For more than two bodies: all time except deformation and refits counts as query. */
 static mote_status ask_many(mote_engine *e, mote_engine_cost *cost)
 {
     const uint64_t allocations = mote_heap_read().allocations;
@@ -99,7 +99,7 @@ static mote_status ask_many(mote_engine *e, mote_engine_cost *cost)
     return status;
 }
 
-/* Contacts that follow from distances, and sums over the pairs. */
+/* Derives contacts from distances, and sums over the pairs. */
 static void sum_up(mote_engine *e, mote_engine_cost *cost)
 {
     cost->pairs = e->now.count;

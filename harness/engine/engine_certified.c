@@ -1,4 +1,5 @@
-/* More than two bodies: the certified scene, which finds and answers by the same trees. */
+/* More than two bodies: the certified scene, which finds near pairs and answers with the same
+   trees. */
 #include "harness/engine/engine_kind.h"
 
 void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count)

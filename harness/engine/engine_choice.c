@@ -11,7 +11,7 @@ static bool is_one_of(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* Whether any of the method's own parameters but `allowed` differs from its default. */
+/* Whether any of the method's own parameters except `allowed` differs from its default. */
 static bool sets_own(const mote_method_choice *choice, const char *allowed)
 {
     const mote_method *method = choice->method;

@@ -1,11 +1,11 @@
 /* The ways in which an engine asks about its bodies. Private to harness/engine.
 
-   A pair and a scene share the engine, not the way of asking. Of two bodies all vertices are
-   deformed for a method that needs them, and deforming, updating and asking are timed one by
-   one, to some nanoseconds. Of a scene only bodies of near pairs are deformed, each once
-   however many pairs it is in, and pairs are shared out to threads: a method of the contract
-   sees one pair and cannot share, so that trees and the certified query have forms of their own
-   there. */
+   A pair and a scene share the engine but are asked differently. For two bodies, all vertices
+   are deformed for a method that needs them, and deforming, updating and asking are timed
+   separately, to a few nanoseconds. In a scene only the bodies of near pairs are deformed, each
+   once however many pairs it is in, and the pairs are distributed over threads. A contract
+   method sees one pair and cannot share work, so trees and the certified query have separate
+   implementations for scenes. */
 #ifndef MOTE_HARNESS_ENGINE_KIND_H
 #define MOTE_HARNESS_ENGINE_KIND_H
 
@@ -16,10 +16,10 @@
 #include "core/stream/stream_scene.h"
 #include "harness/engine/engine.h"
 
-/* What a pair keeps for its next query. */
+/* State kept for a pair until its next query. */
 typedef struct mote_pair_memory {
     mote_body_trees_memory trees;
-    void *state; /* of a method of the contract */
+    void *state; /* of a contract method */
 } mote_pair_memory;
 
 typedef struct mote_pair_list {
@@ -28,29 +28,31 @@ typedef struct mote_pair_list {
     size_t count, room;
 } mote_pair_list;
 
-/* Pairs that are asked about, ascending. */
+/* The pairs to ask about, ascending. */
 typedef struct mote_pairs_wanted {
     const uint32_t (*pairs)[2];
     size_t count;
 } mote_pairs_wanted;
 
-/* The first failure of a thread. */
+/* The first failure in a thread. */
 typedef struct mote_thread_failure {
     mote_status status;
     char text[256];
 } mote_thread_failure;
 
 typedef struct mote_engine_kind {
-    mote_status (*create)(mote_engine *e); /* what no method is charged for; NULL: nothing */
+    mote_status (*create)(mote_engine *e); /* makes what is charged to no method; NULL:
+                                              nothing */
     mote_status (*build)(mote_engine *e);
     void (*destroy)(mote_engine *e);
-    void (*show)(mote_engine *e); /* NULL: nothing more is done */
-    /* Sets e->now and the times of deforming and updating; of two bodies all times. */
+    void (*show)(mote_engine *e); /* NULL: nothing further to do */
+    /* Sets e->now and the times of deforming and updating; for two bodies, all times. */
     mote_status (*ask)(mote_engine *e, mote_engine_cost *cost);
 } mote_engine_kind;
 
-extern const mote_engine_kind mote_engine_of_two;       /* any method of the contract */
-extern const mote_engine_kind mote_engine_of_pairs;     /* the contract's, for each near pair */
+extern const mote_engine_kind mote_engine_of_two;       /* any contract method */
+extern const mote_engine_kind mote_engine_of_pairs;     /* a contract method, for each near
+                                                           pair */
 extern const mote_engine_kind mote_engine_of_trees;     /* FCL's and our box trees */
 extern const mote_engine_kind mote_engine_of_certified; /* the certified scene */
 extern const mote_engine_kind mote_engine_of_streamed;  /* the streamed scene */
@@ -60,26 +62,26 @@ struct mote_engine {
     mote_method_choice choice;
     mote_traits traits;
     const mote_engine_kind *kind;
-    const mote_body_state *states; /* of the frame that is shown */
+    const mote_body_state *states; /* of the current frame */
     mote_pair_list now, before;
     mote_deform *deform[MOTE_ENGINE_SHAPES_MAX]; /* NULL: not needed, or positions are given */
 
     /* Two bodies: */
-    mote_frame frame; /* as the method sees it: what it keeps of it outlives the call */
+    mote_frame frame; /* as the method sees it; must outlive the call */
     mote_vec3 *world[2];
     void *state;
 
-    /* More: */
+    /* More than two bodies: */
     uint32_t threads;
-    bool refits_every;     /* body in every frame */
-    mote_scene *scene;     /* bounds from roots; NULL when every body is refitted */
+    bool refits_every;     /* every body in every frame */
+    mote_scene *scene;     /* bounds from roots; NULL if every body is refitted */
     mote_scene_box *boxes; /* [count] */
     mote_broad_phase *broad;
     const mote_body_trees_kind *trees_kind;
     void *trees;
-    bool *looked_at; /* [count] */
+    bool *looked_at; /* [count]: in a near pair */
     mote_stream_scene *streamed;
-    mote_vec3 **worlds;        /* [count]: vertices of each body, of the streamed scene */
+    mote_vec3 **worlds;        /* [count]: vertices of each body, for the streamed scene */
     mote_positions *positions; /* [count] */
     mote_pool *pool;
     mote_thread_failure *failures; /* [threads] */
@@ -87,22 +89,22 @@ struct mote_engine {
 
 /* For kinds of more than two bodies (engine_near.c): */
 
-/* The bounds of all bodies, near pairs by them, and what these need. */
+/* Makes and frees the bounds of all bodies and the search for near pairs. */
 mote_status mote_engine_build_near(mote_engine *e);
 void mote_engine_destroy_near(mote_engine *e);
-/* By e->boxes: near pairs, with their time. */
+/* Finds near pairs by e->boxes, timed. */
 mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
                                   mote_pairs_wanted *wanted);
-/* Boxes of all bodies from deformed roots, with their time. */
+/* Sets the boxes of all bodies from deformed roots, timed. */
 mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost);
 
-/* Makes e->now the answers of a scene. */
+/* Copies the answers of a scene to e->now. */
 void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count);
 
-/* Makes e->now the list of these pairs, each with its memory if it has one; states of other
-   pairs are freed. */
+/* Makes e->now the list of these pairs, each with its memory if it has one; frees the states of
+   other pairs. */
 void mote_engine_take_over(mote_engine *e, mote_pairs_wanted wanted);
-/* Makes room for pairs; the old content of the list is lost where it grows. */
+/* Makes room for pairs; when the list grows, its old content is lost. */
 void mote_pair_list_make_room(mote_pair_list *list, size_t count);
 
 #endif

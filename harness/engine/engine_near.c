@@ -1,4 +1,4 @@
-/* More than two bodies: which are near, and what near pairs keep from frame to frame. */
+/* More than two bodies: which are near, and what near pairs keep between frames. */
 #include "harness/engine/engine_kind.h"
 
 #include "harness/base/clock.h"

@@ -1,4 +1,4 @@
-/* More than two bodies: a method of the contract, with a state for each near pair. */
+/* More than two bodies: a contract method, with a state for each near pair. */
 #include "harness/engine/engine_kind.h"
 
 #include "harness/base/memory.h"
@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pairs that a thread takes at a time. */
+/* Pairs per unit of work of a thread. */
 #define GRAIN 4
 
-/* Convex parts would otherwise be counted again for each pair. */
+/* n must be given: n=auto would count the convex parts again for each pair. */
 static mote_status pairs_create(mote_engine *e)
 {
     const mote_method *method = e->choice.method;
@@ -47,7 +47,7 @@ static void pairs_destroy(mote_engine *e)
     mote_engine_destroy_near(e);
 }
 
-/* Makes states for pairs that are new. */
+/* Makes states for new pairs. */
 static mote_status add_states(mote_engine *e)
 {
     const mote_engine_setup *s = &e->setup;

@@ -1,4 +1,4 @@
-/* More than two bodies: the streamed scene, which reads the positions of all of them. */
+/* More than two bodies: the streamed scene, which reads the positions of all bodies. */
 #include "harness/engine/engine_kind.h"
 
 #include "core/stream/stream_scene.h"
@@ -50,7 +50,7 @@ static void deform_all(mote_engine *e)
     }
 }
 
-/* With positions=given nobody is charged for them. */
+/* Deforms all bodies; with positions=given this is charged to no method. */
 static void streamed_show(mote_engine *e)
 {
     if (e->traits.given_vertices)
@@ -65,7 +65,7 @@ static mote_status streamed_ask(mote_engine *e, mote_engine_cost *cost)
     const uint64_t deformed = mote_clock_ns();
     cost->deform_ns = e->traits.given_vertices ? 0 : deformed - from;
     for (uint32_t i = 0; i < e->setup.count; ++i)
-        e->looked_at[i] = !e->looked_at[i]; /* from here on: nothing has changed */
+        e->looked_at[i] = !e->looked_at[i]; /* from here on it means: unchanged */
     mote_pairs_wanted wanted = {0};
     mote_status status =
         mote_stream_scene_bounds(e->streamed, e->positions, e->looked_at, e->boxes);

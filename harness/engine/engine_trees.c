@@ -1,4 +1,4 @@
-/* More than two bodies: a tree for each body that is looked at (baselines/body_trees.h). */
+/* More than two bodies: a tree for each body in a near pair (baselines/body_trees.h). */
 #include "harness/engine/engine_kind.h"
 
 #include "harness/base/clock.h"
@@ -53,7 +53,7 @@ static mote_status look_at(mote_engine *e, uint32_t i, mote_engine_cost *cost)
     return status;
 }
 
-/* Refits the trees of the bodies that are marked (NULL: of all). */
+/* Refits the trees of the marked bodies (NULL: of all). */
 static mote_status refit(mote_engine *e, const bool *looked_at, mote_engine_cost *cost)
 {
     mote_status status = MOTE_OK;
@@ -69,7 +69,7 @@ static mote_status refit(mote_engine *e, const bool *looked_at, mote_engine_cost
     return status;
 }
 
-/* Boxes by the trees of all bodies, or by deformed roots. */
+/* Computes the boxes from the trees of all bodies, or from deformed roots. */
 static mote_status find_boxes(mote_engine *e, mote_engine_cost *cost)
 {
     if (!e->refits_every)

@@ -1,4 +1,4 @@
-/* Two bodies: any method of the contract, with the vertices that it needs. */
+/* Two bodies: any contract method, with the vertices that it needs. */
 #include "harness/engine/engine_kind.h"
 
 #include "harness/base/clock.h"
@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-/* How many empty calls the overhead is measured with: the median of batches. */
+/* Batches of empty calls that measure the overhead: the median over batches. */
 #define BATCHES 21
 #define BATCH 100
 
@@ -60,13 +60,13 @@ static void two_destroy(mote_engine *e)
         free(e->world[i]);
 }
 
-/* Bodies that have not changed keep their vertices. */
+/* Deforms the bodies that have changed. */
 static void deform(mote_engine *e)
 {
     for (int i = 0; i < 2; ++i) {
         mote_body_state *body = &e->frame.body[i];
         if (!e->deform[i])
-            continue; /* the frame brings its vertices */
+            continue; /* the frame contains its vertices */
         if (body->shape_changed || body->pose_changed)
             mote_deform_all(e->deform[i], body, e->world[i]);
         body->vertices = e->world[i];
@@ -82,7 +82,7 @@ static void two_show(mote_engine *e)
         deform(e);
 }
 
-/* The timed calls: functions of their own, so that callgrind can count in them alone
+/* Separate functions for the timed calls, so that callgrind can count within them alone
    (harness/run/instructions.c). */
 __attribute__((noinline)) static void timed_deform(mote_engine *e)
 {

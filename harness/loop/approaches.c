@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Evenly from all rotations (Shoemake 1992). */
+/* Uniform over all rotations (Shoemake 1992). */
 static mote_quaternion random_turn(mote_random *random)
 {
     const double part = mote_random_unit(random);
@@ -146,7 +146,7 @@ json_t *mote_approaches_json(const mote_approaches *sum)
     return object;
 }
 
-/* A stored count above this cannot be right. */
+/* A stored count above this is invalid. */
 #define COUNT_MAX ((json_int_t)1 << 53)
 
 static bool read_count(const json_t *value, uint64_t *count)

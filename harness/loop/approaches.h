@@ -1,5 +1,5 @@
-/* Random approaches of two bodies in the closed loop, and how often a method lets them pass
-   through each other. */
+/* Random approaches of two bodies in the closed loop, and how often a method lets the bodies
+   pass through each other. */
 #ifndef MOTE_HARNESS_APPROACHES_H
 #define MOTE_HARNESS_APPROACHES_H
 
@@ -8,25 +8,25 @@
 
 #include <jansson.h>
 
-/* How approaches are drawn; lengths in L, speeds in L a frame. One body flies past or into the
-   other one, both turning and deforming. */
+/* How approaches are drawn; lengths in L, speeds in L per frame. One body flies past or into
+   the other one, both rotating and deforming. */
 #define MOTE_APPROACH_SEED 0x64796e616d69u
 #define MOTE_APPROACH_SLOWEST 0.002
-#define MOTE_APPROACH_FASTEST 0.02 /* logarithmically even */
-#define MOTE_APPROACH_DEGREES 2.0  /* a frame, at most, about any axis */
-#define MOTE_APPROACH_ASIDE 0.35   /* of the other's centre of mass, at most */
+#define MOTE_APPROACH_FASTEST 0.02 /* log-uniform */
+#define MOTE_APPROACH_DEGREES 2.0  /* per frame, at most, about any axis */
+#define MOTE_APPROACH_ASIDE 0.35   /* aim off the other's centre of mass, at most */
 #define MOTE_APPROACH_CLEAR 0.2    /* between the bodies' spheres at the start */
-#define MOTE_APPROACH_APART 0.06   /* ends so far apart, moving away */
+#define MOTE_APPROACH_APART 0.06   /* ends this far apart and separating */
 #define MOTE_APPROACH_STEPS 2000u  /* at most */
 
-/* Sums over the approaches of one method on one scene, X(name). A trial is an approach that was
-   simulated; it counts as an approach when it came to a contact in truth. */
+/* Sums over the approaches of one method on one scene, X(name). A trial is a simulated
+   approach; it counts as an approach if it came to a contact in truth. */
 #define MOTE_APPROACHES_COUNTS(X)                                                              \
     X(trials)                                                                                  \
     X(approaches)                                                                              \
     X(passes_through)      /* approaches with a run of contacts that was never reported */     \
-    X(deep_passes_through) /* of those, with a vertex inside the other body meanwhile */       \
-    X(contact_runs)        /* runs of contacts, several an approach */                         \
+    X(deep_passes_through) /* of those, with a vertex inside the other body at the time */     \
+    X(contact_runs)        /* runs of contacts; an approach may have several */                \
     X(contact_runs_passed)                                                                     \
     X(steps)                                                                                   \
     X(contact_steps)                                                                           \
@@ -34,11 +34,11 @@
     X(false_steps)                                                                             \
     X(responses)                                                                               \
     X(truth_asked)                                                                             \
-    X(delay_sum) /* steps to the first report, over the runs that were reported */             \
+    X(delay_sum) /* steps to the first report, over the reported runs */                       \
     X(delay_max)
 
-/* Values: lengths in L, drifts relative, each the largest over all approaches; query_ns is
-   the mean of a step. Depth is measured until a contact is reported. */
+/* Values: lengths in L, drifts relative, each the largest over all approaches; query_ns is the
+   mean per step. Depth is measured until a contact is reported. */
 #define MOTE_APPROACHES_FIGURES(X)                                                             \
     X(max_penetration_unreported)                                                              \
     X(max_penetration_passes)                                                                  \
@@ -56,12 +56,13 @@ typedef struct mote_approaches {
 #undef MOTE_APPROACHES_COUNT
 #undef MOTE_APPROACHES_FIGURE
 
-/* Approach number index (from 0), the same for every method: masses[2] are the bodies'. states
-   receives where it starts, and is borrowed by what is returned. */
+/* Draws approach number index (from 0), the same for every method: masses[2] are the bodies'.
+   states receives the start, and the result borrows it. */
 mote_simulation_start mote_approach_draw(const mote_scenario *scenario, const mote_mass *masses,
                                          uint32_t index, mote_rigid_state states[2]);
 
-/* Simulates approaches 0, 1, ... until `wanted` came to a contact, or 4 * wanted were tried. */
+/* Simulates approaches 0, 1, ... until `wanted` of them came to a contact, or 4 * wanted were
+   tried. */
 mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method,
                                      uint32_t wanted, mote_approaches *sum);
 
@@ -70,11 +71,12 @@ mote_status mote_approaches_simulate(mote_scenario *scenario, const char *method
 double mote_approaches_share(const mote_approaches *sum);
 mote_confidence mote_approaches_interval(const mote_approaches *sum);
 
-/* Steps from the beginning of a contact to its first report, mean over the reported ones. */
+/* Steps from the beginning of a contact to its first report, averaged over the reported
+   ones. */
 double mote_approaches_delay(const mote_approaches *sum);
 
-/* An object with every count and value, and back; false when one is missing or impossible: a
-   count is negative, or more passed through than there were approaches. */
+/* An object with every count and value, and back; false if one is missing or impossible: a
+   negative count, or more passes than approaches. */
 json_t *mote_approaches_json(const mote_approaches *sum);
 bool mote_approaches_read(const json_t *object, mote_approaches *sum);
 

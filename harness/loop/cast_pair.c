@@ -11,12 +11,12 @@ typedef struct pair_cast {
     const mote_mass *masses;
     mote_frame_buffer *buffer;
     mote_body_state body[2]; /* as they are shown */
-    uint32_t first;          /* frame whose deformation is shown first */
+    uint32_t first;          /* deformation frame shown first */
     double radius[2];        /* greatest distance of a rest vertex from the centre of mass */
     double *weights[2];      /* those of the frame, in world axes: x, y, z, [3][padded] */
     double *still[2];        /* the same in rest axes, [count][3] */
-    double *before[2];       /* those of the frame before */
-    mote_rigid_state state[2], previous[2]; /* of this frame, of the frame before */
+    double *before[2];       /* those of the previous frame */
+    mote_rigid_state state[2], previous[2]; /* of this and the previous frame */
 } pair_cast;
 
 static void pair_destroy(void *cast)
@@ -72,7 +72,7 @@ static double shown_place(const pair_cast *s, uint32_t k)
     return 1 + (place <= last ? place : 2 * last - place);
 }
 
-/* Turns the weights of body i from the pose that the scenario shows to the simulated one. */
+/* Rotates the weights of body i from the scenario's pose to the simulated one. */
 static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
 {
     mote_body_state *body = &s->body[i];
@@ -94,8 +94,8 @@ static void turn_weights(pair_cast *s, int i, const mote_mat3 *shown)
     body->weights.z = world + 2 * (size_t)padded;
 }
 
-/* The most that any point of body i has moved since the frame before: by its centre, by the
-   turn, and by the deformation, basis functions being at most 1. */
+/* The most that any point of body i has moved since the previous frame: by its centre, by
+   rotation, and by deformation; basis functions are at most 1. */
 static double body_moved(const pair_cast *s, int i)
 {
     const mote_rigid_state *a = &s->previous[i], *b = &s->state[i];

@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-/* The pair of these bodies at or after *place, which is moved there; NULL: none. */
+/* The pair of these bodies at or after *place, which advances to it; NULL: none. */
 static const mote_near_pair *pair_of(const mote_near_pair *pairs, size_t count, size_t *place,
                                      const uint32_t body[2])
 {
@@ -25,7 +25,7 @@ static void end_run(mote_contact_runs *runs, const mote_contact_run *run)
     runs->depth_passes = fmax(runs->depth_passes, run->depth);
 }
 
-/* Counts a contact of the truth. */
+/* Counts a true contact. */
 static mote_status count_contact(mote_contact_runs *runs, uint32_t k,
                                  const mote_near_pair *truth, bool said, mote_contact_run *run,
                                  mote_contact_depth depth, void *context)

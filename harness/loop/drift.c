@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* The conserved quantities, and the sizes relative to which changes are measured. */
+/* The conserved quantities, and the magnitudes that changes are relative to. */
 typedef struct invariants {
     double energy, energy_size;
     mote_vec3 momentum, angular;

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The bodies that are watched, all borrowed. */
+/* The observed bodies, all borrowed. */
 typedef struct mote_drift_bodies {
     const mote_rigid_state *states; /* [count] */
     const mote_rigid_state *start;  /* [count] */
@@ -17,7 +17,7 @@ typedef struct mote_drift_bodies {
     mote_vec3 gravity; /* absolute */
 } mote_drift_bodies;
 
-/* What has been taken from the bodies from outside so far. */
+/* External changes of the bodies' totals so far. */
 typedef struct mote_drift_lost {
     double energy;      /* in impacts */
     mote_vec3 momentum; /* at the walls */
@@ -29,13 +29,12 @@ typedef struct mote_drift {
     double energy_first, energy_size;
     mote_vec3 momentum_first, angular_first;
     double momentum_size, angular_size;
-    /* The largest changes so far, each relative to the largest sum of the sizes of its parts.
-       The angular momentum is that about the origin; gravity and walls change it. */
+    /* The largest changes so far, each relative to the largest sum of the magnitudes of its
+       parts. Angular momentum is about the origin; gravity and walls change it. */
     double energy, momentum, angular;
 } mote_drift;
 
-/* Compares the bodies as they are at a time since the start with what they were at the first
-   call. */
+/* Compares the bodies at a time since the start with their state at the first call. */
 void mote_drift_note(mote_drift *drift, const mote_drift_bodies *bodies,
                      const mote_drift_lost *lost, double time);
 

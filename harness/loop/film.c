@@ -12,20 +12,20 @@
 
 #define PARTICLES_MAX 256
 
-/* The direction to look from, before it is made perpendicular to the line between the
-   bodies. */
+/* The viewing direction, before it is made perpendicular to the line between the bodies. */
 static const mote_vec3 front = {0.35, 0.45, 1};
 
 struct mote_film {
     mote_simulated bodies;
     char *method, *path, *folder;
-    uint32_t every; /* a picture every so many steps */
+    uint32_t every; /* steps per picture */
     uint32_t pictures;
-    bool contact;                /* reported in the step before */
+    bool contact;                /* reported in the previous step */
     mote_deform **deform;        /* of the shapes */
     mote_vec3 **world;           /* vertices of the bodies */
     mote_vec3 right, up, toward; /* axes of the picture, the last toward the viewer */
-    double box[4];               /* low x, high x, low y, high y of all pictures, over L */
+    double box[4];               /* low x, high x, low y, high y over all pictures, divided by
+                                    L */
 };
 
 static const mote_body *shape_of(const mote_film *film, uint32_t i)
@@ -76,7 +76,7 @@ static char *picture_file(const mote_film *film, uint32_t picture)
     return mote_format("%s/%03u.dat", film->folder, picture);
 }
 
-/* Closes a file, with all that was written to it. */
+/* Removes the pictures and their folder. */
 static void remove_folder(const mote_film *film)
 {
     static const char *const others[] = {"film.dat", "film.gif"};
@@ -116,8 +116,8 @@ static mote_vec3 middle_of(const mote_film *film, uint32_t i)
     return sum;
 }
 
-/* Looks from the front; of two bodies across the line between them in the first picture. y is
-   upwards. */
+/* Sets the view: from the front; for two bodies, perpendicular to the line between them in the
+   first picture. y is up. */
 static void aim(mote_film *film)
 {
     const mote_vec3 line = mote_sub(middle_of(film, 1), middle_of(film, 0));
@@ -133,7 +133,7 @@ static void aim(mote_film *film)
     film->up = mote_cross(film->toward, film->right);
 }
 
-/* In the picture, over L. */
+/* Projects a point to picture coordinates, divided by L. */
 static mote_vec3 see(const mote_film *film, mote_vec3 p)
 {
     return mote_scale(mote_vec3_make(mote_dot(p, film->right), mote_dot(p, film->up),
@@ -147,7 +147,7 @@ static void add_point(const mote_film *film, mote_vec3 p, mote_text *text)
     mote_text_add(text, "%.4f %.4f %.4f\n", q.x, q.y, q.z);
 }
 
-/* The triangles of body i that are seen from their outside. */
+/* Adds the front-facing triangles of body i. */
 static void add_body(mote_film *film, uint32_t i, mote_text *text)
 {
     const mote_mesh *mesh = shape_of(film, i)->mesh;
@@ -171,7 +171,7 @@ static void add_body(mote_film *film, uint32_t i, mote_text *text)
     }
 }
 
-/* A block of every other body, from the first or the second on. */
+/* Adds a block of every other body, from the first or the second on. */
 static void add_bodies(mote_film *film, uint32_t first, mote_text *text)
 {
     for (uint32_t i = first; i < film->bodies.count; i += 2)
@@ -179,13 +179,13 @@ static void add_bodies(mote_film *film, uint32_t first, mote_text *text)
     mote_text_add(text, "\n");
 }
 
-/* A point that is not shown: blocks must not be empty. */
+/* Adds a point that is not drawn: blocks must not be empty. */
 static void add_nothing(mote_text *text)
 {
     mote_text_add(text, "NaN NaN NaN\n");
 }
 
-/* A block of the particles of body i of two. */
+/* Adds a block of the particles of body i of two. */
 static void add_particles(const mote_film *film, const mote_simulation_view *view, int i,
                           mote_text *text)
 {
@@ -201,7 +201,8 @@ static void add_particles(const mote_film *film, const mote_simulation_view *vie
     mote_text_add(text, "\n\n");
 }
 
-/* A block of the closest points: of two bodies always, of many where a contact is reported. */
+/* Adds a block of the closest points: for two bodies always, for many where a contact is
+   reported. */
 static void add_closest(const mote_film *film, const mote_simulation_view *view,
                         mote_text *text)
 {
@@ -211,7 +212,7 @@ static void add_closest(const mote_film *film, const mote_simulation_view *view,
         if (!answer->has_witness || (film->bodies.count > 2 && !answer->contact))
             continue;
         if (shown++ > 0)
-            mote_text_add(text, "\n"); /* lines of their own */
+            mote_text_add(text, "\n"); /* a separate line for each pair */
         for (int i = 0; i < 2; ++i)
             add_point(film, answer->witness[i], text);
     }
@@ -246,7 +247,7 @@ mote_status mote_film_watch(void *film, const mote_simulation_view *view)
     return status;
 }
 
-/* The number of pictures and their common box. */
+/* Writes the number of pictures and their common box. */
 static mote_status write_index(const mote_film *film)
 {
     mote_text text = {0};

@@ -7,36 +7,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So many consecutive triangles of the mesh share a box: mostly they are neighbours. */
+/* This many consecutive triangles of the mesh share a box: most of them are neighbours. */
 #define BLOCK 32u
 
 typedef struct box {
     mote_vec3 low, high;
 } box;
 
-/* Triangles that a ray from the overlap may meet, by the cells of a grid across the ray's
+/* Triangles that a ray from the overlap may hit, sorted into a grid perpendicular to the ray's
    direction, x: entries of cell c are entry[first[c]] .. entry[first[c + 1] - 1]. */
 typedef struct shadow {
     const mote_mesh *mesh;
     const mote_vec3 *world;
-    box bounds;    /* of the body; then, what is in the other's as well: no vertex outside of
-                      it is inside the other body */
+    box bounds;    /* of the body, then clipped to the other body's: a vertex outside of it is
+                      not inside the other body */
     uint32_t side; /* cells along y, and along z */
-    uint32_t *met; /* [triangle_count]; the triangles that may be met */
+    uint32_t *met; /* [triangle_count]; the triangles that may be hit */
     uint32_t met_count;
     uint32_t *first; /* [most_side^2 + 1] */
     uint32_t *entry;
     size_t capacity;
     box *blocks;         /* [triangle_count / BLOCK, rounded up] */
     uint32_t deepest[2]; /* the last deepest vertex of the other body, and its nearest triangle:
-                            tried first, it lets most others be dropped soon */
+                            trying these first lets most others be skipped early */
 } shadow;
 
 struct mote_penetration {
     shadow of[2];
 };
 
-/* Two triangles a cell, about. */
+/* For about two triangles per cell. */
 static uint32_t side_for(uint32_t triangles)
 {
     return 1 + (uint32_t)sqrt(triangles / 2.0);
@@ -103,7 +103,7 @@ static box overlap_of(const box *a, const box *b)
         {less(a->high.x, b->high.x), less(a->high.y, b->high.y), less(a->high.z, b->high.z)}};
 }
 
-/* Monotone in at, so that a point's cell lies between those of its triangle's ends. */
+/* Monotone in at, so a point's cell lies between those of its triangle's ends. */
 static uint32_t cell_of(const shadow *s, double at, double low, double high)
 {
     const double place = high > low ? (at - low) / (high - low) * s->side : 0;
@@ -112,7 +112,7 @@ static uint32_t cell_of(const shadow *s, double at, double low, double high)
     return place >= s->side ? s->side - 1 : (uint32_t)place;
 }
 
-/* What a triangle spans. */
+/* The bounding box of a triangle. */
 static box span_of(const shadow *s, uint32_t triangle)
 {
     const uint32_t *t = s->mesh->triangles[triangle];
@@ -138,7 +138,7 @@ static void set_blocks(shadow *s)
     }
 }
 
-/* Lists the triangles that rays towards +x from points of the box may meet. */
+/* Lists the triangles that rays towards +x from points of the box may hit. */
 static void find_met(shadow *s)
 {
     const box *within = &s->bounds;
@@ -166,7 +166,7 @@ static cell_range cells_of(const shadow *s, uint32_t triangle)
                         cell_of(s, span.high.z, within->low.z, within->high.z)};
 }
 
-/* Counting sort of what may be met into the cells that it may cover. */
+/* Counting sort of these triangles into the cells that they may cover. */
 static void fill(shadow *s)
 {
     const size_t cells = (size_t)s->side * s->side;
@@ -181,7 +181,7 @@ static void fill(shadow *s)
     uint32_t sum = 0;
     for (size_t c = 0; c <= cells; ++c) {
         sum += s->first[c];
-        s->first[c] = sum; /* the end of the cell: entries are filled in from the end */
+        s->first[c] = sum; /* the cell's end: entries are filled in backwards */
     }
     if (sum > s->capacity) {
         s->entry = mote_resize(s->entry, sum, sizeof *s->entry);
@@ -197,8 +197,8 @@ static void fill(shadow *s)
 }
 
 /* Whether the edge from a to b crosses the half line from p in +z, seen along x: 1 towards +y,
-   -1 towards -y, else 0. The side is computed from the lower vertex number to the higher, so
-   that both faces of the edge get one answer. */
+   -1 towards -y, otherwise 0. The side is computed from the lower vertex number to the higher,
+   so both faces of the edge get the same answer. */
 static int crossing(const shadow *s, uint32_t a, uint32_t b, mote_vec3 p)
 {
     const bool swap = a > b;
@@ -213,7 +213,7 @@ static int crossing(const shadow *s, uint32_t a, uint32_t b, mote_vec3 p)
     return rising == swap ? -1 : 1;
 }
 
-/* Whether the triangle lies before p's ray, of which it is known to be crossed. */
+/* Whether the triangle, known to be crossed by p's line, is ahead of p. */
 static bool is_ahead(const mote_vec3 t[3], mote_vec3 p)
 {
     if (t[0].x > p.x && t[1].x > p.x && t[2].x > p.x)
@@ -221,12 +221,12 @@ static bool is_ahead(const mote_vec3 t[3], mote_vec3 p)
     if (t[0].x <= p.x && t[1].x <= p.x && t[2].x <= p.x)
         return false;
     const mote_vec3 normal = mote_cross(mote_sub(t[1], t[0]), mote_sub(t[2], t[0]));
-    /* The plane's x at the ray minus p.x, times normal.x. */
+    /* Plane's x on the ray minus p.x, times normal.x. */
     const double offset = mote_dot(normal, mote_sub(t[0], p));
     return normal.x > 0 ? offset > 0 : offset < 0;
 }
 
-/* The winding number of the surface around p is not 0. */
+/* Whether the winding number of the surface around p is not 0. */
 static bool is_inside(const shadow *s, mote_vec3 p)
 {
     const uint32_t y = cell_of(s, p.y, s->bounds.low.y, s->bounds.high.y);
@@ -246,7 +246,7 @@ static bool is_inside(const shadow *s, mote_vec3 p)
     return winding != 0;
 }
 
-/* Squared distance of p from a box, rounded down: nothing in it is nearer. */
+/* Squared distance of p from a box, rounded down: a lower bound for everything in it. */
 static double box_distance_squared(const box *b, mote_vec3 p)
 {
     const mote_vec3 out = mote_vec3_make(more(0, more(b->low.x - p.x, p.x - b->high.x)),
@@ -255,7 +255,7 @@ static double box_distance_squared(const box *b, mote_vec3 p)
     return mote_dot(out, out) * (1 - 1e-12);
 }
 
-/* Lowers *best to the squared distance of p from one of the triangles of a block. */
+/* Lowers *best to the squared distance of p from a triangle of a block if that is smaller. */
 static void near_block(const shadow *s, uint32_t block, mote_vec3 p, double *best,
                        uint32_t *nearest)
 {
@@ -273,8 +273,8 @@ static void near_block(const shadow *s, uint32_t block, mote_vec3 p, double *bes
     }
 }
 
-/* Squared distance of p from the surface, or something at most `bound`. *nearest: the triangle
-   to try first, and then the nearest one. */
+/* Squared distance of p from the surface, or anything up to `bound`. *nearest: in: the triangle
+   to try first; out: the nearest one. */
 static double distance_above(const shadow *s, mote_vec3 p, double bound, uint32_t *nearest)
 {
     double best = HUGE_VAL;
@@ -291,7 +291,7 @@ static bool in_box(const box *within, mote_vec3 p)
            p.y <= within->high.y && p.z >= within->low.z && p.z <= within->high.z;
 }
 
-/* One vertex of the other body. */
+/* Updates the depth with one vertex of the other body. */
 static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t *nearest,
                       double *squared)
 {
@@ -306,7 +306,8 @@ static void deepen_by(shadow *s, const shadow *other, uint32_t vertex, uint32_t 
     }
 }
 
-/* The deepest vertex of `other` inside s, as a squared depth; deeper than *squared only. */
+/* Raises *squared to the squared depth of the deepest vertex of `other` inside s if that is
+   deeper. */
 static void deepen(shadow *s, const shadow *other, double *squared)
 {
     uint32_t v = 0;

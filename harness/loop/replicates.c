@@ -14,13 +14,13 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Any fixed seed, so that the same data give the same intervals. */
+/* A fixed seed, so the same data give the same intervals. */
 #define INTERVAL_SEED 1
 
 /* Task t is replicate t / methods + 1 of method t % methods: replicates outermost. */
 typedef struct work {
     const mote_replicates *plan;
-    bool *there; /* [tasks]: kept by an earlier run */
+    bool *there; /* [tasks]: stored by an earlier run */
 } work;
 
 static const mote_method_choice *choice_of(const mote_replicates *plan, size_t task)
@@ -38,7 +38,7 @@ static size_t task_count(const mote_replicates *plan)
     return plan->choices->count * plan->replicates;
 }
 
-/* What decides a result. The caller decrefs. */
+/* Everything that determines a result. The caller decrefs. */
 static json_t *identity(const mote_replicates *plan, size_t task)
 {
     const mote_simulation_options *o = &plan->options;
@@ -76,7 +76,7 @@ static char *file_name(const mote_replicates *plan, size_t task)
     return name;
 }
 
-/* What is kept of a task, or NULL; the caller decrefs. */
+/* The stored result of a task, or NULL; the caller decrefs. */
 static json_t *recall(const mote_replicates *plan, size_t task)
 {
     char *name = file_name(plan, task);
@@ -92,7 +92,7 @@ static json_t *recall(const mote_replicates *plan, size_t task)
     return NULL;
 }
 
-/* Keeps a result, or why there is none. */
+/* Stores a result, or why there is none. */
 static mote_status keep(const mote_replicates *plan, size_t task,
                         const mote_simulation_result *result, const char *status,
                         const char *reason)
@@ -112,7 +112,7 @@ static mote_status keep(const mote_replicates *plan, size_t task,
             mote_simulation_json(plan->scenario, mote_subject_facts_of(plan->subject).bodies,
                                  choice_of(plan, task), result);
     if (figures)
-        (void)json_object_update(object, figures); /* "method" is now as it was asked for */
+        (void)json_object_update(object, figures); /* "method" is now as requested */
     json_decref(figures);
     char *name = file_name(plan, task);
     const mote_status done = mote_record_json(plan->directory, name, object);
@@ -131,7 +131,7 @@ typedef struct task_context {
     size_t task;
 } task_context;
 
-/* In the child: hands back the result. */
+/* In the child: sends the result. */
 static mote_status simulate(void *context, int output)
 {
     const task_context *t = context;
@@ -176,7 +176,7 @@ static mote_status finish_task(void *context, size_t task, mote_child *child, do
     return keep(w->plan, task, done ? &result : NULL, how, done ? NULL : child->text);
 }
 
-/* Refuses what can be refused before anything is written. */
+/* Rejects invalid input before anything is written. */
 static mote_status check_methods(const mote_replicates *plan)
 {
     mote_status status = MOTE_OK;
@@ -209,7 +209,7 @@ static mote_status simulate_missing(const mote_replicates *plan)
     return status;
 }
 
-/* The row of method m, from the files. */
+/* Collects the row of method m from the files. */
 static mote_replicates_row gather(const mote_replicates *plan, size_t m)
 {
     mote_replicates_row row = {0};
@@ -249,7 +249,7 @@ mote_status mote_replicates_run(const mote_replicates *plan, mote_replicates_row
         status = mote_directory_make(folder);
     if (status == MOTE_OK)
         status = simulate_missing(plan);
-    if (status != MOTE_OK && rmdir(folder) == 0 && is_new) /* nothing was kept */
+    if (status != MOTE_OK && rmdir(folder) == 0 && is_new) /* nothing was stored */
         (void)rmdir(plan->directory);
     free(folder);
     if (status != MOTE_OK)

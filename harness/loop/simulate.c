@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The last witnesses of a near pair that was apart. */
+/* The last witnesses of a near pair while it was apart. */
 typedef struct gap {
     uint32_t body[2];
     bool known;
@@ -22,8 +22,8 @@ typedef struct simulation {
     mote_rigid_state *states;
     const mote_body_state *shown;
     mote_stage_pairs said, truth;
-    double lower;          /* of the distance of two bodies, proven */
-    gap *gaps, *next_gaps; /* of the near pairs, in their order */
+    double lower;          /* of the distance between two bodies, proven */
+    gap *gaps, *next_gaps; /* of the near pairs, in pair order */
     size_t gap_count, gap_capacity, next_capacity;
     mote_contact_runs runs;
     mote_drift_lost lost;
@@ -31,8 +31,8 @@ typedef struct simulation {
     mote_simulation_result result;
 } simulation;
 
-/* Makes gaps those of the near pairs: from this answer where they are apart, else the last one
-   known. */
+/* Updates gaps for the near pairs: from the current answer if they are apart, otherwise the
+   last known one. */
 static void update_gaps(simulation *s)
 {
     size_t old = 0;
@@ -88,7 +88,7 @@ static mote_status respond(simulation *s, const gap *along)
     return status;
 }
 
-/* A mote_contact_depth: of two bodies as they are shown. */
+/* A mote_contact_depth for two bodies as currently shown. */
 static mote_status depth_of(void *context, const uint32_t body[2], double above, double *depth)
 {
     simulation *s = context;
@@ -211,7 +211,7 @@ static mote_status step(simulation *s, uint32_t k)
     return status;
 }
 
-/* Whether the two bodies are far enough apart and move on. */
+/* Whether the two bodies are far enough apart and separating. */
 static bool is_over(const simulation *s)
 {
     if (!(s->start->apart > 0) || s->lower <= s->start->apart)

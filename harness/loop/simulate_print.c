@@ -8,17 +8,17 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-/* How the figures of replicates become one. */
+/* How the figures of replicates are combined. */
 typedef enum joining {
     SUM,     /* of counts */
     LARGEST, /* of counts */
-    DEEPEST, /* the largest of reals, of which one may be missing */
-    MEAN     /* a step */
+    DEEPEST, /* largest real; some may be missing */
+    MEAN     /* per step */
 } joining;
 
 typedef struct figure {
     const char *key;
-    size_t offset; /* in mote_simulation_result: a uint64_t for counts, else a double */
+    size_t offset; /* in mote_simulation_result: of a uint64_t for counts, otherwise a double */
     joining joining;
 } figure;
 
@@ -50,7 +50,7 @@ static const figure figures[] = {
 };
 #define FIGURES (sizeof figures / sizeof figures[0])
 
-/* A stored count above this cannot be right. */
+/* A stored count above this is invalid. */
 #define COUNT_MAX ((json_int_t)1 << 53)
 
 static bool is_count(const figure *f)

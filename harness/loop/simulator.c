@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-/* A simulator with the bodies of the subject. */
+/* Makes a simulator with the bodies of the subject. */
 static mote_simulator *new_simulator(const mote_subject *subject,
                                      const mote_method_choice *choice,
                                      const mote_simulation_options *options)
@@ -40,7 +40,7 @@ static mote_simulator *new_simulator(const mote_subject *subject,
     return made;
 }
 
-/* Masses of all shapes, and room for the vertices of the largest. */
+/* Computes the masses of all shapes; makes room for the vertices of the largest. */
 static mote_status weigh_shapes(mote_simulator *s, bool many)
 {
     uint32_t most = 0;
@@ -65,7 +65,7 @@ static mote_quaternion turn_at(const mote_body_motion *motion, double place)
     return mote_quaternion_normalise((mote_quaternion){q[0], q[1], q[2], q[3]});
 }
 
-/* A body as it moves: velocity is that of the point `middle`, in the world. */
+/* The state of a moving body: velocity is that of the point `middle`, in the world. */
 static mote_rigid_state state_of(const mote_mass *mass, const mote_pose *pose,
                                  mote_quaternion turn, mote_vec3 middle, mote_vec3 velocity,
                                  mote_vec3 spin)

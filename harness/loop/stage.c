@@ -8,16 +8,16 @@
 #include <time.h>
 
 struct mote_stage {
-    mote_engine_setup setup; /* the scenario's bodies with the tolerance of contact */
+    mote_engine_setup setup; /* the scenario's bodies with the contact tolerance */
     mote_method_choice choice;
     const mote_cast_kind *kind;
     void *cast;
     mote_engine *method, *truth;
     const mote_body_state *shown;
-    double lower; /* of the true distance of two bodies, proven */
+    double lower; /* of the true distance between two bodies, proven */
 };
 
-/* An engine for the bodies, built. */
+/* Makes and builds an engine for the bodies. */
 static mote_status open_engine(mote_stage *s, const mote_method_choice *choice, uint64_t seed,
                                mote_engine **engine)
 {
@@ -100,8 +100,8 @@ static mote_status ask(mote_engine *engine, const mote_body_state *shown,
     return status;
 }
 
-/* Of two bodies in processor time of this thread, since simulations run in parallel; of many
-   in real time, since methods may use several threads. */
+/* For two bodies, processor time of this thread, since simulations run in parallel; for many,
+   wall time, since methods may use several threads. */
 static double now_ns(const mote_stage *s)
 {
     struct timespec t;

@@ -1,12 +1,12 @@
-/* What a simulation asks in each step: the method's answers for the bodies that are near each
-   other, and those of the exact method beside it. Private to harness/loop. */
+/* What a simulation asks in each step: the method's answers for near bodies, and those of the
+   exact method beside it. Private to harness/loop. */
 #ifndef MOTE_HARNESS_STAGE_H
 #define MOTE_HARNESS_STAGE_H
 
 #include "harness/loop/simulation.h"
 
-/* Near pairs with answers, in the order of pairs; each answer has a distance, a contact or
-   both, and `contact` is set in either case. Valid until the next question. */
+/* Near pairs with answers, in pair order; each answer has a distance, a contact or both, and
+   `contact` is always set. Valid until the next question. */
 typedef struct mote_stage_pairs {
     const mote_near_pair *pairs;
     size_t count;
@@ -14,14 +14,14 @@ typedef struct mote_stage_pairs {
 
 typedef struct mote_stage mote_stage;
 
-/* Everything is borrowed; masses are those of the shapes. MOTE_EINVAL for a tolerance above the
-   distance at which bodies count as near. */
+/* Everything is borrowed; masses are per shape. MOTE_EINVAL for a tolerance above the distance
+   at which bodies count as near. */
 mote_status mote_stage_create(const mote_subject *subject, const mote_method_choice *choice,
                               const mote_simulation_options *options, const mote_mass *masses,
                               mote_stage **stage);
 void mote_stage_destroy(mote_stage *stage); /* NULL is allowed */
 
-/* Starts a simulation, with the method anew. */
+/* Starts a simulation with a fresh method. */
 mote_status mote_stage_restart(mote_stage *stage, const mote_simulation_start *start);
 
 /* The bodies of step k, deformed as the scenario says; vertices are NULL. */
@@ -31,13 +31,13 @@ const mote_body_state *mote_stage_show(mote_stage *stage, uint32_t k,
 /* The method's answers for the bodies shown; its time is added to *ns. */
 mote_status mote_stage_ask_method(mote_stage *stage, mote_stage_pairs *said, double *ns);
 
-/* The exact method's; a near pair that is missing is not in contact. *asked is incremented
-   where it had to be computed. *lower: a proven lower bound of the smallest distance, 0 where
-   there is none. */
+/* The exact method's answers; a near pair that is missing is not in contact. *asked is
+   incremented if they had to be computed. *lower: a proven lower bound of the smallest
+   distance, or 0. */
 mote_status mote_stage_ask_truth(mote_stage *stage, mote_stage_pairs *truth, uint64_t *asked,
                                  double *lower);
 
-/* The engine of the method. */
+/* The method's engine. */
 const mote_engine *mote_stage_method(const mote_stage *stage);
 
 #endif

@@ -40,7 +40,7 @@ static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mo
     (void)json_object_set_new(root, "purpose", json_string(purpose));
     free(purpose);
     mote_status status = MOTE_OK;
-    /* Keys stand at frames here, and the deformation follows the path. */
+    /* Keys are at frames here, and the deformation follows the path. */
     if (scenario->motion->start != 1 || scenario->motion->pace != 1)
         status = mote_fail(MOTE_EINVAL,
                            "%s: start and pace other than 1 cannot be recorded with the motion "
@@ -56,7 +56,7 @@ static mote_status rewrite(json_t *root, const mote_scenario *scenario, const mo
     return status;
 }
 
-/* Deformation in a scenario goes on by a frame a frame and never turns back. */
+/* The deformation of a scenario advances by one frame per frame and never reverses. */
 static mote_status check_deformation(const mote_scenario *scenario, uint32_t count,
                                      double time_step)
 {
@@ -87,7 +87,7 @@ static mote_status write_pair(const mote_scenario *scenario, const mote_mass mas
     return status;
 }
 
-/* What was simulated, as records of all bodies and frames. */
+/* Converts the simulation to records of all bodies and frames. */
 static mote_bodies_record *make_records(const mote_bodies *bodies, const mote_mass *masses,
                                         const mote_rigid_state *states, uint32_t count,
                                         double time_step)

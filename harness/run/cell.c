@@ -18,7 +18,7 @@ const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT] = {
     MOTE_SCENE_COLUMNS(NAME_TEXT)};
 #undef NAME_TEXT
 
-/* The name as part of a file's name. */
+/* A name made fit for a file name. */
 static void plain(const char *name, char *out, size_t size)
 {
     size_t used = 0;
@@ -102,8 +102,8 @@ static json_t *interval_json(uint32_t first, uint32_t last)
     return json_pack("[i,i]", (int)first, (int)last);
 }
 
-/* The interval of interest: the scenario's; of more than two bodies all frames but the first,
-   in which every near pair is new. */
+/* The active interval: the scenario's; for more than two bodies, all frames but the first, in
+   which every near pair is new. */
 static json_t *active_json(const mote_cell *cell, const mote_subject_facts *facts)
 {
     if (!cell->subject->bodies)
@@ -112,8 +112,8 @@ static json_t *active_json(const mote_cell *cell, const mote_subject_facts *fact
                                     : interval_json(0, 0);
 }
 
-/* What the method is told of the deformation. With more than two bodies, trees are given
-   positions, and which of them is decided by fields, unless all are, as by stream. */
+/* What the method knows about the deformation. For more than two bodies, trees are given
+   positions, but fields decide which bodies need them, unless all are refitted. */
 static const char *told_of(const mote_cell *cell)
 {
     const mote_method_choice *choice = cell->choice;
@@ -127,7 +127,7 @@ static const char *told_of(const mote_cell *cell)
     return field ? "field" : "positions";
 }
 
-/* What is known of a cell before it runs. */
+/* The facts known about a cell before it runs. */
 static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_t program)
 {
     const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
@@ -176,7 +176,7 @@ static void add_real(mote_text *text, bool present, double value)
 static void add_row(mote_text *text, const mote_cell *cell, const mote_cell_row *row)
 {
     const mote_answer *answer = &row->answer;
-    const mote_truth *truth = cell->subject->truth; /* NULL: of more than two bodies */
+    const mote_truth *truth = cell->subject->truth; /* NULL: more than two bodies */
     const double exact = truth ? truth->distance[row->frame - 1] : 0;
     mote_text_add(text, "%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64, row->frame, row->deform_ns,
                   row->update_ns, row->query_ns);

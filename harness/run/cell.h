@@ -1,6 +1,6 @@
-/* A cell: one (scenario, method, parameters, replicate), measured in a process of its own and
-   stored as cells/ID.json and, when it ran to its end, cells/ID.csv; of more than two bodies
-   there is cells/ID.pairs.csv beside it. */
+/* A cell: one (scenario, method, parameters, replicate), measured in its own process and stored
+   as cells/ID.json and, if it ran to its end, cells/ID.csv; for more than two bodies also
+   cells/ID.pairs.csv. */
 #ifndef MOTE_HARNESS_CELL_H
 #define MOTE_HARNESS_CELL_H
 
@@ -11,35 +11,36 @@
 #include <jansson.h>
 
 typedef enum mote_cache {
-    MOTE_CACHE_HOT,  /* one frame directly after the other */
-    MOTE_CACHE_EVICT /* 32 MB are walked between frames, outside the clock */
+    MOTE_CACHE_HOT,  /* each frame directly after the previous one */
+    MOTE_CACHE_EVICT /* 32 MB are read between frames, outside the timing */
 } mote_cache;
 
 extern const char *const mote_cache_names[]; /* "hot", "evict" */
 
 typedef enum mote_cell_status {
     MOTE_CELL_OK,
-    MOTE_CELL_CRASHED,     /* its process died, or the method failed in a frame */
-    MOTE_CELL_TIMEOUT,     /* it was ended after the time allowed */
+    MOTE_CELL_CRASHED,     /* its process crashed, or the method failed in a frame */
+    MOTE_CELL_TIMEOUT,     /* it was ended at the time limit */
     MOTE_CELL_UNSUPPORTED, /* the method cannot answer what the scenario asks */
     MOTE_CELL_STATUSES
 } mote_cell_status;
 
 extern const char *const mote_cell_status_names[]; /* "ok", "crashed", ... */
 
-/* Stride asked for: every frame for a method that keeps state, or is fast; else every 16th. */
+/* The stride asked for. MOTE_STRIDE_AUTO is every frame for a method that keeps state or is
+   fast; otherwise every 16th. */
 #define MOTE_STRIDE_AUTO 0u
 #define MOTE_STRIDE_SLOW 16u
 #define MOTE_STRIDE_SLOW_NS 10e6
 
 #define MOTE_CELL_ID_SIZE 96
 
-/* The number of frames that a cell measures however small its budget. */
+/* The number of frames that a cell measures at least, however small its budget. */
 #define MOTE_CELL_LEAST_FRAMES 3
 
 #define MOTE_SEED_MAX (((uint64_t)1 << 62) - 1)
 
-/* The seed of a replicate (from 1) of a run with this seed. */
+/* The seed of a replicate (from 1) in a run with this seed. */
 static inline uint64_t mote_replicate_seed(uint64_t seed, bool fixed, uint32_t replicate)
 {
     return seed + (fixed ? 0 : replicate - 1);
@@ -53,31 +54,30 @@ typedef struct mote_cell {
     uint32_t stride_asked;            /* MOTE_STRIDE_AUTO or the stride */
     uint32_t stride;                  /* the one used, >= 1 */
     uint64_t seed;                    /* the run's, at most MOTE_SEED_MAX */
-    bool fixed_seed;                  /* every replicate draws from it */
+    bool fixed_seed;                  /* every replicate uses it */
     mote_cache cache;
     uint32_t
         jobs; /* cells measured at the same time; with 2 or more, times are not comparable */
-    double budget;      /* of more than two bodies: seconds after which no further frame begins
+    double budget;      /* for more than two bodies: seconds after which no further frame begins
                            once MOTE_CELL_LEAST_FRAMES are done; 0: none */
-    bool contacts_only; /* of more than two bodies: ID.pairs.csv has rows of contacts alone */
+    bool contacts_only; /* for more than two bodies: ID.pairs.csv lists only contacts */
     char id[MOTE_CELL_ID_SIZE];
 } mote_cell;
 
-/* Writes cell->id: a readable beginning, then a hash of everything that decides what is
-   measured: the scenario's fingerprint, the question, method, every parameter, replicate,
-   frames, stride asked, seed, cache, whether others ran beside it, and program
+/* Sets cell->id: a readable beginning, then a hash of everything that determines the
+   measurement: the scenario's fingerprint, the question, method, every parameter, replicate,
+   frames, stride asked, seed, cache, whether other cells ran at the same time, and program
    (mote_program_hash). */
 void mote_cell_name(mote_cell *cell, uint64_t program);
 
-/* X(name): further columns of cells/ID.csv for more than two bodies. The time of motion
-   (poses and weights) is charged to no method; those of bounds and of near pairs are part of
-   query_ns. */
+/* X(name): further columns of cells/ID.csv for more than two bodies. The time of motion (poses
+   and weights) is charged to no method; bounds_ns and broad_ns are part of query_ns. */
 #define MOTE_SCENE_COLUMNS(X)                                                                  \
     X(motion_ns)                                                                               \
     X(bounds_ns)  /* boxes of all bodies */                                                    \
     X(broad_ns)   /* near pairs by the boxes */                                                \
     X(near_pairs) /* whose bounds are at most the scenario's `near` apart */                   \
-    X(new_pairs)  /* those of them that were not near in the frame before */                   \
+    X(new_pairs)  /* those that were not near in the previous frame */                         \
     X(pair_contacts)
 
 typedef struct mote_scene_row {
@@ -96,7 +96,7 @@ enum {
 
 extern const char *const mote_scene_column_names[MOTE_SCENE_COLUMN_COUNT];
 
-/* The result of one frame. With more than two bodies the answer is that of the closest near
+/* The result of one frame. For more than two bodies the answer is that of the closest near
    pair; contact says whether any pair is in contact, and counters are sums over the pairs. */
 typedef struct mote_cell_row {
     uint32_t frame;
@@ -110,12 +110,12 @@ typedef struct mote_cell_row {
 typedef struct mote_cell_result {
     mote_cell_row *rows;
     size_t row_count;
-    uint64_t build_ns;  /* create, and the tables of full deformation when charged */
-    uint64_t clock_ns;  /* a reading of the clock, subtracted from every time */
+    uint64_t build_ns;  /* create, and the tables of full deformation if charged */
+    uint64_t clock_ns;  /* reading the clock, subtracted from every time */
     double overhead_ns; /* the overhead of clock and bookkeeping that remains in every time */
     bool heap_counted;
     int64_t heap_live_bytes,
-        heap_peak_bytes;  /* the method's, without the shared mesh and field */
+        heap_peak_bytes;  /* of the method, without the shared mesh and field */
     int64_t deform_bytes; /* of these: tables and vertices of full deformation */
     int64_t rss_peak_bytes;
     int core;            /* that the process is pinned to, or -1 */
@@ -123,20 +123,20 @@ typedef struct mote_cell_result {
     double clock_mhz[2]; /* of the core, before and after; 0: unknown */
     double wall_seconds; /* of the process */
     uint64_t
-        frames_wall_ns; /* more than two bodies: of all frames, motion and records included */
+        frames_wall_ns; /* more than two bodies: all frames, including motion and recording */
 } mote_cell_result;
 
-/* Writes both files of a cell that ran to its end, the CSV first. */
+/* Writes both files of a completed cell, the CSV first. */
 mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *result,
                              uint64_t program, const char *directory);
 
-/* Writes the JSON of a cell that did not; reason is one line. */
+/* Writes the JSON of a cell that failed; reason is one line. */
 mote_status mote_cell_record_failure(const mote_cell *cell, mote_cell_status status,
                                      const char *reason, uint64_t program,
                                      const char *directory);
 
-/* Every parameter with its value, defaults included: numbers as numbers; choices, "auto" and
-   "inf" as text. of_scene: with those of mote_scene_parameters. The caller decrefs. */
+/* Every parameter with its value, including defaults: numbers as numbers; choices, "auto" and
+   "inf" as text. of_scene: also those of mote_scene_parameters. The caller decrefs. */
 json_t *mote_choice_json(const mote_method_choice *choice, bool of_scene);
 
 #endif

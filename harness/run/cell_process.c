@@ -11,15 +11,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Frames that a probe asks about; with more than two bodies one, which finds all pairs anew
-   and takes the longest. */
+/* Frames that a probe asks about; for more than two bodies one, the slowest, in which all pairs
+   are new. */
 #define PROBE_FRAMES 3
 
 /* What a child reports to its parent before it ends. */
 typedef struct message {
     mote_cell_status cell;
     mote_forecast forecast;
-    bool refused; /* the method said that its input is wrong */
+    bool refused; /* the method rejected its input */
     char text[400];
 } message;
 
@@ -45,7 +45,7 @@ void mote_process_pin(int core)
     (void)sched_setaffinity(0, sizeof set, &set);
 }
 
-/* Three quarters of the machine's memory, divided among the jobs; no limit where a sanitizer
+/* Three quarters of the machine's memory, divided among the jobs; no limit if a sanitizer
    reserves address space. */
 static size_t memory_limit(uint32_t jobs)
 {
@@ -91,7 +91,7 @@ static bool has_threads(const mote_cell *cell)
     return keys[MOTE_SCENE_THREADS] > 1 || keys[MOTE_SCENE_AHEAD] > 0;
 }
 
-/* An error status ends the whole run: what was measured cannot be written. */
+/* An error status ends the whole run: results cannot be written. */
 static mote_status child_measure(const mote_cell *cell, const mote_process_options *options,
                                  message *told)
 {
@@ -159,7 +159,7 @@ static mote_status start(const mote_cell *cell, const mote_process_options *opti
     return mote_fail(status, "%s: %s", cell->id, text);
 }
 
-/* The child's report, or what follows from how it ended. */
+/* Reads the child's report, or derives the result from how the child ended. */
 static mote_status listen(const mote_process_options *options, mote_child *child, message *told)
 {
     mote_status status = MOTE_OK;

@@ -19,7 +19,7 @@ bool mote_instructions_possible(void)
     return mote_spawn(argv, NULL, text, sizeof text) == MOTE_OK;
 }
 
-/* callgrind counts in one thread. */
+/* callgrind counts only one thread. */
 static mote_status check_threads(const mote_method_choice *choice)
 {
     if (choice->scene[MOTE_SCENE_THREADS] > 1 || choice->scene[MOTE_SCENE_AHEAD] > 0)
@@ -58,7 +58,7 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
     return status;
 }
 
-/* The number behind "totals:" in what callgrind wrote. */
+/* The number after "totals:" in callgrind's output. */
 static mote_status read_totals(const char *path, json_int_t *count)
 {
     char *text = NULL;
@@ -86,7 +86,7 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
-        /* Without libraries the words end behind "--inside". */
+        /* Without libraries, argv ends after "--inside". */
         const char *const library = mote_plugin_path(0);
         const char *const argv[] = {"valgrind",
                                     "--tool=callgrind",
@@ -124,7 +124,7 @@ static bool same_row(const json_t *a, const json_t *b)
     return true;
 }
 
-/* Replaces the row of the same configuration by this one, or appends it; takes ownership. */
+/* Replaces the row with the same configuration, or appends this one; takes ownership. */
 static void put_row(json_t *rows, json_t *row)
 {
     for (size_t i = 0; i < json_array_size(rows); ++i) {
@@ -136,7 +136,7 @@ static void put_row(json_t *rows, json_t *row)
     (void)json_array_append_new(rows, row);
 }
 
-/* The rows stored so far, or none. */
+/* The stored rows; an empty array if there are none. */
 static json_t *read_rows(const char *directory)
 {
     json_t *object = NULL, *rows = NULL;

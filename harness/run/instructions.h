@@ -1,4 +1,4 @@
-/* Instructions that methods execute, counted by valgrind's callgrind: nearly the same number
+/* Instructions executed by methods, counted by valgrind's callgrind: almost the same number
    every time, however busy the machine. */
 #ifndef MOTE_HARNESS_INSTRUCTIONS_H
 #define MOTE_HARNESS_INSTRUCTIONS_H
@@ -9,17 +9,16 @@
 bool mote_instructions_possible(void);
 
 /* Builds a method and runs it over frames first .. last of a scenario in this process, under
-   callgrind. MOTE_EINVAL for frames that the scenario does not have, and where the method
-   refuses its input. */
+   callgrind. MOTE_EINVAL for frames that the scenario does not have, and if the method rejects
+   its input. */
 mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t last,
                                   const mote_method_choice *choice);
 
 /* Runs this program once under callgrind for each choice, and adds to
-   directory/instructions.json
-   {"schema": 1, "rows": [{"scenario", "method", "label", "parameters", "frames": [A, B],
-   "instructions", "per_frame"}]}, deformation, update and query together; rows of the same
-   configuration are replaced. directory is made. MOTE_EIO when valgrind or the program fails.
- */
+   directory/instructions.json {"schema": 1, "rows": [{"scenario", "method", "label",
+   "parameters", "frames": [A, B], "instructions", "per_frame"}]}; counts cover deformation,
+   update and query; rows of the same configuration are replaced. Makes the directory. MOTE_EIO
+   if valgrind or the program fails. */
 mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32_t last,
                                     const mote_choices *choices, const char *directory);
 

@@ -14,23 +14,23 @@
 #define EVICT_BYTES ((size_t)32 << 20)
 #define CACHE_LINE 64
 
-/* How many frames one thread may move ahead of the other that queries. */
+/* The most frames by which the motion thread may run ahead of the queries. */
 #define AHEAD_MAX 64
 
-/* What a cell holds while it runs. */
+/* The state of a running cell. */
 struct mote_measurement {
     const mote_cell *cell;
     mote_engine *engine;
-    mote_sample_poses *samples;           /* NULL: the method builds without them */
-    mote_body body[2];                    /* of two: the scenario's, with samples */
-    uint32_t ahead;                       /* 0: motion and queries take turns in one thread */
+    mote_sample_poses *samples;           /* NULL: the method does not build with samples */
+    mote_body body[2];                    /* two bodies: the scenario's, with samples */
+    uint32_t ahead;                       /* 0: motion and queries alternate in one thread */
     mote_subject_frame frames[AHEAD_MAX]; /* [ahead], at least 1 */
-    uint64_t motion_ns[AHEAD_MAX];        /* of each frame that is in the queue */
+    uint64_t motion_ns[AHEAD_MAX];        /* of each frame in the queue */
     mote_frame_queue *queue;
-    mote_status moved; /* whether the thread that moves could */
+    mote_status moved; /* result of the motion thread */
     char moved_text[512];
-    volatile unsigned char *evict; /* NULL when caches stay hot */
-    size_t rows;                   /* to be measured */
+    volatile unsigned char *evict; /* NULL: caches stay hot */
+    size_t rows;                   /* number to measure */
     uint64_t began;                /* when the first frame began */
     const mote_cell_pairs *pairs;  /* or NULL */
     mote_cell_result *result;
@@ -38,7 +38,7 @@ struct mote_measurement {
 
 typedef mote_measurement session;
 
-/* Gives two bodies sample poses where the method builds by these. */
+/* Gives two bodies sample poses if the method builds with them. */
 static void add_samples(session *s, mote_engine_setup *setup)
 {
     const mote_method_choice *choice = s->cell->choice;
@@ -51,7 +51,7 @@ static void add_samples(session *s, mote_engine_setup *setup)
     setup->shapes[1] = &s->body[1];
 }
 
-/* Everything that is charged to no method. */
+/* Prepares everything that is charged to no method. */
 static mote_status prepare(session *s)
 {
     const mote_cell *cell = s->cell;
@@ -74,7 +74,7 @@ static mote_status prepare(session *s)
     return MOTE_OK;
 }
 
-/* Builds everything that the method needs, timed, with its bytes counted. */
+/* Builds everything that the method needs; time and bytes are measured. */
 static mote_status build(session *s)
 {
     const uint64_t start = mote_clock_ns();
@@ -84,21 +84,21 @@ static mote_status build(session *s)
     return status;
 }
 
-/* Drives what a method uses out of the caches. */
+/* Evicts the method's data from the caches. */
 static void walk(volatile unsigned char *bytes)
 {
     for (size_t i = 0; i < EVICT_BYTES; i += CACHE_LINE)
         bytes[i] = (unsigned char)(bytes[i] + 1);
 }
 
-/* The frame of a row, from 0. */
+/* The frame of a row (from 0). */
 static uint32_t number_of(const session *s, size_t row)
 {
     return s->cell->first + (uint32_t)row * s->cell->stride;
 }
 
-/* Gives the frame the answer of the closest near pair; where there is none, `near` is a
-   lower bound, since all pairs are farther apart. */
+/* The frame's answer is that of the closest near pair; if there is none, `near` is a lower
+   bound, since all pairs are farther apart. */
 static mote_answer closest_answer(const mote_bodies *bodies, const mote_engine_cost *cost,
                                   const mote_near_pair *pairs, size_t count)
 {
@@ -183,7 +183,7 @@ static bool is_over(const session *s)
             s->result->row_count >= MOTE_CELL_LEAST_FRAMES);
 }
 
-/* Moves the bodies to the frame of a row, and says how long that took. */
+/* Moves the bodies to the frame of a row and measures the time. */
 static mote_status move(const session *s, size_t row, mote_subject_frame *frame, uint64_t *ns)
 {
     const uint64_t from = mote_clock_ns();
@@ -221,7 +221,7 @@ static void *move_ahead(void *context)
     return NULL;
 }
 
-/* Motion and deformation in a thread of their own, over a bounded queue of frames. */
+/* Runs motion and deformation in a separate thread, with a bounded queue of frames. */
 static mote_status run_ahead(session *s)
 {
     pthread_t mover;
@@ -261,7 +261,7 @@ static void close_session(session *s)
     free((void *)(uintptr_t)s->evict);
 }
 
-/* Builds and runs, with the bytes that this takes. */
+/* Builds and runs the method, measuring its bytes. */
 static mote_status build_and_run(session *s)
 {
     mote_cell_result *result = s->result;

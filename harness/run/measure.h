@@ -1,4 +1,5 @@
-/* Measuring one cell in this process: frame by frame, deform, update and query timed apart. */
+/* Measures one cell in this process: frame by frame, with deform, update and query timed
+   separately. */
 #ifndef MOTE_HARNESS_MEASURE_H
 #define MOTE_HARNESS_MEASURE_H
 
@@ -6,10 +7,10 @@
 #include "harness/run/cell_pairs.h"
 #include "harness/base/clock.h"
 
-/* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all).
-   The method's own failure is returned with its text, the frame named. Nothing is allocated
-   between frames of two bodies. Free the result with mote_cell_result_free; core, load and
-   wall_seconds are left 0. */
+/* Builds the method and runs it over the cell's frames, at most frame_limit of them (0: all). A
+   failure of the method is returned with its text and the frame. Nothing is allocated between
+   frames of two bodies. Free the result with mote_cell_result_free; core, load and wall_seconds
+   are left 0. */
 mote_status mote_measure_cell(const mote_cell *cell, size_t frame_limit,
                               mote_cell_result *result);
 
@@ -28,7 +29,7 @@ typedef struct mote_measurement mote_measurement;
    MOTE_EUNSUPPORTED with the method's text. */
 mote_status mote_measurement_open(const mote_cell *cell, mote_measurement **measurement);
 
-/* Runs a frame, `previous` (0: none) being the one before it; row is set. */
+/* Runs a frame; `previous` (0: none) is the one run before it. Sets row. */
 mote_status mote_measurement_frame(mote_measurement *measurement, uint32_t number,
                                    uint32_t previous, mote_cell_row *row);
 void mote_measurement_close(mote_measurement *measurement); /* NULL is allowed */

@@ -10,14 +10,14 @@ typedef struct mote_choices {
     size_t count, capacity;
 } mote_choices;
 
-/* At most this many configurations and cells in one run. */
+/* The largest number of configurations and of cells in one run. */
 #define MOTE_CHOICES_MAX 10000
 
-/* Adds every configuration that text names: "NAME:key=a|b,key=c", each value of a list; keys of
-   mote_scene_parameters are allowed. With particles ("1,2,4-8", or NULL), a method that has a
-   parameter n, and whose text does not set it, is added once for each number. One that is in
-   the list already is not added again. MOTE_EINVAL with a text for an unknown method or key, a
-   bad value, a bad list. */
+/* Adds every configuration that text describes: "NAME:key=a|b,key=c" gives one for each value
+   of a list; keys of mote_scene_parameters are allowed. With particles ("1,2,4-8", or NULL), a
+   method that has a parameter n not set in its text is added once for each number.
+   Configurations already in the list are not added again. MOTE_EINVAL with a text for an
+   unknown method or key, a bad value, a bad list. */
 mote_status mote_choices_add(mote_choices *choices, const char *text, const char *particles);
 void mote_choices_free(mote_choices *choices);
 
@@ -28,12 +28,12 @@ typedef struct mote_plan_options {
     uint32_t first, last; /* frames; 0, 0: all of each scenario */
     uint32_t stride;      /* MOTE_STRIDE_AUTO or >= 1; methods with state run every frame */
     uint64_t seed;
-    bool fixed_seed; /* all replicates have the same seed, so that only the machine makes a
-                        difference */
+    bool fixed_seed; /* all replicates have the same seed, so they differ only through the
+                        machine */
     mote_cache cache;
-    uint32_t jobs;      /* cells at a time, at most MOTE_CHILDREN_MAX; 0 is 1 */
-    double budget;      /* of a cell of more than two bodies: see mote_cell */
-    bool contacts_only; /* likewise */
+    uint32_t jobs;      /* cells at a time, at most MOTE_CHILDREN_MAX; 0 means 1 */
+    double budget;      /* for cells of more than two bodies: see mote_cell */
+    bool contacts_only; /* the same */
     uint64_t program;   /* mote_program_hash */
 } mote_plan_options;
 
@@ -42,11 +42,11 @@ typedef struct mote_plan {
     size_t count;
 } mote_plan;
 
-/* Replicates outermost, then scenarios, then configurations in an order rotated by the
-   replicate, so that no method always runs first or after the same one. choices are for
-   scenarios of two bodies, scene_choices for those of more. MOTE_EINVAL when the frames lie
-   outside a scenario. subjects and choices are borrowed by the cells. cell->stride is 1
-   until it is known. The caller frees plan->cells. */
+/* Replicates are outermost, then scenarios, then configurations in an order rotated by the
+   replicate, so no method always runs first or after the same one. choices are for scenarios of
+   two bodies, scene_choices for those of more. MOTE_EINVAL if the frames lie outside a
+   scenario. The cells borrow subjects and choices. cell->stride is 1 until it is known. The
+   caller frees plan->cells. */
 mote_status mote_plan_make(const mote_plan_options *options, const mote_subject *subjects,
                            size_t subject_count, const mote_choices *choices,
                            const mote_choices *scene_choices, mote_plan *plan);

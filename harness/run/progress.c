@@ -7,7 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Seconds between two drawings of the line that moves. */
+/* Seconds between two redraws of the moving line. */
 #define MOVE_PAUSE 1.0
 
 #define USUAL_WIDTH 80
@@ -23,7 +23,7 @@ mote_progress mote_progress_begin(double pause)
         .terminal = isatty(STDERR_FILENO) == 1, .pause = pause, .last = seconds_now()};
 }
 
-/* Characters of the terminal's line, the last of which would break it. */
+/* Characters per line of the terminal, less the last one, which would wrap. */
 static int line_width(void)
 {
     struct winsize size;

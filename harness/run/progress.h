@@ -1,5 +1,5 @@
-/* How far a run is, on stderr: one line that moves where that is a terminal, and lines
- * elsewhere. */
+/* The progress of a run, on stderr: one line that is redrawn on a terminal, separate lines
+   elsewhere. */
 #ifndef MOTE_HARNESS_PROGRESS_H
 #define MOTE_HARNESS_PROGRESS_H
 
@@ -10,27 +10,28 @@
 
 typedef struct mote_progress {
     bool terminal;
-    double pause; /* elsewhere, seconds between two lines; 0: a line for each cell */
-    double last;  /* when a line was printed, or the progress begun */
-    bool drawn;   /* a moving line stands on the terminal */
+    double pause; /* off a terminal, seconds between two lines; 0: a line for each cell */
+    double last;  /* time of the last line, or of the start */
+    bool drawn;   /* a moving line is on the terminal */
 } mote_progress;
 
 mote_progress mote_progress_begin(double pause);
 
-/* What is going on. On a terminal it takes the place of the last such line, cut to the
-   terminal's width; elsewhere it is printed when the pause is over, and never without one. */
+/* Shows the current activity. On a terminal it replaces the previous such line, cut to the
+   terminal's width; elsewhere it is printed when the pause is over, and never if there is no
+   pause. */
 void mote_progress_say(mote_progress *progress, const char *text);
 
 /* Whether mote_progress_say would print: on a terminal at most once a second. */
 bool mote_progress_is_due(const mote_progress *progress);
 
-/* A cell has ended: a line of its own elsewhere, unless there is a pause. */
+/* Reports the end of a cell: off a terminal a line, unless there is a pause. */
 void mote_progress_cell(mote_progress *progress, const char *text);
 
-/* A line that stays, wherever it is printed. */
+/* Prints a line that stays, on a terminal or not. */
 void mote_progress_keep(mote_progress *progress, const char *text);
 
-/* Takes the moving line away. */
+/* Removes the moving line. */
 void mote_progress_end(mote_progress *progress);
 
 #endif

@@ -21,18 +21,17 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What walking 32 MB between frames costs, roughly; only for the estimate. */
+/* Approximate cost of reading 32 MB between frames; only for the estimate. */
 #define EVICT_SECONDS 5e-3
 
-/* A warning is given where other processes use more cores than this before anything is
-   measured. */
+/* Warns if other processes use more cores than this before the measurement starts. */
 #define BUSY_CORES 0.3
 
 /* How long to wait for a lock: 1 s. */
 #define LOCK_TRIES 20
 #define LOCK_PAUSE_NS 50000000
 
-/* What is known of a cell of the plan. */
+/* The forecast for a cell of the plan. */
 typedef struct prospect {
     bool done;
     double seconds; /* expected */
@@ -44,18 +43,17 @@ typedef struct run {
     mote_subject *subjects;
     mote_plan plan;
     prospect *prospects; /* [plan.count] */
-    size_t begun;        /* cell of the plan that measuring began with */
+    size_t begun;        /* the first cell that was measured */
     size_t done;         /* cells of the plan */
-    size_t failed;       /* of these */
-    uint32_t replicates; /* planned, and further ones that are measured */
+    size_t failed;       /* of the done cells */
+    uint32_t replicates; /* planned and further ones */
     int lock;            /* descriptor, or -1 */
     bool locked;
-    bool output_failed; /* the directory cannot be written because of the disk, not because of
-                           its name */
+    bool output_failed; /* the directory cannot be written because of the disk, not its name */
     mote_progress progress;
-    size_t current;     /* cell of the plan that was started last */
-    uint64_t began_ns;  /* when it was */
-    uint64_t opened_ns; /* when the first was */
+    size_t current;     /* the cell started last */
+    uint64_t began_ns;  /* when that cell was started */
+    uint64_t opened_ns; /* when the first cell was started */
 } run;
 
 static mote_status load_subjects(run *r)
@@ -72,7 +70,7 @@ static mote_status load_subjects(run *r)
     return MOTE_OK;
 }
 
-/* Looks up what an earlier run stored of this cell, if anything. */
+/* Looks up an earlier result for this cell. */
 static void look_up(run *r, size_t index)
 {
     mote_cell *cell = &r->plan.cells[index];
@@ -96,8 +94,8 @@ static void look_up(run *r, size_t index)
     json_decref(object);
 }
 
-/* All cells of one configuration on one scenario run with the same stride: the stored one,
-   or else the one that the probe suggests. */
+/* All cells of one configuration on one scenario use the same stride: the stored one, otherwise
+   the one that the probe suggests. */
 static bool same_configuration(const mote_cell *a, const mote_cell *b)
 {
     return a->subject == b->subject && a->choice == b->choice;
@@ -121,8 +119,9 @@ static double expected_seconds(const mote_cell *cell, const mote_forecast *forec
     return forecast->build_seconds + frames * frame;
 }
 
-/* Runs a few frames of the cell's configuration, so that bad parameters are refused before
-   anything is written, and sets stride and expected time for all cells of the configuration. */
+/* Runs a few frames of the cell's configuration, so that bad parameters are rejected before
+   anything is written; sets the stride and the expected time for all cells of the
+   configuration. */
 static mote_status probe_configuration(run *r, size_t index)
 {
     mote_forecast forecast = {0};
@@ -145,7 +144,7 @@ static mote_status probe_configuration(run *r, size_t index)
     return MOTE_OK;
 }
 
-/* Before anything is measured. */
+/* Reports preparation, before anything is measured. */
 static void tell_preparing(run *r, const char *what, const mote_subject *subject)
 {
     char *text = mote_format("%s %s", what, mote_subject_facts_of(subject).name);
@@ -231,7 +230,7 @@ static void sweep_folder(const char *directory, const char *name)
     free(path);
 }
 
-/* Removes what an interrupted write left behind. */
+/* Removes temporary files of interrupted writes. */
 static void sweep_parts(const char *directory)
 {
     sweep_folder(directory, ".");
@@ -239,8 +238,8 @@ static void sweep_parts(const char *directory)
     sweep_folder(directory, "truth");
 }
 
-/* Opens and locks. A child of a run that was killed holds its lock until the kernel has ended
-   it. */
+/* Opens and locks the directory. After a run was killed, its child holds the lock until the
+   kernel has ended it. */
 static mote_status take_lock(run *r, const char *path)
 {
     const struct timespec pause = {0, LOCK_PAUSE_NS};
@@ -269,8 +268,8 @@ static mote_status open_directory(run *r)
     char *cells = mote_format("%s/cells", directory);
     char *lock = mote_format("%s/.lock", directory);
     mote_status status = mote_directory_make(cells);
-    /* Whether the disk is full or read-only, rather than the name being one that no directory
-       can have, or one that the user may not write to. */
+    /* Whether the disk is full or read-only, as opposed to an impossible name or a missing
+       permission. */
     r->output_failed =
         status == MOTE_EIO && errno != ENOTDIR && errno != ENOENT && errno != EACCES;
     if (status == MOTE_OK)
@@ -304,7 +303,7 @@ static char *cell_text(const run *r, const mote_cell *cell)
                        cell->replicate, mote_cache_names[cell->cache]);
 }
 
-/* A cell that has ended. What went wrong stays on the terminal. */
+/* Reports the end of a cell. A failure stays on the terminal. */
 static void tell_end(run *r, const mote_cell *cell, const mote_cell_end *end, double seconds)
 {
     char left[32];
@@ -322,7 +321,7 @@ static void tell_end(run *r, const mote_cell *cell, const mote_cell_end *end, do
     free(which);
 }
 
-/* While cells are measured: which was started last, and what is left, less the time since. */
+/* Reports during measurement: the cell started last, and the estimated remaining time. */
 static void tell_current(void *context)
 {
     run *r = context;
@@ -400,7 +399,7 @@ static mote_status measure(run *r, size_t first)
     return mote_crew_run(&crew);
 }
 
-/* Appends a replicate of a cell to the plan; there is room. */
+/* Appends a replicate of a cell to the plan, which has room for it. */
 static void add_replicate(run *r, size_t of, uint32_t replicate)
 {
     size_t index = r->plan.count++;
@@ -420,8 +419,8 @@ static void make_room(run *r, size_t more)
     r->prospects = mote_resize(r->prospects, count, sizeof *r->prospects);
 }
 
-/* Plans a further replicate of each wanted configuration of the first `base` cells; *planned is
-   how many. */
+/* Plans a further replicate of each wanted configuration among the first `base` cells; *planned
+   is their number. */
 static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, size_t *planned)
 {
     bool *wanted = mote_allocate(base, sizeof *wanted);
@@ -430,7 +429,7 @@ static mote_status plan_replicate(run *r, size_t base, uint32_t replicate, size_
         r->options->further(r->options->context, r->plan.cells, base, wanted);
     *planned = 0;
     for (size_t k = 0; k < base && status == MOTE_OK; ++k) {
-        const size_t i = (k + replicate - 1) % base; /* in rotated order, as everywhere */
+        const size_t i = (k + replicate - 1) % base; /* in the rotated order of the plan */
         if (r->plan.cells[i].replicate != 1 || !wanted[i])
             continue;
         add_replicate(r, i, replicate);
@@ -494,7 +493,7 @@ static mote_status prepare(run *r)
     return status;
 }
 
-/* Measures the plan, and what it grows by. */
+/* Measures the plan and any replicates added to it. */
 static mote_status carry_out(run *r, mote_run_outcome *outcome)
 {
     const mote_run_options *options = r->options;
@@ -530,13 +529,13 @@ mote_status mote_run(const mote_run_options *options, mote_run_outcome *outcome)
              .progress = mote_progress_begin(options->progress)};
     r.process.directory = options->directory;
     r.process.timeout = options->timeout;
-    /* When several run at once, none has a core of its own. */
+    /* Cells that run at once are not pinned. */
     r.process.core = options->plan.jobs > 1 ? -1 : mote_process_core();
     mote_run_outcome none = {0};
     *outcome = none;
     mote_status status = prepare(&r);
-    /* Until here nothing is written, and a signal ends the program at once: a large scenario is
-       loaded for many seconds. */
+    /* Nothing has been written so far, and a signal ends the program at once: loading a large
+       scenario takes many seconds. */
     mote_child_heed_signals();
     if (status == MOTE_OK && !options->dry_run)
         status = carry_out(&r, outcome);

@@ -26,7 +26,8 @@ static mote_status read_back(const mote_json_file *file, int digits, mote_scenar
     return status;
 }
 
-/* Puts the "active" interval back that was taken out of root, or the longest that holds. */
+/* Puts the "active" interval back that was taken out of root if it still holds, otherwise the
+   longest that does. */
 static mote_status renew_active(json_t *root, const json_t *active,
                                 const mote_scenario *scenario)
 {

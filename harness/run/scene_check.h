@@ -1,16 +1,16 @@
-/* What `mote check` tells of a scenario of more than two bodies. */
+/* What `mote check` reports about a scenario of more than two bodies. */
 #ifndef MOTE_HARNESS_SCENE_CHECK_H
 #define MOTE_HARNESS_SCENE_CHECK_H
 
 #include "harness/run/subject.h"
 
 typedef struct mote_scene_facts {
-    double near_pairs;      /* mean a frame */
+    double near_pairs;      /* mean per frame */
     uint64_t pair_contacts; /* near pairs in contact, over all frames */
-    uint32_t contacts;      /* frames in which some pair is */
+    uint32_t contacts;      /* frames with some pair in contact */
 } mote_scene_facts;
 
-/* Asks certified for all near pairs of every frame. */
+/* Asks certified about all near pairs of every frame. */
 mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *facts);
 
 #endif

@@ -13,13 +13,13 @@
 
 #define ORACLE "fcl-aabb"
 #define SECOND "aabb-tree"
-#define JUDGE "aabb-tree:arithmetic=wide,seed=none" /* where the two sources disagree */
+#define JUDGE "aabb-tree:arithmetic=wide,seed=none" /* decides if the two sources disagree */
 #define REFEREE "brute-force"
 #define AGREEMENT 1e-12 /* of L */
 
-/* Frames that the referee looks at (all, when there are fewer), of which a quarter in contact,
-   a third near, the rest evenly spread; fewer for meshes so large that they would be more than
-   this many pairs of triangles together. */
+/* Frames that brute force checks (all, if there are fewer): a quarter in contact, a third near,
+   the rest evenly spread; fewer if the meshes are so large that this would exceed CHECKED_PAIRS
+   pairs of triangles in total. */
 #define CHECKED 24
 #define CHECKED_PAIRS 3e10
 
@@ -30,7 +30,7 @@ typedef struct truth_row {
     double overruled;
 } truth_row;
 
-/* The witness where there is none. */
+/* A missing witness. */
 static const mote_vec3 nowhere = {(double)NAN, (double)NAN, (double)NAN};
 
 mote_truth *mote_truth_allocate(uint32_t frames)
@@ -67,7 +67,7 @@ void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth)
         truth->contact[i] = truth->distance[i] <= scenario->tolerance;
 }
 
-/* The sources of the truth of one scenario. */
+/* The sources of a scenario's truth. */
 typedef struct sources {
     const mote_scenario *scenario;
     mote_engine *oracle, *second, *judge;
@@ -83,7 +83,8 @@ static mote_status ask(const sources *s, const char *method, mote_engine *engine
     return status;
 }
 
-/* A frame on which the two sources disagree: the answer of the tree in 113 bits counts. */
+/* Settles a frame on which the two sources disagree: the answer of the tree in 113 bits
+   counts. */
 static mote_status settle(const sources *s, const mote_frame *frame, double second,
                           mote_answer *answer)
 {
@@ -133,8 +134,8 @@ static mote_status answer_all(const mote_scenario *scenario, mote_frame_buffer *
     return status;
 }
 
-/* Marks at most count of the frames for which wanted[k], evenly, the first and last included.
- */
+/* Marks at most count of the frames with wanted[k], evenly spread, including the first and the
+   last. */
 static void mark_evenly(const bool *wanted, uint32_t frames, uint32_t count, bool *marked)
 {
     uint32_t total = 0;
@@ -184,7 +185,7 @@ static void choose_frames(const mote_scenario *scenario, const truth_row *rows, 
         wanted[k] = rows[k].distance == 0;
     mark_evenly(wanted, frames, checks / 4, marked);
     mark_nearest(rows, frames, checks / 3, marked);
-    /* Frames not chosen yet, so that the groups add up. */
+    /* Frames not yet chosen, so the groups add up. */
     uint32_t chosen = 0;
     for (uint32_t k = 0; k < frames; ++k) {
         wanted[k] = !marked[k];
@@ -220,8 +221,7 @@ static mote_status check_frames(const mote_scenario *scenario, mote_frame_buffer
     return status;
 }
 
-/* In the child: computes and checks the answers, and returns the number checked and all
-   rows. */
+/* In the child: computes and checks the answers, and sends the number checked and all rows. */
 static mote_status work(void *context, int output)
 {
     const mote_scenario *scenario = context;
@@ -250,7 +250,7 @@ mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth
     const mote_child_limits limits = {.output_bytes = size};
     char *output = NULL;
     size_t got = 0;
-    /* The context is not written to; the child has a copy anyway. */
+    /* The context is not written to; the child has its own copy. */
     mote_status status =
         mote_child_run("truth", work, (void *)(uintptr_t)scenario, limits, &output, &got);
     if (status == MOTE_OK && got != size)
@@ -281,7 +281,7 @@ mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
     char *path =
         mote_format("%s/truth/%s-%016" PRIx64 ".csv", directory, scenario->name, fingerprint);
     mote_status status = mote_directory_make(folder);
-    /* A file that is missing or damaged is computed again. */
+    /* A missing or damaged file is computed again. */
     if (status == MOTE_OK && mote_truth_read(scenario, fingerprint, path, truth) != MOTE_OK) {
         mote_truth *made = NULL;
         status = mote_truth_compute(scenario, &made);

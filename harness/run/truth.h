@@ -1,6 +1,6 @@
 /* The truth: the exact distance of every frame of a scenario, from two independent sources,
-   FCL's AABB trees and our own, checked by brute force, kept in a file and verified when read.
- */
+   FCL's AABB trees and ours, checked by brute force, stored in a file and verified when
+   read. */
 #ifndef MOTE_HARNESS_TRUTH_H
 #define MOTE_HARNESS_TRUTH_H
 
@@ -12,39 +12,40 @@ typedef struct mote_truth {
     /* All [frames]; frame number k is at k - 1. */
     double *distance;     /* exact, >= 0; 0 where the surfaces touch or intersect */
     bool *contact;        /* distance <= scenario->tolerance */
-    mote_vec3 *witness_a; /* points on body 0 and body 1, distance apart; NaN where FCL gives */
-    mote_vec3 *witness_b; /* none, as where the surfaces intersect */
-    double *overruled; /* FCL's distance where our tree disagreed by more than 1e-12 L and the
-                          tree with triangle distances in 113 bits settled it; else NaN */
-    uint32_t checked;  /* frames that brute force agreed with, to 1e-12 L: 24, or fewer where
-                          meshes are so large (above 35,000 triangles) that it takes too long */
+    mote_vec3 *witness_a; /* points on body 0 and body 1 that realise the distance; NaN if FCL
+                             gives */
+    mote_vec3 *witness_b; /* none, as for intersecting surfaces */
+    double *overruled;    /* FCL's distance, if our tree disagreed by more than 1e-12 L and the
+                             tree with triangle distances in 113 bits decided; otherwise NaN */
+    uint32_t checked; /* frames that brute force confirmed, to 1e-12 L: 24, or fewer for meshes
+                         so large (above 35,000 triangles) that it takes too long */
 } mote_truth;
 
-/* Exact distances of all frames, computed in a child process (the caller's memory stays as it
-   was), without any file. Each frame that was settled is named on stderr. MOTE_ENUMERIC, the
-   text naming the frame, when brute force disagrees by more than 1e-12 L. The caller destroys
-   *truth. */
+/* Computes the exact distances of all frames in a child process (the caller's memory does not
+   change), without any file. Each frame that had to be decided is named on stderr.
+   MOTE_ENUMERIC, the text naming the frame, if brute force disagrees by more than 1e-12 L. The
+   caller destroys *truth. */
 mote_status mote_truth_compute(const mote_scenario *scenario, mote_truth **truth);
 
-/* Reads DIR/truth/NAME-FINGERPRINT.csv when it is there, whole, and belongs to the scenario;
-   computes and writes it otherwise. MOTE_EIO when the file cannot be written. The caller
-   destroys *truth. */
+/* Reads DIR/truth/NAME-FINGERPRINT.csv if it exists, is complete and belongs to the scenario;
+   otherwise computes and writes it. MOTE_EIO if the file cannot be written. The caller destroys
+   *truth. */
 mote_status mote_truth_load_or_compute(const mote_scenario *scenario, const char *directory,
                                        mote_truth **truth);
 
-/* The same where the scenario's fingerprint is known already. */
+/* The same with a known fingerprint. */
 mote_status mote_truth_load_or_compute_known(const mote_scenario *scenario,
                                              uint64_t fingerprint, const char *directory,
                                              mote_truth **truth);
 void mote_truth_destroy(mote_truth *truth); /* NULL is allowed */
 
-/* For truth_file.c: an empty truth of that many frames, all distances and witnesses NaN. */
+/* For truth_file.c: a truth of that many frames, all distances and witnesses NaN. */
 mote_truth *mote_truth_allocate(uint32_t frames);
 /* Sets contact from distance. */
 void mote_truth_set_contacts(const mote_scenario *scenario, mote_truth *truth);
 
-/* Reads or writes the file of a truth; reading gives MOTE_EINVAL for a file that is not whole,
-   or not of the scenario with this fingerprint. */
+/* Reads or writes the file of a truth; reading gives MOTE_EINVAL for a file that is incomplete
+   or belongs to another scenario or fingerprint. */
 mote_status mote_truth_read(const mote_scenario *scenario, uint64_t fingerprint,
                             const char *path, mote_truth **truth);
 mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *truth,

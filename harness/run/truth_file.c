@@ -1,5 +1,5 @@
 /* The file of a truth: a line that names its scenario, a CSV, and a last line with a hash of
-   all before it, so that a truncated or edited file is rejected. */
+   everything before it, so that a truncated or edited file is rejected. */
 #include "harness/run/truth.h"
 
 #include "harness/base/file.h"
@@ -13,7 +13,7 @@
 
 #define COLUMNS "frame,distance,ax,ay,az,bx,by,bz,overruled\n"
 
-/* The first line up to the number of frames checked. A scenario may have any name. */
+/* The first line up to the number of checked frames. A scenario may have any name. */
 static char *first_part(const mote_scenario *scenario, uint64_t fingerprint, uint32_t frames)
 {
     return mote_format("# truth of %s, fingerprint %016" PRIx64 ", %u frames, ", scenario->name,
@@ -54,7 +54,7 @@ mote_status mote_truth_write(const mote_scenario *scenario, const mote_truth *tr
     return status;
 }
 
-/* Reads "ax,ay,az,bx,by,bz," where all six may be empty; NULL when it is not that. */
+/* Reads "ax,ay,az,bx,by,bz,", where all six may be empty; NULL if the text differs. */
 static const char *read_witness(const char *at, mote_truth *truth, uint32_t k)
 {
     if (strncmp(at, ",,,,,,", 6) == 0)
@@ -72,7 +72,7 @@ static const char *read_witness(const char *at, mote_truth *truth, uint32_t k)
     return at;
 }
 
-/* Reads "K,d,ax,ay,az,bx,by,bz,overruled\n"; NULL when it is not that. */
+/* Reads "K,d,ax,ay,az,bx,by,bz,overruled\n"; NULL if the text differs. */
 static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
 {
     char *end;
@@ -89,7 +89,7 @@ static const char *read_row(const char *at, mote_truth *truth, uint32_t k)
     return end != at && *end == '\n' ? end + 1 : NULL;
 }
 
-/* The text with its last line checked and cut off; false when it is not whole. */
+/* Checks the last line and cuts it off; false if the text is incomplete. */
 static bool check_hash(char *text, size_t size)
 {
     static const size_t last_size = sizeof "# hash 0123456789abcdef\n" - 1;
@@ -104,7 +104,7 @@ static bool check_hash(char *text, size_t size)
     return same;
 }
 
-/* Reads the first line and the names of the columns; NULL when they are not of this truth. */
+/* Reads the first line and the column names; NULL if they do not match this truth. */
 static const char *read_head(const mote_scenario *scenario, uint64_t fingerprint,
                              const char *text, mote_truth *truth)
 {

@@ -9,11 +9,11 @@
 #include <stdlib.h>
 
 #define SEARCH "certified" /* exact, and the fastest where only the position changes */
-#define ORACLE "fcl-aabb"  /* another exact method, to verify with */
-#define STEPS_MAX 2000     /* queries a frame */
+#define ORACLE "fcl-aabb"  /* another exact method, for verification */
+#define STEPS_MAX 2000     /* queries per frame */
 #define PRECISION 1e-4     /* of the smaller body's L */
-#define ROUNDING 1e-13     /* of L of the pair: distances are no more accurate than this */
-#define VERIFIED 1e-3      /* of L of the pair */
+#define ROUNDING 1e-13     /* of the pair's L: the accuracy of distances */
+#define VERIFIED 1e-3      /* of the pair's L */
 
 typedef struct approach {
     const mote_scenario *scenario;
@@ -38,8 +38,7 @@ static mote_status distance_at(approach *a, double offset, double *distance)
     return status;
 }
 
-/* Sets base, and an offset from there at which the deformed bodies cannot be closer than the
-   gap. */
+/* Sets base, and an offset at which the deformed bodies are at least the gap apart. */
 static double start_far(approach *a, double gap)
 {
     const mote_frame *frame = &a->frame;
@@ -60,10 +59,11 @@ static double start_far(approach *a, double gap)
     return radius + mote_length(mote_sub(a->base, centres[0]));
 }
 
-/* Pushes body 1 on from first contact; by less and less where the surfaces have to cross. */
+/* Pushes body 1 on from first contact; by less and less if the surfaces must cross. */
 static mote_status push(approach *a, double first, double depth, double *offset)
 {
-    /* A push hardly longer than the gap left before contact may not cross the surfaces. */
+    /* A push hardly larger than the gap left before contact might not make the surfaces
+       cross. */
     double pushed = a->plan->must_touch ? fmax(depth, 16 * a->precision) : depth;
     double distance = 0;
     mote_status status = MOTE_OK;
@@ -78,8 +78,8 @@ static mote_status push(approach *a, double first, double depth, double *offset)
     return status;
 }
 
-/* A body moved by x comes closer by x at most. So no step goes too far, and the steps end at
-   the first place with the wished distance. */
+/* When a body moves by x, the distance shrinks by at most x. So no step goes too far, and the
+   steps end at the first place with the requested distance. */
 static mote_status solve_frame(approach *a, double gap, double *offset)
 {
     const double length = a->scenario->length;
@@ -93,7 +93,7 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
             return status;
         const double left = distance - wished;
         *offset = at;
-        /* The steps reach a contact only in the limit, so stop just short of it. */
+        /* The steps reach contact only in the limit, so stop just before it. */
         if (left <= a->precision)
             return gap < 0 ? push(a, at, -gap * length, offset) : MOTE_OK;
         at -= left;
@@ -109,7 +109,7 @@ static mote_status solve_frame(approach *a, double gap, double *offset)
                      gap);
 }
 
-/* Body 1's centre at frame k of the plan. */
+/* The position of body 1's centre at frame k of the plan. */
 static mote_status solve(approach *a, mote_frame_buffer *buffer, uint32_t k,
                          mote_vec3 *position)
 {

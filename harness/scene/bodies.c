@@ -77,7 +77,7 @@ static double between_walls(double start, double way, double room)
     return phase <= 2 * room ? phase - room : 3 * room - phase;
 }
 
-/* The place among the recorded frames of what is shown at a frame. */
+/* The record of body i at the recorded frame nearest to number; *frame is that frame. */
 static const mote_bodies_record *record_at(const mote_bodies *bodies, uint32_t i, double number,
                                            double *frame)
 {

@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Surfaces are at least this far apart at frame 1, in L. */
+/* Minimum distance of surfaces at frame 1, in L. */
 #define CLEARANCE 0.01
 
-/* Places tried for a body before the box counts as full. */
+/* Positions tried for a body before the box counts as full. */
 #define TRIES 3000
 
-/* In how many frames near pairs are counted, and how far their number may be from the one
-   asked for. */
+/* The number of frames in which near pairs are counted, and the relative deviation allowed from
+   the requested number. */
 #define SAMPLES 33
 #define NEAR_SHARE 0.1
 
@@ -23,7 +23,7 @@ typedef struct placing {
     mote_bodies *bodies;
     const mote_bodies_wish *wish;
     mote_random random;
-    mote_vec3 *fractions; /* [count] of the room, -1 .. 1 */
+    mote_vec3 *fractions; /* [count], of room, -1 .. 1 */
     mote_scene *scene;
     mote_broad_phase *broad;
     mote_bodies_frame frame;
@@ -42,8 +42,8 @@ static void draw_path(placing *p, uint32_t i)
     path->axis = mote_random_direction(&p->random);
     path->degrees = 360 * mote_random_unit(&p->random);
     path->spin = p->wish->spin;
-    /* Deformations by keys end with the last key, and clips that are no loop with the clip, so
-       their bodies have no time offset. */
+    /* Keyed deformations end with the last key, and clips that do not loop end with the clip,
+       so their bodies have no time offset. */
     const double time = floor(1e6 * mote_random_unit(&p->random));
     const mote_body_motion *motion = &p->bodies->shapes[p->bodies->shape_of[i]].motion;
     const bool ends = motion->keyed || (motion->player && !motion->player->loop);
@@ -60,7 +60,7 @@ static void place_body(placing *p, uint32_t i)
             mote_vec3_make(u->x * room->x, u->y * room->y, u->z * room->z);
 }
 
-/* The box of these half edges, and what is left of it for the bodies' middles. */
+/* Sets the box with these half edges, and the room in it for the bodies' middles. */
 static void set_room(mote_bodies *b, mote_vec3 half)
 {
     double radius = 0;
@@ -78,7 +78,7 @@ static void set_box(placing *p, mote_vec3 half)
         place_body(p, i);
 }
 
-/* Near pairs of a frame by the bounds of the bodies. */
+/* Counts the near pairs of a frame by the bounds of the bodies. */
 static mote_status count_near(placing *p, double number, size_t *count)
 {
     const uint32_t(*pairs)[2];
@@ -89,7 +89,8 @@ static mote_status count_near(placing *p, double number, size_t *count)
     return status;
 }
 
-/* Near pairs a body, over frames spread evenly; fewer of them where there are many bodies. */
+/* Near pairs per body, averaged over frames spread evenly; over fewer frames if there are many
+   bodies. */
 static mote_status near_pairs(placing *p, double *mean)
 {
     const mote_bodies *b = p->bodies;
@@ -117,7 +118,7 @@ static mote_status not_reached(const placing *p, double found)
                      p->bodies->count, found, p->wish->near_pairs);
 }
 
-/* The cube with as many near pairs as wished, by bisection of its edge. */
+/* Finds the cube with the requested number of near pairs, by bisection of its edge. */
 static mote_status find_box(placing *p)
 {
     mote_bodies *b = p->bodies;
@@ -152,7 +153,7 @@ static bool boxes_near(const mote_scene_box *a, const mote_scene_box *b, double 
            a->low.z - b->high.z <= near && b->low.z - a->high.z <= near;
 }
 
-/* The first body below i that body i is too near to; i: none. */
+/* The first body below i that is too close to body i; i: none. */
 static mote_status find_overlap(placing *p, uint32_t i, uint32_t *other, double *distance)
 {
     const double clearance = CLEARANCE * p->bodies->length;
@@ -182,7 +183,7 @@ static mote_status set_body(placing *p, uint32_t i)
     return mote_scene_bounds_of(p->scene, i, &p->frame.states[i], &p->boxes[i]);
 }
 
-/* Draws places anew for bodies that overlap those before them. */
+/* Draws new positions for bodies that overlap those before them. */
 static mote_status separate(placing *p)
 {
     const mote_bodies *b = p->bodies;
@@ -260,7 +261,7 @@ static mote_status prepare(placing *p)
 
 mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish)
 {
-    if (bodies->recorded) { /* as they were when they were recorded */
+    if (bodies->recorded) { /* the recorded positions */
         set_room(bodies, mote_scale(wish->box, bodies->length / 2));
         return MOTE_OK;
     }

@@ -12,11 +12,11 @@
 /* The largest file that is read. */
 #define SIZE_LIMIT ((size_t)1 << 33)
 
-/* The farthest that a body may be said to be, of L. */
+/* The largest coordinate allowed, in L. */
 #define FAR 1e6
 
-/* Reads "F,B," and NUMBERS numbers from a line; NULL where it is not that, else the next line.
- */
+/* Reads "F,B," and NUMBERS numbers from a line; returns the next line, or NULL if the line is
+   different. */
 static const char *read_row(const char *line, uint32_t frame, uint32_t body,
                             double numbers[NUMBERS])
 {
@@ -65,7 +65,7 @@ static mote_status read_rows(const char *path, const char *text, mote_bodies *bo
     return MOTE_OK;
 }
 
-/* The path of body i as it begins: for simulations that go on from there. */
+/* Sets the start of body i's path, from which simulations continue. */
 static void set_path(mote_bodies *bodies, uint32_t i)
 {
     const mote_bodies_record *a = &bodies->recorded[i];

@@ -1,4 +1,4 @@
-/* A scenario file of several bodies. */
+/* Reads a scenario file of several bodies. */
 #include "harness/scene/bodies_place.h"
 #include "harness/scene/bodies_poses.h"
 #include "harness/base/file.h"

@@ -10,7 +10,7 @@
 typedef struct mote_catalog_entry {
     char *name;    /* "ww" */
     char *purpose; /* one sentence */
-    bool several;  /* of several bodies (harness/scene/bodies.h), not of two */
+    bool several;  /* more than two bodies (harness/scene/bodies.h) */
 } mote_catalog_entry;
 
 typedef struct mote_catalog {
@@ -18,12 +18,12 @@ typedef struct mote_catalog {
     size_t count;
 } mote_catalog;
 
-/* Lists the built-in scenarios without loading their meshes. MOTE_EIO when the folder cannot be
-   read, MOTE_EINVAL when a file in it is not a scenario. The caller destroys *catalog. */
+/* Lists the built-in scenarios without loading their meshes. MOTE_EIO if the folder cannot be
+   read, MOTE_EINVAL if a file in it is not a scenario. The caller destroys *catalog. */
 mote_status mote_catalog_read(mote_catalog *catalog);
 void mote_catalog_free(mote_catalog *catalog);
 
-/* The file of a built-in scenario's name; the caller frees it. */
+/* The path of the built-in scenario with a name; the caller frees it. */
 char *mote_catalog_path(const char *name);
 
 #endif

@@ -26,7 +26,7 @@ mote_status mote_fence_allow(const char *folder)
     return MOTE_OK;
 }
 
-/* Both paths are without links. */
+/* Neither path contains links. */
 static bool is_below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
@@ -34,8 +34,8 @@ static bool is_below(const char *folder, const char *path)
            (path[length] == '/' || folder[length - 1] == '/');
 }
 
-/* Whether path, without links, lies in folder, which is freed; false where that does not exist.
- */
+/* Whether path, without links, lies in folder, which is freed; false if folder does not
+   exist. */
 static bool lies_in(char *folder, const char *path)
 {
     char *whole = folder ? realpath(folder, NULL) : NULL;
@@ -45,7 +45,7 @@ static bool lies_in(char *folder, const char *path)
     return lies;
 }
 
-/* Whether no part of a relative path leads up. */
+/* Whether a relative path never goes up. */
 static bool goes_down(const char *path)
 {
     for (const char *part = path; *part; part += strspn(part, "/")) {
@@ -57,7 +57,7 @@ static bool goes_down(const char *path)
     return true;
 }
 
-/* Whether file, as it is written, starts in the scenario's folder and never leads up. */
+/* Whether file, as written, starts in the scenario's folder and never goes up. */
 static bool is_written_below(const char *scenario, const char *file)
 {
     const char *slash = strrchr(scenario, '/');

@@ -29,7 +29,8 @@ void mote_quaternions_align(mote_quaternion *keys, uint32_t count)
     }
 }
 
-/* low (high / low)^part by bisection of the exponent: pow may differ between machines. */
+/* low (high / low)^part, computed by bisection of the exponent: pow may differ between
+   machines. */
 static double between(double low, double high, double part)
 {
     double from = 0, to = 1;

@@ -21,32 +21,33 @@ typedef struct mote_wave {
     double phase;        /* turns */
 } mote_wave;
 
-/* What moves and deforms one body. Everything is owned. */
+/* How one body moves and deforms. Everything is owned. */
 typedef struct mote_body_motion {
-    mote_vec3 centre;     /* the rest point that position places and rotation turns about */
+    mote_vec3 centre;     /* the rest point that position places and that rotation turns
+                             about */
     mote_curve *position; /* width 3, absolute; NULL: the centre stays at the origin */
-    mote_curve *rotation; /* width 4, quaternions of one sign; NULL: none */
-    mote_curve *keyed;    /* width 3 J, displacement of each control point; or NULL */
-    mote_wave *waves;     /* added to it */
+    mote_curve *rotation; /* width 4, quaternions with aligned signs; NULL: none */
+    mote_curve *keyed;    /* width 3 J, displacement of each control point; may be NULL */
+    mote_wave *waves;     /* added to keyed */
     uint32_t wave_count;
-    uint32_t control_count;  /* J; 0: nothing deforms */
-    mote_csrbf_fit *fit;     /* NULL: displacements are the weights (J is 0, or no CSRBF) */
-    mote_player *player;     /* of a character, instead of controls; or NULL */
-    mote_sequence *sequence; /* positions in place of a field; owned, or NULL */
+    uint32_t control_count;  /* J; 0: no deformation */
+    mote_csrbf_fit *fit;     /* NULL: the displacements are the weights (J is 0, or no CSRBF) */
+    mote_player *player;     /* of a character, instead of controls; may be NULL */
+    mote_sequence *sequence; /* positions instead of a field; owned, may be NULL */
     bool has_velocity, has_spin;
-    mote_vec3 velocity; /* of the centre at frame 1, absolute, a frame */
-    mote_vec3 spin;     /* angular, at frame 1, radians a frame, world axes */
+    mote_vec3 velocity; /* of the centre at frame 1, absolute, per frame */
+    mote_vec3 spin;     /* angular, at frame 1, radians per frame, world axes */
 } mote_body_motion;
 
 typedef struct mote_motion {
     mote_body_motion body[2];
-    double start, pace; /* frame k shows the path at start + (k - 1) * pace */
+    double start, pace; /* frame k is at start + (k - 1) * pace on the path */
 } mote_motion;
 
-/* Waves that displace each of control_count points by at most amplitude (absolute): `terms`
-   sines each, of random direction and phase, with periods (frames) drawn from [low, high],
-   logarithmically even. The same seed gives the same bits everywhere. waves holds
-   control_count * terms. */
+/* Draws waves that displace each of control_count points by at most amplitude (absolute):
+   `terms` sines each, of random direction and phase, with periods (frames) drawn log-uniformly
+   from [low, high]. The same seed gives the same bits everywhere. waves holds control_count *
+   terms. */
 void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, double amplitude,
                      double low, double high, mote_wave *waves);
 
@@ -54,10 +55,10 @@ void mote_waves_draw(uint64_t seed, uint32_t control_count, uint32_t terms, doub
    way. */
 void mote_quaternions_align(mote_quaternion *keys, uint32_t count);
 
-/* Pose of the body's rest points at a frame (any real number). */
+/* The pose of the body at a frame (any real number). */
 mote_pose mote_motion_pose(const mote_body_motion *motion, double frame);
 
-/* Displacements of the control points, rest axes: displacement[control_count]. Of a character
+/* Displacements of the control points, rest axes: displacement[control_count]. For a character,
    its weights, one for each function of its field. */
 void mote_motion_displacements(const mote_body_motion *motion, double frame,
                                mote_vec3 *displacement);

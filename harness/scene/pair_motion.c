@@ -9,8 +9,8 @@
 
 #define FRAMES 1000
 
-/* The wished gaps: in L of the pair where the bodies are apart, in the smaller body's L
-   where they touch, which they do in 15 % of the frames. */
+/* The requested gaps: in the pair's L if the bodies are apart, in the smaller body's L if they
+   touch, which they do in 15 % of the frames. */
 static const struct {
     uint32_t frame;
     double gap;
@@ -24,11 +24,11 @@ static const mote_vec3 directions[] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1,
                                        {-1, 1, 1}, {1, -1, 1}, {1, 1, -1}};
 #define DIRECTIONS (sizeof directions / sizeof directions[0])
 
-/* The sizes at which contacts could be told from rounding, tried on cubes: the triangles' tests
-   multiply four lengths. */
+/* The range of sizes in which contacts can be told from rounding, determined on cubes: the
+   triangle tests multiply four lengths. */
 #define SMALLEST 1e-70
 #define LARGEST 1e70
-#define RATIO 1e13 /* of the two sizes */
+#define RATIO 1e13 /* between the two sizes */
 
 static mote_status check_sizes(const mote_scenario *scenario)
 {
@@ -48,7 +48,7 @@ static mote_status check_sizes(const mote_scenario *scenario)
     return MOTE_OK;
 }
 
-/* A gap for each frame, in L. */
+/* Interpolates a gap for each frame, in L. */
 static mote_status spread_gaps(const mote_scenario *scenario, double *gaps)
 {
     uint32_t frames[WISHED];
@@ -72,7 +72,7 @@ static mote_status spread_gaps(const mote_scenario *scenario, double *gaps)
     return MOTE_OK;
 }
 
-/* The vertex that is farthest from the middle of its mesh. */
+/* The vertex farthest from the middle of its mesh. */
 static uint32_t tip(const mote_mesh *mesh)
 {
     const mote_vec3 centre = mote_mesh_centre(mesh);

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Morph targets by target, as the core takes them; the character has them by vertex. */
+/* Lists the morph targets by target, as the core requires; the character stores them by
+   vertex. */
 static mote_morph_targets list_targets(const mote_character *c, const mote_mesh *mesh)
 {
     const uint32_t count = (uint32_t)c->rig.targets_count;

@@ -6,7 +6,7 @@
 
 struct mote_sample_poses {
     mote_weights weights[2][MOTE_SAMPLE_FRAMES];
-    double *numbers[2]; /* behind them: x, y and z of each, padded; NULL: no weights */
+    double *numbers[2]; /* padded x, y and z of the weights; NULL: no weights */
 };
 
 /* The weights of a state as if its body were not rotated. */

@@ -15,9 +15,9 @@ struct mote_frame_buffer {
     mote_frame frame;
     double *weights[2];         /* 3 * padded: x, y, z */
     mote_vec3 *displacement[2]; /* [J], rest axes */
-    mote_vec3 *before[2];       /* those of the previous frame given */
+    mote_vec3 *before[2];       /* of the frame set before */
     mote_vec3 *solution[2];     /* [J], weights in rest axes */
-    mote_playback *playback[2]; /* of a body without a field, else NULL */
+    mote_playback *playback[2]; /* of a body without a field, otherwise NULL */
 };
 
 void mote_scenario_destroy(mote_scenario *scenario)
@@ -69,13 +69,14 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
     free(buffer);
 }
 
-/* Where on the path a frame, or a place between frames, is. */
+/* The position on the path of a frame, or of a place between frames. */
 static double path_place(const mote_scenario *scenario, double number)
 {
     return scenario->motion->start + (number - 1) * scenario->motion->pace;
 }
 
-/* Weights that displace the control points as the motion says, rotated with the body. */
+/* Sets the weights that produce the motion's displacements of the control points, rotated with
+   the body. */
 static void set_weights(const mote_scenario *scenario, mote_frame_buffer *buffer, int i,
                         double place)
 {

@@ -1,4 +1,4 @@
-/* The character of a body, and the clip that it plays. */
+/* Reads the character of a body and the clip that it plays. */
 #include "harness/scene/scenario_read.h"
 
 #include "harness/base/file.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A clip is cut off here: nobody plays for longer than a year. */
+/* Clips longer than this are cut: nobody plays one for months. */
 #define SECONDS_MAX 1e7
 
 #define SUBDIVIDE_MAX 8
@@ -72,7 +72,7 @@ void mote_scenario_set_samples(mote_player *player, double first, double last, m
     body->sample_count = MOTE_PLAYER_SAMPLES;
 }
 
-/* "clip": a name, or a number from 1; the first one without it. */
+/* "clip": a name, or a number from 1; the default is the first clip. */
 static mote_status read_clip(const mote_json *body, mote_player *player)
 {
     const mote_json key = mote_json_member(body, "clip");

@@ -1,4 +1,4 @@
-/* The field of a body and the displacement of its control points. */
+/* Reads the field of a body and the displacement of its control points. */
 #include "harness/scene/scenario_read.h"
 
 #include "core/body/field_maker.h"
@@ -184,7 +184,7 @@ static mote_status unknown_kind(const mote_json *node, const char *name)
     return status;
 }
 
-/* The members that are parameters of a kind, as "key=value,...". */
+/* Collects the parameters of a field's kind as "key=value,...". */
 static void parameter_text(const mote_json *node, mote_text *text)
 {
     const char *key;
@@ -201,7 +201,7 @@ static void parameter_text(const mote_json *node, mote_text *text)
     }
 }
 
-/* A field of a kind that field_maker.h knows. */
+/* Makes a field of a kind that field_maker.h knows. */
 static mote_status read_made(const mote_json *node, const mote_json *kind,
                              const mote_mesh *mesh, mote_field **field)
 {

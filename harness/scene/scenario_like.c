@@ -1,6 +1,6 @@
-/* A scenario that is like another one: its keys replace those of the other, key by key and
-   body by body, and null removes a key (as in RFC 7396, except that bodies are merged one by
-   one). */
+/* Merges a scenario with the one it is "like": its keys replace the other's, key by key and
+   body by body, and null removes a key (RFC 7396, except that arrays of bodies are merged body
+   by body). */
 #include "harness/scene/scenario_read.h"
 
 #include "harness/scene/catalog.h"
@@ -48,7 +48,7 @@ static char *base_path(const char *path, const char *name)
                                          : mote_catalog_path(name);
 }
 
-/* Makes a name that is seen from the folder of the file at path one that includes path. False
+/* Rewrites a name relative to the folder of the file at path so that it includes path. False
    for a path that is not UTF-8. */
 static bool move_name(json_t *object, const char *key, const char *path)
 {
@@ -61,8 +61,8 @@ static bool move_name(json_t *object, const char *key, const char *path)
     return set;
 }
 
-/* Meshes and poses are named from the folder of the file that names them. path: of the other
-   scenario, absolute or as seen from this one's folder. */
+/* Rewrites the names of meshes and poses, which are relative to the file that contains them.
+   path: of the other scenario, absolute or relative to this one's folder. */
 static bool move_files(json_t *root, const char *path)
 {
     json_t *bodies = json_object_get(root, "bodies");

@@ -1,4 +1,4 @@
-/* The mesh of a body: a letter or a file, possibly scaled. */
+/* Reads the mesh of a body: a letter or a file, possibly scaled. */
 #include "harness/scene/scenario_read.h"
 
 #include "datasets/letter.h"
@@ -64,7 +64,7 @@ static mote_status read_scale(const mote_json *scale, mote_vec3 *factor)
     return status;
 }
 
-/* Replaces *mesh by itself with each coordinate multiplied. */
+/* Replaces *mesh with a copy scaled by coordinate. */
 static mote_status scale_mesh(mote_vec3 factor, mote_mesh **mesh)
 {
     const mote_mesh *old = *mesh;

@@ -1,4 +1,4 @@
-/* The motion of a body: key poses, each giving a position, a rotation, or both. */
+/* Reads the motion of a body: key poses, each with a position, a rotation, or both. */
 #include "harness/base/memory.h"
 #include "harness/scene/scenario_read.h"
 
@@ -96,7 +96,7 @@ static mote_status make_curves(const mote_json *node, key_list *keys, mote_body_
     return mote_json_blame(node, status);
 }
 
-/* Between far apart keys the curve could come near the origin, where it has no direction. */
+/* Between keys far apart the curve could pass near the origin, where it gives no rotation. */
 static mote_status check_rotation(const mote_json *node, uint32_t frames,
                                   const mote_curve *curve)
 {
@@ -112,7 +112,7 @@ static mote_status check_rotation(const mote_json *node, uint32_t frames,
     return MOTE_OK;
 }
 
-/* "velocity": of L a frame; "spin": degrees a frame about x, y, z. */
+/* "velocity": L per frame; "spin": degrees per frame about x, y, z. */
 static mote_status read_velocities(const mote_json *body, double length,
                                    mote_body_motion *motion)
 {
@@ -135,7 +135,7 @@ mote_status mote_scenario_read_motion(const mote_json *body, const mote_mesh *me
                                       double length, uint32_t frames, mote_body_motion *motion)
 {
     mote_json node = mote_json_member(body, "motion");
-    /* Positions without a motion stay where their files have them. */
+    /* Without a motion, given positions stay where their files have them. */
     if (node.value || !motion->sequence)
         motion->centre = mote_mesh_centre(mesh);
     mote_status status = read_velocities(body, length, motion);

@@ -11,10 +11,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The largest file of a character that is copied. */
+/* The largest character file that is copied. */
 #define CHARACTER_BYTES ((size_t)1 << 32)
 
-/* The folder of a file, without links and without a '/' at its end; the caller frees it. */
+/* The folder of a file, with links resolved and without a final '/'; the caller frees it. */
 static mote_status folder_of(const char *file, char **folder)
 {
     const char *slash = strrchr(file, '/');
@@ -30,14 +30,14 @@ static mote_status folder_of(const char *file, char **folder)
     return status;
 }
 
-/* The path relative to folder, or NULL where it does not lie in it. */
+/* The path relative to folder, or NULL if it does not lie in it. */
 static const char *below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
     return strncmp(folder, path, length) == 0 && path[length] == '/' ? path + length + 1 : NULL;
 }
 
-/* Writes the mesh beside `to`; *name is its name from there. */
+/* Writes the mesh beside `to`; *name is its name relative to that folder. */
 static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body, char **name)
 {
     const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
@@ -55,8 +55,8 @@ static mote_status copy_mesh(const char *mesh_path, const char *to, size_t body,
     return status;
 }
 
-/* Copies the file of a character beside `to`, and reads the copy: a format may keep parts of it
-   in other files. */
+/* Copies the file of a character beside `to` and reads the copy as a check: a format may keep
+   parts of it in other files. */
 static mote_status copy_character(const char *old, const char *to, size_t body, char **name)
 {
     const size_t ending = mote_name_ends(to, ".json") ? strlen(".json") : 0;
@@ -86,7 +86,7 @@ static mote_status copy_character(const char *old, const char *to, size_t body, 
     return status;
 }
 
-/* *name: what the file at path (of body number `body`) is called in a scenario at `to`. */
+/* *name: the name in a scenario at `to` of the file at path (of body number `body`). */
 static mote_status new_name(const char *path, const char *key, const char *to, size_t body,
                             char **name)
 {
@@ -116,7 +116,7 @@ static mote_status new_name(const char *path, const char *key, const char *to, s
     return status;
 }
 
-/* Whether the files at both paths are in one folder, so that names stay as they are. */
+/* Whether both files are in one folder, so names stay as they are. */
 static bool same_folder(const mote_json_file *file, const char *to)
 {
     char *from_folder = NULL, *to_folder = NULL;
@@ -144,7 +144,7 @@ static mote_status move_file(const mote_json_file *file, json_t *body, const cha
     return status;
 }
 
-/* The files that the bodies name by a key. Bodies that share one with the first still do so
+/* Moves the files that bodies name with a key. Bodies that share one with the first still do
    afterwards. */
 static mote_status move_files(const mote_json_file *file, json_t *bodies, const char *key,
                               const char *to)
@@ -167,7 +167,7 @@ static mote_status move_files(const mote_json_file *file, json_t *bodies, const 
 mote_status mote_scenario_move(mote_json_file *file, const char *to)
 {
     json_t *bodies = json_object_get(file->root, "bodies");
-    if (json_is_object(bodies)) /* more than two: their shapes have the meshes */
+    if (json_is_object(bodies)) /* for more than two, the shapes name the meshes */
         bodies = json_object_get(bodies, "shapes");
     if (same_folder(file, to))
         return MOTE_OK;

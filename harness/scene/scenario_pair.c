@@ -1,5 +1,5 @@
-/* The default scenario of two meshes: approach, touches, parting, both turning and deforming.
- */
+/* The default scenario of two meshes: approach, contacts, separation, both rotating and
+   deforming. */
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/scene/scenario_read.h"
@@ -14,13 +14,13 @@
 #include <unistd.h>
 
 #define FRAMES 1000
-#define CONTROLS 12         /* of each body, where its mesh has places for that many */
-#define CONTROLS_APART 0.02 /* of the mesh's diagonal: closer ones make a poor fit */
+#define CONTROLS 12         /* per body, if its mesh has room for that many */
+#define CONTROLS_APART 0.02 /* of the mesh's diagonal: a smaller distance makes a poor fit */
 
 /* The two files and the direction in "pair:A:B" or "pair:A:B:X,Y,Z". */
 typedef struct pair_name {
     char *file[2];
-    mote_vec3 direction; /* 0, 0, 0: none is given */
+    mote_vec3 direction; /* 0, 0, 0: not given */
 } pair_name;
 
 static void free_name(pair_name *pair)
@@ -40,7 +40,7 @@ char *mote_scenario_pair_name(const char *a, const char *b, const char *directio
                        direction ? direction : "");
 }
 
-/* Takes ":X,Y,Z" off the end of a name. */
+/* Removes ":X,Y,Z" from the end of a name. */
 static mote_status split_direction(const char *name, char *files, mote_vec3 *direction)
 {
     double xyz[3];
@@ -55,7 +55,8 @@ static mote_status split_direction(const char *name, char *files, mote_vec3 *dir
     return MOTE_OK;
 }
 
-/* Splits "A:B" at the first ':' that has a file on either side, or else at the first. */
+/* Splits "A:B" at the first ':' with an existing file on either side, otherwise at the first
+   ':'. */
 static mote_status split_files(const char *name, const char *files, pair_name *pair)
 {
     const char *first = strchr(files, ':');
@@ -84,7 +85,7 @@ static mote_status read_name(const char *name, pair_name *pair)
     return status;
 }
 
-/* A turn about an axis, a key every quarter of it. */
+/* A rotation about an axis, with a key at every quarter of it. */
 static json_t *turn_json(double x, double y, double z, double degrees)
 {
     json_t *keys = json_array();
@@ -95,7 +96,7 @@ static json_t *turn_json(double x, double y, double z, double degrees)
     return keys;
 }
 
-/* A body that deforms: a character with a clip plays it; a mesh gets control points. */
+/* A deforming body: a character with a clip plays it; a mesh gets control points. */
 typedef struct pair_body {
     uint32_t clip;     /* from 1; 0: no character */
     uint32_t controls; /* of a mesh */
@@ -112,7 +113,7 @@ static json_t *body_json(const char *path, pair_body body, int seed, json_t *mot
                      motion);
 }
 
-/* How many control points a mesh has places for: a cube of eight vertices has eight. */
+/* The number of control points that fit on a mesh: a cube of eight vertices has eight. */
 static mote_status count_controls(const char *path, uint32_t *count)
 {
     mote_mesh *mesh;
@@ -125,7 +126,7 @@ static mote_status count_controls(const char *path, uint32_t *count)
     return status;
 }
 
-/* A character's first clip that takes time; a mesh's control points. */
+/* Finds a character's first clip of nonzero length, or a mesh's control points. */
 static mote_status look_at(const char *path, pair_body *body)
 {
     mote_character *character = NULL;
@@ -141,7 +142,7 @@ static mote_status look_at(const char *path, pair_body *body)
     return body->clip > 0 ? MOTE_OK : count_controls(path, &body->controls);
 }
 
-/* The scenario without the positions of body 1. */
+/* Makes the scenario without the positions of body 1. */
 static mote_status make_file(const char *name, const pair_name *pair, mote_json_file *file)
 {
     pair_body body[2];
@@ -164,7 +165,7 @@ static mote_status make_file(const char *name, const pair_name *pair, mote_json_
     return MOTE_OK;
 }
 
-/* What stands between the last slash and the last dot of a path. */
+/* The part of a path between its last slash and its last dot. */
 static char *stem(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -186,7 +187,7 @@ static void rename_scenario(const pair_name *pair, mote_scenario *scenario)
     scenario->name = name;
 }
 
-/* Finds where body 1 goes, and sets it in the scenario and in its file. */
+/* Finds the motion of body 1, and stores it in the scenario and in its file. */
 static mote_status set_motion(const pair_name *pair, mote_json_file *file,
                               mote_scenario *scenario)
 {
@@ -202,7 +203,7 @@ static mote_status set_motion(const pair_name *pair, mote_json_file *file,
         frames[k] = k + 1;
         (void)json_array_append_new(keys, json_pack("{s:i, s:[f,f,f]}", "frame", (int)k + 1,
                                                     "position", p.x, p.y, p.z));
-        /* As they are when the file is read. */
+        /* Computed as when reading the file. */
         positions[k] = mote_scale(p, scenario->length);
     }
     return mote_curve_create(frames, &positions->x, FRAMES, 3,

@@ -1,4 +1,4 @@
-/* "positions" of a body: numbered meshes, or a point cache beside a mesh. */
+/* Reads "positions" of a body: numbered meshes, or a point cache with a mesh. */
 #include "harness/scene/scenario_read.h"
 
 #include "harness/base/file.h"

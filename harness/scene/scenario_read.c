@@ -1,4 +1,4 @@
-/* A scenario file: bodies, frames, intervals, what is asked. */
+/* Reads a scenario file: bodies, frames, intervals, the question. */
 #include "harness/scene/scenario_read.h"
 
 #include "harness/scene/catalog.h"
@@ -80,13 +80,13 @@ mote_status mote_scenario_read_facts(const mote_json *root, mote_scenario *scena
     return status;
 }
 
-/* Whether two bodies of a file name the same mesh, which is then made once. */
+/* Whether two bodies of a file name the same mesh, so that it is made only once. */
 static bool same_mesh(const mote_json *a, const mote_json *b)
 {
     static const char *const keys[] = {"letter", "triangles", "file",
                                        "scale",  "character", "subdivide"};
     if (mote_json_member(a, "positions").value || mote_json_member(b, "positions").value)
-        return false; /* their meshes keep what others weld */
+        return false; /* the mesh of given positions keeps vertices that others weld */
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
         json_t *x = json_object_get(a->value, keys[i]);
         json_t *y = json_object_get(b->value, keys[i]);
@@ -96,7 +96,7 @@ static bool same_mesh(const mote_json *a, const mote_json *b)
     return true;
 }
 
-/* The last frame of the path that is shown, rounded up where the pace has fractions. */
+/* The last frame of the path that is shown, rounded up for a fractional pace. */
 static uint32_t last_frame(const mote_scenario *scenario)
 {
     const mote_motion *motion = scenario->motion;
@@ -104,7 +104,7 @@ static uint32_t last_frame(const mote_scenario *scenario)
     return (uint32_t)fmin(ceil(place), MOTE_FRAMES_MAX);
 }
 
-/* The meshes of both bodies; characters[i] that of body i, or NULL. */
+/* Reads the meshes of both bodies; characters[i] is that of body i, or NULL. */
 static mote_status read_meshes(const mote_json body[2], mote_scenario *scenario,
                                mote_character *characters[2])
 {
@@ -129,7 +129,7 @@ static mote_status read_meshes(const mote_json body[2], mote_scenario *scenario,
     return status;
 }
 
-/* Field and motion of a body whose mesh is known. */
+/* Reads the field and motion of a body whose mesh is known. */
 static mote_status read_body(const mote_json *body, size_t i, mote_character *character,
                              mote_scenario *scenario)
 {
@@ -215,7 +215,7 @@ static bool is_path(const char *name)
     return strchr(name, '/') || mote_name_ends(name, ".json");
 }
 
-/* A built-in scenario that does not exist: the error lists those that do. */
+/* Fails for an unknown built-in scenario; the error lists those that exist. */
 static mote_status unknown_name(const char *name)
 {
     mote_catalog catalog;
@@ -236,7 +236,7 @@ static bool is_listed(const char *name)
 {
     mote_catalog catalog;
     if (mote_catalog_read(&catalog) != MOTE_OK)
-        return true; /* opening its file will say why */
+        return true; /* opening its file will report why */
     bool found = false;
     for (size_t i = 0; i < catalog.count; ++i)
         found = found || strcmp(catalog.entries[i].name, name) == 0;

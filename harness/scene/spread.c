@@ -23,7 +23,8 @@ mote_status mote_spread_apart(const mote_mesh *mesh, uint32_t most, double apart
         double largest = 0;
         for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
             const double square = mote_distance_squared(mesh->positions[i], last);
-            /* The middle of the box only ranks the first point; it is not a point itself. */
+            /* The middle of the box only ranks the first point; it is not itself a picked
+               point. */
             const double rank = picked == 0 ? square : fmin(nearest[i], square);
             if (picked > 0)
                 nearest[i] = rank;

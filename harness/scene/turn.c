@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Taylor's series for |x| <= pi / 4: the first term left out is below 1e-18. */
+/* Taylor series for |x| <= pi / 4: the first omitted term is below 1e-18. */
 static double sine_series(double x)
 {
     static const double factor[] = {1.0 / 6,   1.0 / 20,  1.0 / 42,  1.0 / 72,
