@@ -104,7 +104,7 @@ static bool noting; /* set while note() runs, so that its own calls are not note
 
 extern const char __executable_start, etext;
 
-/* Hash of the innermost callers that are ours. */
+/* Hash of the innermost callers in our own code. */
 static uint64_t hash_stack(function f)
 {
     void *frames[DEEPEST];
@@ -165,7 +165,7 @@ static bool fails(function f)
     return true;
 }
 
-/* NAME in libc's place, declared as the linker wants it. */
+/* Declares the replacement of libc's NAME as the linker expects it. */
 #define WRAP(result, name, ...)                                                                \
     result __real_##name(__VA_ARGS__);                                                         \
     result __wrap_##name(__VA_ARGS__);                                                         \

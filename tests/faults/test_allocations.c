@@ -127,7 +127,7 @@ static mote_status make_fields(void *context)
     mote_csrbf_fit_destroy(fit);
     mote_field_destroy(field);
     field = NULL;
-    /* Any vectors: the rest positions are two modes of half of the vertices. */
+    /* Any vectors will do: the rest positions serve as two modes of half as many vertices. */
     if (status == MOTE_OK)
         status = mote_field_create_modes(mesh->positions, 2, mesh->vertex_count / 2, &field);
     mote_field_destroy(field);

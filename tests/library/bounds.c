@@ -1,5 +1,5 @@
-/* A user's kind of field with bounds of its own: all of a body slides by one weight vector. A
-   box slides with it, so that the bounds are the rest tree's boxes, turned and moved. */
+/* A user's kind of field with bounds of its own: the whole body slides by one weight vector. A
+   box slides with it, so the bounds are the boxes of the rest tree, rotated and moved. */
 #include <mote/certificate_bounds.h>
 #include <mote/certificate_project.h>
 #include <mote/mote.h>
@@ -43,7 +43,7 @@ static void stop(void *fitter)
     (void)fitter;
 }
 
-/* Where the bodies slide to, in the tree's units. */
+/* How far the body slides, in the tree's units. */
 typedef struct moved {
     float by[3];
     float along;
@@ -61,8 +61,8 @@ static mote_vec3 weight_of(const mote_cert_side *side)
     return mote_scale(mote_vec3_make(w->x[0], w->y[0], w->z[0]), side->tree->scale);
 }
 
-/* With B the size of all coordinates, a term is rounded three times and there are five in a
-   sum: 64 u B, u = 2^-24, is more than that and what tests of boxes round. */
+/* Let B be the size of all coordinates. Each term is rounded three times, and a sum has five
+   terms: 64 u B, u = 2^-24, exceeds that and the rounding in box tests. */
 static void begin(mote_cert_side *side)
 {
     const mote_vec3 w = weight_of(side), t = side->exact_translation;
@@ -126,7 +126,7 @@ static bool hull(const mote_cert_side *side, const mote_cert_node *node, size_t 
                  mote_cert_hull *points)
 {
     (void)side, (void)node, (void)lane, (void)points;
-    return false; /* the boxes are as tight */
+    return false; /* the boxes are just as tight */
 }
 
 static const mote_cert_bounds bounds = {"slide", start, fit,     store, stop, frame_bytes,
@@ -170,7 +170,7 @@ static mote_status make_mesh(uint32_t rings, uint32_t around, mote_mesh **mesh)
     return mote_mesh_create(at, north + 1, corners, count, mesh);
 }
 
-/* Both kinds give the distance, in 200 poses. */
+/* Both kinds of field must give the same distance in 200 poses. */
 int main(void)
 {
     mote_mesh *mesh;

@@ -1,6 +1,6 @@
 /* A user's program: two octahedra, each half of them moved by a bone, and a morph target. The
-   upper corner of the lower one goes up by the bone and by the target, and the distance to the
-   lower corner of the other, which stays, is known. */
+   bone and the target both raise the upper corner of the lower octahedron. Its distance to the
+   lower corner of the other, which does not move, is known. */
 #include <mote/mote.h>
 
 #include <math.h>

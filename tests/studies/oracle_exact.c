@@ -106,7 +106,7 @@ static bool is_zero(const vector *v)
     return mpz_sgn(v->x[0]) == 0 && mpz_sgn(v->x[1]) == 0 && mpz_sgn(v->x[2]) == 0;
 }
 
-/* True if the triangles have no point in common along the axis. */
+/* True if the triangles' projections onto the axis do not meet. */
 static bool separates(exact *e, const vector *axis)
 {
     for (int i = 0; i < 6; i++) {

@@ -27,7 +27,7 @@
     "place,plant,per_cent,number,slower,faster,same,undecided,named_alone,ratio,ci_low,"       \
     "ci_high,pairs,seconds,busy_cores\n"
 #define FILE_LIMIT ((size_t)1 << 26)
-#define UNCHANGED_A_ROUND 5 /* races for each planted one of a kind: 200 and 40 */
+#define UNCHANGED_A_ROUND 5 /* unchanged races per planted race of a kind, as 200 to 40 */
 
 static const char *const places[] = {"idle", "compiler", "busy"};
 static const char *const place_titles[] = {"idle", "beside a compiler", "busy machine"};

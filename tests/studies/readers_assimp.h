@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-/* Faces of three or more corners, as they stand in a file. */
+/* Faces of three or more corners, as in the file. */
 typedef struct polygons {
     mote_vec3 *at; /* [vertex_count] */
     uint32_t *corners;

@@ -10,8 +10,8 @@
 #define BAR_TRIANGLES 20
 #define BAR_RINGS 3
 
-/* Parts of the text, so that tests replace one by something wrong. assimp takes "1,0" for one
-   number with a decimal comma: all numbers have a point. */
+/* Parts of the text, which tests replace by invalid ones. assimp reads "1,0" as one number with
+   a decimal comma, so all numbers have a decimal point. */
 typedef struct bar_text {
     const char *upper_weights; /* of vertices 4 to 11 for Upper */
     const char *rotations;     /* keys: time;4;w,x,y,z;; */

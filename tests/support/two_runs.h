@@ -32,7 +32,7 @@ static inline void put(const char *directory, const char *name, json_t *object)
 /* A run of one method, five replicates. */
 typedef struct figures {
     double ratio;     /* of fcl-aabb's time to this one's, roughly */
-    double jitter;    /* how much replicates differ, a share */
+    double jitter;    /* by what share replicates differ */
     double box_tests; /* of one replicate */
     double heap, missed, p99;
 } figures;

@@ -1,4 +1,4 @@
-/* Who may include whom, read from the include lines of the sources. */
+/* Which files may include which, read from the include lines of the sources. */
 #define _DEFAULT_SOURCE /* DT_DIR */
 #include "tests/support/test.h"
 
@@ -62,8 +62,8 @@ static const library libraries[] = {
     {"assimp/", {"harness/mesh/mesh_assimp", "harness/mesh/character_"}},
 };
 
-/* An include line. Both names are relative to the root; for another library: what stands in the
-   line. */
+/* An include line. Both names are relative to the root; that of another library is as
+   written. */
 typedef struct include {
     char file[400];
     char included[160];

@@ -27,7 +27,7 @@ static bool exists(const char *name)
     return stat(name, &info) == 0 && info.st_size > 0;
 }
 
-/* Makes one small run: two scenarios, some n, two replicates. */
+/* Makes one small run: two scenarios, several n, two replicates. */
 static int make_run(void)
 {
     return mote("run tt --frames 1-60 --replicates 2 --particles 1,3 --method "

@@ -131,7 +131,7 @@ TEST(mote_character_weights_are_normalised_and_it_says_by_how_much)
     bar_write("bar.x", part);
     mote_character *c = import("bar.x", &facts);
     assert_true(fabs(facts.off - 0.5) < 1e-7);
-    /* Of the 60 corners, those at two places. */
+    /* At two vertices, which have 11 of the 60 corners, the weights do not sum to 1. */
     assert_int_equal(facts.given, 60);
     assert_int_equal(facts.off_count, 11);
     for (uint32_t v = 0; v < c->mesh->vertex_count; ++v) {

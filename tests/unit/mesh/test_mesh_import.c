@@ -113,7 +113,7 @@ TEST(obj_lines_go_on_after_a_backslash)
     mote_mesh_destroy(mesh);
 }
 
-/* 80 bytes that say solid, a count, and 50 bytes a triangle. */
+/* 80 bytes that begin with "solid", a count, and 50 bytes a triangle. */
 TEST(mote_mesh_import_binary_stl_beginning_with_solid_is_read)
 {
     static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0.1f}};

@@ -287,7 +287,7 @@ TEST(replay_of_a_field_of_another_kind_has_its_functions)
     mote_report_free(&other);
 }
 
-/* Positions that are given become key frames: here, of few vertices, every frame is one. */
+/* Given positions become key frames: with so few vertices, every frame is one. */
 TEST(replay_of_given_positions_has_them_in_every_frame)
 {
     enum { SHOWN = 7 };

@@ -91,7 +91,7 @@ TEST(claims_on_times_follow_the_times)
     assert_int_equal(verdict_of("times"), MOTE_CLAIM_HOLDS);
     assert_int_equal(verdict_of("hierarchy_memory"), MOTE_CLAIM_HOLDS);
     assert_int_equal(verdict_of("faster_than_fcl"), MOTE_CLAIM_HOLDS);
-    planted.ours_ns = 5e5; /* 0.5 ms: below the paper's, not below a twentieth */
+    planted.ours_ns = 5e5; /* 0.5 ms: below the paper's, not below a twentieth of it */
     assert_int_equal(verdict_of("times"), MOTE_CLAIM_LIMITS);
     planted.ours_ns = 1e8;
     assert_int_equal(verdict_of("times"), MOTE_CLAIM_DOES_NOT_HOLD);

@@ -97,7 +97,7 @@ TEST(a_long_front_is_cut_where_it_is_least_accurate)
     assert_null(strstr(said, "n=11 "));
 }
 
-/* Rows with positions given are never among those that pay for deformation. */
+/* Rows with positions given are never mixed with those that pay for deformation. */
 TEST(rows_with_positions_given_stand_apart)
 {
     write_method((stored_cell){.method = "fcl-aabb"}, 1000, 0, 0);

@@ -139,7 +139,7 @@ static void refers_to(const char *id, const mote_ratio *ratio, const char *to, d
         fail_msg("%s: %g times to %s, not %g to %s", id, ratio->value, is, value, to);
 }
 
-/* The fastest engine of others is not always FCL, and one that misses a contact is none. */
+/* The fastest engine of others is not always FCL; one that misses a contact does not count. */
 TEST(summary_best_engine_is_the_fastest_that_is_right)
 {
     write_frames((stored_cell){.id = "a", .method = "certified"}, 1, 4, 10, 0);

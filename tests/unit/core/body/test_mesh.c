@@ -292,7 +292,7 @@ static void check_mesh(const mote_mesh *mesh)
     check_extent(mesh);
 }
 
-/* Makes the mesh of s (freed), checks it whole, and returns it. */
+/* Makes the mesh of s (freed), checks all of it, and returns it. */
 static mote_mesh *checked_mesh(solid s)
 {
     mote_mesh *mesh = solid_to_mesh(s);

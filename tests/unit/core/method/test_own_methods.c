@@ -113,7 +113,7 @@ TEST(automatic_numbers_are_those_of_the_paper)
     assert_true(above_8);
 }
 
-/* Two bodies of one mesh have its parts. */
+/* Two bodies of one mesh share its parts. */
 TEST(automatic_number_of_one_mesh_twice_is_that_of_one)
 {
     scene s;

@@ -184,7 +184,7 @@ TEST(contact_question_as_the_distance_says)
     subject_init(&distance, &s, MOTE_ASK_DISTANCE, tolerance, "n=8,launch=8");
     subject_init(&contact, &s, MOTE_ASK_CONTACT, tolerance, "n=8,launch=8");
     int contacts = 0;
-    uint64_t checks[2] = {0}; /* exact checks of frames without a contact */
+    uint64_t checks[2] = {0}; /* exact checks in frames without contact */
     for (int i = 0; i < 200; ++i) {
         const mote_frame *frame = smooth_frame(&s, 0.7);
         const mote_answer a = ask(&distance, frame);
