@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-/* {"distance", "lower", "contact", "a", "b"}: what a method does not give is left out. */
+/* {"distance", "lower", "contact", "a", "b"}, without what the method does not give. */
 json_t *mote_answer_json(const mote_answer *answer);
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Names of bones and targets are cut off after this many. */
+/* At most this many names of bones and targets are shown. */
 #define NAMED 12
 
 typedef struct weight_facts {
@@ -23,7 +23,7 @@ static weight_facts count_weights(const mote_character *c)
     return facts;
 }
 
-/* Keys of a clip, over all of its tracks. */
+/* The number of keys in a clip, over all of its tracks. */
 static size_t count_keys(const mote_rig *rig, const mote_rig_clip *clip)
 {
     size_t keys = 0;
@@ -102,7 +102,7 @@ void mote_character_facts_print(const char *path)
     mote_character_destroy(c);
 }
 
-/* A name that may not be UTF-8, which JSON needs. */
+/* A name as JSON, which must be UTF-8, as the name may not be. */
 static json_t *name_json(const char *name)
 {
     json_t *text = json_string(name);

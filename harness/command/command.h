@@ -1,4 +1,5 @@
-/* The table of commands, which the program, its help, the manual and the completion follow. */
+/* The table of commands, from which the program, its help, the manual and the completion are
+   made. */
 #ifndef MOTE_HARNESS_COMMAND_H
 #define MOTE_HARNESS_COMMAND_H
 
@@ -6,7 +7,7 @@
 
 /* Every command, X(name, arguments, summary, options): a line here, and in
    harness/command/command_NAME.c mote_command_NAME(argc, argv) and its options. argv[0] is the
-   command's name; the result is a mote_exit. arguments: what has to stand in a command line. */
+   command's name; the result is a mote_exit. arguments: the required arguments. */
 #define MOTE_COMMANDS(X)                                                                       \
     X(list, "methods|scenarios|fields",                                                        \
       "lists the methods, the scenarios or the kinds of fields that there are",                \

@@ -1,4 +1,5 @@
-/* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds where body 1 has to be. */
+/* mote approach SCENARIO --gaps FRAME:GAP,... -o FILE.json: finds the positions of body 1 that
+   give the gaps. */
 #include "harness/base/curve.h"
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define DIGITS 15 /* of a number in the file: 0.1 is 0.1 */
+#define DIGITS 15 /* of a number in the file, so that 0.1 is written 0.1 */
 
 typedef struct request {
     const char *scenario, *gaps, *output;
@@ -55,7 +56,7 @@ static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **cur
     return mote_curve_create(at, gap, count, 1, curve);
 }
 
-/* Frames 1, 1 + every, ..., the last, and each with a wished gap, in order. */
+/* Lists frames 1, 1 + every, ..., the last, and each with a requested gap, in order. */
 static uint32_t list_frames(uint32_t frames, uint32_t every, const mote_curve *wished,
                             uint32_t *list)
 {
@@ -70,7 +71,7 @@ static uint32_t list_frames(uint32_t frames, uint32_t every, const mote_curve *w
     }
 }
 
-/* Body 1's keys without their positions, then the positions found. */
+/* Replaces body 1's keys: removes their positions, then adds the positions found. */
 static mote_status replace_positions(json_t *root, const mote_scenario *scenario,
                                      const uint32_t *frames, const mote_vec3 *positions,
                                      uint32_t count)
@@ -195,6 +196,6 @@ int mote_command_approach(int argc, char **argv)
     if (status == MOTE_OK)
         return mote_command_finish(MOTE_EXIT_DONE);
     const int code = mote_command_fail();
-    /* The bodies were placed, so a gap that is not as wished is a failed check. */
+    /* The bodies were placed, so a gap other than requested is a failed check. */
     return status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
 }

@@ -1,5 +1,5 @@
 /* mote check SCENARIO [--json] [--out DIR]: its fingerprint, and whether its active interval
-   is right. */
+   holds. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/record.h"
@@ -14,13 +14,13 @@
 typedef struct scenario_facts {
     uint64_t fingerprint;
     uint32_t contacts;        /* frames */
-    uint32_t active_frames;   /* 0: none named */
-    uint32_t active_contacts; /* of them */
+    uint32_t active_frames;   /* 0: the scenario names none */
+    uint32_t active_contacts; /* frames of these */
     uint32_t active_near;
     bool active_holds;
     uint32_t checked;
     double smallest, largest; /* distance, of L */
-    mote_interval longest;    /* the longest run of frames that may be called active */
+    mote_interval longest;    /* the longest interval that may be called active */
 } scenario_facts;
 
 static void gather_facts(const mote_scenario *scenario, const mote_truth *truth,
@@ -82,7 +82,7 @@ static void print_lines(const mote_scenario *scenario, const scenario_facts *fac
                      facts->longest.last);
 }
 
-/* With a directory, the truth is read from there, or written there. */
+/* With a directory, the truth is read from it or written to it. */
 static mote_status find_truth(const mote_scenario *scenario, const char *directory,
                               uint64_t *fingerprint, mote_truth **truth)
 {
@@ -123,7 +123,8 @@ static int check(const char *name, bool json, const char *directory)
         }
     } else {
         code = mote_command_fail();
-        /* The bodies were read, so a disagreement of two exact methods is a failed check. */
+        /* The bodies could be read, so a disagreement of two exact methods is a failed
+           check. */
         code = status == MOTE_ENUMERIC ? MOTE_EXIT_CHECK_FAILED : code;
     }
     mote_truth_destroy(truth);
@@ -145,7 +146,8 @@ static int print_scene_json(const mote_subject *subject, const mote_scene_facts 
                                                                   : mote_command_fail();
 }
 
-/* Of more than two bodies: they have no truth but certified's, and no active interval. */
+/* Checks more than two bodies: their only truth is certified's, and there is no active
+   interval. */
 static int check_scene(const char *name, bool json)
 {
     mote_subject subject = {0};

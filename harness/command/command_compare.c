@@ -1,4 +1,4 @@
-/* mote compare BASE NEW: is a run better or worse than another? */
+/* mote compare BASE NEW: is one run better or worse than another? */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/compare.h"

@@ -1,5 +1,5 @@
-/* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, as they
- * lie. */
+/* mote distance A.obj B.obj [--method ...] [--json] [--strict]: one query on two files, without
+   moving them. */
 #include "harness/base/memory.h"
 #include "harness/command/answer_json.h"
 #include "harness/command/command.h"

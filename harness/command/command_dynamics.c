@@ -1,4 +1,5 @@
-/* mote dynamics [--out DIR] [--quick] ...: passes through over n, in the closed loop. */
+/* mote dynamics [--out DIR] [--quick] ...: bodies passing through each other, over n, in the
+   closed loop. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
@@ -22,7 +23,7 @@ const mote_option mote_options_dynamics[] = {
      "keep rows that another build of the program measured (default: measure them again)"},
     {NULL, NULL, NULL}};
 
-/* False, after a line on stderr, when the value is wrong for the option. */
+/* False, after a line on stderr, if the value is invalid for the option. */
 static bool read_option(request *wish, int option, const char *value)
 {
     uint64_t number = 0;

@@ -24,8 +24,8 @@ typedef struct request {
     size_t count;
 } request;
 
-/* A method that keeps state is given the frames before, as in a run; the others only this
-   one. *answer is set for two bodies; those of more are the engine's. */
+/* A method that keeps state is given all earlier frames, as in a run; others only this one.
+ *answer is set for two bodies; answers for more are in the engine. */
 static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
                               const mote_method_choice *choice, uint32_t last,
                               mote_answer *answer)
@@ -87,8 +87,8 @@ static mote_status ask_method(const mote_subject *subject, const mote_method_cho
     return status;
 }
 
-/* One method's row: its distance, or its contact where it gives no distance, or why it
-   cannot answer. */
+/* Adds one method's row: its distance; its contact if it gives no distance; or why it cannot
+   answer. */
 static mote_status add_answer(const mote_subject *subject, const mote_method_choice *choice,
                               uint32_t frame, json_t *answers)
 {
@@ -117,7 +117,8 @@ static mote_status find_answers(const mote_subject *subject, const request *wish
     return status;
 }
 
-/* "DIR/A.obj" and "DIR/B.obj" of two bodies, "DIR/body-7.obj" of more; the caller frees it. */
+/* "DIR/A.obj" and "DIR/B.obj" for two bodies, "DIR/body-7.obj" for more; the caller frees
+   it. */
 static char *mesh_path(const char *directory, uint32_t count, uint32_t body)
 {
     if (count == 2)
@@ -203,7 +204,7 @@ const mote_option mote_options_export[] = {
      "a method to ask; may be given up to 64 times (default: fcl-aabb)"},
     {NULL, NULL, NULL}};
 
-/* Reads the command line into wish; MOTE_EXIT_DONE when it is complete. */
+/* Reads the command line into wish; MOTE_EXIT_DONE if it is complete. */
 static int read_request(int argc, char **argv, request *wish)
 {
     mote_option_reader reader = mote_option_begin(mote_options_export, argc, argv);

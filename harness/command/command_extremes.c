@@ -1,5 +1,4 @@
-/* mote extremes [--out DIR] [--quick]: every method where numbers are tiny, huge or degenerate.
- */
+/* mote extremes [--out DIR] [--quick]: every method on tiny, huge or degenerate numbers. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/study/study_extremes.h"

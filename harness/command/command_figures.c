@@ -1,12 +1,12 @@
-/* mote figures DIR: the figures of a run, drawn again from its cells. */
+/* mote figures DIR: redraws the figures of a run from its cells. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/figure/figures.h"
 
 #include <stdio.h>
 
-/* Prints the files to stdout, and what could not be drawn to stderr, figures that need
-   another command in one line. */
+/* Prints the files to stdout and the missing figures to stderr, those that need another command
+   in one line. */
 static void print(const char *directory, const mote_figures *figures)
 {
     if (figures->files.data)

@@ -1,4 +1,4 @@
-/* mote history: the accepted references and the races, drawn; --add makes a run a reference. */
+/* mote history: draws the accepted references and the races; --add makes a run a reference. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
@@ -15,7 +15,7 @@ const mote_option mote_options_history[] = {
     {"races", "DIR", "where races are (default: perf-ab beside FILE)"},
     {NULL, NULL, NULL}};
 
-/* The page, which needs no other program, and then the figure. */
+/* Draws the page, which needs no other program, and then the figure. */
 static mote_status draw(const char *file, const char *races)
 {
     const size_t length = strlen(file) - (mote_name_ends(file, ".csv") ? 4 : 0);

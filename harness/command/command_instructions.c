@@ -1,4 +1,4 @@
-/* mote instructions SCENARIO: what methods execute, by callgrind. */
+/* mote instructions SCENARIO: counts the instructions of methods with callgrind. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/run/instructions.h"
@@ -16,7 +16,7 @@ enum {
     OPTION_METHOD,
     OPTION_PARTICLES,
     OPTION_OUT,
-    OPTION_INSIDE, /* this process is the one that runs under callgrind */
+    OPTION_INSIDE, /* this is the process that runs under callgrind */
     OPTION_COUNT
 };
 
@@ -26,8 +26,8 @@ typedef struct request {
     mote_choices choices;
 } request;
 
-/* MOTE_EXIT_DONE, or an exit status after a line on stderr. Methods are read in a second
-   pass, when particles are known. */
+/* MOTE_EXIT_DONE, or an exit status after a line on stderr. Methods are read in a second pass,
+   when the particle numbers are known. */
 static int read_arguments(int argc, char **argv, request *q)
 {
     mote_option_reader reader = mote_option_begin(mote_options_instructions, argc, argv);
@@ -50,7 +50,7 @@ static int read_arguments(int argc, char **argv, request *q)
         else
             q->has_method = true;
     }
-    /* The default is not every method: some have no distance, and one that fails ends the
+    /* The default cannot be every method: some give no distance, and one failure ends the
        count. */
     if (!q->scenario || !q->frames || !q->has_method || (!q->out && !q->inside))
         return mote_command_usage(argv[0],

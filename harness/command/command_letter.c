@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* To a stream. */
+/* Writes the mesh to a stream. */
 static mote_status print_mesh(const char *path, const mote_mesh *mesh)
 {
     const int descriptor = mote_stream_open(path);
@@ -67,7 +67,7 @@ int mote_command_letter(int argc, char **argv)
     mote_mesh *mesh;
     if (mote_letter_create(letter[0], triangles, &mesh) != MOTE_OK)
         return mote_command_fail();
-    /* What is printed about the mesh must not go into its file. */
+    /* Facts printed about the mesh must not go into its file. */
     const bool is_stream = mote_path_is_stream(path);
     mote_status status = is_stream ? print_mesh(path, mesh) : write_mesh(path, mesh);
     if (status == MOTE_OK)

@@ -33,7 +33,7 @@ static json_t *parameters_json(const mote_parameter *table, size_t count)
     return list;
 }
 
-/* A method or a field with its parameters: added to list, or printed where that is NULL. */
+/* Adds a method or a field with its parameters to list, or prints it if list is NULL. */
 static void show(json_t *list, const char *name, const char *summary,
                  const mote_parameter *table, size_t count)
 {
@@ -53,7 +53,7 @@ static void show(json_t *list, const char *name, const char *summary,
     }
 }
 
-/* Whether a method refuses bodies of which only positions are given, with its defaults. */
+/* Whether a method, with its defaults, rejects bodies of which only positions are given. */
 static bool needs_field(const mote_method *method)
 {
     double values[MOTE_PARAMETERS_MAX];

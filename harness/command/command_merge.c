@@ -1,4 +1,5 @@
-/* mote merge OUT DIR...: the cells of several runs in one directory, and its summary. */
+/* mote merge OUT DIR...: puts the cells of several runs into one directory and summarises
+   them. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/merge.h"

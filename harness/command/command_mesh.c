@@ -1,4 +1,4 @@
-/* mote mesh FILE [--json] [--strict]: what a mesh is. */
+/* mote mesh FILE [--json] [--strict]: describes a mesh. */
 #include "core/body/parts.h"
 #include "harness/command/character_facts.h"
 #include "harness/command/command.h"
@@ -31,7 +31,7 @@ static edge_facts measure_edges(const mote_mesh *mesh)
     return facts;
 }
 
-/* One line a part: its label and where it is. */
+/* Prints one line per part: its label and its position. */
 static void print_parts(const mote_mesh *mesh, const mote_parts *parts)
 {
     (void)printf("convex parts        %" PRIu32 "\n", parts->count);
@@ -111,7 +111,7 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
         (void)mote_fail(MOTE_EINVAL, "%s: not UTF-8, which JSON needs; rename it", path);
         return mote_command_fail();
     }
-    /* The part of each vertex, in the vertices' order. */
+    /* The part of each vertex, in vertex order. */
     (void)json_object_set_new(root, "part_labels", labels_json(parts));
     (void)json_object_set_new(root, "character", mote_character_facts_json(path));
     return mote_json_put(root, JSON_INDENT(2), stdout) == MOTE_OK ? MOTE_EXIT_DONE

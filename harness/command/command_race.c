@@ -1,4 +1,5 @@
-/* mote race A B SCENARIO...: two builds measure the same cells in turn; which one is faster? */
+/* mote race A B SCENARIO...: two builds take turns measuring the same cells; which one is
+   faster? */
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/command/command.h"
@@ -62,7 +63,7 @@ enum {
 };
 
 typedef struct request {
-    const char *values[OPTION_COUNT]; /* the last one given of each; NULL: not */
+    const char *values[OPTION_COUNT]; /* last value given for each; NULL: not given */
     const char *plain[2 + MOTE_RACE_CELLS];
     size_t plain_count;
     mote_choices choices;
@@ -164,7 +165,7 @@ static mote_status read_methods(int argc, char **argv, request *q)
     return status;
 }
 
-/* The frames of a scenario: "ww@950-1149" has its own. */
+/* Reads the frames of a scenario: "ww@950-1149" has its own. */
 static mote_status read_frames(request *q, const char *text, char **name, mote_race_cell *cell)
 {
     uint64_t first = 1, last = 0;
@@ -180,7 +181,7 @@ static mote_status read_frames(request *q, const char *text, char **name, mote_r
     return status;
 }
 
-/* A cell for each scenario and method. */
+/* Makes a cell for each scenario and method. */
 static mote_status make_cells(request *q)
 {
     const char *cache = q->values[OPTION_CACHE];
@@ -203,7 +204,7 @@ static mote_status make_cells(request *q)
     return MOTE_OK;
 }
 
-/* Another value in every process and at every time. */
+/* A value that differs between processes and over time. */
 static uint64_t any_seed(void)
 {
     return mote_clock_ns() ^ (uint64_t)getpid() << 40;
@@ -243,7 +244,7 @@ static mote_status run(const request *q, mote_race *race)
     return status;
 }
 
-/* Prints the race; its exit status is that of `mote compare`. */
+/* Prints the race; the exit status is the same as for `mote compare`. */
 static int finish(const request *q, const mote_race *race)
 {
     int code = race->worse       ? MOTE_EXIT_CHECK_FAILED

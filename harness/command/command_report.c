@@ -1,4 +1,4 @@
-/* mote report DIR: a run as a page and as plain text, from what is stored. */
+/* mote report DIR: shows a run as a page and as plain text, from its stored results. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/report/report.h"

@@ -74,7 +74,7 @@ enum {
     OPTION_PROGRESS,
     OPTION_STRICT,
     OPTION_PAIRS,
-    OPTION_PAIR, /* of the scenarios, read apart: it takes two values */
+    OPTION_PAIR, /* one of the scenarios; parsed separately because it takes two values */
     OPTION_DIRECTION,
     OPTION_COUNT
 };
@@ -91,10 +91,10 @@ typedef struct request {
     const char *particles, *frames;
     uint32_t shard, shards;                /* shard of shards, from 1; 0, 0: not given */
     const char *pair_files[2], *direction; /* of --pair and --direction, or NULL */
-    char *pair;         /* the name of the scenario that they make, or NULL */
-    double until_share; /* of --until-ci; 0: not given */
+    char *pair;                            /* name of the scenario from these, or NULL */
+    double until_share;                    /* from --until-ci; 0: not given */
     mote_choices choices;
-    mote_choices scene_choices; /* of scenarios of more than two bodies */
+    mote_choices scene_choices; /* for scenarios of more than two bodies */
 } request;
 
 static bool read_shard(const char *text, request *q)
@@ -158,7 +158,7 @@ static bool read_direction(const char *text, const char **direction)
     return mote_read_direction(text, xyz);
 }
 
-/* False where the value is wrong; expected then says what would be right. */
+/* False if the value is invalid; expected then says what would be valid. */
 static bool set_option(request *q, int option, const char *value, const char **expected)
 {
     mote_plan_options *plan = &q->run.plan;
@@ -245,8 +245,8 @@ static bool read_pair(request *q, mote_option_reader *reader, const char *first)
     return true;
 }
 
-/* The scenario that --pair and --direction make. MOTE_EXIT_DONE, or an exit status after a
-   line on stderr. */
+/* Adds the scenario from --pair and --direction. MOTE_EXIT_DONE, or an exit status after a line
+   on stderr. */
 static int add_pair(request *q, const char *command)
 {
     if (!q->pair_files[0])
@@ -291,8 +291,8 @@ static int read_arguments(int argc, char **argv, request *q)
     return MOTE_EXIT_DONE;
 }
 
-/* Without --shard, a task of a Slurm job array is a shard. False, after a line on stderr,
-   when Slurm's variables are not those of a task. */
+/* Without --shard, a task of a Slurm job array is a shard. False, after a line on stderr, if
+   Slurm's variables do not describe a task. */
 static bool read_array_task(const char *command, request *q)
 {
     const char *task = getenv("SLURM_ARRAY_TASK_ID");
@@ -314,8 +314,8 @@ static bool read_array_task(const char *command, request *q)
     return read;
 }
 
-/* Keeps the scenarios of the shard: every shards-th. Shards are whole scenarios, so that
-   methods that are compared are measured on one machine. */
+/* Keeps the scenarios of the shard: every shards-th. Shards are whole scenarios, so that the
+   methods compared are measured on one machine. */
 static void keep_shard(request *q)
 {
     size_t kept = 0;
@@ -327,7 +327,7 @@ static void keep_shard(request *q)
         q->run.scenario_count = kept;
 }
 
-/* The configurations asked for, the same for all scenarios; by default every method, and for
+/* The configurations requested, the same for all scenarios; by default every method, and for
    more than two bodies every method in each of its forms. */
 static mote_status expand_methods(request *q)
 {
@@ -346,7 +346,7 @@ static mote_status expand_methods(request *q)
     return status;
 }
 
-/* Whether frames are beyond a scenario's end is checked when it is loaded. */
+/* Frames beyond a scenario's end are found when it is loaded. */
 static mote_status read_frames(request *q)
 {
     uint64_t first = 0, last = 0;
@@ -358,8 +358,8 @@ static mote_status read_frames(request *q)
     return status == MOTE_OK ? MOTE_OK : mote_fail(status, "--frames %s", mote_error_text());
 }
 
-/* Summary and table, also of a run that was cut short. The whole table is wider than a
- * terminal. */
+/* Prints summary and table, even of an interrupted run. The whole table is wider than a
+   terminal. */
 static int report(const char *directory)
 {
     mote_summary summary;

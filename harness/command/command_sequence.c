@@ -30,7 +30,7 @@ static mote_status put(FILE *file, const void *data, size_t size, const char *pa
                : mote_fail(MOTE_EIO, "%s: cannot be written: %s", path, strerror(errno));
 }
 
-/* Simulates frame after frame into an open file. */
+/* Simulates and writes frame by frame into an open file. */
 static mote_status write_frames(const request *wish, const mote_mesh *mesh, void *state,
                                 FILE *file, const char *path)
 {
@@ -50,7 +50,7 @@ static mote_status write_frames(const request *wish, const mote_mesh *mesh, void
     return status;
 }
 
-/* Beside its final name first, so that what has that name is whole. */
+/* Writes under a temporary name first, so a file with the final name is complete. */
 static mote_status write_cache(const request *wish, const mote_mesh *mesh, void *state,
                                const char *path)
 {
@@ -69,7 +69,7 @@ static mote_status write_cache(const request *wish, const mote_mesh *mesh, void 
     return status;
 }
 
-/* The letter that it falls on has about as many triangles. */
+/* The letter that the cloth falls on has about as many triangles. */
 static mote_status write_scenario(const request *wish, const mote_mesh *mesh, const char *path)
 {
     const uint32_t triangles = mesh->triangle_count / 2 * 2;

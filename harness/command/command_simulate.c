@@ -1,5 +1,5 @@
 /* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line, once or,
-   kept in a directory, several times. */
+   with a directory, several times. */
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
@@ -42,7 +42,7 @@ static void set_options(const request *wish, mote_simulation_options *options)
     options->gravity = wish->gravity;
 }
 
-/* Simulates, and draws the film if one is asked for. */
+/* Simulates, and draws the film if requested. */
 static mote_status run(const request *wish, mote_simulator *simulator, mote_rigid_state *trace,
                        mote_simulation_start *start, mote_simulation_result *result)
 {
@@ -63,7 +63,7 @@ static mote_status run(const request *wish, mote_simulator *simulator, mote_rigi
     return status;
 }
 
-/* The result must not stand in a trace or a film that goes to standard output. */
+/* The result must not be mixed into a trace or a film that goes to standard output. */
 static FILE *result_stream(const request *wish)
 {
     const bool in_use = (wish->trace && mote_path_is_output(wish->trace)) ||
@@ -105,7 +105,7 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
     return status;
 }
 
-/* Each method's figures, and the interval of its time. */
+/* Prints each method's figures and the interval of its time. */
 static void print_rows(const mote_replicates *plan, const mote_replicates_row *rows)
 {
     const uint32_t bodies = mote_subject_facts_of(plan->subject).bodies;
@@ -127,7 +127,7 @@ static void print_rows(const mote_replicates *plan, const mote_replicates_row *r
     }
 }
 
-/* Prints and writes what the replicates gave; the exit status. */
+/* Prints and writes the results of the replicates; returns the exit status. */
 static int report(const request *wish, const mote_replicates *plan,
                   const mote_replicates_row *rows)
 {
@@ -152,7 +152,7 @@ static int report(const request *wish, const mote_replicates *plan,
     return mote_command_finish(MOTE_EXIT_CELL_FAILED);
 }
 
-/* Several methods or replicates, kept in a directory. */
+/* Simulates several methods or replicates, storing results in a directory. */
 static int simulate_replicates(const request *wish, mote_subject *subject)
 {
     mote_replicates plan = {.subject = subject,
@@ -232,7 +232,7 @@ static bool read_number(const char *value, double *number)
     return mote_read_real(value, -1e300, 1e300, number);
 }
 
-/* What an option's value should be, or NULL where it is good and read into wish. */
+/* Reads a valid value into wish and returns NULL; otherwise returns what would be valid. */
 static const char *read_value(request *wish, int option, const char *value)
 {
     static const char number[] = "give a number";
@@ -277,7 +277,7 @@ static const char *read_value(request *wish, int option, const char *value)
     }
 }
 
-/* Options that do not go together; NULL: they do. */
+/* Describes options that cannot be combined; NULL if there are none. */
 static const char *clash(const request *wish)
 {
     if (!wish->out && (wish->replicates > 1 || wish->jobs > 1))

@@ -1,4 +1,4 @@
-/* mote summarize DIR: the rows of a run, computed again from its cells. */
+/* mote summarize DIR: computes the rows of a run from its cells again. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
 #include "harness/summary/front.h"
@@ -126,7 +126,7 @@ int mote_command_summarize(int argc, char **argv)
     mote_summary summary;
     if (mote_summary_make(q.directory, &summary) != MOTE_OK)
         return mote_command_fail();
-    /* Rows are printed also of a run that cannot be written to. */
+    /* Rows are printed even if the directory cannot be written to. */
     int code;
     if (q.best) {
         mote_screen_print(&summary, stdout);

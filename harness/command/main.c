@@ -87,8 +87,8 @@ static int print_command_help(const command *c)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-/* For the manual and the completion: "command", its name, arguments and summary; then a line an
-   option: "option", its name, value and help. Tabs between them. */
+/* For the manual and the completion: a line "command", name, arguments and summary; then a line
+   per option: "option", name, value and help. Separated by tabs. */
 static int print_table(void)
 {
     for (size_t i = 0; i < command_count; ++i) {
@@ -117,7 +117,7 @@ static bool is_help(const char *word)
     return strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0;
 }
 
-/* Whether --help stands among the arguments, before any "--". */
+/* Whether --help is among the arguments, before any "--". */
 static bool has_help(int argc, char **argv)
 {
     for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; ++i) {
@@ -136,8 +136,8 @@ static int unknown_command(const char *name)
     return MOTE_EXIT_USAGE;
 }
 
-/* Loads the libraries of "--plugin FILE" and "--plugin=FILE", before any "--", wherever they
-   stand: what they offer must be known before names of methods are read. */
+/* Loads the libraries of "--plugin FILE" and "--plugin=FILE" anywhere before "--": their
+   methods must be known before names of methods are read. */
 static int open_plugins(int argc, char **argv)
 {
     const size_t length = strlen("--plugin");
@@ -154,8 +154,8 @@ static int open_plugins(int argc, char **argv)
     return MOTE_EXIT_DONE;
 }
 
-/* The exit status of a command that a signal stopped, by the shell's convention: 130 for
-   Ctrl-C, 143 for SIGTERM. */
+/* The exit status of a command stopped by a signal, by the shell's convention: 130 for Ctrl-C,
+   143 for SIGTERM. */
 static int stopped_code(int code)
 {
     const int signal_number = mote_child_stop_signal();
@@ -164,9 +164,9 @@ static int stopped_code(int code)
 
 int main(int argc, char **argv)
 {
-    /* When the reader of our output closes it, writing fails instead of ending the program. */
+    /* If the reader of our output closes it, writing fails instead of ending the program. */
     (void)signal(SIGPIPE, SIG_IGN);
-    /* Likewise where a file becomes larger than is allowed. */
+    /* The same if a file exceeds the size limit. */
     (void)signal(SIGXFSZ, SIG_IGN);
     mote_json_use_memory();
     const int opened = open_plugins(argc, argv);
@@ -194,7 +194,7 @@ int main(int argc, char **argv)
         return print_help();
     if (strcmp(argv[1], "--help-table") == 0)
         return print_table();
-    if (strcmp(argv[1], "race-child") == 0) /* for mote race: no command of users */
+    if (strcmp(argv[1], "race-child") == 0) /* for mote race, not for users */
         return mote_race_child(argc - 1, argv + 1);
     if (strcmp(argv[1], "--version") == 0) {
         (void)printf("mote %s\n", MOTE_VERSION);

@@ -1,4 +1,4 @@
-/* Several bodies: time of a frame over their number (15). */
+/* Several bodies: time per frame over their number (15). */
 #include "harness/figure/figure.h"
 
 #include "harness/base/memory.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Panels and lines of plots/bodies.gp, which relies on their number and order. */
+/* Panels and lines; plots/bodies.gp relies on their number and order. */
 static const double densities[] = {0.1, 1, 4};
 static const char *const methods[] = {"certified",    "fcl-aabb:refit=every",
                                       "fcl-aabb",     "aabb-tree",
@@ -27,8 +27,8 @@ static bool has_scenes(const mote_summary *summary)
     return i < summary->count;
 }
 
-/* The summary of the run where it has more than two bodies, else of ../bodies, read into
- *other, which the caller frees; NULL, with a text in missing, where there is none. */
+/* The summary of the run if it has more than two bodies, otherwise that of ../bodies, read into
+ *other, which the caller frees; NULL, with a text in missing, if there is none. */
 static const mote_summary *find_summary(const mote_figure_run *run, mote_figure *figure,
                                         mote_summary *other)
 {
@@ -51,7 +51,7 @@ static const mote_summary *find_summary(const mote_figure_run *run, mote_figure 
     return NULL;
 }
 
-/* Whether a row is that of a method (its label), on bodies with a density, and ended well. */
+/* Whether a row is that of a method (its label) at a density of bodies, and succeeded. */
 static bool is_row(const mote_summary_row *row, const char *method, double density)
 {
     return row->status == MOTE_CELL_OK && strcmp(row->label, method) == 0 &&
@@ -64,8 +64,8 @@ static int by_bodies(const void *a, const void *b)
     return ((*x)->bodies > (*y)->bodies) - ((*x)->bodies < (*y)->bodies);
 }
 
-/* A line: N, mean of a frame in us, MB of the process. Rows come in the order of their
-   scenarios' names. Returns how many points it has. */
+/* Adds a line: N, mean time of a frame in us, MB of the process. Rows are in the order of their
+   scenarios' names. Returns its number of points. */
 static size_t add_line(const mote_summary *summary, size_t d, size_t m, mote_text *text)
 {
     size_t count = 0;
@@ -86,7 +86,7 @@ static size_t add_line(const mote_summary *summary, size_t d, size_t m, mote_tex
     return count;
 }
 
-/* The time of the first control over that of certified, for 1,000 bodies. */
+/* Adds the time of the first baseline divided by that of certified, for 1,000 bodies. */
 static void add_ratios(const mote_summary *summary, mote_text *caption)
 {
     for (size_t d = 0; d < DENSITIES; ++d) {

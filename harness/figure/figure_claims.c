@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Characters in a line of a claim's text, which has its verdict beside it, and in a line of
-   what was measured. */
+/* Characters per line of a claim's text, which has its verdict beside it, and per line of the
+   measured values. */
 #define CLAIM_WIDTH 52
 #define FIGURE_WIDTH 84
 #define LINES_MAX 6
@@ -63,8 +63,8 @@ static void add_lines(mote_text *data, int column, size_t top, char lines[LINES_
     }
 }
 
-/* One claim from line top on: "column line text" rows; returns its lines. There is room for a
-   letter before it; another id stands in its text. */
+/* Adds one claim from line top on, as "column line text" rows; returns its number of lines. A
+   one-letter id fits before it; a longer one is in its text. */
 static size_t add_claim(const json_t *claim, size_t top, mote_text *data)
 {
     char lines[LINES_MAX][128], text[512], value[128], measured[256];
@@ -84,7 +84,7 @@ static size_t add_claim(const json_t *claim, size_t top, mote_text *data)
     return claimed + told;
 }
 
-/* The short form in the table, where there is little room. */
+/* The short form for the table, which has little room. */
 static const char *short_verdict(const char *verdict)
 {
     return strcmp(verdict, "holds within limits") == 0 ? "within limits" : verdict;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Quantile of the absolute errors of one cell; MOTE_NONE without an answer. */
+/* A quantile of the absolute errors of one cell; MOTE_NONE without an answer. */
 static double cell_quantile(const mote_stored_cell *cell, double fraction, double *work)
 {
     size_t count = 0;
@@ -20,7 +20,7 @@ static double cell_quantile(const mote_stored_cell *cell, double fraction, doubl
     return count ? mote_statistics_quantile(work, count, fraction) : MOTE_NONE;
 }
 
-/* The share of a cell's contacts that it missed; MOTE_NONE without a contact. */
+/* The share of missed contacts in a cell; MOTE_NONE without a contact. */
 static double cell_missed(const mote_stored_cell *cell)
 {
     double contacts = 0, missed = 0;
@@ -33,8 +33,8 @@ static double cell_missed(const mote_stored_cell *cell)
     return contacts > 0 ? missed / contacts : MOTE_NONE;
 }
 
-/* The 95 % interval over replicates around a value: wide enough to contain it, never below
-   0; the value itself where there are too few replicates. */
+/* The 95 % interval over replicates around a value, widened to contain it and never below 0;
+   the value itself if there are too few replicates. */
 static mote_confidence interval_of(const double *values, size_t count, double value)
 {
     mote_confidence found = mote_statistics_t_interval(values, count);
@@ -82,8 +82,8 @@ static void add_missed(const mote_summary_row *row, mote_text *text)
     mote_text_add(text, "%.17g %.17g %.17g", mean, interval.low, interval.high);
 }
 
-/* One line of Figure 5: n, then median, 95th and 99th percentile and share missed, each with
-   its interval. */
+/* Adds one line of Figure 5: n, then median, 95th and 99th percentile and share missed, each
+   with its interval. */
 static void add_errors(const mote_summary_row *row, mote_text *text)
 {
     mote_text_add(text, "%.0f ", row->n);
@@ -94,7 +94,7 @@ static void add_errors(const mote_summary_row *row, mote_text *text)
     mote_text_add(text, "\n");
 }
 
-/* A family's block, where it has rows with distances; *points counts them. */
+/* Adds a family's block if it has rows with distances; *points counts them. */
 static void add_series(const mote_summary *summary, const char *scenario, const char *family,
                        size_t *points, mote_text *text)
 {
@@ -134,7 +134,7 @@ mote_status mote_figure_errors(const mote_figure_run *run, const char *scenario,
     return MOTE_OK;
 }
 
-/* A line a frame: frame, truth, distance, error (in L), 1 where a contact was missed. */
+/* Adds a line per frame: frame, truth, distance, error (in L), 1 if a contact was missed. */
 static void add_history(const mote_summary_row *row, mote_text *text)
 {
     const mote_stored_cell *cell = row->first;

@@ -1,4 +1,4 @@
-/* Figure 4: speed against error, n beside the curves where there is room. */
+/* Figure 4: speed against error, with n beside the curves where there is room. */
 #include "harness/base/memory.h"
 #include "harness/figure/figure.h"
 #include "harness/figure/figure_room.h"
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* These agree with plots/front.gp: errors up to this are drawn on the lowest line; how far
-   the axes extend beyond the first and last point, and their lengths in its units. */
+/* These match plots/front.gp: errors up to this are drawn on the lowest line; how far the axes
+   extend beyond the first and last point, and their lengths in its units. */
 #define FLOOR 1e-5
 #define BEYOND_X 3.0
 #define LOWEST_Y (FLOOR / 3)
@@ -18,11 +18,11 @@
 #define HEIGHT 269.0
 
 typedef struct canvas {
-    double low_x, per_x, per_y; /* log10 of nanoseconds at the left, units a decade */
+    double low_x, per_x, per_y; /* log10 of nanoseconds at the left; units per decade */
     mote_room room;
 } canvas;
 
-/* The families that are named in a front; the others are points without a name. */
+/* The families named in a front; the others are points without a name. */
 static const char *const front_families[] = {"particle-paper:refine=no",
                                              "particle-paper",
                                              "particle-paper:refine=always",
@@ -59,7 +59,7 @@ static bool is_point(const mote_summary *summary, const mote_summary_row *row,
            mote_figure_shows(summary, row, scenario);
 }
 
-/* Finds the axes and marks the places of all points as taken; the caller frees
+/* Computes the axes and marks the places of all points as taken; the caller frees
    c->room.taken. */
 static void open_canvas(const mote_summary *summary, const char *scenario, canvas *c)
 {
@@ -81,7 +81,7 @@ static void open_canvas(const mote_summary *summary, const char *scenario, canva
     }
 }
 
-/* One point: n or nothing, median total in us and its interval, 99th percentile and its
+/* Adds one point: n or nothing, median total in us and its interval, 99th percentile and its
    interval, the place of n. */
 static void add_point(canvas *c, const mote_summary_row *row, bool named, mote_text *text)
 {
@@ -97,8 +97,8 @@ static void add_point(canvas *c, const mote_summary_row *row, bool named, mote_t
                   LOWEST_Y * pow(10, at.y / c->per_y));
 }
 
-/* The block of a family, or, with family NULL, of all families without a name, which no line
-   joins. */
+/* Adds the block of a family, or, if family is NULL, of all families without a name, which are
+   not joined by lines. */
 static void add_family(canvas *c, const mote_summary *summary, const char *scenario,
                        const char *family, mote_text *text)
 {

@@ -1,4 +1,4 @@
-/* Figures of tracked particles: what each ingredient adds (13), and the front over its
+/* Figures of tracked particles: the effect of each ingredient (13), and the front over the
    parameters (14). Their rows are measured by harness/scripts/ingredients.sh. */
 #include "harness/figure/figure.h"
 
@@ -8,19 +8,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The method that everything is compared with. */
+/* The reference configuration. */
 #define WHOLE "particle:n=8"
 
-/* This agrees with plots/ingredients.gp and plots/tracked.gp: smaller shares are drawn as
-   none. */
+/* This matches plots/ingredients.gp and plots/tracked.gp: smaller percentages are drawn as
+   zero. */
 #define LEAST_PERCENT 0.02
 
-/* Ingredients are shown where some scenario has at least this many rows; else the run
+/* Ingredients are shown if some scenario has at least this many rows; otherwise the run
    measured something else. */
 #define ROWS_WANTED 6
 
 typedef struct variant {
-    const char *label, *title; /* parameters in the method's order, as rows have them */
+    const char *label, *title; /* parameters in the method's order, as in rows */
 } variant;
 
 static const variant variants[] = {
@@ -44,14 +44,14 @@ enum { VARIANTS = sizeof variants / sizeof variants[0] };
 static const char *const scenarios[] = {"ww", "fast-100", "jump", "comb", "ww-1m"};
 enum { SCENARIOS = sizeof scenarios / sizeof scenarios[0] };
 
-/* Percent of the frames with a distance that are not exact. */
+/* Percentage of the frames with a distance that are not exact. */
 static double percent_wrong(const mote_summary_row *row)
 {
     const double exact = row->error.exact_rate_separated;
     return exact == exact ? 100 * (1 - exact) : 100 * (1 - row->error.exact_rate);
 }
 
-/* Percent of the contacts that are missed; MOTE_NONE where there are none. */
+/* Percentage of missed contacts; MOTE_NONE if there are no contacts. */
 static double percent_missed(const mote_summary_row *row)
 {
     return row->contacts > 0 ? 100 * row->missed / row->contacts : MOTE_NONE;
@@ -65,7 +65,7 @@ static void add_number(mote_text *text, double value)
         mote_text_add(text, "NaN ");
 }
 
-/* The names of the rows from top to bottom: "line name". */
+/* Adds the names of the rows from top to bottom: "line name". */
 static void add_titles(mote_text *data)
 {
     mote_gnuplot_block(data, "ingredients");
@@ -76,8 +76,8 @@ static void add_titles(mote_text *data)
     }
 }
 
-/* A line for each ingredient measured on a scenario: line, percent wrong, percent missed, time
-   over that of the whole and its interval. Returns how many there are. */
+/* Adds a line for each ingredient measured on a scenario: line, percentage wrong, percentage
+   missed, time relative to the whole method and its interval. Returns their number. */
 static int add_scenario(const mote_summary *summary, const char *scenario, mote_text *data)
 {
     const mote_summary_row *whole = mote_figure_row(summary, scenario, WHOLE);
@@ -97,7 +97,7 @@ static int add_scenario(const mote_summary *summary, const char *scenario, mote_
     return count;
 }
 
-/* The scenarios of the run on which the whole method fails, and why. */
+/* Adds the scenarios of the run on which the whole method fails, and why. */
 static void add_failures(const mote_summary *summary, mote_text *caption)
 {
     int count = 0;
@@ -146,7 +146,7 @@ mote_status mote_figure_ingredients(const mote_figure_run *run, const char *scen
     return MOTE_OK;
 }
 
-/* Configurations that differ in one parameter, in its order, the whole method among them. */
+/* Configurations that differ in one parameter, in its order, including the whole method. */
 static const char *const series[][7] = {
     {"n", "particle:n=2", "particle:n=4", WHOLE, "particle:n=16", "particle:n=32"},
     {"launch", WHOLE, "particle:n=8,launch=1", "particle:n=8,launch=4",
@@ -156,8 +156,8 @@ static const char *const series[][7] = {
 };
 enum { SERIES = sizeof series / sizeof series[0], LONGEST = 6 };
 
-/* These agree with plots/tracked.gp: how far the axes extend beyond the first and last
-   point, and their lengths in its units. */
+/* These match plots/tracked.gp: how far the axes extend beyond the first and last point, and
+   their lengths in its units. */
 #define BEYOND_X 1.5
 #define WIDTH 459.0
 #define HEIGHT 222.0
@@ -178,8 +178,8 @@ static mote_place place_of(const front *f, const mote_summary_row *row)
                            log10(3 * wrong / LEAST_PERCENT) * f->per_y);
 }
 
-/* Finds the rows and the axes; returns how many rows there are, 0 where they vary fewer than
-   two parameters. */
+/* Finds the rows and the axes; returns the number of rows, 0 if they vary fewer than two
+   parameters. */
 static int open_front(const mote_summary *summary, const char *scenario, front *f)
 {
     double low = HUGE_VAL, high = 0;
@@ -216,8 +216,8 @@ static double value_of(const mote_summary_row *row, const char *key)
     return value == value ? value : 0; /* launch=auto */
 }
 
-/* Lines of a series: its value or nothing, time in us and its interval, percent wrong, the
-   place of the value. */
+/* Adds the lines of a series: its value or nothing, time in us and its interval, percentage
+   wrong, the place of the value. */
 static void add_series(front *f, int s, mote_text *data)
 {
     mote_gnuplot_block(data, series[s][0]);

@@ -1,4 +1,4 @@
-/* 100 letters in a box, moving (15): those in contact, as `make bodies` measured them. */
+/* 100 letters in a box, animated (15): those in contact, as measured by `make bodies`. */
 #include "harness/figure/figure.h"
 
 #include "core/body/deform.h"
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Frames from one picture to the next. */
+/* Frames per picture. */
 #define PICTURE_STEP 5
 
 typedef struct film {
@@ -20,7 +20,7 @@ typedef struct film {
     mote_summary summary;
     const mote_stored_cell *cell;
     mote_scene_contacts contacts;
-    size_t shown; /* contacts of frames before the picture's */
+    size_t shown; /* contacts of earlier frames than the picture's */
     mote_bodies *bodies;
     mote_bodies_frame frame;
     mote_deform *deform[MOTE_BODIES_SHAPES_MAX];
@@ -29,7 +29,7 @@ typedef struct film {
     mote_vec3 right, up, toward;
 } film;
 
-/* The film's run: of this run, or of ../bodies; NULL where there is none. */
+/* The film's directory: in this run, or in ../bodies; NULL if there is none. */
 static char *find_directory(const char *run)
 {
     static const char *const places[] = {"film", "../bodies/film"};
@@ -42,7 +42,7 @@ static char *find_directory(const char *run)
     return NULL;
 }
 
-/* The cell, its contacts and its bodies, which must be those that were measured. */
+/* Reads the cell, its contacts and its bodies, which must be those that were measured. */
 static mote_status read_film(film *f)
 {
     char *path = mote_format("%s/letters.json", f->directory), text[20];
@@ -109,7 +109,7 @@ static void add_point(const film *f, mote_vec3 p, mote_text *text)
                   mote_dot(p, f->up) * scale, mote_dot(p, f->toward) * scale);
 }
 
-/* The triangles of body i that face the viewer. */
+/* Adds the front-facing triangles of body i. */
 static void add_body(const film *f, uint32_t i, mote_text *text)
 {
     const uint32_t shape = f->bodies->shape_of[i];
@@ -127,7 +127,7 @@ static void add_body(const film *f, uint32_t i, mote_text *text)
     }
 }
 
-/* The edges of the box: where they begin, then their direction. */
+/* Adds the edges of the box: start point, then direction. */
 static void add_box(const film *f, mote_text *text)
 {
     const mote_vec3 *h = &f->bodies->box;

@@ -1,27 +1,26 @@
-/* Finding room for numbers beside the points of a figure, in the figure's units. */
+/* Finds room for numbers beside the points of a figure, in the figure's units. */
 #ifndef MOTE_HARNESS_FIGURE_ROOM_H
 #define MOTE_HARNESS_FIGURE_ROOM_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A rectangle by its middle. */
+/* A rectangle, by its middle. */
 typedef struct mote_place {
     double x, y, half_width, half_height;
 } mote_place;
 
-/* The places already taken; the caller makes sure that `taken` has room for one more. */
+/* The places already taken; the caller ensures that `taken` has room for one more. */
 typedef struct mote_room {
     mote_place *taken;
     size_t count;
 } mote_room;
 
-/* The place of a point that is drawn there. */
+/* The place taken by a point itself. */
 mote_place mote_room_point(double x, double y);
 
-/* Finds a place beside a point for a whole number, >= 0, and takes it; false where there is
- * none.
- */
+/* Finds a place beside a point for a whole number, >= 0, and takes it; false if there is
+   none. */
 bool mote_room_find(mote_room *room, mote_place point, double number, mote_place *found);
 
 #endif

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the directions to look from, those that are not too steep, and look across the line
-   between the bodies: sines of angles. */
+/* Candidate viewing directions: their number, and the largest sine of the angles by which they
+   are too steep or look along the line between the bodies. */
 #define DIRECTIONS 400
 #define GOLDEN 2.399963229728653
 #define STEEP 0.7
@@ -17,7 +17,8 @@
 /* This many visible points count as much as a visible surface of area L * L / 2. */
 #define AREA 4
 
-/* How far a surface must lie before a point to hide it, over L: particles lie on surfaces. */
+/* A surface hides a point only if it is at least this far in front of it, in L: particles lie
+   on surfaces. */
 #define BEFORE 0.005
 
 mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scene *scene)
@@ -83,7 +84,8 @@ static const mote_mesh *mesh_of(const mote_figure_scene *scene, int i)
     return scene->scenario->body[i].mesh;
 }
 
-/* A triangle's corners in the picture; twice its area there, > 0 where it faces the camera. */
+/* A triangle's corners in the picture; returns twice its area there, > 0 if it faces the
+   camera. */
 static double see_triangle(const mote_figure_scene *scene, const mote_figure_camera *camera,
                            int i, uint32_t triangle, mote_vec3 corner[3])
 {
@@ -94,7 +96,7 @@ static double see_triangle(const mote_figure_scene *scene, const mote_figure_cam
            (corner[1].y - corner[0].y) * (corner[2].x - corner[0].x);
 }
 
-/* How far the triangle lies before p, where it covers p; else -infinity. */
+/* How far the triangle is in front of p if it covers p; otherwise -infinity. */
 static double covers(const mote_vec3 corner[3], double area, mote_vec3 p)
 {
     double depth = 0;
@@ -154,7 +156,7 @@ static mote_vec3 direction(int k)
     return mote_vec3_make(radius * cos(around), y, radius * sin(around));
 }
 
-/* Looks along a direction, the world's y upwards. */
+/* A camera looking along a direction, with the world's y up. */
 static mote_figure_camera look_from(mote_vec3 toward)
 {
     mote_figure_camera camera = {.toward = toward, .scale = 1};
@@ -177,7 +179,7 @@ mote_figure_camera mote_figure_camera_aim(const mote_figure_scene *scene,
             continue;
         const mote_figure_camera camera = look_from(toward);
         if (mote_dot(camera.right, line) < 0)
-            continue; /* the second body on the right */
+            continue; /* the second body must be on the right */
         double seen = AREA * seen_area(scene, &camera) / square;
         for (size_t i = 0; i < count; ++i)
             seen += mote_figure_hidden(scene, &camera, points[i]) ? 0 : 1;
@@ -239,7 +241,7 @@ void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_
     const mote_field *field = scene->scenario->body[i].field;
     const mote_body_state *state = &scene->frame->body[i];
     mote_vec3 *centre = mote_allocate((size_t)field->count + 1, sizeof *centre);
-    /* The centres as a mesh of points: all that a CSRBF's displacement looks at. */
+    /* The centres as a mesh of points, which is all that a CSRBF's displacement needs. */
     const mote_mesh points = {.vertex_count = field->count, .positions = centre};
     mote_figure_camera direction = *camera;
     direction.centre = mote_vec3_make(0, 0, 0);

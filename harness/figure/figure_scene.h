@@ -9,16 +9,16 @@ typedef struct mote_figure_scene {
     mote_scenario *scenario;
     mote_frame_buffer *buffer;
     struct mote_deform *deform[2];
-    mote_vec3 *world[2];     /* the vertices of the frame shown */
-    const mote_frame *frame; /* the frame shown */
+    mote_vec3 *world[2];     /* vertices of the current frame */
+    const mote_frame *frame; /* the current frame */
 } mote_figure_scene;
 
-/* Loads the scenario that a row was measured on, by its name. MOTE_EINVAL when its frames are
-   not those that were measured. Close also after a failure. */
+/* Loads the scenario that a row was measured on, by its name. MOTE_EINVAL if its frames are not
+   the measured ones. Close even after a failure. */
 mote_status mote_figure_scene_open(const mote_summary_row *row, mote_figure_scene *scene);
 void mote_figure_scene_close(mote_figure_scene *scene);
 
-/* Deforms both bodies: frame 1 .. scenario->frames. */
+/* Deforms both bodies for frame 1 .. scenario->frames. */
 void mote_figure_scene_show(mote_figure_scene *scene, uint32_t frame);
 
 /* Axes of the picture in the world, orthonormal; toward points at the viewer. The picture's
@@ -28,8 +28,8 @@ typedef struct mote_figure_camera {
     double scale;
 } mote_figure_camera;
 
-/* Looks across the line between the bodies' middles, from the direction that shows most of
-   the points (count may be 0) and of the surfaces. scale 1, centre 0. */
+/* Aims perpendicular to the line between the bodies' middles, from the direction that shows
+   most of the points (count may be 0) and of the surfaces. scale 1, centre 0. */
 mote_figure_camera mote_figure_camera_aim(const mote_figure_scene *scene,
                                           const mote_vec3 *points, size_t count);
 
@@ -38,26 +38,28 @@ typedef struct mote_figure_box {
     double low[2], high[2];
 } mote_figure_box;
 
-/* Widens box by the frame shown. */
+/* Extends box by the current frame. */
 void mote_figure_box_add(const mote_figure_scene *scene, const mote_figure_camera *camera,
                          mote_figure_box *box);
 
-/* Moves and scales the camera so that the box fills a picture of width 2, height 2 * aspect. */
+/* Moves and scales the camera so that the box fills a picture of width 2 and height 2 *
+   aspect. */
 void mote_figure_camera_fit(mote_figure_camera *camera, const mote_figure_box *box,
                             double aspect);
 
 mote_vec3 mote_figure_see(const mote_figure_camera *camera, mote_vec3 point);
 
-/* Whether a surface of the frame shown lies before the point, by more than 0.5 % of L. */
+/* Whether a surface of the current frame is in front of the point by more than 0.5 % of L. */
 bool mote_figure_hidden(const mote_figure_scene *scene, const mote_figure_camera *camera,
                         mote_vec3 point);
 
-/* A block of the triangles of body i that face the camera, closed, a blank line after each. */
+/* Adds a block of the front-facing triangles of body i as closed outlines, a blank line after
+   each. */
 void mote_figure_add_body(const mote_figure_scene *scene, const mote_figure_camera *camera,
                           int i, mote_text *text);
 
-/* A block of the control vectors of body i: each control point at rest, x y z, and its
-   displacement, MOTE_FIGURE_LONGER times as long, dx dy dz. */
+/* Adds a block of the control vectors of body i: each control point at rest, x y z, and its
+   displacement times MOTE_FIGURE_LONGER, dx dy dz. */
 #define MOTE_FIGURE_LONGER 3
 void mote_figure_add_controls(const mote_figure_scene *scene, const mote_figure_camera *camera,
                               int i, mote_text *text);

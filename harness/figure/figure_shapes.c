@@ -13,17 +13,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Height over width of the pictures, which agree with plots/fig1.gp and plots/fig2.gp. */
+/* Height over width of the pictures; these match plots/fig1.gp and plots/fig2.gp. */
 #define PARTICLES_ASPECT 0.62
 #define DEFORMED_ASPECT 0.72
 
-/* Figure 1 shows the first frame in which the bodies are this near, over L. */
+/* Figure 1 shows the first frame in which the bodies are this near, in L. */
 #define NEAR 0.03
 
 /* The animation has every fifth frame of its scenario. */
 #define ANIMATION_STEP 5u
 
-/* The first frame from the number on whose truth is at most `near` times L, or fallback. */
+/* The first frame from `from` on whose truth is at most `near` times L, or fallback. */
 static uint32_t first_near(const mote_stored_cell *cell, uint32_t from, double near,
                            uint32_t fallback)
 {
@@ -34,7 +34,7 @@ static uint32_t first_near(const mote_stored_cell *cell, uint32_t from, double n
     return fallback;
 }
 
-/* The exact distance at a frame over L, or MOTE_NONE where it was not measured. */
+/* The exact distance at a frame divided by L, or MOTE_NONE if it was not measured. */
 static double truth_at(const mote_summary_row *row, uint32_t frame)
 {
     for (size_t k = 0; k < row->first->frames; ++k) {
@@ -44,8 +44,8 @@ static double truth_at(const mote_summary_row *row, uint32_t frame)
     return MOTE_NONE;
 }
 
-/* The particles of a row's first process at a frame. points: those of body 0, then those of
-   body 1; *count on each, 0 with a reason in missing. */
+/* Finds the particles of a row's first process at a frame. points: those of body 0, then of
+   body 1; *count on each, or 0 with a reason in missing. */
 static mote_status find_particles(const mote_summary_row *row, const mote_figure_scene *scene,
                                   uint32_t frame, mote_vec3 points[2][MOTE_PARTICLE_PLACES_MAX],
                                   size_t *count, mote_text *missing)
@@ -67,7 +67,8 @@ static mote_status find_particles(const mote_summary_row *row, const mote_figure
     return status;
 }
 
-/* Blocks: body A, body B, their particles (x y z, 1 where hidden) by body, the closest pair. */
+/* Adds blocks: body A, body B, their particles (x y z, 1 if hidden) by body, the closest
+   pair. */
 static void add_particles(const mote_figure_scene *scene,
                           mote_vec3 points[2][MOTE_PARTICLE_PLACES_MAX], size_t count,
                           mote_text *text)
@@ -139,7 +140,7 @@ mote_status mote_figure_particles(const mote_figure_run *run, const char *scenar
     return status;
 }
 
-/* Any row of the scenario that is shown: for its truth. */
+/* Any shown row of the scenario, for its truth. */
 static const mote_summary_row *any_row(const mote_summary *summary, const char *scenario)
 {
     const mote_summary_row *best = NULL;
@@ -152,7 +153,7 @@ static const mote_summary_row *any_row(const mote_summary *summary, const char *
     return best;
 }
 
-/* A camera that has all pictures of the animation in its view. */
+/* A camera with all pictures of the animation in its view. */
 static mote_figure_camera whole_camera(mote_figure_scene *scene)
 {
     mote_figure_scene_show(scene, 1);
@@ -166,7 +167,7 @@ static mote_figure_camera whole_camera(mote_figure_scene *scene)
     return camera;
 }
 
-/* Four blocks: body A, body B, their control vectors. */
+/* Adds four blocks: body A, body B, their control vectors. */
 static void add_frame(mote_figure_scene *scene, const mote_figure_camera *camera,
                       uint32_t frame, mote_text *text)
 {

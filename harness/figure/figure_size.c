@@ -1,5 +1,5 @@
 /* Figures over triangles: time with fitted exponents (6), memory (7). Their rows are the
-   scenarios that are ww at other sizes: ww, ww-1k, ww-100k, ww-1m. */
+   scenarios with ww at other sizes: ww, ww-1k, ww-100k, ww-1m. */
 #include "harness/figure/figure.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #define SERIES_MAX 8
 #define SIZES_LEAST 3
 
-/* "ww", or "ww-" and a size: digits, then k or m or nothing. */
+/* Whether a name is "ww", or "ww-" and a size: digits, then k or m or nothing. */
 static bool is_size(const char *scenario)
 {
     if (strcmp(scenario, "ww") == 0)
@@ -21,8 +21,8 @@ static bool is_size(const char *scenario)
     return digits > 0 && (*rest == '\0' || ((*rest == 'k' || *rest == 'm') && rest[1] == '\0'));
 }
 
-/* One method's rows by triangles, one a size: of several the one with the fewest frames, which
-   is the one over the frames that all sizes have. */
+/* One method's rows by triangles, one per size: of several the one with the fewest frames,
+   which covers the frames that all sizes have. */
 typedef struct size_series {
     const char *label;
     const mote_summary_row *rows[SIZES_MAX];
@@ -78,7 +78,7 @@ static void say_missing(mote_figure *figure)
         SIZES_LEAST);
 }
 
-/* "certified  t^0.35": the fitted exponent, where there is one; the interval goes into the
+/* "certified t^0.35": the fitted exponent, if there is one; the interval goes into the
    caption. */
 static mote_status fit_title(const size_series *series, char *title, size_t size,
                              mote_text *caption)

@@ -1,4 +1,4 @@
-/* Figures of time: queries (3), deform, update and query (8), ratio to the best FCL (9). */
+/* Figures of time: queries (3); deform, update and query (8); ratio to the best FCL (9). */
 #include "harness/base/number_text.h"
 #include "harness/figure/figure.h"
 
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Mean and largest of the frames from first to last, or of those that were measured of them. */
+/* Mean and maximum over the measured frames between two frames. */
 typedef struct span {
     double mean, max;
     uint32_t first, last; /* the first and last frame measured; 0, 0: none */
@@ -33,8 +33,8 @@ static span over_frames(const mote_summary_row *row, const double *values, uint3
     return found;
 }
 
-/* "active interval 1.2 ms on average, 3 ms at most", and of which queries where it is not of
-   all from first to last; nothing where none was measured. */
+/* Appends "active interval 1.2 ms on average, 3 ms at most", and the range of queries if it is
+   not all from first to last; nothing if none was measured. */
 static void add_span(const span *s, const char *name, uint32_t first, uint32_t last,
                      const char *separator, mote_text *caption)
 {
@@ -47,7 +47,7 @@ static void add_span(const span *s, const char *name, uint32_t first, uint32_t l
                   s->max * 1e-6);
 }
 
-/* The frames that the paper's Figure 3 averages over. */
+/* The frames averaged in the paper's Figure 3. */
 #define WARM_LAST 49u
 #define ACTIVE_FIRST 950u
 #define ACTIVE_LAST 1984u
@@ -104,7 +104,7 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
     return MOTE_OK;
 }
 
-/* One configuration's mean times, each frame's the median over replicates. */
+/* One configuration's mean times; each frame's time is the median over replicates. */
 typedef struct share {
     const char *label;
     double part[3], total; /* deform, update, query; nanoseconds */
@@ -136,7 +136,7 @@ static int by_total(const void *a, const void *b)
     return strcmp(first->label, second->label);
 }
 
-/* The n that represents a method: the paper's own for its method. */
+/* The n that represents a method: for the paper's method, the paper's own. */
 static double usual_n(const mote_summary_row *row)
 {
     return strcmp(row->method, "particle-paper") == 0 ? 5 : 8;
@@ -209,8 +209,8 @@ static double log_ratio(const mote_stored_cell *ours, const mote_stored_cell *ot
     return count ? mote_statistics_median(work, count) : MOTE_NONE;
 }
 
-/* One part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
-   values holds a number a replicate. */
+/* Adds one part's line: middle frame, ratio, its interval over replicates (or the ratio twice).
+   values holds a number per replicate. */
 static void add_ratio(const mote_summary_row *row, const mote_summary_row *other, double first,
                       double last, double *values, double *work, mote_text *text)
 {
@@ -232,7 +232,7 @@ static void add_ratio(const mote_summary_row *row, const mote_summary_row *other
                   exp(interval.low), exp(interval.high));
 }
 
-/* A block of parts; none where no process has a frame in common with its partner. */
+/* Adds a block of parts; none if no process has a frame in common with its partner. */
 static void add_ratios(const mote_summary_row *row, const mote_summary_row *other,
                        mote_text *text)
 {

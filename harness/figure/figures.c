@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Which scenarios a figure shows. */
+/* The scenarios that a figure shows. */
 typedef enum figure_scope {
-    SCOPE_ONE,  /* of the one that is named */
-    SCOPE_EACH, /* of every one of the run */
+    SCOPE_ONE,  /* a named one */
+    SCOPE_EACH, /* every one of the run */
     SCOPE_RUN   /* of the run as a whole */
 } figure_scope;
 
-/* Drawn by plots/NAME.gp as figures/NAME, or NAME-SCENARIO for every one. The test of figures
-   compares this table with results/README.md. */
+/* Drawn by plots/NAME.gp as figures/NAME, or NAME-SCENARIO for each scenario. The test of
+   figures compares this table with results/README.md. */
 typedef struct figure_kind {
     int number;
     const char *name, *title;
@@ -27,8 +27,8 @@ typedef struct figure_kind {
     const char *scenario;
     mote_figure_writer *write;
     const char *formats;
-    const char *command; /* the command that measures what the figure needs; OUT=DIR names the
-                            run's directory */
+    const char *command; /* the command that measures the figure's data; OUT=DIR names the run's
+                            directory */
 } figure_kind;
 
 #define PAPER "svg png pdf"
@@ -72,17 +72,17 @@ static const figure_kind kinds[] = {
 /* The state while a run's figures are drawn. */
 typedef struct drawing {
     mote_figure_run run;
-    char identity[160]; /* names the run, as in the footer */
+    char identity[160]; /* identifies the run, as in the footer */
     char *folder;       /* DIRECTORY/figures */
     json_t *index;      /* figures.json's figures */
-    json_t *missing;    /* what is missing, a line each */
-    json_t *not_drawn;  /* the figures that another command measures */
+    json_t *missing;    /* missing figures, a line each */
+    json_t *not_drawn;  /* figures that another command measures */
     size_t failed;
     mote_figures *result;
 } drawing;
 
-/* "20261121T104057Z-320b2871, commit 3b32655+": when the run began, with which program, from
-   which sources (+: changed since); "unknown" without a manifest. */
+/* "20261121T104057Z-320b2871, commit 3b32655+": when the run began, with which program, and
+   from which sources (+: modified since); "unknown" without a manifest. */
 static void run_identity(const char *directory, char *text, size_t size)
 {
     json_t *manifest = NULL;
@@ -109,8 +109,8 @@ static void make_footer(const char *identity, uint64_t data, char *footer, size_
     (void)snprintf(footer, size, "run %s \xc2\xb7 data %016" PRIx64, identity, data);
 }
 
-/* A file's name that any program can take: letters, digits, '-' and '_'; a hash of the whole
-   behind it where something had to be replaced. */
+/* A file name that any program accepts: letters, digits, '-' and '_'; followed by a hash of the
+   original if a character had to be replaced. */
 static char *file_name(const figure_kind *kind, const char *scenario)
 {
     if (kind->scope != SCOPE_EACH)
@@ -132,8 +132,8 @@ static char *file_name(const figure_kind *kind, const char *scenario)
                        (uint32_t)mote_hash_text(scenario));
 }
 
-/* "ww, 11,920 triangles each", "mv, 2,968 and 1,764 triangles", "letters, 100 bodies"; the
- * title of a figure of the run. */
+/* "ww, 11,920 triangles each", "mv, 2,968 and 1,764 triangles", "letters, 100 bodies"; for a
+   figure of the run, its title. */
 static void make_heading(const drawing *d, const figure_kind *kind, const char *scenario,
                          char *heading, size_t size)
 {
@@ -180,7 +180,7 @@ static void add_index(drawing *d, const figure_kind *kind, const char *scenario,
     ++d->result->drawn;
 }
 
-/* Writes the data and draws it. */
+/* Writes the data and draws the figure. */
 static mote_status draw_data(drawing *d, const figure_kind *kind, const char *scenario,
                              mote_figure *figure)
 {
@@ -201,7 +201,7 @@ static mote_status draw_data(drawing *d, const figure_kind *kind, const char *sc
     return status;
 }
 
-/* The command of a figure, for this run. */
+/* The command that measures a figure, for this run. */
 static char *command_text(const drawing *d, const figure_kind *kind)
 {
     const char *place = strstr(kind->command, "DIR");
@@ -210,7 +210,7 @@ static char *command_text(const drawing *d, const figure_kind *kind)
     return mote_format("%.*s%s", (int)(place - kind->command), kind->command, d->run.directory);
 }
 
-/* The run lacks what the figure needs, which its command measures. */
+/* Records a figure that the run lacks data for, with the command that measures them. */
 static void add_not_drawn(drawing *d, const figure_kind *kind)
 {
     char *command = command_text(d, kind);
@@ -220,7 +220,7 @@ static void add_not_drawn(drawing *d, const figure_kind *kind)
     free(command);
 }
 
-/* state: "not drawn" or "not whole". With `told`, a command prints it, too. */
+/* state: "not drawn" or "not whole". If told, a command also prints it. */
 static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *figure,
                         const char *state, bool told)
 {
@@ -232,7 +232,7 @@ static void add_missing(drawing *d, const figure_kind *kind, const mote_figure *
     free(text);
 }
 
-/* One figure; *done: the run has what it needs. quiet: nothing is reported when it has not. */
+/* Draws one figure; *done: the run has its data. quiet: missing data is not reported. */
 static mote_status draw(drawing *d, const figure_kind *kind, const char *scenario, bool quiet,
                         bool *done)
 {
@@ -245,7 +245,7 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
         status = MOTE_OK;
     }
     if (status == MOTE_OK && some && figure.missing.size > 0) {
-        add_missing(d, kind, &figure, "not whole", false); /* its caption says so */
+        add_missing(d, kind, &figure, "not whole", false); /* its caption reports it */
         mote_text_add(&figure.caption, " Not in it: %s.", figure.missing.data);
     } else if (status == MOTE_OK && figure.missing.size > 0 && !quiet) {
         add_missing(d, kind, &figure, "not drawn", refused);
@@ -253,8 +253,7 @@ static mote_status draw(drawing *d, const figure_kind *kind, const char *scenari
     }
     if (status == MOTE_OK && some)
         status = draw_data(d, kind, scenario, &figure);
-    if (status ==
-        MOTE_EIO) { /* a failure of gnuplot: the other figures are drawn all the same */
+    if (status == MOTE_EIO) { /* gnuplot failed: the other figures are still drawn */
         figure.missing.size = 0;
         mote_text_add(&figure.missing, "%s", mote_error_text());
         add_missing(d, kind, &figure, "not drawn", true);
@@ -277,8 +276,8 @@ static bool first_of_scenario(const mote_summary *summary, size_t index)
     return true;
 }
 
-/* A figure of every scenario whose rows allow it; what is missing is reported where none
-   does. */
+/* Draws a figure for every scenario whose rows allow it; if there is none, reports what is
+   missing. */
 static mote_status draw_each(drawing *d, const figure_kind *kind)
 {
     const mote_summary *summary = d->run.summary;
@@ -304,8 +303,8 @@ static mote_status draw_kind(drawing *d, const figure_kind *kind)
     return draw(d, kind, kind->scenario, false, &done);
 }
 
-/* Appends "2, 6": the numbers of the figures from entry `first` on that its command measures,
-   none twice. */
+/* Appends "2, 6": the numbers of the figures from entry `first` on with the same command,
+   without repetition. */
 static void add_numbers(const json_t *list, size_t first, mote_text *text)
 {
     const json_t *command = json_object_get(json_array_get(list, first), "command");
@@ -320,7 +319,7 @@ static void add_numbers(const json_t *list, size_t first, mote_text *text)
     }
 }
 
-/* Whether an earlier entry has the command of entry i, or it has none. */
+/* Whether an earlier entry has the command of entry i, or entry i has none. */
 static bool is_told(const json_t *list, size_t i)
 {
     const json_t *command = json_object_get(json_array_get(list, i), "command");
@@ -366,7 +365,7 @@ static mote_status draw_all(drawing *d)
                                       d->missing, "not_drawn", d->not_drawn));
 }
 
-/* The run's rows; without cells there are none, which is reported. */
+/* Reads the run's rows; a run without cells has none, which is reported. */
 static mote_status read_run(const char *directory, mote_summary *summary, mote_text *notices)
 {
     mote_text damaged = {0};
@@ -382,7 +381,7 @@ static mote_status read_run(const char *directory, mote_summary *summary, mote_t
     return status;
 }
 
-/* claims.json, or NULL where there is none or it cannot be read. */
+/* claims.json, or NULL if it does not exist or cannot be read. */
 static json_t *read_claims(const char *directory, mote_text *notices)
 {
     json_t *claims = NULL;
@@ -392,7 +391,7 @@ static json_t *read_claims(const char *directory, mote_text *notices)
     return claims;
 }
 
-/* Draws what a directory's run has data for. */
+/* Draws the figures that a directory's run has data for. */
 static mote_status draw_run(drawing *d)
 {
     const char *directory = d->run.directory;

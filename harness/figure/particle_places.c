@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether both are MOTE_NONE, or the same bits. */
+/* Whether both are MOTE_NONE, or have the same bits. */
 static bool same_answer(const mote_answer *answer, const mote_stored_cell *cell, size_t k)
 {
     const double length = mote_stored_number(cell, "length");
@@ -18,7 +18,7 @@ static bool same_answer(const mote_answer *answer, const mote_stored_cell *cell,
     return memcmp(&error, &cell->error[k], sizeof error) == 0;
 }
 
-/* Keeps the particles of both bodies after the answer of row k; false: too many. */
+/* Stores the particles of both bodies after the answer of row k; false: too many. */
 static bool keep(const mote_engine *engine, mote_particle_places *places, size_t k)
 {
     for (size_t i = 0; i < 2; ++i) {
@@ -34,7 +34,7 @@ static bool keep(const mote_engine *engine, mote_particle_places *places, size_t
     return true;
 }
 
-/* Removes the room that no body needed. */
+/* Removes the unused room. */
 static void close_up(mote_particle_places *places)
 {
     for (size_t k = 0; k < 2 * places->rows; ++k)
@@ -42,7 +42,7 @@ static void close_up(mote_particle_places *places)
                 places->count * sizeof *places->at);
 }
 
-/* Answers the frames again; sets why where the particles cannot be shown. */
+/* Answers the frames again; sets `why` if the particles cannot be shown. */
 static mote_status answer_again(const mote_scenario *scenario, const mote_stored_cell *cell,
                                 mote_engine *engine, mote_particle_places *places)
 {

@@ -1,6 +1,6 @@
-/* The experiments on the paper's claims a to m and in the closed loop, and on what this
-   implementation must show. Each fills the figures of one claim; its text and thresholds stand
-   in the experiment's file. */
+/* The experiments on the paper's claims a to m, on the closed loop, and on the requirements for
+   this implementation. Each measures the values of one claim; text and thresholds are in the
+   experiment's file. */
 #ifndef MOTE_HARNESS_CLAIMS_H
 #define MOTE_HARNESS_CLAIMS_H
 
@@ -22,7 +22,7 @@
     X(deformed_parts)   /* m */                                                                \
     X(closed_loop)      /* dynamics */
 
-/* What has to hold on any machine, whatever the paper says. */
+/* What must hold on any machine, whatever the paper says. */
 #define MOTE_REQUIREMENTS(X)                                                                   \
     X(exact_shares)                                                                            \
     X(no_missed_contact)                                                                       \
@@ -30,7 +30,7 @@
     X(no_allocation)                                                                           \
     X(bodies_swapped)
 
-/* mote_claim_NAME: fills claim, which is zero-initialised; the caller frees it, also after a
+/* mote_claim_NAME: fills claim, which is zero-initialised; the caller frees it, even after a
    failure. */
 #define MOTE_CLAIM_DECLARE(name)                                                               \
     mote_status mote_claim_##name(mote_study *study, mote_claim *claim);

@@ -7,15 +7,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NEAR_CONTACT 0.1 /* in L: up to this distance a collision point has a meaning */
+#define NEAR_CONTACT 0.1 /* in L: a collision point is meaningful up to this distance */
 
 static mote_vec3 middle(mote_vec3 a, mote_vec3 b)
 {
     return mote_scale(mote_add(a, b), 0.5);
 }
 
-/* Distances from the reported to the true contact point, the middles of the witnesses, in the
-   frames just before and after a contact. Within a contact there is no true point. */
+/* Distances between the reported and the true contact point (the middle of the witnesses) in
+   the frames just before and after a contact. During a contact there is no true point. */
 static mote_status contact_points(const mote_subject *subject, const char *method,
                                   uint64_t seed, double quantile[2])
 {
@@ -88,8 +88,8 @@ mote_status mote_claim_contact_point(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* Runs of frames with contact: how many of them a method never reported, and after how many
-   frames it reported the others. */
+/* Runs of frames with contact: how many a method never reported, and the delay in frames for
+   the others. */
 typedef struct episodes {
     size_t count, unseen, delays;
     double *delay; /* [delays] */
@@ -175,7 +175,7 @@ mote_status mote_claim_passing_through(mote_study *study, mote_claim *claim)
 
 #define ENOUGH_TRACKED 0.95
 
-/* One shape of claim c: the share of frames tracked at each n. */
+/* One shape of claim c: the share of tracked frames at each n. */
 typedef struct shape {
     const char *title, *base, *name;
     char letter;
@@ -207,7 +207,7 @@ static mote_status tracked_at(const mote_study *study, const mote_subject *subje
     return MOTE_OK;
 }
 
-/* The smallest n of the sweep from which on the share tracked is high enough; 0: none. */
+/* The smallest n from which on the tracked share is high enough in the sweep; 0: none. */
 static mote_status sweep_shape(const mote_study *study, const mote_subject *subject,
                                uint32_t parts, mote_text *curve, uint32_t *enough)
 {

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How the bodies move between queries: the same path, every frame, every 4th, every 16th; cold
-   queries start anew, whatever the motion. */
+/* How the bodies move between queries: the same path at every frame, every 4th, every 16th;
+   cold queries start from scratch, whatever the motion. */
 typedef struct pace {
     const char *title, *option;
     uint32_t stride, first, last;
@@ -24,13 +24,13 @@ static const pace paces[PACES] = {
 #define COST_SEEDS 5
 #define POINTS_MAX (16 * COST_SEEDS)
 
-/* Median time of a query against a size, one point a seed. */
+/* Median time of a query against a size, one point per seed. */
 typedef struct cost_points {
     double x[POINTS_MAX], us[POINTS_MAX];
     size_t count;
 } cost_points;
 
-/* Median time of the queries of one seed, microseconds, the first left out: it is cold. */
+/* Median time of the queries of one seed, in microseconds, without the first, which is cold. */
 static mote_status median_time(const mote_subject *subject, const pace *p, uint32_t n,
                                uint64_t seed, double *us)
 {
@@ -54,7 +54,7 @@ static mote_status median_time(const mote_subject *subject, const pace *p, uint3
     return MOTE_OK;
 }
 
-/* A line "x median low high" of the curve, and a point a seed. */
+/* Adds a line "x median low high" to the curve, and a point per seed. */
 static mote_status add_point(const mote_subject *subject, const pace *p, uint32_t n, double x,
                              cost_points *points, mote_text *curve)
 {
@@ -76,7 +76,7 @@ static void begin_block(mote_text *curve, const char *title)
     mote_text_add(curve, "%s\"%s\"\n", curve->size ? "\n\n" : "", title);
 }
 
-/* The exponent over the points with x >= least. */
+/* Adds the exponent over the points with x >= least. */
 static mote_status add_exponent(mote_claim *claim, const cost_points *points, double least,
                                 const char *over, const char *pace_title)
 {
@@ -95,7 +95,7 @@ static mote_status add_exponent(mote_claim *claim, const cost_points *points, do
     return status;
 }
 
-/* Over n, on W-W of 11,920 triangles. */
+/* Cost over n, on W-W of 11,920 triangles. */
 static mote_status measure_numbers(mote_study *study, mote_claim *claim, mote_text *curve)
 {
     static const uint32_t numbers[] = {2, 4, 8, 16, 32, 64, 128};
@@ -104,21 +104,21 @@ static mote_status measure_numbers(mote_study *study, mote_claim *claim, mote_te
     for (int p = 0; p < PACES && status == MOTE_OK; ++p) {
         cost_points points = {.count = 0};
         begin_block(curve, paces[p].title);
-        /* The slower the query, the fewer are measured: one with n = 64 takes 5 ms cold. */
+        /* Fewer numbers are measured for slow queries: a cold one with n = 64 takes 5 ms. */
         const size_t most = p + 1 == PACES ? 6 : 7;
         const size_t count = study->quick ? 5 : most;
         for (size_t i = 0; i < count && status == MOTE_OK; ++i)
             status = add_point(subject, &paces[p], numbers[i], numbers[i], &points, curve);
         if (status == MOTE_OK)
             status = add_exponent(claim, &points, 16, "n >= 16", paces[p].title);
-        /* The paper assumes slow changes of position, so these alone decide the verdict. */
+        /* The paper assumes slow motion, so only that decides the verdict. */
         if (status == MOTE_OK)
             mote_claim_require(claim, MOTE_AT_MOST, 2.1, p == 0 ? 2.1 : MOTE_NONE);
     }
     return status;
 }
 
-/* Over triangles, n = 5. "Fast even for models with a large number of polygons": in slow
+/* Cost over triangles, n = 5. "Fast even for models with a large number of polygons": in slow
    motion the time must not depend on the size, and no query may take longer than a
    millisecond. */
 static mote_status measure_sizes(mote_study *study, mote_claim *claim, mote_text *curve)
@@ -177,7 +177,7 @@ mote_status mote_claim_complexity(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* With and without the cache in turn, with the same frames and starts. */
+/* Measures with and without the cache in turn, with the same frames and starts. */
 typedef struct cache_case {
     const char *options;
     uint32_t n;
@@ -211,7 +211,7 @@ static mote_status measure_cache(const mote_subject *subject, cache_case *c)
     return MOTE_OK;
 }
 
-/* Noticeable: a tenth faster, for an error that grows by no more than 0.01 L. */
+/* Noticeable means a tenth faster, with an error that grows by at most 0.01 L. */
 static void add_cache(const cache_case *c, bool few, mote_claim *claim)
 {
     const double holds = few ? 1.1 : MOTE_NONE, limits = few ? MOTE_NONE : 1.1;
@@ -224,8 +224,9 @@ static void add_cache(const cache_case *c, bool few, mote_claim *claim)
                        limits > 0 ? 0.01 : MOTE_NONE);
 }
 
-/* Blocks "n ratio low high change" for the curve, one a kind of moves and part; the best case
-   among the paper's numbers of particles (16 is twice the parts of W) and among large ones. */
+/* Blocks "n ratio low high change" of the curve, one for each kind of moves and part; finds the
+   best case among the paper's particle numbers (16 is twice the parts of W) and among large
+   ones. */
 static mote_status sweep_cache(const mote_study *study, const mote_subject *subject,
                                mote_text *curve, cache_case *few, cache_case *many)
 {

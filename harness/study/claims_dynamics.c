@@ -1,4 +1,4 @@
-/* The paper's claim about motion that depends on the answers: the closed loop. */
+/* The paper's claim for motion that depends on the answers: the closed loop. */
 #include "harness/study/claims.h"
 
 #include "harness/study/dynamics.h"
@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Approaches with 3 to 5 particles, which decide the verdict, and with other numbers, which
-   are reported only. 0: left out. */
+/* The number of approaches: rows with 3 to 5 particles decide the verdict, other numbers are
+   only reported. 0: left out. */
 static uint32_t approaches_of(const mote_dynamics_row *row, bool quick)
 {
     const bool decides = row->law && row->n >= 3 && row->n <= 5;

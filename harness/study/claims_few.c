@@ -1,4 +1,4 @@
-/* Claim j: how accurate a few particles are, over n, laws, moves and the exact check. */
+/* Claim j: the accuracy of a few particles, over n, laws, moves and the exact check. */
 #include "harness/study/claims.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@ static mote_status sample(const mote_subject *subject, const char *method, size_
     return mote_study_sample(subject, method, tour, seeds, samples);
 }
 
-/* A block of "n p95 low high p99 missed low high" of one family of methods. */
+/* Adds a block of "n p95 low high p99 missed low high" for one family of methods. */
 static mote_status add_block(const mote_subject *subject, const char *family, uint32_t most,
                              mote_text *curve)
 {
@@ -39,7 +39,8 @@ static mote_status add_block(const mote_subject *subject, const char *family, ui
     return status;
 }
 
-/* Every law, moves over vertices and over the surface, with and without the exact check. */
+/* Draws every law, moves over vertices and over the surface, with and without the exact
+   check. */
 static mote_status draw_families(const mote_study *study, const mote_subject *subject)
 {
     static const char *const laws[] = {"log", "inverse", "inverse-square"};
@@ -68,9 +69,8 @@ typedef struct accuracy_case {
     bool decides;
 } accuracy_case;
 
-/* Reasonable for what the paper has in mind (games): an error within a twentieth of the model
-   in 95 of 100 queries, and hardly a contact missed. Within limits: a tenth, one in ten missed.
- */
+/* Reasonable for the paper's purpose (games): an error of at most 0.05 L in 95 of 100 queries,
+   and hardly any contact missed. Within limits: 0.1 L, and one contact in ten missed. */
 static mote_status add_case(mote_study *study, const accuracy_case *c, mote_claim *claim)
 {
     const mote_subject *subject;

@@ -66,7 +66,7 @@ static mote_vec3 random_push(mote_random *random, double length)
     return mote_scale(mote_vec3_make(r * cos(turn), r * sin(turn), z), length);
 }
 
-/* Parts of the letter with every control point displaced by amplitude (in L). */
+/* Counts the parts of the letter with every control point displaced by amplitude (in L). */
 static mote_status deformed_parts(clay *c, double amplitude, uint64_t seed, double *count)
 {
     mote_vec3 push[CONTROLS];
@@ -118,8 +118,8 @@ static mote_status measure_letter(char letter, size_t amplitudes, const double *
     return status;
 }
 
-/* "Does not increase much": n = auto stays right when it grows by a quarter; with twice as
-   many parts there is one particle for each, the fewest that the paper allows. */
+/* "Does not increase much": n = auto remains adequate when the number grows by a quarter; with
+   twice as many parts there is one particle for each, the minimum that the paper allows. */
 mote_status mote_claim_deformed_parts(mote_study *study, mote_claim *claim)
 {
     claim->id = "m";
@@ -143,7 +143,7 @@ mote_status mote_claim_deformed_parts(mote_study *study, mote_claim *claim)
         const mote_estimate e = mote_estimate_make(growth[a], LETTERS * PART_SEEDS);
         mote_claim_add(claim, e, "", "growth at %g L, four letters, three deformations each",
                        amplitude[a]);
-        /* The smallest deformation shows how much the decomposition itself varies. */
+        /* The smallest deformation only shows how much the decomposition itself varies. */
         if (a + 1 < AMPLITUDES)
             mote_claim_require(claim, MOTE_AT_MOST, 1.25, 2);
         mote_text_add(&curve, "%g\t%g\t%g\t%g\n", amplitude[a], e.value, e.interval.low,

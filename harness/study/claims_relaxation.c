@@ -10,7 +10,8 @@
 
 #define PARTICLES 5
 
-/* Hops from one vertex to the farthest of others; queue and hops hold vertex_count. */
+/* The number of hops from a vertex to the farthest of others; queue and hops hold
+   vertex_count. */
 static uint32_t farthest_hops(const mote_mesh *mesh, uint32_t from, const uint32_t *others,
                               uint32_t *queue, uint32_t *hops)
 {
@@ -34,7 +35,8 @@ static uint32_t farthest_hops(const mote_mesh *mesh, uint32_t from, const uint32
     return most;
 }
 
-/* The longest shortest route between two particles at their first places: vertices between. */
+/* The longest shortest route between two particles at their initial positions: vertices between
+   them. */
 static mote_status longest_route(const mote_scenario *scenario, uint64_t seed, double *route)
 {
     double most = 0;
@@ -55,7 +57,7 @@ static mote_status longest_route(const mote_scenario *scenario, uint64_t seed, d
     return MOTE_OK;
 }
 
-/* The 95th percentile and the largest number of steps of a query until nothing moves. */
+/* The 95th percentile and the maximum of the number of steps of a query until nothing moves. */
 static mote_status steps_to_rest(const mote_subject *subject, bool cold, uint64_t seed,
                                  double steps[2])
 {
@@ -70,7 +72,7 @@ static mote_status steps_to_rest(const mote_subject *subject, bool cold, uint64_
     if (status != MOTE_OK)
         return status;
     double *all = mote_allocate(result.row_count, sizeof *all);
-    /* The first warm query is a cold one. */
+    /* The first warm query starts cold. */
     const size_t from = cold ? 0 : 1;
     const size_t count = result.row_count - from;
     for (size_t i = from; i < result.row_count; ++i)
@@ -86,7 +88,7 @@ static mote_status steps_to_rest(const mote_subject *subject, bool cold, uint64_
 #define SIZES 8
 #define ROUTE_SEEDS 4
 
-/* Of each size and seed. */
+/* Values for each size and seed. */
 typedef struct route_data {
     double vertices[SIZES * ROUTE_SEEDS], cold[SIZES * ROUTE_SEEDS], warm[SIZES * ROUTE_SEEDS];
     double route[SIZES * ROUTE_SEEDS];
@@ -188,10 +190,10 @@ mote_status mote_claim_longest_route(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* What happened while the queries of one seed relaxed. */
+/* Statistics of the relaxation of one seed's queries. */
 typedef struct relaxation {
-    double moving, steps_counted; /* sum of shares of particles that moved; steps */
-    double steps, steps_saved;    /* until rest; of these after the stop by N_min */
+    double moving, steps_counted; /* sum of shares of particles that moved; number of steps */
+    double steps, steps_saved;    /* until rest; of these, after the stop by N_min */
     double *change;               /* [frames] |closest at the stop - closest at rest| / L */
     size_t frames;
 } relaxation;
@@ -217,7 +219,7 @@ static void relax_query(mote_particles *particles, double length, relaxation *r)
             stop = steps + 1;
         }
     }
-    /* In the last step nothing moved. */
+    /* Nothing moved in the last step. */
     for (size_t i = (steps - 1) / 2; i + 1 < steps; ++i) {
         r->moving += share[i];
         r->steps_counted += 1;
@@ -234,7 +236,7 @@ static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool 
     const mote_body *const bodies[2] = {&scenario->body[0], &scenario->body[1]};
     mote_particles_options options = mote_default_particles_options();
     options.count = n;
-    options.nmax = 1; /* one step a call */
+    options.nmax = 1; /* one step per call */
     options.nmin = 1;
     options.start = MOTE_START_RANDOM;
     options.seed = seed;
@@ -254,8 +256,8 @@ static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool 
     return status;
 }
 
-/* Adds figures of one n, cold or warm. Cold ones decide: a warm query is almost at rest when
-   it begins, so that almost nothing moves in its steps. */
+/* Adds values for one n, cold or warm. Only cold queries decide: a warm query is almost at rest
+   at its start, so almost nothing moves in its steps. */
 static mote_status add_rest(const mote_study *study, const mote_subject *subject, uint32_t n,
                             bool cold, mote_claim *claim)
 {
@@ -318,8 +320,8 @@ mote_status mote_claim_almost_at_rest(mote_study *study, mote_claim *claim)
 #define PAIRS 8
 #define BLOCK 62
 
-/* Share of queries on which two starts agree, from query 50 on; by blocks of queries added to
-   agree[]. */
+/* The share of queries, from query 50 on, for which two starts agree; also added to agree[] by
+   blocks of queries. */
 static mote_status compare_starts(const mote_subject *subject, const char *method,
                                   uint64_t seed, double *share, double *agree)
 {

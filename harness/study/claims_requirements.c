@@ -1,5 +1,5 @@
-/* What this implementation must show, whatever the paper says: accuracy, allocations, symmetry.
- */
+/* Requirements for this implementation, whatever the paper says: accuracy, allocations,
+   symmetry. */
 #include "harness/study/claims.h"
 
 #include "harness/scene/motion.h"
@@ -92,7 +92,7 @@ mote_status mote_claim_no_allocation(mote_study *study, mote_claim *claim)
     return status;
 }
 
-/* The same scene with body 1 before body 0. */
+/* The same scene with the bodies swapped. */
 static void swap_bodies(const mote_subject *subject, mote_scenario *scenario,
                         mote_motion *motion, mote_subject *swapped)
 {
@@ -114,7 +114,7 @@ static void gather(const mote_sample *samples, size_t count, mote_measured which
         values[s] = samples[s].of[which];
 }
 
-/* The difference and its p by Welch's test, which must not be significant. */
+/* Adds the difference and its p by Welch's test, which must not be significant. */
 static void add_swap(const mote_sample *samples, const mote_sample *swapped, size_t seeds,
                      mote_measured which, const char *name, mote_claim *claim)
 {
@@ -125,7 +125,7 @@ static void add_swap(const mote_sample *samples, const mote_sample *swapped, siz
     const mote_estimate difference = {d.value, d.interval};
     mote_claim_add(claim, difference, "L", "%s: swapped - not swapped", name);
     mote_claim_add(claim, mote_estimate_alone(d.p), "", "%s: p of no difference", name);
-    /* Two quantiles: 0.05 by Bonferroni. */
+    /* Two quantiles are tested, so 0.05 is halved (Bonferroni). */
     mote_claim_require(claim, MOTE_AT_LEAST, 0.025, 0.025);
 }
 
@@ -142,7 +142,7 @@ mote_status mote_claim_bodies_swapped(mote_study *study, mote_claim *claim)
     mote_scenario scenario;
     mote_motion motion;
     mote_sample samples[MOTE_STUDY_SEEDS], other[MOTE_STUDY_SEEDS];
-    const mote_tour tour = {.seed = 101}; /* starts of its own */
+    const mote_tour tour = {.seed = 101}; /* separate starts */
     mote_status status = mote_study_scene(study, "ww", &subject);
     if (status == MOTE_OK)
         status = sample_ww(study, method, samples);

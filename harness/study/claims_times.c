@@ -1,5 +1,5 @@
-/* The paper's claims about its own times and about hierarchies, i, k and l, and the smallest
-   ratio to FCL that is required. Measured in cells, each in a process of its own. */
+/* The paper's claims about its own times and about hierarchies, i, k and l, and the required
+   smallest ratio to FCL. Measured in cells, each in its own process. */
 #include "harness/study/claims.h"
 
 #include "harness/base/memory.h"
@@ -58,7 +58,7 @@ static mote_status run_leg(const mote_study *study, const leg *l)
     return status;
 }
 
-/* Measures what has not been measured yet, then reads all of it; done once. */
+/* Measures what is missing, then reads the whole run; done once. */
 static mote_status measure(mote_study *study, const mote_summary **summary)
 {
     *summary = &study->summary;
@@ -74,7 +74,7 @@ static mote_status measure(mote_study *study, const mote_summary **summary)
     return status;
 }
 
-/* The row of a method, or MOTE_ENUMERIC. */
+/* Finds the row of a method; MOTE_ENUMERIC if there is none. */
 static mote_status find_row(const mote_summary *summary, const char *scenario, mote_cache cache,
                             const char *label, const mote_summary_row **found)
 {
@@ -145,7 +145,7 @@ static double own_bytes(const mote_stored_cell *cell)
            mote_stored_number(cell, "deform_bytes");
 }
 
-/* Values of a row's replicates that ran well. */
+/* Collects the values of a row's replicates that ran well. */
 static size_t values_of(const mote_summary_row *row, cell_value value, double *values)
 {
     size_t count = 0;
@@ -162,7 +162,7 @@ static mote_estimate estimate_of(const mote_summary_row *row, cell_value value)
     return mote_estimate_ratio(values, values_of(row, value, values));
 }
 
-/* Mean over replicates of over's value / under's value. */
+/* The mean over replicates of over's value / under's value. */
 static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_row *under,
                               cell_value value)
 {
@@ -174,13 +174,13 @@ static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_r
     return mote_estimate_ratio(a, count);
 }
 
-/* A machine of today runs one thread about this many times faster than the paper's Pentium 4
-   of 2.53 GHz; a ratio below that would show the machine, not the method. */
+/* A current machine runs one thread about this many times faster than the paper's Pentium 4 at
+   2.53 GHz; a smaller ratio would show the machine, not the method. */
 #define MACHINE 20
 
 /* The slowest frame of the active interval: the maximum over frames of the median over
-   replicates, so that interruptions by other programs do not count, with the interval over
-   its replicates. MOTE_NONE without a frame there. */
+   replicates, so that interruptions by other programs do not count, with the interval over its
+   replicates. MOTE_NONE if no frame was measured there. */
 static mote_estimate slowest_frame(const mote_summary_row *row)
 {
     mote_estimate slowest = {MOTE_NONE, {MOTE_NONE, MOTE_NONE}};
@@ -284,7 +284,7 @@ static mote_status add_update(const mote_summary *summary, const char *label, mo
     return MOTE_OK;
 }
 
-/* Rigid T-T: oriented trees take transforms in place, axis-aligned ones are refitted. */
+/* Rigid T-T: oriented trees are transformed in place, axis-aligned ones are refitted. */
 static mote_status add_rigid(const mote_summary *summary, mote_claim *claim)
 {
     const mote_summary_row *refitted, *rigid, *particles;
@@ -322,7 +322,7 @@ mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
     return status == MOTE_OK ? add_rigid(summary, claim) : status;
 }
 
-/* The paired median over common frames of theirs / ours; MOTE_NONE without any. */
+/* The paired median over common frames of theirs / ours; MOTE_NONE if there are none. */
 static double paired_ratio(const mote_stored_cell *theirs, const mote_stored_cell *ours)
 {
     double *ratios = mote_allocate(theirs->frames, sizeof *ratios);
@@ -338,8 +338,8 @@ static double paired_ratio(const mote_stored_cell *theirs, const mote_stored_cel
     return median;
 }
 
-/* How many times longer FCL takes than the particles in one setting: frame by frame, and by
-   the sums over all frames. */
+/* Adds how many times longer FCL takes than the particles in one setting: frame by frame, and
+   by the sums over all frames. */
 static mote_status add_ratio(const mote_summary *summary, mote_cache cache, const char *label,
                              double least, mote_claim *claim)
 {

@@ -11,7 +11,7 @@
 /* Largest relative drift allowed; a simulation has some hundred steps. */
 #define MOST_DRIFT 1e-10
 
-/* For the claim: the upper end of the share of passes. */
+/* Thresholds of the claim for the upper end of the share of passes. */
 #define HOLDS 0.01
 #define LIMITS 0.05
 
@@ -208,7 +208,7 @@ mote_status mote_dynamics_csv(const mote_dynamics_row *rows, size_t count,
     return mote_record_text(directory, "dynamics.csv", &text);
 }
 
-/* Blocks "n share low high approaches" of the particles by the law as printed, a block a scene,
+/* Blocks "n share low high approaches" for the particles with the printed law, one per scene,
    the paper's scenes first. */
 mote_status mote_dynamics_figure(const mote_dynamics_row *rows, size_t count,
                                  const char *directory)

@@ -15,7 +15,7 @@
 #define CONTROLS 8
 #define SUPPORT 0.6    /* of L */
 #define AMPLITUDE 0.05 /* of L */
-#define STEPS 60       /* towards a gap */
+#define STEPS 60       /* iterations towards a gap */
 
 static mote_status refuse(mote_extreme *e)
 {
@@ -23,13 +23,13 @@ static mote_status refuse(mote_extreme *e)
     return MOTE_OK;
 }
 
-/* Notes errors of the input only; a failure of the machine stays an error. */
+/* Whether an error comes from the input; a failure of the machine stays an error. */
 static bool is_refusal(mote_status status)
 {
     return status == MOTE_EINVAL || status == MOTE_ENUMERIC;
 }
 
-/* The weights of all frames, rotated with the body. */
+/* Sets the weights of all frames, rotated with the body. */
 static mote_status set_weights(const mote_extreme_recipe *r, mote_extreme *e, int b)
 {
     const mote_field *field = e->field[b];
@@ -109,7 +109,7 @@ void mote_extreme_free(mote_extreme *e)
     *e = (mote_extreme){0};
 }
 
-/* The distance of a frame in double precision, with the closest points. */
+/* The distance at a frame in double precision, with the closest points. */
 static mote_status ask_distance(const mote_extreme *e, uint32_t frame, mote_answer *answer)
 {
     mote_method_choice choice;
@@ -124,7 +124,8 @@ static mote_status ask_distance(const mote_extreme *e, uint32_t frame, mote_answ
     return status;
 }
 
-/* One step. Moving by d - gap along the closest points cannot lead below the gap. */
+/* One step. Moving by d - gap along the closest points cannot make the distance smaller than
+   the gap. */
 static mote_status step(mote_extreme_recipe *recipe, uint32_t frame, double gap, double push,
                         bool *there)
 {

@@ -1,4 +1,4 @@
-/* What is taken to extremes, and how. Each extreme changes the plain scene, whose L is about
+/* What is taken to extremes, and how. Each extreme modifies the plain scene, whose L is about
    1. */
 #include "harness/study/extreme.h"
 
@@ -43,7 +43,7 @@ static mote_status change_scale(const mote_extreme_recipe *plain, int k,
     return MOTE_OK;
 }
 
-/* A direction along no axis or symmetry, which would make it easy. */
+/* A direction along no axis or symmetry, which would make the problem easier. */
 static const mote_vec3 askew = {0.6123724356957945, 0.35355339059327373, -0.7071067811865476};
 
 static mote_status change_offset(const mote_extreme_recipe *plain, int k,
@@ -57,7 +57,7 @@ static mote_status change_offset(const mote_extreme_recipe *plain, int k,
     return MOTE_OK;
 }
 
-/* The meshes themselves are far from their origin, which the poses undo. */
+/* Moves the meshes far from their origin; the poses undo it. */
 static mote_status change_mesh_offset(const mote_extreme_recipe *plain, int k,
                                       mote_extreme_recipe *made)
 {
@@ -73,7 +73,8 @@ static mote_status change_mesh_offset(const mote_extreme_recipe *plain, int k,
     return MOTE_OK;
 }
 
-/* Mesh, centres and poses in 32 bits; from k = 0 on, the mesh 10^k off its origin. */
+/* Rounds mesh, centres and poses to 32 bits; from k = 0 on, with the mesh 10^k off its
+   origin. */
 static mote_status change_to_float(const mote_extreme_recipe *plain, int k,
                                    mote_extreme_recipe *made)
 {
@@ -102,7 +103,7 @@ static mote_status set_gaps(mote_extreme_recipe *made, const double gaps[MOTE_EX
 
 static const double usual_gaps[MOTE_EXTREME_FRAMES] = {0.2, 0.02, 5e-4, -0.04};
 
-/* Both bodies squashed along y, in the letters' plane: all triangles become slivers. */
+/* Squashes both bodies along y, in the letters' plane: all triangles become slivers. */
 static mote_status change_sliver(const mote_extreme_recipe *plain, int k,
                                  mote_extreme_recipe *made)
 {
@@ -114,7 +115,7 @@ static mote_status change_sliver(const mote_extreme_recipe *plain, int k,
             made->centre[b][j].y *= power_of_ten(-k);
         made->middle[b].y *= power_of_ten(-k);
     }
-    made->controls = 0; /* a field would give the slivers their height again */
+    made->controls = 0; /* a field would restore the slivers' height */
     return set_gaps(made, usual_gaps);
 }
 
@@ -164,7 +165,8 @@ static void take_triangle(mote_extreme_recipe *r, int b)
     r->middle[b] = mote_vec3_make(0, 0, 0);
 }
 
-/* Triangles of whole numbers: a corner of one lies in the other (datasets/defects.md). */
+/* Triangles with integer coordinates: a corner of one lies in the other
+   (datasets/defects.md). */
 static void take_touching_triangles(mote_extreme_recipe *r, int which)
 {
     static const mote_vec3 corner[2][2][3] = {
@@ -179,7 +181,8 @@ static void take_touching_triangles(mote_extreme_recipe *r, int which)
 static const char *const touch_names[] = {
     "corner", "edge", "face", "part of a face", "one place", "triangles 1", "triangles 2"};
 
-/* Cubes of whole numbers that touch at a corner, along an edge or a face; or are the same. */
+/* Cubes with integer coordinates that touch at a corner, along an edge or a face; or
+   coincide. */
 static mote_status change_touch(const mote_extreme_recipe *plain, int k,
                                 mote_extreme_recipe *made)
 {
@@ -205,8 +208,9 @@ static mote_status change_support(const mote_extreme_recipe *plain, int k,
 static const char *const support_names[] = {"0.01 L", "0.03 L", "0.1 L", "0.3 L", "1 L",
                                             "3 L",    "10 L",   "30 L",  "100 L"};
 
-/* A ninth control point so near the first that the condition number is about 10^k: that of two
-   points at a distance r of the support is 2 / (10 r^2). It moves a little otherwise. */
+/* Adds a ninth control point so near the first that the condition number is about 10^k: that of
+   two points at a distance r (in supports) is 2 / (10 r^2). Its displacement differs
+   slightly. */
 static mote_status change_condition(const mote_extreme_recipe *plain, int k,
                                     mote_extreme_recipe *made)
 {
@@ -224,7 +228,7 @@ static mote_status change_condition(const mote_extreme_recipe *plain, int k,
 
 static const char *const duplicate_names[] = {"fitted", "weights", "weights that cancel"};
 
-/* Two control points at one place: fitted, or with weights that are given. */
+/* Puts two control points at one place: fitted, or with given weights. */
 static mote_status change_duplicate(const mote_extreme_recipe *plain, int k,
                                     mote_extreme_recipe *made)
 {
@@ -246,7 +250,8 @@ static mote_status change_duplicate(const mote_extreme_recipe *plain, int k,
 static const char *const inside_out_names[] = {"into a point", "inside out",
                                                "and twice as large"};
 
-/* Control points go through the middle of the body to k times as far on the other side. */
+/* Control points move through the middle of the body to k times their distance on the other
+   side. */
 static mote_status change_inside_out(const mote_extreme_recipe *plain, int k,
                                      mote_extreme_recipe *made)
 {
@@ -262,8 +267,8 @@ static mote_status change_inside_out(const mote_extreme_recipe *plain, int k,
     return set_gaps(made, usual_gaps);
 }
 
-/* The second body turned by 10^-k degrees less than 180, by as much more, by that less the
-   other way round, and half way there as motions are interpolated. */
+/* The second body is rotated by 180 degrees minus 10^-k, by 180 plus 10^-k, by the first angle
+   in the opposite direction, and halfway to it as motions are interpolated. */
 static mote_status change_turn(const mote_extreme_recipe *plain, int k,
                                mote_extreme_recipe *made)
 {
@@ -345,7 +350,7 @@ const mote_extreme_family mote_extreme_families[] = {
 const size_t mote_extreme_family_count =
     sizeof mote_extreme_families / sizeof mote_extreme_families[0];
 
-/* Families whose k counts digits below 1. */
+/* Whether a family's k counts digits below 1. */
 static bool is_negative(const mote_extreme_family *family)
 {
     return strcmp(family->name, "sliver") == 0 || strcmp(family->name, "gap") == 0 ||

@@ -1,4 +1,4 @@
-/* A method on an extreme scene: its process, and the verdict. */
+/* Runs a method on an extreme scene in a child process, and judges it. */
 #include "harness/study/extreme.h"
 
 #include "harness/process/child.h"
@@ -12,7 +12,8 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* Limits of processor time, and of real time, which is longer since other programs may run. */
+/* Limits of processor time and of wall time; the latter is longer since other programs may
+   run. */
 #define SECONDS 10
 #define SECONDS_WAITED 100.0
 #define MEMORY_BYTES ((size_t)1 << 30)
@@ -20,17 +21,17 @@
 /* The largest error that counts as exact, relative to L. */
 #define EXACT 1e-12
 
-/* The error allowed to a method that claims exactness, in units in the last place of the
+/* The error allowed for a method that claims to be exact, in units in the last place of the
    largest coordinate: no answer can be better than its input. */
 #define ROUNDING 16
 
 const char *const mote_extreme_verdicts[] = {"none",  "right", "inexact", "refused",
                                              "wrong", "nan",   "hung",    "crashed"};
 
-/* The error allowed to answers for convex hulls, relative to L: the concavity of a part. */
+/* The error allowed for answers for convex hulls, relative to L: the concavity of a part. */
 #define CONCAVITY 0.1
 
-/* What a child reports. */
+/* The child's report. */
 typedef struct message {
     mote_status status;
     char text[200];
@@ -138,8 +139,8 @@ static mote_extreme_verdict judge_distance(const mote_extreme *e, uint32_t frame
     if (fabs(*error) <= EXACT)
         return MOTE_EXTREME_RIGHT;
     (void)snprintf(reason, size, "%.3g L for %.3g L", answer->distance / e->length, truth);
-    /* A method that only approximates gives points on the surfaces, so its distance is never
-       too small. */
+    /* An approximate method gives points on the surfaces, so its distance is never too
+       small. */
     bool allowed = *error >= -excuse(e, said) - EXACT;
     if (said->exact)
         allowed = fabs(*error) <= excuse(e, said);
@@ -160,7 +161,7 @@ static mote_extreme_verdict judge_contact(const mote_extreme *e, uint32_t frame,
                    said->answer.contact ? "a contact" : "no contact", truth);
     if (said->hulls || (truth <= EXACT + excuse(e, said) && !touches))
         return MOTE_EXTREME_INEXACT;
-    /* A distance that is too large explains a contact that is not reported. */
+    /* A distance that is too large explains a missed contact. */
     return !said->contact_only && touches && !said->exact && said->answer.distance > 0
                ? MOTE_EXTREME_INEXACT
                : MOTE_EXTREME_WRONG;
@@ -218,7 +219,7 @@ static void judge_all(const mote_extreme *e, const message *told, mote_extreme_c
     cell->query_ns = (uint64_t)mote_statistics_median(ns, MOTE_EXTREME_FRAMES);
 }
 
-/* The method with the scene's parameters; false when it has none of that name. */
+/* Chooses the method with the scene's parameters; *has is false if it lacks one. */
 static mote_status choose(const mote_extreme *e, const char *method, mote_method_choice *choice,
                           bool *has)
 {

@@ -1,4 +1,4 @@
-/* The exact distance of two small bodies: every pair of triangles in 113 bits. */
+/* The exact distance between two small bodies: every pair of triangles in 113 bits. */
 #include "harness/study/extreme.h"
 
 #include "harness/base/memory.h"
@@ -17,7 +17,8 @@ typedef struct wide_body {
     wide_box *boxes; /* [triangle_count] */
 } wide_body;
 
-/* To full precision: two Newton steps from the square root in double precision. */
+/* The square root to full precision: two Newton steps from the square root in double
+   precision. */
 static wide square_root(wide x)
 {
     if (!(x > 0))
@@ -35,7 +36,7 @@ static wide wendland(wide r)
     return s * s * (4 * r + 1);
 }
 
-/* The world position that core/body/body.h defines, without rounding. */
+/* The world position defined in core/body/body.h, without rounding. */
 static wide3 position(const mote_body *body, const mote_body_state *state, uint32_t vertex)
 {
     const wide3 x = wide_from(body->mesh->positions[vertex]);
@@ -71,7 +72,7 @@ static wide_box box_of(const wide_body *body, const uint32_t *t)
     return box;
 }
 
-/* A lower bound of the squared distance of two boxes. */
+/* A lower bound of the squared distance between two boxes. */
 static double box_gap(const wide_box *a, const wide_box *b)
 {
     double sum = 0;
@@ -83,7 +84,7 @@ static double box_gap(const wide_box *a, const wide_box *b)
     return sum * (1 - 0x1p-50);
 }
 
-/* The squared distance of two vertices that are near each other. */
+/* The squared distance between two vertices that are near each other. */
 static wide first_bound(const wide_body body[2])
 {
     const wide3 *world[2] = {body[0].world, body[1].world};
@@ -106,7 +107,7 @@ static wide first_bound(const wide_body body[2])
     return wide_dot(d, d);
 }
 
-/* Squared distance of triangle i of one body and j of the other. */
+/* The squared distance between triangle i of one body and j of the other. */
 static wide pair_squared(const wide_body body[2], uint32_t i, uint32_t j)
 {
     const uint32_t *s = body[0].mesh->triangles[i], *t = body[1].mesh->triangles[j];
@@ -136,7 +137,7 @@ static double distance(const wide_body body[2])
     return wide_sqrt(best);
 }
 
-/* Sets a frame's positions, rounded to doubles as every method gets them, or unrounded. */
+/* Sets a frame's positions, rounded to doubles as methods get them, or unrounded. */
 static void place(const mote_extreme *e, uint32_t frame, bool rounded, wide_body body[2],
                   double *coordinate_max)
 {

@@ -79,7 +79,7 @@ mote_status mote_study_scene(mote_study *study, const char *name, const mote_sub
     return *subject ? MOTE_OK : add_scene(study, name, true, subject);
 }
 
-/* The scenario's file with other letters in it. */
+/* The scenario's file with its letters replaced. */
 static mote_status change_letters(const char *path, const mote_variant *variant, json_t **root)
 {
     mote_json_file read;

@@ -13,11 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Letters: every body a W, or four shapes in turn. */
+/* A scene of letters: every body a W, or four shapes in turn. */
 typedef struct scene {
-    const char *density; /* near pairs a body */
+    const char *density; /* near pairs per body */
     uint32_t count;
-    uint32_t frames[2]; /* measured in every way: in the full study, in the quick one */
+    uint32_t frames[2]; /* number measured by every method: in the full study, in the quick
+                           one */
     bool four;
 } scene;
 
@@ -27,7 +28,7 @@ static const scene scenes[] = {
     {"0.1", 1000, {12, 4}, false}, {"1", 1000, {8, 3}, false},  {"4", 1000, {8, 2}, false},
     {"0.1", 10000, {12, 4}, true}, {"1", 10000, {12, 4}, true}, {"4", 10000, {12, 3}, true}};
 
-/* The first control: FCL's manager, every body refitted. */
+/* The first baseline: FCL's manager with every body refitted. */
 #define FIRST_CONTROL "fcl-aabb:refit=every"
 
 static const char *const every_way[] = {"certified", FIRST_CONTROL,  "fcl-aabb",
@@ -36,13 +37,13 @@ static const char *const own_ways[] = {"certified"};
 static const char *const threaded[] = {"certified:ahead=3", "certified:threads=2",
                                        "certified:threads=2,ahead=3"};
 
-/* Seconds between two lines of progress where there is no terminal. */
+/* Seconds between two progress lines off a terminal. */
 #define PROGRESS_PAUSE 10
 
-/* Frames: the shortest and the longest period of a deformation. */
+/* The shortest and the longest period of a deformation, in frames. */
 #define PERIODS "250, 600"
 
-/* What must hold. */
+/* Requirements. */
 #define LEAST_RATIO 20.0
 #define MOST_BYTES 1073741824.0
 
@@ -138,8 +139,8 @@ static mote_status measure_scene(const study *s, const scene *of)
     return status;
 }
 
-/* The built-in scenario letters with so few triangles that gnuplot can draw them, in a run of
-   its own, DIRECTORY/film: figure 15 shows which letters are in contact. */
+/* Measures the built-in scenario letters, with few enough triangles for gnuplot, in a separate
+   run, DIRECTORY/film: figure 15 shows which letters are in contact. */
 static mote_status measure_film(const study *s)
 {
     static const char letters[] = "WTMV";
@@ -166,7 +167,7 @@ static mote_status measure_film(const study *s)
     return status;
 }
 
-/* The scene of a row; NULL: another run's. */
+/* The scene of a row; NULL if it is of another run. */
 static const scene *scene_of(const mote_summary_row *row)
 {
     const double wanted = mote_stored_number(row->first, "near_pairs_wanted");
@@ -178,7 +179,7 @@ static const scene *scene_of(const mote_summary_row *row)
     return NULL;
 }
 
-/* The row of a way in a scene; NULL: none that ran. */
+/* The row of a method in a scene; NULL if none ran. */
 static const mote_summary_row *find(const study *s, const scene *of, const char *label)
 {
     for (size_t k = 0; k < s->summary.count; ++k) {
@@ -189,13 +190,13 @@ static const mote_summary_row *find(const study *s, const scene *of, const char 
     return NULL;
 }
 
-/* Mean over all frames but the first, which finds all pairs anew. */
+/* The mean over all frames but the first, in which all pairs are new. */
 static double mean_of(const mote_summary_row *row)
 {
     return row->active_total.mean;
 }
 
-/* The time of a whole frame, motion included. */
+/* The wall time per frame, including motion. */
 static double wall_of(const mote_summary_row *row)
 {
     return mote_stored_number(row->first, "frames_wall_ns") / (double)row->frames;
@@ -251,8 +252,8 @@ static json_t *requirements(const study *s, bool *met)
     return list;
 }
 
-/* The gain by threads: the time of a whole frame, motion included, in one thread over that
-   in several. */
+/* The speedup by threads: the time of a whole frame, including motion, with one thread divided
+   by that with several. */
 static json_t *gains(const study *s)
 {
     json_t *list = json_array();
@@ -275,7 +276,7 @@ static json_t *gains(const study *s)
     return list;
 }
 
-/* The median over the frames but the first of a column of a row's first cell. */
+/* The median of a column of a row's first cell, over all frames but the first. */
 static double cell_median(const mote_summary_row *row, int column)
 {
     const mote_stored_cell *cell = row->first;
@@ -308,13 +309,13 @@ static double near_pairs_of(const mote_summary_row *row)
     return row->near_pairs / row->bodies;
 }
 
-/* The time of the row that a row's contacts are compared with, over its own. */
+/* The time of the row that a row's contacts are compared with, divided by the row's own. */
 static double ratio_of(const mote_summary_row *row)
 {
     return row->contacts_of ? mean_of(row->contacts_of) / mean_of(row) : MOTE_NONE;
 }
 
-/* The figures of bodies.csv: columns of the summary, or figures of this study. */
+/* The values in bodies.csv: columns of the summary, or values of this study. */
 static const struct csv_figure {
     const char *name, *object, *key;
     double (*own)(const mote_summary_row *row);

@@ -18,11 +18,11 @@
 
 typedef struct study {
     const char *directory;
-    char program[20]; /* hash of the program, in hexadecimal digits */
+    char program[20]; /* hash of the program, in hexadecimal */
     char commit[64];  /* of this program's sources, or "" */
     bool quick;
-    bool keep; /* also keep rows measured by another build of the program */
-    int lock;  /* a file; a byte that stands for a row is locked while it is measured */
+    bool keep; /* also accept rows measured by another build of the program */
+    int lock;  /* a file with a byte for each row, locked while the row is measured */
     mote_dynamics_row *rows;
     size_t count;
     mote_scenario *scenario; /* loaded last */
@@ -39,7 +39,8 @@ static char *row_name(const mote_dynamics_row *row)
     return name;
 }
 
-/* True when the row is stored, measured by this build of the program or, with keep, by any. */
+/* True if the row is stored and was measured by this build of the program or, with keep, by
+   any. */
 static bool recall(const study *s, mote_dynamics_row *row)
 {
     char *name = row_name(row);
@@ -108,8 +109,8 @@ static mote_status measure(study *s, mote_dynamics_row *row)
     return status;
 }
 
-/* The byte of the lock file that stands for a row, the same in every study of the directory.
-   Two rows with the same byte only wait for each other. */
+/* The byte of the lock file for a row, the same in every study of the directory. Two rows that
+   share a byte merely wait for each other. */
 static off_t byte_of(const mote_dynamics_row *row)
 {
     char name[160];
@@ -117,8 +118,8 @@ static off_t byte_of(const mote_dynamics_row *row)
     return (off_t)(mote_hash_text(name) & 0x7fffffff);
 }
 
-/* Locks or unlocks a row's byte against other processes; false: another process holds it, or
-   an error. */
+/* Locks or unlocks a row's byte against other processes; false if another process holds it, or
+   on an error. */
 static bool lock_row(const study *s, const mote_dynamics_row *row, int command, short type)
 {
     struct flock lock = {
@@ -130,8 +131,8 @@ static bool lock_row(const study *s, const mote_dynamics_row *row, int command, 
     return status == 0;
 }
 
-/* Goes through the rows that are missing; those that another process is measuring are left
-   to it or, with wait, waited for. */
+/* Measures the missing rows; those that another process is measuring are skipped or, with wait,
+   waited for. */
 static mote_status measure_rows(study *s, bool wait)
 {
     mote_status status = MOTE_OK;
@@ -154,7 +155,7 @@ typedef struct row_task {
     mote_dynamics_row *row;
 } row_task;
 
-/* A child returns nothing but the row's file. */
+/* A child's only result is the row's file. */
 static mote_status measure_in_child(void *context, int output)
 {
     const row_task *task = context;
@@ -178,7 +179,7 @@ static mote_status start_row(void *context, size_t index, mote_child *child)
     return status;
 }
 
-/* A row in which a child failed is missing afterwards, and is tried again in this process. */
+/* If a child fails, its row stays missing and is tried again in this process. */
 static mote_status finish_row(void *context, size_t index, mote_child *child, double seconds)
 {
     const study *s = context;
@@ -188,7 +189,7 @@ static mote_status finish_row(void *context, size_t index, mote_child *child, do
     return MOTE_OK;
 }
 
-/* Shares the rows out to processes. */
+/* Distributes the rows over processes. */
 static mote_status measure_by_crew(study *s, uint32_t jobs)
 {
     const mote_crew crew = {.tasks = s->count,
@@ -237,7 +238,7 @@ static json_t *failures_of(const study *s)
     return failures;
 }
 
-/* The commit of the directory's manifest, or "". */
+/* The commit in the directory's manifest, or "". */
 static void read_commit(const char *directory, char *commit, size_t size)
 {
     json_t *manifest = NULL;

@@ -12,7 +12,7 @@
 
 #define METHODS_MAX 64
 
-/* Our own methods: none of them may be wrong. */
+/* Our own methods, none of which may be wrong. */
 static const char *const ours[] = {"particle-paper", "particle",    "certified",
                                    "aabb-tree",      "brute-force", "hybrid-fcl"};
 
@@ -203,14 +203,14 @@ static mote_status write_csv(const study *s, const char *directory)
                               cell->frame, row->rounding, cell->build_ns, cell->query_ns);
             else
                 mote_text_add(&text, ",,,,");
-            /* Texts of errors have no quotes of their own. */
+            /* Error texts contain no quotes. */
             mote_text_add(&text, ",\"%s\"\n", cell->reason);
         }
     }
     return mote_record_text(directory, "extremes.csv", &text);
 }
 
-/* The cells with one verdict, a line each. */
+/* Lists the cells with one verdict, a line each. */
 static void list_cells(const study *s, mote_extreme_verdict verdict, mote_text *text)
 {
     for (size_t m = 0; m < s->method_count; ++m) {
@@ -286,7 +286,7 @@ static mote_status write_markdown(const study *s, const char *directory)
     return mote_record_text(directory, "extremes.md", &text);
 }
 
-/* The least number of columns of a family in the figure, so that single extremes remain
+/* The minimum number of columns of a family in the figure, so that single extremes remain
    visible. */
 #define FAMILY_WIDTH 6.0
 
@@ -299,7 +299,7 @@ static size_t family_size(const study *s, size_t first)
     return count;
 }
 
-/* Blocks: where families begin, their names, and the end; the methods; the cells as left edge,
+/* Blocks: starts of families, their names, and the end; the methods; the cells as left edge,
    width, row, verdict. */
 static void add_figure_data(const study *s, mote_text *text)
 {
@@ -336,7 +336,7 @@ static mote_status write_figure(const study *s, const char *directory)
     return status == MOTE_OK ? mote_figures_plot(directory, "extremes", "extremes") : status;
 }
 
-/* Prints what was not met to stderr, a line each. */
+/* Prints the requirements that were not met to stderr, a line each. */
 static bool check(const study *s)
 {
     bool met = true;
