@@ -11,17 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A block takes about this long, or a pass where that is shorter: long enough to fill the
-   caches anew after the other process's turn (1 MiB from the last level: 0.2 ms), short beside
-   what changes on a machine. */
+/* Approximate duration of a block (a pass may be shorter): long enough to refill the caches
+   after the other process's turn (1 MiB from the last level: 0.2 ms), short compared with
+   changes of the machine. */
 #define BLOCK_NS 4e6
-/* Passes over the frames go on for this long, both sides together ... */
+/* Passes over the frames continue for this long, both sides together ... */
 #define CELL_NS 0.4e9
 /* ... within these bounds. */
 #define PASSES_LEAST 5
 #define PASSES_MOST 61
 
-/* A cell while it is measured. */
+/* The state of a cell during measurement. */
 typedef struct contest {
     mote_bout *bout;
     mote_bout_result *result;
@@ -31,8 +31,8 @@ typedef struct contest {
     double *times[MOTE_RACE_SIDES]; /* [passes][frames] */
     uint64_t hash[MOTE_RACE_SIDES]; /* of the last block's answers */
     double spent[MOTE_RACE_SIDES];  /* ns, in the last pass */
-    size_t turn;                    /* blocks so far */
-    int leader;                     /* who began the last pair of blocks */
+    size_t turn;                    /* number of blocks so far */
+    int leader;                     /* the side that began the last pair of blocks */
 } contest;
 
 mote_status mote_bout_start(const mote_bout_options *options, mote_bout *bout)
@@ -51,7 +51,7 @@ void mote_bout_stop(mote_bout *bout)
         mote_racer_stop(&bout->racer[side]);
 }
 
-/* Notes why a side cannot go on. Whoever asked us to stop is obeyed. */
+/* Records why a side cannot continue. A request to stop is passed on. */
 static mote_status note(mote_status status, mote_race_side *side)
 {
     if (status == MOTE_OK || mote_child_stop_asked())
@@ -71,7 +71,7 @@ static bool is_over(const mote_bout_result *result)
     return false;
 }
 
-/* The next field of an answer, ended in place; NULL where there is none. */
+/* The next field of an answer, terminated in place; NULL if there is none. */
 static char *next_field(char **rest, char separator)
 {
     char *field = *rest;
@@ -122,7 +122,7 @@ static bool same_name(const mote_race_count *count, const char *name)
     return strcmp(count->name, name) == 0;
 }
 
-/* Adds "name=sum" of a side. A count that no frame has is not told, and is 0. */
+/* Adds "name=sum" to a side. Counts that are 0 in every frame are not sent. */
 static bool add_count(mote_bout_result *result, int side, char *text)
 {
     char *value = strchr(text, '=');
@@ -159,7 +159,7 @@ static bool add_counts(mote_bout_result *result, int side, char *text)
     return true;
 }
 
-/* Reads the times of a block of `count` frames from `at` on; their sum is added to what was
+/* Reads the times of a block of `count` frames from `at` on; adds their sum to the time
    spent. */
 static bool read_times(contest *c, int side, char *text, size_t at, uint32_t count)
 {
@@ -175,8 +175,8 @@ static bool read_times(contest *c, int side, char *text, size_t at, uint32_t cou
     return rest == NULL;
 }
 
-/* One side's turn: frames first .. first + count - 1 of a pass; counted: its counts are kept.
- */
+/* One side's turn: `count` frames of a pass from `offset` on; counted: whether its counts are
+   kept. */
 static mote_status run_block(contest *c, int side, uint32_t pass, uint32_t offset,
                              uint32_t count, bool counted)
 {
@@ -195,13 +195,13 @@ static mote_status run_block(contest *c, int side, uint32_t pass, uint32_t offse
     return *end ? unreadable(racer) : MOTE_OK;
 }
 
-/* An answer as a racer tells it: "DISTANCE:CONTACT". */
+/* An answer as sent by a racer: "DISTANCE:CONTACT". */
 typedef struct told {
     double distance; /* MOTE_NONE: none */
     char contact;    /* '0', '1', or '-' for none */
 } told;
 
-/* The answers of a side's last block. */
+/* Reads the answers of a side's last block. */
 static mote_status ask_answers(contest *c, int side, told *answers, uint32_t count)
 {
     mote_racer *racer = &c->bout->racer[side];
@@ -221,7 +221,8 @@ static mote_status ask_answers(contest *c, int side, told *answers, uint32_t cou
     return MOTE_OK;
 }
 
-/* In L; infinite where only one gives a distance, or they disagree about the contact. */
+/* The difference in L; infinite if only one side gives a distance, or if they disagree about
+   the contact. */
 static double apart(const contest *c, const told *a, const told *b)
 {
     const bool has[] = {a->distance == a->distance, b->distance == b->distance};
@@ -230,7 +231,7 @@ static double apart(const contest *c, const told *a, const told *b)
     return has[0] ? fabs(a->distance - b->distance) / c->length : 0;
 }
 
-/* The answers of a block differ in their bits: by how much. */
+/* Finds by how much the answers of a block differ, once their bits do. */
 static mote_status compare_answers(contest *c, uint32_t offset, uint32_t count)
 {
     mote_bout_result *result = c->result;
@@ -253,8 +254,8 @@ static mote_status compare_answers(contest *c, uint32_t offset, uint32_t count)
     return status;
 }
 
-/* Both sides' turns at a block. Who begins is drawn for every other block and reversed in
-   between: ABBA or BAAB. */
+/* Both sides' turns at a block. The first side is drawn at random for every other block and
+   reversed in between: ABBA or BAAB. */
 static mote_status run_turns(contest *c, uint32_t pass, uint32_t offset, bool counted)
 {
     const uint32_t left = c->frames - offset;
@@ -281,7 +282,8 @@ static mote_status run_pass(contest *c, uint32_t pass, bool counted)
     return status;
 }
 
-/* Sets the length of a block and how many passes follow, by what the first one took. */
+/* Sets the length of a block and the number of further passes, from the time of the first
+   pass. */
 static uint32_t plan_passes(contest *c)
 {
     const double both = c->spent[0] + c->spent[1], frame = 0.5 * both / c->frames;

@@ -1,4 +1,5 @@
-/* A bout: one process of each program, measuring the same frames in turn on one core. */
+/* A bout: one process of each program; they take turns measuring the same frames on one
+   core. */
 #ifndef MOTE_HARNESS_BOUT_H
 #define MOTE_HARNESS_BOUT_H
 
@@ -7,7 +8,7 @@
 
 enum { MOTE_RACE_A, MOTE_RACE_B, MOTE_RACE_SIDES };
 
-#define MOTE_RACE_COUNTS 24 /* different counts that a program may tell */
+#define MOTE_RACE_COUNTS 24 /* different counts that a program may send */
 
 /* A count's sum over the frames. */
 typedef struct mote_race_count {
@@ -20,48 +21,48 @@ typedef struct mote_race_cell {
     const char *scenario, *method; /* as on the command line; borrowed */
     uint32_t first, last;          /* frames; last 0: to the scenario's end */
     mote_cache cache;
-    uint64_t seed; /* of the method */
+    uint64_t seed; /* for the method */
 } mote_race_cell;
 
-/* How one side came to its end in a cell. */
+/* Whether and why one side did not finish a cell. */
 typedef struct mote_race_side {
-    bool refused, failed; /* it cannot measure this; it died, or took too long */
+    bool refused, failed; /* it cannot measure this cell; it crashed or took too long */
     char reason[400];
 } mote_race_side;
 
-/* What a bout says of a cell. */
+/* The result of a bout for a cell. */
 typedef struct mote_bout_result {
     mote_race_side side[MOTE_RACE_SIDES];
-    bool same_scene;    /* both sides' frames are the same ones, where it was asked */
+    bool same_scene;    /* both sides have the same frames, if checked */
     double log_ratio;   /* of times: see harness/race/paired.h */
-    double total_ns[2]; /* a frame */
+    double total_ns[2]; /* per frame */
     uint32_t frames, passes, blocks;
     mote_race_count counts[MOTE_RACE_COUNTS]; /* of the first pass */
     size_t count_count;
-    double worst;         /* the largest difference of two answers, in L; 0: the same bits */
-    uint32_t worst_frame; /* where */
+    double worst;         /* the largest difference of two answers, in L; 0: equal bits */
+    uint32_t worst_frame; /* frame of that difference */
 } mote_bout_result;
 
 typedef struct mote_bout_options {
     const char *program[MOTE_RACE_SIDES];
     int core;
-    double timeout;      /* of an answer, seconds */
+    double timeout;      /* per answer, seconds */
     bool check_scene;    /* compare the scenarios' fingerprints */
-    mote_random *random; /* of orders and layouts */
+    mote_random *random; /* for orders and layouts */
 } mote_bout_options;
 
 typedef struct mote_bout {
     mote_bout_options options;
     mote_racer racer[MOTE_RACE_SIDES];
-    size_t cells[MOTE_RACE_SIDES]; /* opened */
+    size_t cells[MOTE_RACE_SIDES]; /* number of cells opened */
 } mote_bout;
 
-/* Starts both processes. The errors of mote_racer_start. Ended by mote_bout_stop, also after a
+/* Starts both processes. Errors as mote_racer_start. End it with mote_bout_stop, even after a
    failure. */
 mote_status mote_bout_start(const mote_bout_options *options, mote_bout *bout);
 
-/* Measures a cell by both in turn. What is wrong with one of them is part of the result; the
-   bout is over when one has failed. MOTE_EIO when a signal asked to stop. */
+/* Measures a cell by both sides in turn. A failure of one side is part of the result; it ends
+   the bout. MOTE_EIO if a signal asked to stop. */
 mote_status mote_bout_run(mote_bout *bout, const mote_race_cell *cell,
                           mote_bout_result *result);
 void mote_bout_stop(mote_bout *bout);

@@ -19,17 +19,17 @@
 #define LEFT 46.0
 #define EDGE 14.0
 
-/* A page while it is written. */
+/* The state of a page being written. */
 typedef struct page {
     mote_history history;
     mote_race_files races;
     mote_text text;
 } page;
 
-/* Where values lie on a chart: a logarithmic axis around 1. */
+/* The position of values on a chart: a logarithmic axis around 1. */
 typedef struct scale {
     size_t places; /* from left to right */
-    double reach;  /* the logarithm at the upper edge, and less at the lower one */
+    double reach;  /* the logarithm at the upper edge; its negative at the lower edge */
 } scale;
 
 static double x_of(const scale *s, size_t place)
@@ -43,7 +43,7 @@ static double y_of(const scale *s, double ratio)
     return 0.5 * HIGH - log(ratio) / s->reach * (0.5 * HIGH - EDGE);
 }
 
-/* At least 5 % either way, so that noise looks like noise. */
+/* At least 5 % in either direction, so that noise looks like noise. */
 static void reach_to(scale *s, double ratio)
 {
     if (ratio > 0 && isfinite(ratio))
@@ -70,7 +70,7 @@ static void end_chart(mote_text *text, const char *caption)
     mote_text_add(text, "</svg><figcaption>%s</figcaption></figure>\n", caption);
 }
 
-/* The accepted references of a row: every point leads to its line of the table. */
+/* The accepted references of a row; every point links to its line of the table. */
 static void add_references(page *p, const mote_history_point *start)
 {
     scale s = {.places = p->history.references, .reach = log(1.05)};
@@ -111,7 +111,7 @@ static void add_references(page *p, const mote_history_point *start)
                                       "points are change points");
 }
 
-/* The races of a row: time of B over A, with its interval. */
+/* The races of a row: time of B divided by that of A, with its interval. */
 static void add_races(page *p, const char *key)
 {
     scale s = {.places = p->races.count, .reach = log(1.05)};
@@ -171,7 +171,7 @@ static bool has_reference(const page *p, const char *key)
     return found;
 }
 
-/* Rows of the history first, then those that only races have. */
+/* Adds rows of the history first, then those that occur only in races. */
 static void add_rows(page *p)
 {
     for (size_t i = 0; i < p->history.count; ++i) {

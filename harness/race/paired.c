@@ -28,7 +28,8 @@ double mote_bout_log_ratio(const mote_bout_times *times, double total_ns[2])
     return log(sums[1]) - log(sums[0]);
 }
 
-/* All means of two values, a value with itself included, sorted. The caller frees them. */
+/* The means of all pairs of values (Walsh averages), including each value with itself, sorted.
+   The caller frees them. */
 static double *pair_means(const double *values, size_t count, size_t *means)
 {
     double *sorted = mote_allocate(count * (count + 1) / 2, sizeof *sorted);
@@ -52,8 +53,8 @@ double mote_paired_centre(const double *values, size_t count)
     return centre;
 }
 
-/* How many of the smallest and of the largest means of two lie outside an interval that misses
-   with probability alpha at most: the largest k with P(signed rank sum < k) <= alpha / 2. */
+/* How many of the smallest and of the largest means lie outside an interval that misses with
+   probability alpha at most: the largest k with P(signed rank sum < k) <= alpha / 2. */
 static size_t outside(size_t count, double alpha)
 {
     const size_t sums = count * (count + 1) / 2;
@@ -88,7 +89,7 @@ mote_confidence mote_paired_interval(const double *values, size_t count, double 
 size_t mote_paired_least(double alpha)
 {
     size_t count = 1;
-    while (ldexp(1, -(int)count) > 0.5 * alpha) /* all of one sign */
+    while (ldexp(1, -(int)count) > 0.5 * alpha) /* the extreme case: all values of one sign */
         ++count;
     return count;
 }

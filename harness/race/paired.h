@@ -1,7 +1,6 @@
-/* The statistics of races. What is compared is two programs' times of the same frames, measured
-   in turn; what is counted is pairs of processes, since all frames of a process share its
-   layout.
- */
+/* The statistics of races. Two programs' times of the same frames, measured in turn, are
+   compared; the sampling unit is a pair of processes, since all frames of a process share its
+   layout. */
 #ifndef MOTE_HARNESS_PAIRED_H
 #define MOTE_HARNESS_PAIRED_H
 
@@ -14,24 +13,24 @@ typedef struct mote_bout_times {
 } mote_bout_times;
 
 /* How much more time b takes than a: the logarithm of the ratio of their totals over all
-   frames. A frame's share is the median over passes of its paired logarithms, so that what
-   interrupts a pass does not count; every frame counts with its share of the total. Exchanging
-   a and b negates it exactly. *total_ns (unless NULL): a frame's mean time in a and b. At least
+   frames. A frame's ratio is the median over passes of its paired logarithms, so interruptions
+   of a pass do not count; every frame is weighted by its share of the total. Exchanging a and b
+   negates the result exactly. *total_ns (unless NULL): a frame's mean time in a and b. At least
    one pass and one frame. */
 double mote_bout_log_ratio(const mote_bout_times *times, double total_ns[2]);
 
-/* The median of all means of two values (Hodges and Lehmann), for values that are symmetric
-   about what is sought. MOTE_NONE without values. count <= MOTE_PAIRED_MAX. */
+/* The median of the means of all pairs of values (Hodges and Lehmann), for values distributed
+   symmetrically about the parameter. MOTE_NONE without values. count <= MOTE_PAIRED_MAX. */
 #define MOTE_PAIRED_MAX 100
 double mote_paired_centre(const double *values, size_t count);
 
-/* Wilcoxon's signed rank interval of the same: it misses with a probability of at most alpha,
-   exactly, whatever the distribution is, as long as values are independent and symmetric. That
-   holds for the logarithms of ratios of two builds of equal speed that are measured in random
-   order, since nothing tells them apart. MOTE_NONE where there are too few values for alpha. */
+/* Wilcoxon's signed rank interval of the same parameter: it misses with a probability of at
+   most alpha, exactly, for any distribution, if the values are independent and symmetric. This
+   holds for the logarithms of ratios of two equally fast builds measured in random order, since
+   they are exchangeable. MOTE_NONE if there are too few values for alpha. */
 mote_confidence mote_paired_interval(const double *values, size_t count, double alpha);
 
-/* The fewest values for which there is an interval; alpha in (0, 1). */
+/* The smallest number of values for which there is an interval; alpha in (0, 1). */
 size_t mote_paired_least(double alpha);
 
 #endif

@@ -1,34 +1,36 @@
-/* What `mote race` and the programs that it races say to each other, over two pipes: lines of
-   fields between tabs, a line asked for each line answered.
+/* The protocol between `mote race` and the programs that it races, over two pipes: lines of
+   fields separated by tabs, one line of answer for each request.
 
        race-child's first line    mote-race FORMAT
        cell SCENARIO FIRST LAST CACHE SEED PRINT METHOD
                                   builds a method for frames FIRST .. LAST of a scenario;
                                   cells are numbered from 0. PRINT 1: with the fingerprint
-                                  (else that is 0, since it takes long); LAST 0: to the end
+                                  (otherwise 0, since it takes long); LAST 0: to the end
                                   ok FINGERPRINT L LAST
        run CELL FIRST COUNT       measures frames FIRST .. FIRST + COUNT - 1
                                   ok HASH NAME=COUNT,... NS,NS,...
-                                  HASH of the answers; sums of the counts; a time a frame,
+                                  HASH of the answers; sums of the counts; time per frame of
                                   deformation, update and query together
-       answers CELL               of the frames last run: ok DISTANCE:CONTACT,... (nan and -
-   where there is none; else CONTACT is 0 or 1) anything that fails        no REASON
+       answers CELL               the answers of the frames last run
+                                  ok DISTANCE:CONTACT,...
+                                  nan and - where missing; CONTACT is 0 or 1
+       any request that fails     no REASON
 
-   The end of its input ends race-child. A change of this format raises MOTE_RACE_FORMAT: a
-   program of another format is refused, never misread. */
+   race-child ends at the end of its input. A change of this format raises MOTE_RACE_FORMAT: a
+   program with another format is refused, never misread. */
 #ifndef MOTE_HARNESS_RACE_PROTOCOL_H
 #define MOTE_HARNESS_RACE_PROTOCOL_H
 
 #define MOTE_RACE_FORMAT 1
 #define MOTE_RACE_GREETING "mote-race"
 
-/* At most this many bytes in a line, its end included. */
+/* The largest line in bytes, including its end. */
 #define MOTE_RACE_LINE ((size_t)1 << 20)
 
-/* At most this many frames in one `run`: their times fit in a line. */
+/* The largest number of frames in one `run`: their times must fit in a line. */
 #define MOTE_RACE_BLOCK_FRAMES 4096
 
-/* At most this many cells in a child. */
+/* The largest number of cells in a child. */
 #define MOTE_RACE_CELLS 256
 
 #endif

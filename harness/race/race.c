@@ -12,18 +12,18 @@
 
 const char *const mote_race_state_names[] = {"measured", "left out", "failed"};
 
-/* While it goes on. */
+/* The state of a running race. */
 typedef struct event {
     const mote_race_options *options;
     mote_race *race;
-    bool *done; /* [cells]: known well enough, or not to be measured */
+    bool *done; /* [cells]: known precisely enough, or not to be measured */
     mote_random random;
     size_t order[MOTE_RACE_SIDES][MOTE_RACE_BUILDS]; /* of builds, shuffled */
-    double alpha;                                    /* of a look at a cell */
-    size_t next_look;                                /* pairs */
+    double alpha;                                    /* for a look at a cell */
+    size_t next_look;                                /* in pairs */
     uint32_t looks;
     uint64_t began;
-    double longest; /* pair, seconds */
+    double longest; /* duration of a pair, seconds */
 } event;
 
 static double seconds_since(uint64_t start)
@@ -56,7 +56,8 @@ static void shuffle(size_t *items, size_t count, mote_random *random)
     }
 }
 
-/* The builds of the next pair: all of a side's come before one comes again. */
+/* Chooses the builds of the next pair: each of a side's builds is used once before any
+   repeats. */
 static void choose_builds(event *e, mote_bout_options *bout)
 {
     for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
@@ -68,7 +69,7 @@ static void choose_builds(event *e, mote_bout_options *bout)
     }
 }
 
-/* Why a cell is not measured, from what its bout says; false where it was. */
+/* Sets why a cell is not measured, from its bout; false if it was measured. */
 static bool rule_out(mote_race_row *row, const mote_bout_result *result)
 {
     for (int side = 0; side < MOTE_RACE_SIDES; ++side) {
@@ -105,7 +106,7 @@ static void keep(mote_race_row *row, const mote_bout_result *result)
     }
 }
 
-/* Measures the cells of `order` from *place on, until all are done or a process has failed. */
+/* Measures the cells of `order` from *place on, until all are done or a process fails. */
 static mote_status run_bout(event *e, const mote_bout_options *options, const size_t *order,
                             size_t *place)
 {
@@ -131,7 +132,8 @@ static mote_status run_bout(event *e, const mote_bout_options *options, const si
     return status;
 }
 
-/* One value a cell that is not done, in random order; new processes follow those that fail. */
+/* Measures one value for each cell that is not done, in random order; new processes replace
+   those that fail. */
 static mote_status run_pair(event *e)
 {
     size_t order[MOTE_RACE_CELLS] = {0}, place = 0;
@@ -159,7 +161,7 @@ static double spread(const mote_race_row *row)
     return row->pairs > 1 ? sqrt(sum / (double)(row->pairs - 1)) : MOTE_NONE;
 }
 
-/* Looks at the cells that are not done; those known within `until` are done. */
+/* Looks at the cells that are not done; those known within `until` become done. */
 static void look(event *e, bool last)
 {
     const mote_race_options *o = e->options;
@@ -191,7 +193,7 @@ static bool all_done(const event *e)
     return true;
 }
 
-/* Whether another pair would end after the budget. */
+/* Whether another pair would exceed the budget. */
 static bool is_late(const event *e)
 {
     return e->options->budget > 0 && seconds_since(e->began) + e->longest > e->options->budget;
@@ -211,7 +213,7 @@ static mote_status run_pairs(event *e)
     return status;
 }
 
-/* What a row's counts, answers and time say together. */
+/* Judges a row by its counts, answers and time together. */
 static void judge(mote_race_row *row, const mote_race_options *options, mote_race *race)
 {
     for (size_t i = 0; i < row->count_count; ++i) {

@@ -1,15 +1,15 @@
-/* Two programs race: both measure the same cells in turn, in processes of their own on one
+/* A race of two programs: both measure the same cells in turn, in separate processes on one
    core, until it is known which is faster.
 
-   Frames are measured in blocks, and who begins is random (harness/race/bout.h). A pair of
-   processes gives one value a cell, the logarithm of b's time over a's; further pairs follow,
-   each with new layouts of environment, stack and heap, and with the next of the builds where a
-   side has several that differ in link order. The interval over these values is exact without
+   Frames are measured in blocks, and the first side is random (harness/race/bout.h). A pair of
+   processes gives one value per cell, the logarithm of b's time over a's; further pairs follow,
+   each with new layouts of environment, stack and heap, and with the next build if a side has
+   several that differ in link order. The interval over these values is exact without
    assumptions about the noise (harness/race/paired.h).
 
-   Looking again and again inflates false alarms, so looks are counted: a race looks at most
+   Repeated looks inflate false alarms, so they are counted: a race looks at most
    MOTE_RACE_LOOKS times, and each look at each cell is granted MOTE_RACE_ALPHA / (looks *
-   cells). All intervals that a race shows hold together with a probability of 1 -
+   cells). All intervals that a race shows hold simultaneously with a probability of 1 -
    MOTE_RACE_ALPHA. */
 #ifndef MOTE_HARNESS_RACE_H
 #define MOTE_HARNESS_RACE_H
@@ -17,12 +17,13 @@
 #include "harness/race/bout.h"
 #include "harness/race/paired.h"
 
-/* How often a race of two equal programs may call any row faster or slower. */
+/* The probability that a race of two equal programs calls any row faster or slower. */
 #define MOTE_RACE_ALPHA 0.01
 #define MOTE_RACE_LOOKS 4
-/* Pairs of processes between two looks; the first comes as soon as there is an interval. */
+/* Pairs of processes between two looks; the first look comes as soon as there is an
+   interval. */
 #define MOTE_RACE_STEP 8
-/* Answers are the same up to this share of L, as everywhere (an exact answer). */
+/* Answers are equal up to this share of L, as everywhere (an exact answer). */
 #define MOTE_RACE_EXACT 1e-9
 #define MOTE_RACE_BUILDS 64
 
@@ -32,8 +33,8 @@ typedef struct mote_race_builds {
     size_t count;
 } mote_race_builds;
 
-/* The program of this name, or all programs in the folder of this name (one with a slash),
-   sorted. MOTE_EIO when there is none. Free with mote_race_builds_free. */
+/* Finds the program with this name, or all programs in the folder with this name (containing a
+   slash), sorted. MOTE_EIO if there is none. Free with mote_race_builds_free. */
 mote_status mote_race_builds_find(const char *path, mote_race_builds *builds);
 void mote_race_builds_free(mote_race_builds *builds);
 
@@ -42,45 +43,45 @@ typedef struct mote_race_options {
     const mote_race_cell *cells;
     size_t cell_count;  /* at most MOTE_RACE_CELLS */
     double until;       /* a cell is done when its ratio is known within this share */
-    double real;        /* the smallest change that is called one, a share */
-    double budget;      /* seconds for everything; 0: none */
-    double timeout;     /* of an answer, seconds */
-    uint64_t seed;      /* of orders and layouts */
-    bool allow_changes; /* other answers are told and not judged */
+    double real;        /* the smallest change that counts, a share */
+    double budget;      /* seconds in total; 0: none */
+    double timeout;     /* per answer, seconds */
+    uint64_t seed;      /* for orders and layouts */
+    bool allow_changes; /* different answers are reported but not judged */
 } mote_race_options;
 
 typedef enum mote_race_state {
     MOTE_RACE_MEASURED,
-    MOTE_RACE_LEFT_OUT, /* a side does not have it, or they do not run the same scenario */
+    MOTE_RACE_LEFT_OUT, /* missing on one side, or the scenarios differ */
     MOTE_RACE_FAILED    /* a side crashed or took too long */
 } mote_race_state;
 extern const char *const mote_race_state_names[];
 
-/* What is known of a cell. */
+/* The results for a cell. */
 typedef struct mote_race_row {
     const mote_race_cell *cell;
-    char *name; /* "ww/certified/hot"; with frames where the same stands twice */
+    char *name; /* "ww/certified/hot"; with frames if the name occurs twice */
     mote_race_state state;
-    char reason[900]; /* why it is not measured */
+    char reason[900]; /* why it was not measured */
     double logs[MOTE_PAIRED_MAX];
-    size_t pairs;   /* of processes; values in logs */
+    size_t pairs;   /* of processes; number of values in logs */
     uint32_t looks; /* so far */
     uint64_t blocks;
     double seconds; /* spent on it */
-    double spread;  /* standard deviation of logs: from process to process and build to build */
+    double spread;  /* standard deviation of logs: between processes and builds */
     double ratio;   /* b / a, MOTE_NONE before the first look */
     mote_confidence interval;
-    double total_ns[MOTE_RACE_SIDES]; /* a frame, in the first pair */
+    double total_ns[MOTE_RACE_SIDES]; /* per frame, in the first pair */
     mote_verdict verdict;
     mote_race_count counts[MOTE_RACE_COUNTS]; /* sums over the frames of a pass */
     size_t count_count;
     uint32_t frames;
-    bool counted;                         /* a count differs */
-    bool missing[2];                      /* a side does not have this cell, or failed in it */
-    double worst;                         /* answers differ by this share of L at most */
-    uint32_t worst_frame;                 /* there */
-    double instructions[MOTE_RACE_SIDES]; /* a frame; MOTE_NONE: not counted */
-    char *what;                           /* what explains it */
+    bool counted;                         /* whether a count differs */
+    bool missing[2];                      /* whether a side lacks this cell, or failed in it */
+    double worst;                         /* largest difference of answers, as a share of L */
+    uint32_t worst_frame;                 /* frame of that difference */
+    double instructions[MOTE_RACE_SIDES]; /* per frame; MOTE_NONE: not counted */
+    char *what;                           /* what explains the verdict */
 } mote_race_row;
 
 typedef struct mote_race {
@@ -88,17 +89,17 @@ typedef struct mote_race {
     size_t count;
     size_t pairs;
     double seconds;
-    bool worse, undecided; /* slower, other answers, or lost; undecided or out of time */
+    bool worse, undecided; /* slower, other answers, or missing; undecided or out of time */
 } mote_race;
 
-/* Races. MOTE_EIO and MOTE_EINVAL when a program cannot race at all (see mote_racer_start),
-   when no cell can be measured, and when a signal asked to stop; nothing runs any more then.
-   The caller frees *race with mote_race_free. */
+/* Runs a race. MOTE_EIO and MOTE_EINVAL if a program cannot race at all (see mote_racer_start),
+   if no cell can be measured, and if a signal asked to stop; all processes have then ended. The
+   caller frees *race with mote_race_free. */
 mote_status mote_race_run(const mote_race_options *options, mote_race *race);
 void mote_race_free(mote_race *race);
 
-/* The verdict of a ratio: faster or slower where the interval excludes 1 and the change is at
-   least `real`; same where the interval lies within real + until of 1. */
+/* The verdict for a ratio: faster or slower if the interval excludes 1 and the change is at
+   least `real`; same if the interval lies within real + until of 1. */
 mote_verdict mote_race_verdict(double ratio, mote_confidence interval, double real,
                                double until);
 

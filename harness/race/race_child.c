@@ -18,9 +18,9 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-/* A stack or a heap is moved by at most this many bytes. */
+/* The largest offset of a stack or a heap, in bytes. */
 #define OFFSET_MAX ((uint64_t)1 << 20)
-/* Of stack, in each step down. */
+/* Stack bytes per recursion step. */
 #define STEP_BYTES 64
 
 typedef struct scene {
@@ -28,7 +28,7 @@ typedef struct scene {
     mote_subject subject;
 } scene;
 
-/* A cell that is built, with the answers of the frames that it ran last. */
+/* A built cell, with the answers of the frames that it ran last. */
 typedef struct entrant {
     mote_cell cell;
     mote_method_choice choice;
@@ -46,7 +46,7 @@ typedef struct server {
     mote_text reply;
 } server;
 
-/* Splits a line in place at its tabs; returns how many fields it has. */
+/* Splits a line in place at its tabs; returns the number of fields. */
 static size_t split(char *line, char **fields, size_t most)
 {
     size_t count = 0;
@@ -61,7 +61,7 @@ static size_t split(char *line, char **fields, size_t most)
     return count;
 }
 
-/* A scenario is loaded once, without its fingerprint, which takes longer than all else. */
+/* Loads a scenario once, without its fingerprint, which takes longer than everything else. */
 static mote_status find_scene(server *s, const char *name, scene **found)
 {
     for (size_t i = 0; i < s->scene_count; ++i) {
@@ -169,7 +169,7 @@ static void sum_counts(mote_counters *sums, const mote_counters *counters)
 #undef SUM_COUNT
 }
 
-/* The frames of a block, nothing else happening between them. */
+/* Runs the frames of a block without anything else in between. */
 static mote_status run_frames(entrant *e, uint32_t first, uint32_t count, uint64_t *times,
                               mote_counters *sums, uint64_t *hash)
 {
@@ -241,7 +241,7 @@ static mote_status tell_answers(server *s, char *fields[8])
     return MOTE_OK;
 }
 
-/* Answers a line; false when nobody reads the answer. */
+/* Answers a line; returns false if nobody reads the answer. */
 static bool answer_line(server *s, char *line)
 {
     static const struct {
@@ -297,7 +297,7 @@ static int serve(void)
     while (heard && fgets(line, sizeof line, stdin)) {
         char *end = strchr(line, '\n');
         if (!end)
-            break; /* cut off, or longer than any request */
+            break; /* cut off, or too long for a request */
         *end = '\0';
         heard = answer_line(s, line);
     }
@@ -305,7 +305,7 @@ static int serve(void)
     return MOTE_EXIT_DONE;
 }
 
-/* Serves with the stack that much lower. */
+/* Serves with the stack lowered by this many bytes. */
 __attribute__((noinline)) static int serve_below(uint64_t bytes)
 {
     volatile char step[STEP_BYTES];

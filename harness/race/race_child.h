@@ -1,10 +1,10 @@
-/* The side of `mote race` that measures: see harness/race/protocol.h. */
+/* The measuring side of `mote race`: see harness/race/protocol.h. */
 #ifndef MOTE_HARNESS_RACE_CHILD_H
 #define MOTE_HARNESS_RACE_CHILD_H
 
 /* `mote race-child --core N --stack BYTES --heap BYTES`: answers lines on standard input until
-   it ends. core -1: not pinned. The stack begins that much lower and the heap that much higher
-   than they would, since where they lie changes times. Returns a mote_exit. */
+   it ends. core -1: not pinned. The stack starts lower and the heap higher by these many bytes,
+   since their position affects times. Returns a mote_exit. */
 int mote_race_child(int argc, char **argv);
 
 #endif

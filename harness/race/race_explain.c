@@ -8,12 +8,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Frames that instructions are counted over. */
+/* Number of frames for which instructions are counted. */
 #define INSTRUCTION_FRAMES 20
-/* Instructions are the same within this share: a few branches depend on addresses. */
+/* Instructions are equal within this share: a few branches depend on addresses. */
 #define INSTRUCTIONS_SHARE 0.002
 
-/* Instructions a frame by one program; MOTE_NONE where they cannot be counted. */
+/* Instructions per frame of one program; MOTE_NONE if they cannot be counted. */
 static double count_of(const char *program, const mote_race_row *row, const char *folder)
 {
     const uint32_t most = row->cell->first + INSTRUCTION_FRAMES - 1;
@@ -91,7 +91,7 @@ static void say_answers(mote_text *text, const mote_race_row *row)
         mote_text_add(text, "%sanswers differ by rounding (%.2g L)", separator, row->worst);
 }
 
-/* Why the time changed, as far as counts and instructions tell. */
+/* Says why the time changed, as far as counts and instructions show it. */
 static void say_cause(mote_text *text, const mote_race_row *row)
 {
     const double a = row->instructions[MOTE_RACE_A], b = row->instructions[MOTE_RACE_B];

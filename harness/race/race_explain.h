@@ -1,15 +1,15 @@
-/* What explains the verdict of a row: answers, counts, instructions. */
+/* Explains the verdict of a row by answers, counts and instructions. */
 #ifndef MOTE_HARNESS_RACE_EXPLAIN_H
 #define MOTE_HARNESS_RACE_EXPLAIN_H
 
 #include "harness/race/race.h"
 
-/* Has both programs count the instructions of the rows that are faster or slower, over their
-   first frames, by `mote instructions` (callgrind: seconds a row). Rows where that fails stay
-   without them; nothing is left behind. */
+/* Makes both programs count the instructions of the rows that are faster or slower, over their
+   first frames, with `mote instructions` (callgrind: seconds per row). Rows for which that
+   fails get none; temporary files are removed. */
 void mote_race_count_instructions(const mote_race_options *options, mote_race *race);
 
-/* Sets `what` of every row, from what is known of it. */
+/* Sets `what` of every row from its results. */
 void mote_race_explain(mote_race *race);
 
 #endif

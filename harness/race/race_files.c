@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KEYS_MAX 64 /* of a method */
+#define KEYS_MAX 64 /* per method */
 
 static int by_text(const void *a, const void *b)
 {

@@ -1,4 +1,4 @@
-/* Races as `mote race --out` wrote them, in a folder. */
+/* Races in a folder, as written by `mote race --out`. */
 #ifndef MOTE_HARNESS_RACE_FILES_H
 #define MOTE_HARNESS_RACE_FILES_H
 
@@ -7,30 +7,30 @@
 #include <jansson.h>
 
 typedef struct mote_race_file {
-    json_t *json; /* as `mote race --out` wrote it */
+    json_t *json; /* as written by `mote race --out` */
 } mote_race_file;
 
 typedef struct mote_race_files {
     mote_race_file *races; /* [count], by date */
     size_t count;
-    const char **names; /* of all rows, each once; borrowed from the races */
+    const char **names; /* names of all rows, without repetition; borrowed from the races */
     size_t name_count;
 } mote_race_files;
 
-/* Reads all NAME.json of a folder but last.json; none where there is no folder. MOTE_EINVAL for
-   one that is not a race. Free with mote_race_files_free, also after a failure. */
+/* Reads all NAME.json of a folder except last.json; none if there is no folder. MOTE_EINVAL for
+   a file that is not a race. Free with mote_race_files_free, even after a failure. */
 mote_status mote_race_files_read(const char *folder, mote_race_files *files);
 void mote_race_files_free(mote_race_files *files);
 
-/* What tells a row from another, however its keys are ordered and separated:
-   "ww/particle-paper:start=fps,n=5/hot" and "ww/particle-paper:n=5;start=fps/hot" are one. The
-   caller frees it. */
+/* Identifies a row, whatever the order and separators of its keys:
+   "ww/particle-paper:start=fps,n=5/hot" and "ww/particle-paper:n=5;start=fps/hot" are the same.
+   The caller frees it. */
 char *mote_race_row_key(const char *name);
 
 /* Whether any race measured a row. */
 bool mote_race_files_has(const mote_race_files *files, const char *key);
 
-/* A row in one race; ratio is MOTE_NONE where the race does not have it. Texts are borrowed. */
+/* A row in one race; ratio is MOTE_NONE if the race does not have it. Texts are borrowed. */
 typedef struct mote_race_point {
     double ratio;
     mote_confidence interval;
@@ -39,7 +39,7 @@ typedef struct mote_race_point {
 mote_race_point mote_race_files_point(const mote_race_files *files, size_t race,
                                       const char *key);
 
-/* The rows of a race that are faster, slower or worse, as text that the caller frees. */
+/* The rows of a race that are faster, slower or worse, as a text that the caller frees. */
 char *mote_race_files_changes(const mote_race_files *files, size_t race);
 
 #endif

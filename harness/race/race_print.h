@@ -9,7 +9,7 @@
 
 void mote_race_print(const mote_race_options *options, const mote_race *race, FILE *out);
 
-/* The caller decrefs; NULL where a name is not UTF-8. labels: what A and B are, or NULL for the
+/* The caller decrefs; NULL if a name is not UTF-8. labels: names of A and B, or NULL for the
    programs' paths. */
 json_t *mote_race_json(const mote_race_options *options, const mote_race *race,
                        const char *const labels[2]);

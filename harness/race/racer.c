@@ -20,14 +20,14 @@
 #include <time.h>
 #include <unistd.h>
 
-/* How often a waiting parent checks for a signal that asked it to stop. */
+/* Interval at which a waiting parent checks for a signal that asked it to stop. */
 #define POLL_MS 200
-/* A page: the environment lies above the stack, and its size moves all that is below. */
+/* A page: the environment lies above the stack, so its size moves everything below it. */
 #define ENVIRONMENT_BYTES 4096
 #define STACK_BYTES 4096
 #define HEAP_BYTES 65536
 #define STATUS_NOT_RUN 127
-/* A process that has closed its output has this long to end. */
+/* How long a process that has closed its output may take to end. */
 #define GRACE_SECONDS 1.0
 
 static double seconds_now(void)
@@ -37,7 +37,7 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* The command line of a child; what is needed is made before the fork. */
+/* The command line of a child; everything it needs is made before the fork. */
 typedef struct start {
     const char *program;
     char core[16], stack[16], heap[16];
@@ -62,7 +62,7 @@ static _Noreturn void be_racer(const start *s)
     if (getppid() != s->parent || dup2(s->in, STDIN_FILENO) < 0 ||
         dup2(s->out, STDOUT_FILENO) < 0)
         _exit(STATUS_NOT_RUN);
-    /* What it has to say stands in its answers. */
+    /* Everything it has to say is in its answers. */
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (dup2(nowhere, STDERR_FILENO) < 0 || setenv("MOTE_RACE_PADDING", s->padding, 1) != 0)
         _exit(STATUS_NOT_RUN);
@@ -117,7 +117,7 @@ void mote_racer_stop(mote_racer *racer)
     *racer = (mote_racer){0};
 }
 
-/* What happened to a racer that cannot go on; it is stopped. */
+/* Stops a racer that cannot continue, and fails with what happened. */
 static mote_status fail_stopped(mote_racer *racer, const char *what)
 {
     const char *program = racer->program;
@@ -125,7 +125,7 @@ static mote_status fail_stopped(mote_racer *racer, const char *what)
     return mote_fail(MOTE_EIO, "%s: %s", program, what);
 }
 
-/* Waits for the process, which has closed its side, and says how it ended. */
+/* Waits for the process, which has closed its end, and fails with how it ended. */
 static mote_status fail_ended(mote_racer *racer)
 {
     int ended = 0;
@@ -147,7 +147,7 @@ static mote_status fail_ended(mote_racer *racer)
     return mote_fail(MOTE_EIO, "%s: ended with status %d", program, WEXITSTATUS(ended));
 }
 
-/* Reads what there is; *ended: the other side is closed. */
+/* Reads what has arrived; *ended: the other end is closed. */
 static void receive(mote_racer *racer, bool *ended)
 {
     static char block[1 << 16];
@@ -157,11 +157,11 @@ static void receive(mote_racer *racer, bool *ended)
         return;
     block[got] = '\0';
     if (strlen(block) != (size_t)got)
-        *ended = true; /* no text: nothing that follows can be read */
+        *ended = true; /* not text: nothing after it can be read */
     mote_text_add(&racer->text, "%s", block);
 }
 
-/* Waits for a line; its end becomes a 0 byte. */
+/* Waits for a line; a 0 byte replaces its end. */
 static mote_status hear(mote_racer *racer, char **line)
 {
     const double deadline = seconds_now() + racer->timeout;

@@ -1,5 +1,5 @@
-/* One of the two programs of a race while it runs: a process that answers lines
-   (harness/race/protocol.h). It ends with this process. */
+/* A running program of a race: a process that answers lines (harness/race/protocol.h). It ends
+   with this process. */
 #ifndef MOTE_HARNESS_RACER_H
 #define MOTE_HARNESS_RACER_H
 
@@ -8,30 +8,30 @@
 
 #include <sys/types.h>
 
-/* Zero-initialise; `pid` is 0 where none runs. */
+/* Zero-initialise; `pid` is 0 if no process runs. */
 typedef struct mote_racer {
     pid_t pid;
     const char *program; /* borrowed; names it in errors */
     int to, from;
     double timeout; /* seconds that an answer may take */
-    mote_text text; /* what has arrived; begins with the last answer's line */
+    mote_text text; /* received data; begins with the last answer's line */
 } mote_racer;
 
-/* Runs `program race-child`, pinned to a core (-1: not), with an environment, stack and heap
-   offset of random sizes, and hears its greeting. MOTE_EIO when it cannot be run or is older
-   than race-child, MOTE_EINVAL when it speaks another format. */
+/* Runs `program race-child`, pinned to a core (-1: not), with an environment, a stack offset
+   and a heap offset of random sizes, and reads its greeting. MOTE_EIO if it cannot be run or is
+   older than race-child, MOTE_EINVAL if it uses another format. */
 mote_status mote_racer_start(const char *program, int core, double timeout, mote_random *random,
                              mote_racer *racer);
 
-/* Sends a request, a line without its end, and waits for the answer: *answer is what follows
-   "ok" and its tab, lives in the racer until the next request, and may be written to.
-   MOTE_EUNSUPPORTED with the racer's reason where it says no; MOTE_EIO when it has ended, took
-   too long, or its answer cannot be read (it is then stopped), and when a signal asked this
-   process to stop (harness/process/child.h). */
+/* Sends a request, a line without its end, and waits for the answer: *answer is the text after
+   "ok" and its tab, is valid until the next request, and may be modified. MOTE_EUNSUPPORTED
+   with the racer's reason if it refuses; MOTE_EIO if it has ended, took too long, or its answer
+   cannot be read (it is then stopped), and if a signal asked this process to stop
+   (harness/process/child.h). */
 mote_status mote_racer_ask(mote_racer *racer, char **answer, const char *format, ...)
     MOTE_PRINTF(3, 4);
 
-/* Ends it and waits until it is gone. One that does not run is allowed. */
+/* Stops the process and waits until it has ended. Does nothing if none runs. */
 void mote_racer_stop(mote_racer *racer);
 
 #endif

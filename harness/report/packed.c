@@ -8,14 +8,14 @@
 #define ZLIB_CONST /* its input is const */
 #include <zlib.h>
 
-/* A negative window: no header and no checksum around the compressed bytes. */
+/* Negative: no header and no checksum around the compressed bytes. */
 #define RAW_WINDOW (-15)
 #define MEMORY_LEVEL 8
 
 void mote_packed_add(mote_text *text, const void *data, size_t size)
 {
     z_stream stream = {0};
-    /* The parameters are right, and the room is enough: only memory can be missing. */
+    /* The parameters are valid and the room suffices, so only memory can be missing. */
     if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, RAW_WINDOW, MEMORY_LEVEL,
                      Z_DEFAULT_STRATEGY) != Z_OK)
         mote_out_of_memory(0);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether an argument of a command names the scenario file NAME.json, or a pair of meshes. */
+/* Whether an argument of a command may be the scenario file NAME.json, or a pair of meshes. */
 static bool may_name(const char *word, const char *name)
 {
     char *file = mote_format("%s.json", name);
@@ -36,8 +36,8 @@ static const char *direction_of(const json_t *words)
     return NULL;
 }
 
-/* The scenario that word k of a command names, as mote_scenario_load takes it, or NULL; the
-   caller frees it. `--pair A B` names one of no file. */
+/* The scenario that word k of a command names, as accepted by mote_scenario_load, or NULL; the
+   caller frees it. `--pair A B` names one without a file. */
 static char *named_by(const json_t *words, size_t k, const char *name)
 {
     const char *word = json_string_value(json_array_get(words, k));
@@ -48,7 +48,7 @@ static char *named_by(const json_t *words, size_t k, const char *name)
     return word && may_name(word, name) ? mote_format("%s", word) : NULL;
 }
 
-/* Whether the file that a word names is the scenario with this fingerprint; keeps it if so. */
+/* Whether the file that a word names is the scenario with this fingerprint; stores it if so. */
 static bool try_word(const char *word, const char *fingerprint, mote_scenario **scenario)
 {
     mote_scenario *loaded = NULL;
@@ -68,7 +68,7 @@ static bool try_word(const char *word, const char *fingerprint, mote_scenario **
     return false;
 }
 
-/* Finds the scenario of a cell: by its name, or by what the run's commands named. */
+/* Finds the scenario of a cell by its name, or among those named in the run's commands. */
 static mote_status find_scenario(const mote_report *report, const mote_stored_cell *cell,
                                  mote_scenario **scenario)
 {
@@ -97,7 +97,7 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
 }
 
 /* Whether the page can show the bodies, and whether the scenario has the frames of the cells,
-   which may be damaged files. */
+   whose files may be damaged. */
 static mote_status check_scene(const mote_replay_scene *scene)
 {
     for (int i = 0; i < 2; ++i) {
@@ -113,7 +113,7 @@ static mote_status check_scene(const mote_replay_scene *scene)
                      scene->tracks[0].cell->scenario, scene->last, scene->scenario->frames);
 }
 
-/* Whether a row is replayed: it has answers of its own, with hot caches. */
+/* Whether a row is replayed: it has answers, with hot caches. */
 static bool is_shown(const mote_summary_row *row)
 {
     return row->status == MOTE_CELL_OK && row->first->frames > 0 &&
@@ -121,7 +121,7 @@ static bool is_shown(const mote_summary_row *row)
            !strstr(row->label, "positions=given");
 }
 
-/* The truth from the tracks' cells, with the points from the truth's own file where that
+/* Reads the truth from the tracks' cells, and its points from the truth's own file if that
    exists. */
 static void read_truth(const mote_report *report, mote_replay_scene *scene)
 {
@@ -157,8 +157,8 @@ static void read_truth(const mote_report *report, mote_replay_scene *scene)
     mote_truth_destroy(truth);
 }
 
-/* Where surfaces intersect, the truth has no points: many pairs are at distance 0. Any pair
-   that a method found there is one. */
+/* Where surfaces intersect, the truth has no points, because many pairs are at distance 0. Any
+   pair that a method found there will do. */
 static void fill_contacts(mote_replay_scene *scene)
 {
     for (size_t t = 0; t < scene->count; ++t) {
@@ -173,8 +173,8 @@ static void fill_contacts(mote_replay_scene *scene)
     }
 }
 
-/* How bad the answers of a cell are: the largest absolute error, or, where the method gives
-   no distance, the number of wrong contacts. */
+/* How bad the answers of a cell are: the largest absolute error or, if the method gives no
+   distance, the number of wrong contacts. */
 static double badness_of(const mote_stored_cell *cell)
 {
     double error = MOTE_NONE, wrong = 0;
@@ -187,7 +187,7 @@ static double badness_of(const mote_stored_cell *cell)
     return error == error ? error : wrong;
 }
 
-/* The replicate with the worst answers, the first of equals. */
+/* The replicate with the worst answers, the first one on a tie. */
 static const mote_stored_cell *worst_cell(const mote_summary_row *row)
 {
     const mote_stored_cell *worst = row->first;
@@ -213,7 +213,7 @@ static mote_status add_track(const mote_report *report, const mote_summary_row *
     return mote_replay_read_cell(report->directory, track);
 }
 
-/* Key frames of bodies of which only positions are given, and a note where there are fewer than
+/* Makes key frames of bodies with given positions, and a note if there are fewer than
    frames. */
 static mote_status make_keys(mote_replay_scene *scene)
 {
@@ -289,7 +289,7 @@ static bool starts_block(const mote_report *report, size_t i)
            (i == 0 || !mote_summary_same_block(row, mote_report_row(report, i - 1)));
 }
 
-/* How many of the page's bytes are left, and for how many scenes. */
+/* The bytes of the page that are left, and for how many scenes. */
 typedef struct share {
     size_t bytes, scenes;
 } share;

@@ -1,4 +1,4 @@
-/* The answers of a cell, read from its CSV file for pictures. */
+/* Reads the answers of a cell from its CSV file for pictures. */
 #include "harness/report/replay.h"
 
 #include "harness/base/memory.h"
@@ -27,7 +27,7 @@ static void put_field(void *context, int field, double value)
     ((double *)context)[field] = value;
 }
 
-/* MOTE_NONE where the text has ended, or is no longer that of a cell. */
+/* Rows stay MOTE_NONE after the end of the text, or after a line that is not a cell's. */
 static void read_rows(const char *text, mote_replay_track *track)
 {
     mote_cell_columns columns;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first frame and the last, and others evenly between. */
+/* Chooses the first frame, the last, and others evenly between. */
 static void choose_frames(uint32_t first, uint32_t last, uint32_t vertices,
                           mote_replay_keys *keys)
 {
@@ -19,7 +19,7 @@ static void choose_frames(uint32_t first, uint32_t last, uint32_t vertices,
                             : first;
 }
 
-/* How far each vertex is from its place at rest, in the body's axes. */
+/* The displacement of each vertex from rest, in the body's axes. */
 static void displacements(const mote_body *body, const mote_body_state *state, mote_vec3 *mode)
 {
     for (uint32_t v = 0; v < body->mesh->vertex_count; ++v) {

@@ -1,4 +1,4 @@
-/* The particles of a track, which no cell stores. */
+/* Finds the particles of a track, which cells do not store. */
 #include "harness/figure/particle_places.h"
 #include "harness/report/replay.h"
 

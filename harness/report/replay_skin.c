@@ -8,9 +8,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Weights, displacements and amounts are stored in as many steps. */
+/* The number of steps in which weights, displacements and amounts are stored. */
 #define STEPS 65535
-/* Columns of matrices: a bone far from the middle of the body multiplies their steps. */
+/* The same for columns of matrices: a bone far from the middle of the body multiplies their
+   rounding. */
 #define COLUMN_STEPS (1 << 20)
 
 bool mote_replay_has_skin(const mote_body *body)
@@ -23,7 +24,7 @@ static int32_t in_steps(double value, double step)
     return (int32_t)floor(value / step + 0.5);
 }
 
-/* How many entries each vertex has. */
+/* Adds the number of entries of each vertex. */
 static void add_counts(mote_text *text, const char *key, const uint32_t *start, size_t vertices)
 {
     int32_t *counts = mote_allocate(vertices, sizeof *counts);
@@ -50,7 +51,7 @@ static void add_weights(mote_text *text, const mote_skin *skin)
     free(numbers);
 }
 
-/* Displacements in the sizes of their targets, which the amounts contain. */
+/* Adds displacements relative to the sizes of their targets, which the amounts contain. */
 static void add_moves(mote_text *text, const mote_skin *skin)
 {
     const mote_morph *morph = &skin->morph;
@@ -87,7 +88,7 @@ void mote_replay_add_skin(mote_text *text, const mote_body *body)
     mote_text_add(text, "}");
 }
 
-/* Second differences of numbers in steps of the largest over `steps`. */
+/* Adds second differences of numbers in steps of the largest over `steps`. */
 static void add_smooth(mote_text *text, const char *key, const char *step_key, int steps,
                        const double *values, size_t frames, size_t width)
 {

@@ -1,5 +1,4 @@
-/* A scene as JSON: single numbers as they are; arrays as packed texts that contain JSON
-   again. */
+/* A scene as JSON: single numbers directly; arrays as packed texts that again contain JSON. */
 
 #include "harness/base/memory.h"
 #include "harness/report/packed.h"
@@ -14,13 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Steps of a rotation's entries, and of translations over L. */
+/* Step size of a rotation's entries, and of translations divided by L. */
 #define POSE_STEP 1e-6
 
-/* Errors over L below this are rounding and written as 0: they cannot be seen in a picture. */
+/* Errors in L below this are rounding and written as 0: they are invisible in a picture. */
 #define ERROR_LEAST 1e-12
 
-/* {...} of a text that holds members, packed; members are freed. */
+/* {...} with the members in a text, packed; members are freed. */
 static json_t *packed_object(mote_text *members)
 {
     mote_text whole = {0}, packed = {0};
@@ -33,7 +32,7 @@ static json_t *packed_object(mote_text *members)
     return object;
 }
 
-/* Over every point of the scene that is not a vertex. */
+/* The grid of all points of the scene that are not vertices. */
 static mote_replay_grid scene_grid(const mote_replay_scene *scene)
 {
     mote_replay_box box = mote_replay_box_none();
@@ -60,8 +59,8 @@ static int32_t in_steps(double value, double step)
     return (int32_t)floor(value / step + 0.5);
 }
 
-/* Values as signed 16 bits of the largest: the length of a step, and how many of them each is
-   into steps[count]. */
+/* Scales values to signed 16 bits by the largest: returns the step size; steps[count] are the
+   results. */
 static double largest_in_16_bits(const double *values, size_t count, int32_t *steps)
 {
     double most = 0;
@@ -73,7 +72,8 @@ static double largest_in_16_bits(const double *values, size_t count, int32_t *st
     return step;
 }
 
-/* The basis functions of a field of a kind that the page does not know, vertex by vertex. */
+/* Adds the basis functions of a field of a kind that the page does not know, vertex by
+   vertex. */
 static void add_basis(mote_text *text, const mote_body *body)
 {
     const mote_field *field = body->field;
@@ -93,8 +93,8 @@ static void add_basis(mote_text *text, const mote_body *body)
     free(steps);
 }
 
-/* What the page deforms a body by: its skin, or what it computes a field's basis functions
-   from, the centres of CSRBFs. */
+/* Adds what the page deforms a body by: its skin, or the data of a field's basis functions,
+   such as the centres of CSRBFs. */
 static void add_field(mote_text *text, const mote_body *body)
 {
     const mote_field *field = body->field;
@@ -114,7 +114,7 @@ static void add_field(mote_text *text, const mote_body *body)
     add_numbers(text, "centreZ", field->centre_z, field->count);
 }
 
-/* The mesh at rest and its field, or its skin. */
+/* Adds the mesh at rest and its field or skin. */
 static void add_mesh(mote_text *text, const mote_body *body)
 {
     const mote_mesh *mesh = body->mesh;
@@ -137,7 +137,7 @@ static void add_mesh(mote_text *text, const mote_body *body)
     add_field(text, body);
 }
 
-/* The rows of a pose's rotation and its translation over L, in steps. */
+/* The rows of a pose's rotation and its translation divided by L, in steps. */
 static void pose_steps(const mote_pose *pose, double length, int32_t steps[12])
 {
     const double translation[3] = {pose->translation.x, pose->translation.y,
@@ -170,7 +170,7 @@ static void add_smooth(mote_text *text, const char *key, int32_t *values, size_t
     mote_replay_add_series(text, key, values, count);
 }
 
-/* Weights as signed 16 bits of the largest. */
+/* Adds weights scaled to signed 16 bits by the largest. */
 static void add_weights(mote_text *text, const double *weights, size_t frames, size_t width)
 {
     int32_t *shares = mote_allocate(width * frames, sizeof *shares);
@@ -218,7 +218,7 @@ static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, i
     return status;
 }
 
-/* Both bodies with their motion, the truth and its points. */
+/* Adds both bodies with their motion, the truth and its points. */
 static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
                               const mote_replay_grid *grid)
 {
@@ -242,7 +242,7 @@ static mote_status add_bodies(mote_text *text, const mote_replay_scene *scene,
     return status;
 }
 
-/* Errors over L with six digits, from which the page computes distances. */
+/* Adds errors in L with six digits, from which the page computes distances. */
 static void add_errors(mote_text *text, const mote_replay_track *track)
 {
     mote_text_add(text, "\"error\": [");
@@ -261,7 +261,7 @@ static void add_errors(mote_text *text, const mote_replay_track *track)
 }
 
 /* The truth's points at the frames that a track answers; the track's own points are stored
-   relative to these. */
+   relative to them. */
 static mote_vec3 *reference_of(const mote_replay_scene *scene, const mote_replay_track *track)
 {
     mote_vec3 *reference = mote_allocate(2 * track->rows, sizeof *reference);
@@ -303,7 +303,7 @@ static void add_note(json_t *notes, const char *label, const char *what)
     free(note);
 }
 
-/* The first track with the same particles as track t, t itself if there is none before. */
+/* The first track with the same particles as track t; t itself if no earlier one has. */
 static size_t same_particles(const mote_replay_scene *scene, size_t t)
 {
     const mote_replay_track *track = &scene->tracks[t];
@@ -317,7 +317,8 @@ static size_t same_particles(const mote_replay_scene *scene, size_t t)
     return t;
 }
 
-/* The tracks that fit. Track t names its particles by the first track that has the same. */
+/* Adds the tracks that fit. Track t refers to its particles by the first track with the same
+   ones. */
 static void add_tracks(const mote_replay_scene *scene, const mote_replay_grid *grid,
                        size_t *room, json_t *data, json_t *notes)
 {
@@ -350,7 +351,7 @@ static json_t *particle_data(const mote_replay_track *track, const mote_replay_g
     return packed_object(&text);
 }
 
-/* The track with the fewest particles of those that are not done yet; count: there is none. */
+/* The unfinished track with the fewest particles; count: none. */
 static size_t next_particles(const mote_replay_scene *scene, const bool *done)
 {
     size_t best = scene->count;
@@ -363,7 +364,8 @@ static size_t next_particles(const mote_replay_scene *scene, const bool *done)
     return best;
 }
 
-/* Particles, few first, while they fit: by the number of their track. */
+/* Adds particles while they fit, the smallest sets first, keyed by the number of their
+   track. */
 static void add_particles(const mote_replay_scene *scene, const mote_replay_grid *grid,
                           size_t *room, json_t *data, json_t *notes)
 {

@@ -1,6 +1,6 @@
-/* The report of a run: what was asked, the machine, the table, the figures, the claims and the
+/* The report of a run: the commands, the machine, the table, the figures, the claims and the
    baselines' known defects, as a page (report.html) and as plain text (report.md). Made from
-   what is stored, measuring nothing; what is missing is named. */
+   stored results without measuring; missing parts are named. */
 #ifndef MOTE_HARNESS_REPORT_H
 #define MOTE_HARNESS_REPORT_H
 
@@ -12,22 +12,22 @@
 /* A drawn figure of the run. */
 typedef struct mote_report_figure {
     char *file;     /* "figures/front-ww.svg", relative to the run */
-    char *title;    /* what it shows: a few words */
-    char *caption;  /* its caption; "" where there is none */
+    char *title;    /* its subject, in a few words */
+    char *caption;  /* "" if there is none */
     bool animation; /* an animated GIF: linked, not shown */
 } mote_report_figure;
 
-/* What a report is made from. It owns everything but the directory; what the run does not have
-   is NULL. */
+/* The contents of a report. It owns everything but the directory; parts that the run lacks are
+   NULL. */
 typedef struct mote_report {
     const char *directory; /* borrowed */
     char *name;            /* the last part of the directory's path */
     json_t *manifest;      /* manifest.json */
-    mote_summary summary;  /* made from the cells, or else read from summary.json */
+    mote_summary summary;  /* made from the cells, otherwise read from summary.json */
     bool has_summary, has_cells;
-    size_t *order; /* [rows of summary], as shown: see mote_report_sort */
+    size_t *order; /* [rows of summary], display order: see mote_report_sort */
     json_t *claims, *requirements;
-    char *claims_folder; /* where they are, relative to the run: "" or "../claims/" */
+    char *claims_folder; /* their folder, relative to the run: "" or "../claims/" */
     mote_report_figure *figures;
     size_t figure_count;
     char *defects;   /* Markdown: the known defects of the baselines */
@@ -35,16 +35,16 @@ typedef struct mote_report {
     json_t *missing; /* texts: what is missing, and which command adds it */
 } mote_report;
 
-/* Gathers what a run's directory has. MOTE_EIO when there is nothing to report: no such
+/* Gathers the contents of a run's directory. MOTE_EIO if there is nothing to report: no such
    directory, or nothing of a run in it. The caller frees *report. */
 mote_status mote_report_gather(const char *directory, mote_report *report);
 void mote_report_free(mote_report *report);
 
-/* Fills figures from directory/figures; adds to missing which commands draw more. Part of
-   mote_report_gather. */
+/* Fills in figures from directory/figures; adds to missing the commands that measure more
+   figures. Part of mote_report_gather. */
 void mote_report_figures(mote_report *report);
 
-/* The page and the text. `text` is to be written by mote_record_text. */
+/* The page and the plain text. Write `text` with mote_record_text. */
 mote_status mote_report_html(const mote_report *report, mote_text *text);
 void mote_report_markdown(const mote_report *report, mote_text *text);
 

@@ -13,7 +13,7 @@
 
 #define FIGURE_LIMIT ((size_t)64 << 20)
 
-/* Text that is not UTF-8 becomes NULL, and is left out. */
+/* A value that is not UTF-8 is NULL, and is omitted. */
 static void set(json_t *object, const char *key, json_t *value)
 {
     (void)json_object_set_new(object, key, value);
@@ -37,7 +37,7 @@ static const char *meaning_of(const mote_column *column)
     return column->meaning;
 }
 
-/* A column; `extra` where neither report.md nor the screen of `make bench` has it. */
+/* A column; `extra` if neither report.md nor the screen of `make bench` has it. */
 static json_t *column_data(const mote_column *column)
 {
     json_t *data = mote_column_json(column);
@@ -73,7 +73,7 @@ static json_t *cells_data(const mote_summary_row *row)
     return cells;
 }
 
-/* A row of the summary, without what no table of the page shows. */
+/* A row of the summary, without members that no table of the page shows. */
 static json_t *row_data(const mote_summary_row *row)
 {
     static const char *const unused[] = {"processes", "quiet", "counters", "fingerprint"};
@@ -118,7 +118,7 @@ static void set_rows(const mote_report *report, json_t *data)
         set(data, "noise_floor", json_real(floor));
 }
 
-/* The drawing of a figure, packed; an animation is linked and not shown. */
+/* Sets the drawing of a figure, packed; an animation is linked instead. */
 static mote_status set_drawing(const mote_report *report, const mote_report_figure *figure,
                                json_t *data)
 {

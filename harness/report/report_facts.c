@@ -52,7 +52,7 @@ json_t *mote_report_machine(const mote_report *report)
     return list;
 }
 
-/* A word as a shell reads it. */
+/* Adds a word, quoted for a shell. */
 static void add_word(mote_text *text, const char *word)
 {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
@@ -111,7 +111,8 @@ static const char *purpose_of(const mote_catalog *catalog, const char *name)
 json_t *mote_report_scenarios(const mote_report *report)
 {
     mote_catalog catalog = {0};
-    /* Without the built-in scenarios there are no purposes; the names are in the rows. */
+    /* If the built-in scenarios cannot be listed there are no purposes; the names are in the
+       rows. */
     if (mote_catalog_read(&catalog) != MOTE_OK)
         catalog.count = 0;
     json_t *list = json_array();

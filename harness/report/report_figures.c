@@ -1,4 +1,4 @@
-/* The drawn figures of a run: as figures.json lists them, or else as their files are named. */
+/* The drawn figures of a run: as listed in figures.json, otherwise by their file names. */
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/figure/figures.h"
@@ -47,7 +47,7 @@ static void add_entry(mote_report *report, const json_t *entry)
     }
 }
 
-/* One line for all figures that other commands measure. */
+/* Adds one line for all figures that other commands measure. */
 static void add_elsewhere(mote_report *report, const json_t *not_drawn)
 {
     mote_text text = {0};

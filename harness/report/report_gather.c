@@ -20,7 +20,7 @@ static void add_text(json_t *list, char *what)
     free(what);
 }
 
-/* Whether the run has a file; notes it where it is missing. */
+/* Whether the run has a file; notes it if it is missing. */
 static bool is_there(mote_report *report, const char *name, const char *remedy)
 {
     const bool there = mote_record_exists(report->directory, name);
@@ -29,8 +29,7 @@ static bool is_there(mote_report *report, const char *name, const char *remedy)
     return there;
 }
 
-/* Reads directory/name. A file that is missing or cannot be read is noted, and is no
-   failure. */
+/* Reads directory/name. A missing or unreadable file is noted, which is not a failure. */
 static void read_json(mote_report *report, const char *name, const char *remedy,
                       json_t **object)
 {
@@ -39,7 +38,7 @@ static void read_json(mote_report *report, const char *name, const char *remedy,
         add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
 }
 
-/* A text of `damaged` for each line. */
+/* Adds a text to `damaged` for each line. */
 static void add_lines(mote_report *report, const char *text)
 {
     while (*text) {
@@ -51,7 +50,7 @@ static void add_lines(mote_report *report, const char *text)
     }
 }
 
-/* The rows as they were stored. */
+/* Reads the stored rows. */
 static void read_summary(mote_report *report)
 {
     static const char name[] = "summary.json";
@@ -63,7 +62,7 @@ static void read_summary(mote_report *report)
         add_text(report->damaged, mote_format("%s: %s", name, mote_error_text()));
 }
 
-/* The rows: from the cells that can be read, or else as they were stored. */
+/* Makes the rows from the cells that can be read, otherwise reads the stored ones. */
 static void read_rows(mote_report *report)
 {
     mote_text damaged = {0};
@@ -86,8 +85,7 @@ static void read_rows(mote_report *report)
     read_summary(report);
 }
 
-/* The claims are measured by a run of their own, which `make claims` writes beside the
-   others. */
+/* Claims are measured by a separate run, which `make claims` writes beside the others. */
 static void read_claims(mote_report *report)
 {
     static const char *const folders[] = {"", "../claims/"};
@@ -120,7 +118,7 @@ static void read_defects(mote_report *report)
         add_text(report->missing, mote_format("known defects: %s", mote_error_text()));
 }
 
-/* The last part of a path; that of the working directory for ".". */
+/* The last part of a path; for ".", that of the working directory. */
 static char *last_part(const char *directory)
 {
     char here[4096];

@@ -1,5 +1,5 @@
 /* The page: a frame, the report's data, and the scripts that make its tables and draw its
-   replay. It loads nothing: all that it needs is in it. */
+   replay. It is self-contained and loads nothing. */
 #include "harness/base/data.h"
 #include "harness/base/escape.h"
 
@@ -18,13 +18,13 @@
 /* Digits of the numbers in the page; tables show three and sort by all of them. */
 #define DIGITS 10
 
-/* The page's own program, in this order; plain scripts, which need no bundling. */
+/* The page's own program, in this order; plain scripts that need no bundling. */
 static const char *const scripts[] = {"plots/page/packed.js", "plots/page/numbers.js",
                                       "plots/page/front.js", "plots/page/table.js",
                                       "plots/page/report.js"};
 
-/* The bundled program of the replay: that of an installed mote, or what `make page` left in the
-   build. */
+/* The bundled program of the replay: of an installed mote, or the one that `make page` left in
+   the build. */
 static mote_status read_replay_program(char **program, size_t *size)
 {
     if (mote_data_read("page/replay.js", PROGRAM_LIMIT, program, size) == MOTE_OK)
@@ -67,7 +67,7 @@ static void add_frame(const mote_report *report, mote_text *text)
     free(subtitle);
 }
 
-/* A script element; `name` is what a message calls its source. */
+/* Adds a script element; `name` is its source in messages. */
 static mote_status add_script(const char *name, const char *source, size_t size,
                               mote_text *text)
 {
@@ -94,7 +94,7 @@ static mote_status add_scripts(mote_text *text)
     return status;
 }
 
-/* An element of data, which no text within it can end; takes ownership of data. */
+/* Adds an element with data; no text in it can end the element. Takes ownership of data. */
 static void add_data(const char *id, json_t *data, mote_text *text)
 {
     char *json = json_dumps(data, JSON_COMPACT | JSON_REAL_PRECISION(DIGITS));

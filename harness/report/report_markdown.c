@@ -1,5 +1,5 @@
-/* The report as text that reads well in a terminal, and as Markdown on a forge: numbers stand
-   in tables, and what they were computed from is linked at the end of each row. */
+/* The report as text that reads well in a terminal, and as Markdown on a forge: numbers are in
+   tables, with links to the cells they were computed from at the end of each row. */
 #include "harness/base/escape.h"
 #include "harness/base/record.h"
 #include "harness/report/report_facts.h"
@@ -51,7 +51,7 @@ static void add_commands(const mote_report *report, mote_text *text)
     json_decref(commands);
 }
 
-/* Files that cannot be read come first, since the tables lack them. */
+/* Unreadable files come first, since the tables lack them. */
 static void add_damaged(const mote_report *report, mote_text *text)
 {
     size_t i;
@@ -67,7 +67,7 @@ static void add_damaged(const mote_report *report, mote_text *text)
     }
 }
 
-/* One line, after everything else. */
+/* Missing files take one line, after everything else. */
 static void add_missing(const mote_report *report, mote_text *text)
 {
     size_t i;
@@ -83,8 +83,8 @@ static void add_missing(const mote_report *report, mote_text *text)
     mote_text_add(text, ".\n");
 }
 
-/* The known defects, below a heading of level 2: every heading one level lower, the title left
-   out. */
+/* Adds the known defects under a heading of level 2: every heading one level lower, without the
+   title. */
 static void add_defects(const char *markdown, mote_text *text)
 {
     bool first = true;
@@ -100,7 +100,8 @@ static void add_defects(const char *markdown, mote_text *text)
     }
 }
 
-/* A cell of a table, padded on its left to the width, or on its right where it is negative. */
+/* Adds a cell of a table, padded on its left to the width, or on its right if width is
+   negative. */
 static void add_field(mote_text *text, const char *value, int width)
 {
     mote_text_add(text, " %*s |", width, value);
@@ -119,7 +120,8 @@ static int label_width(const mote_report *report, size_t first, size_t end)
     return (int)width;
 }
 
-/* The line below the heads: as wide as the fields, a colon on the side of alignment. */
+/* Adds the line below the heads: as wide as the fields, with a colon on the side of
+   alignment. */
 static void add_rule(mote_text *text, int width, bool right)
 {
     mote_text_add(text, right ? "-" : ":");
@@ -167,7 +169,7 @@ static void add_cell_links(const mote_summary_row *row, size_t i, mote_text *tex
                       row->cells[r].replicate);
 }
 
-/* What else is to be known of a row, after its cells. */
+/* Adds the notes of a row, after its cells. */
 static void add_notes(const mote_summary_row *row, mote_text *text)
 {
     char note[MOTE_ROW_NOTE];
@@ -178,7 +180,7 @@ static void add_notes(const mote_summary_row *row, mote_text *text)
     mote_text_add(text, " |");
 }
 
-/* Why a row has no values, in the place of the first of them. */
+/* Adds why a row has no values, in place of the first of them. */
 static void add_ending(const mote_summary_row *row, size_t columns, mote_text *text)
 {
     mote_text_add(text, " ");
@@ -210,8 +212,8 @@ static void add_row(const mote_report *report, size_t i, int width, mote_text *t
     mote_text_add(text, "\n");
 }
 
-/* A table of the block's rows of one accounting: of those that stand for their method, or of
-   all; nothing where there are none. */
+/* Adds a table of the block's rows of one accounting: those that stand for their method, or
+   all; nothing if there are none. */
 static void add_table(const mote_report *report, size_t first, size_t end, bool all, bool given,
                       mote_text *text)
 {
@@ -231,7 +233,7 @@ static void add_table(const mote_report *report, size_t first, size_t end, bool 
     }
 }
 
-/* Rows that pay for deformation, then those that are given the positions. */
+/* Adds the rows charged for deformation, then those with given positions. */
 static void add_tables(const mote_report *report, size_t first, size_t end, bool all,
                        mote_text *text)
 {

@@ -35,7 +35,7 @@ size_t mote_report_block_end(const mote_report *report, size_t first)
     return end;
 }
 
-/* The median total time of a row that can be compared with others; else infinity. */
+/* The median total time of a row that can be compared with others, otherwise infinity. */
 static double time_of(const mote_summary_row *row)
 {
     const double time = row->total.median;
@@ -43,7 +43,8 @@ static double time_of(const mote_summary_row *row)
     return usable ? time : HUGE_VAL;
 }
 
-/* Insertion sort of the block: stable, and a block has some hundred rows at most. */
+/* Insertion sort of the block: stable, and fast enough, as a block has at most some hundred
+   rows. */
 static void sort_block(mote_report *report, size_t first, size_t end)
 {
     for (size_t i = first + 1; i < end; ++i) {

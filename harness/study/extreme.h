@@ -104,8 +104,8 @@ extern const char *const mote_extreme_verdicts[];
 /* The result of a method on a scene. */
 typedef struct mote_extreme_cell {
     mote_extreme_verdict verdict; /* the worst over all frames */
-    double
-        error; /* (answer - truth) / L, the largest by size over the frames; 0: no distance */
+    double error;      /* (answer - truth) / L, the largest in magnitude over the frames; 0: no
+                          distance */
     uint32_t frame;    /* frame of that error, from 1; 0: there is no answer */
     char reason[256];  /* for all verdicts except none and right */
     uint64_t build_ns; /* until the first frame */

@@ -20,8 +20,7 @@ typedef struct mote_study {
     size_t seeds;          /* seeds of the initial particle positions, 2 .. MOTE_STUDY_SEEDS */
     mote_subject scenes[MOTE_STUDY_SCENES]; /* loaded so far */
     size_t scene_count;
-    mote_summary
-        summary; /* summary of the run against hierarchies, once it has been measured */
+    mote_summary summary; /* summary of the run against hierarchies, once measured */
     bool summarised;
 } mote_study;
 

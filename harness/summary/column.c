@@ -4,7 +4,7 @@
 
 /* Arguments are initialisers, members and parts of texts.
    NOLINTBEGIN(bugprone-macro-parentheses) */
-/* Of a count that is never 0. */
+/* For a count that is never 0. */
 #define POSITIVE "{\"type\": \"integer\", \"minimum\": 1}"
 
 #define AT(member)                                                                             \
@@ -21,7 +21,8 @@
         .unit = "ns", AT(time.member)                                                          \
     }
 
-/* A time: what of it, and where its median and 95th percentile stand in the tables. */
+/* A time: its description, and the positions of its median and 95th percentile in the
+   tables. */
 #define TIME(time, name, above, says, in_report, places, p95_places)                           \
     {.object = name,                                                                           \
      .key = "median",                                                                          \
@@ -53,7 +54,8 @@
         .object = name, .key = "sum", .type = MOTE_COLUMN_REAL, .unit = "ns", AT(time.sum)     \
     }
 
-/* A ratio: csv names it and csv_ends its interval; NULL: not in the CSV. */
+/* A ratio: csv_name is its CSV column and csv_low, csv_high those of its interval; NULL: not in
+   the CSV. */
 #define RATIO(ratio, name, csv_name, csv_low, csv_high, above, says, in_report, places)        \
     {.object = name,                                                                           \
      .key = "to",                                                                              \
@@ -87,7 +89,7 @@
 
 /* Errors below this are rounding. */
 #define ROUNDING 1e-12
-/* Values that are the same in every run of one program differ by at most this share. */
+/* Values that every run of one program reproduces differ by at most this share. */
 #define SAME 1e-9
 /* Heap may grow by this share: the allocator rounds. */
 #define HEAP_SHARE 0.01

@@ -22,7 +22,7 @@ static json_t *list_schema(size_t count, json_t *item)
                      (int)count, "maxItems", (int)count);
 }
 
-/* The schema of a column's value by its type; null stands for a missing number. */
+/* The schema of a column's value by its type; null represents a missing number. */
 static json_t *type_schema(const mote_column *column)
 {
     if (column->schema)
@@ -66,7 +66,7 @@ static json_t *value_schema(const mote_column *column)
     return schema;
 }
 
-/* Adds a member to an object's schema, required unless it may be left out. */
+/* Adds a member to an object's schema; it is required unless it may be omitted. */
 static void add_member(json_t *schema, const char *key, json_t *member, bool required)
 {
     (void)json_object_set_new(json_object_get(schema, "properties"), key, member);
@@ -74,7 +74,7 @@ static void add_member(json_t *schema, const char *key, json_t *member, bool req
         (void)json_array_append_new(json_object_get(schema, "required"), json_string(key));
 }
 
-/* The schema of the object that contains a column, made if it is the first. An object that
+/* The schema of the object that contains a column, made for its first column. An object that
    begins with an optional member is null without it. */
 static json_t *object_schema(json_t *row, const mote_column *column)
 {
@@ -119,7 +119,7 @@ static const char *show_name(mote_number_show show)
     return NULL;
 }
 
-/* Times are compared, too, by rules of their own. */
+/* Times are also compared, by separate rules. */
 static json_t *less_is_better(const mote_column *column)
 {
     if (column->rule.name)
@@ -155,7 +155,7 @@ void mote_columns_markdown(mote_text *text)
             continue;
         mote_text_add(text, "| ");
         add_name(column, text);
-        /* Members without a meaning of their own stand with the one before them. */
+        /* Members without their own meaning are listed with the one before them. */
         for (size_t k = i + 1; k < mote_column_count && !mote_columns[k].meaning; ++k)
             mote_text_add(text, ", `.%s`", mote_columns[k].key);
         mote_text_add(text, " | %s | %s |\n", column->unit, column->meaning);

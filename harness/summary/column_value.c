@@ -90,7 +90,7 @@ static json_t *counters_json(const mote_summary_row *row)
     return object;
 }
 
-/* What comparisons with another run are made from. */
+/* The data for comparisons with another run. */
 static json_t *processes_json(const mote_summary_row *row)
 {
     json_t *list = json_array();
@@ -140,7 +140,7 @@ json_t *mote_column_write(const mote_column *column, const mote_summary_row *row
     }
 }
 
-/* A whole number that fits into so many bytes; else 0. */
+/* A whole number that fits into this many bytes, otherwise 0. */
 static uint64_t count_in(const json_t *value, size_t size)
 {
     const json_int_t count = json_integer_value(value);
@@ -148,7 +148,7 @@ static uint64_t count_in(const json_t *value, size_t size)
     return fits ? (uint64_t)count : 0;
 }
 
-/* The count of that name, added if it is new. */
+/* The count with that name, added if it is new. */
 static mote_row_count *count_named(mote_summary_row *row, const char *name)
 {
     for (size_t k = 0; k < row->count_count; ++k) {

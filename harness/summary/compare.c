@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Counts are equal when they differ by less than this share. */
+/* Counts are equal if they differ by less than this share. */
 #define EXACT_SHARE 1e-9
 /* Instructions may grow by this share: a few branches depend on memory addresses. */
 #define INSTRUCTIONS_SHARE 0.01
@@ -27,8 +27,8 @@ void mote_comparison_free(mote_comparison *comparison)
     *comparison = none;
 }
 
-/* Whether each parameter of row a has the same value in row b, or is unknown there, as in a run
-   of before it was added, and has its default in a. */
+/* Whether each parameter of row a has the same value in row b, or is missing there because run
+   b predates it and has its default in a. */
 static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
 {
     const mote_method *method = mote_method_find(a->method);
@@ -49,7 +49,7 @@ static bool has_parameters(const mote_summary_row *a, const mote_summary_row *b)
     return true;
 }
 
-/* Rows are of one configuration when all of this is equal. */
+/* Whether two rows have the same configuration. */
 static bool same_configuration(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->scenario, b->scenario) == 0 &&
@@ -58,7 +58,7 @@ static bool same_configuration(const mote_summary_row *a, const mote_summary_row
            a->frames == b->frames && has_parameters(a, b) && has_parameters(b, a);
 }
 
-/* The row of that configuration, on the same machine where there is one. */
+/* The row with the same configuration, preferably on the same machine. */
 static const mote_summary_row *find_partner(const mote_summary *summary,
                                             const mote_summary_row *row)
 {
@@ -88,8 +88,8 @@ static bool is_reference(const mote_summary_row *row)
     return row->ratio.to && strcmp(row->ratio.to->label, row->label) == 0;
 }
 
-/* The logarithm of new / base of a time: relative to fcl-aabb, which takes out most of what
-   differs between two machines, or else as it is, on one machine. */
+/* The logarithm of new / base of a time: relative to fcl-aabb, which removes most of the
+   difference between two machines, or otherwise absolute, on one machine. */
 static double log_change(double base_ratio, double new_ratio, double base_ns, double new_ns,
                          bool other_machine)
 {
@@ -100,7 +100,7 @@ static double log_change(double base_ratio, double new_ratio, double base_ns, do
     return base_ns > 0 && new_ns > 0 ? log(new_ns / base_ns) : MOTE_NONE;
 }
 
-/* The changes of the quiet times, group by group; returns how many. */
+/* The changes of the quiet times, group by group; returns their number. */
 static size_t quiet_changes(const mote_summary_row *base, const mote_summary_row *fresh,
                             bool other_machine, double *logs)
 {
@@ -115,8 +115,8 @@ static size_t quiet_changes(const mote_summary_row *base, const mote_summary_row
     return count;
 }
 
-/* The changes of the processes' medians. Replicates with one number draw the same random
-   numbers: they are compared in pairs. */
+/* The changes of the processes' medians. Replicates with the same number draw the same random
+   numbers, so they are compared in pairs. */
 static size_t process_changes(const mote_summary_row *base, const mote_summary_row *fresh,
                               bool other_machine, double *logs)
 {
@@ -133,7 +133,7 @@ static size_t process_changes(const mote_summary_row *base, const mote_summary_r
     return count;
 }
 
-/* Notes that something the base has cannot be compared, so that the row is undecided. */
+/* Notes that something in the base cannot be compared, which makes the row undecided. */
 static void say_unknown(mote_change *change, const char *what)
 {
     change->unknown = true;
@@ -156,7 +156,7 @@ static void compare_times(const mote_summary_row *base, const mote_summary_row *
     size_t count = quiet_changes(base, fresh, other_machine, logs);
     if (count < MOTE_QUIET_GROUPS)
         count = process_changes(base, fresh, other_machine, logs);
-    /* Between machines a row without a ratio to fcl-aabb has no time that compares. */
+    /* Between machines, a row without a ratio to fcl-aabb has no comparable time. */
     if (count == 0 && !other_machine && has_time(base))
         say_unknown(change, "no time to compare");
     change->smallest_change = fmax(base->smallest_change, fresh->smallest_change);
@@ -177,7 +177,7 @@ static void say(mote_change *change, const char *name, double base, double fresh
         mote_text_add(&change->what, "%s%s %.6g to %.6g", separator, name, base, fresh);
 }
 
-/* Compares a value of which more is worse, equal within a share, and notes a difference. */
+/* Compares a value of which less is better, equal within a share, and notes a difference. */
 static void compare_figure(mote_change *change, const char *name, double base, double fresh,
                            double share)
 {
@@ -204,7 +204,7 @@ static bool has_pair(const mote_summary_row *base, const mote_summary_row *fresh
     return false;
 }
 
-/* The sum of a process's count of that name; MOTE_NONE: it was not counted. */
+/* The sum of a process's count with that name; MOTE_NONE: not counted. */
 static double count_in(const mote_summary_row *row, const mote_process *process,
                        const char *name)
 {
@@ -215,7 +215,7 @@ static double count_in(const mote_summary_row *row, const mote_process *process,
     return MOTE_NONE;
 }
 
-/* The sums of a count over the replicates that both have. */
+/* Compares the sums of the counts over the replicates that both have. */
 static void compare_counts(const mote_summary_row *base, const mote_summary_row *fresh,
                            mote_change *change)
 {
@@ -288,7 +288,7 @@ static void compare_row(const mote_summary_row *base, const mote_summary_row *fr
     compare_counts(base, fresh, change);
 }
 
-/* Why a time changed, as far as counts and instructions explain it. */
+/* Says why a time changed, as far as counts and instructions explain it. */
 static void explain(mote_change *change, bool instructions)
 {
     if (change->counted)
@@ -304,7 +304,7 @@ static void explain(mote_change *change, bool instructions)
                          : "");
 }
 
-/* Corrects p over all rows, and says of each what its time means. */
+/* Corrects p over all rows, and sets the verdict on each row's time. */
 static void judge(mote_comparison *c)
 {
     double *p = mote_allocate(2 * c->count, sizeof *p);
@@ -355,17 +355,17 @@ static mote_status compare_rows(const mote_summary *base, const mote_summary *fr
         else
             ++c->only_base;
     }
-    /* Several rows of the base, of different machines, may have one partner. */
+    /* Several rows of the base, on different machines, may have the same partner. */
     for (size_t i = 0; i < fresh->count; ++i)
         c->only_new += find_partner(base, &fresh->rows[i]) ? 0 : 1;
-    c->undecided = c->only_base > 0; /* nothing is known of them now */
+    c->undecided = c->only_base > 0; /* rows missing from the new run */
     if (c->count == 0)
         return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
                                       "runs of the same scenarios, methods, frames and seed");
     return MOTE_OK;
 }
 
-/* Whether both manifests are there and differ in something. */
+/* Whether both manifests exist and differ in this key. */
 static bool manifests_differ(const mote_compared_run runs[2], const char *key)
 {
     return runs[0].manifest && runs[1].manifest &&
@@ -376,11 +376,11 @@ static bool manifests_differ(const mote_compared_run runs[2], const char *key)
 static bool same_frames(const json_t *a, const json_t *b)
 {
     const json_t *first = json_object_get(a, "frames"), *second = json_object_get(b, "frames");
-    return first == second || json_equal(first, second); /* or neither has any */
+    return first == second || json_equal(first, second); /* or neither has one */
 }
 
-/* The counted row of a row of the summary, over the frames of `like` where it is given; NULL
-   when there is none. */
+/* The counted row for a row of the summary, over the frames of `like` if that is given; NULL if
+   there is none. */
 static const json_t *find_counted(const json_t *counted, const mote_summary_row *row,
                                   const json_t *like)
 {
@@ -397,7 +397,8 @@ static const json_t *find_counted(const json_t *counted, const mote_summary_row 
     return NULL;
 }
 
-/* Compares the instructions of the rows of both runs. judged: more of them are worse. */
+/* Compares the instructions of the rows of both runs. judged: more instructions count as
+   worse. */
 static void compare_instructions(const mote_compared_run runs[2], bool judged,
                                  mote_comparison *c)
 {

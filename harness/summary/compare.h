@@ -1,5 +1,5 @@
-/* Two runs compared, from their cells, or from summary.json where there are none: counts, bytes
-   and accuracy as they are, times as ratios with intervals. */
+/* Compares two runs, from their cells, or from summary.json if there are none: counts, bytes
+   and accuracy directly, times as ratios with intervals. */
 #ifndef MOTE_HARNESS_COMPARE_H
 #define MOTE_HARNESS_COMPARE_H
 
@@ -8,24 +8,24 @@
 
 #include <jansson.h>
 
-/* How far the cost of two methods may differ between two kinds of processors. */
+/* How much the relative cost of two methods may differ between two kinds of processors. */
 #define MOTE_OTHER_MACHINE_FLOOR 0.5
 
 /* A row that both runs have. */
 typedef struct mote_change {
     char *name;   /* "ww/particle-paper:n=5/hot": scene, label and caches */
-    double ratio; /* time new / base; relative to fcl-aabb within each run where both have it */
+    double ratio; /* time new / base; relative to fcl-aabb within each run if both have it */
     mote_confidence
         interval;           /* of the ratio: t over groups of quiet times, or over replicates */
-    double p;               /* of no change, corrected by Holm over all rows */
+    double p;               /* for no change, corrected by Holm over all rows */
     mote_verdict verdict;   /* of the time */
-    double smallest_change; /* that could be detected, a share; MOTE_NONE: unknown */
+    double smallest_change; /* smallest detectable change, a share; MOTE_NONE: unknown */
     bool is_reference;      /* fcl-aabb itself: its time says nothing about our methods */
     bool worse;     /* slower, more counted, more bytes, less accurate, or no longer answered */
     bool better;    /* faster, less counted, fewer bytes, more accurate, and nothing worse */
     bool counted;   /* a count changed */
     bool executed;  /* instructions changed */
-    bool unknown;   /* the base has something that the new run lacks: undecided */
+    bool unknown;   /* the new run lacks something that the base has: undecided */
     mote_text what; /* "counts changed: positions +5.7 %; cost per count unchanged" */
 } mote_change;
 
@@ -33,21 +33,21 @@ typedef struct mote_comparison {
     mote_change *changes;
     size_t count;
     double floor;               /* the smallest effect on time that counts, a share */
-    bool other_machine;         /* the processors differ: the floor is wide */
+    bool other_machine;         /* the processors differ, so the floor is wide */
     bool instructions;          /* both runs counted them */
     size_t only_base, only_new; /* rows without a partner */
-    bool worse, undecided;      /* any row; undecided also when the base has more rows */
+    bool worse, undecided;      /* of any row; also undecided if the base has more rows */
 } mote_comparison;
 
-/* Compares directories (or summary.json files). floor: a share, at least; the noise floors
-   of both runs raise it. A time is slower only when its ratio is beyond the floor and beyond
-   the smallest change that the rows can detect. Where manifest.json names another processor,
-   times are compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts,
-   bytes and accuracy are compared as they are, and so is how many replicates failed.
-   Instructions (instructions.json of both) may grow by 1 %; with another processor or
-   compiler they are reported and not judged. MOTE_EIO or MOTE_EINVAL when a summary cannot
-   be read, or a manifest.json or instructions.json that is there; MOTE_EINVAL when they have
-   no row in common. The caller frees *comparison. */
+/* Compares directories (or summary.json files). floor: a share, a minimum that the noise floors
+   of both runs can raise. A time is slower only if its ratio is beyond the floor and beyond the
+   smallest change that the rows can detect. If manifest.json names another processor, times are
+   compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes,
+   accuracy and the number of failed replicates are compared directly. Instructions
+   (instructions.json of both) may grow by 1 %; with another processor or compiler they are
+   reported but not judged. MOTE_EIO or MOTE_EINVAL if a summary, or an existing manifest.json
+   or instructions.json, cannot be read; MOTE_EINVAL if the runs have no row in common. The
+   caller frees *comparison. */
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison);
 void mote_comparison_free(mote_comparison *comparison);

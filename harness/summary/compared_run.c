@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The directory of a path, for the caller to free, and the name of its summary's file. */
+/* The directory of a path, freed by the caller, and the name of its summary file. */
 static char *split(const char *path, const char **name)
 {
     struct stat info;
@@ -31,7 +31,7 @@ static mote_status read_summary(const char *directory, const char *name, mote_su
     return mote_summary_read(directory, name, summary);
 }
 
-/* *object stays NULL where there is no such file. */
+/* *object stays NULL if there is no such file. */
 static mote_status read_beside(const char *directory, const char *name, json_t **object)
 {
     return mote_record_exists(directory, name) ? mote_record_read_json(directory, name, object)

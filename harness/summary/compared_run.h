@@ -1,4 +1,4 @@
-/* A run as comparisons read it: its summary, and what lies beside. */
+/* A run as read for comparisons: its summary, manifest and instructions. */
 #ifndef MOTE_HARNESS_COMPARED_RUN_H
 #define MOTE_HARNESS_COMPARED_RUN_H
 
@@ -10,9 +10,9 @@ typedef struct mote_compared_run {
     json_t *instructions; /* instructions.json, or NULL */
 } mote_compared_run;
 
-/* Reads a run's directory, or its summary.json, or another file like that. Where there are
-   cells, the summary is made from them: a summary.json may be older than they are. MOTE_EIO or
-   MOTE_EINVAL, with the file, when one cannot be read. The caller frees *run. */
+/* Reads a run's directory, its summary.json, or another file in that format. If there are
+   cells, the summary is made from them, since summary.json may be older. MOTE_EIO or
+   MOTE_EINVAL, with the file, if one cannot be read. The caller frees *run. */
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run);
 void mote_compared_run_free(mote_compared_run *run);
 

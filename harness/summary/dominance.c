@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Whether a value of which less is better is no worse; two unknown values are equal. */
+/* Whether a is no worse than b, for values of which less is better; two unknown values are
+   equal. */
 static bool no_worse(double a, double b)
 {
     return a <= b || (a != a && b != b);
@@ -14,8 +15,8 @@ static bool error_no_worse(double a, double b)
     return no_worse(a <= MOTE_EXACT_ERROR ? 0 : a, b <= MOTE_EXACT_ERROR ? 0 : b);
 }
 
-/* In a scene that asks for contacts only, some methods give distances and others do not, so
-   errors do not count there. */
+/* In a scene that asks only for contacts, some methods give distances and others do not, so
+   errors do not count. */
 static bool distances_no_worse(const mote_summary_row *a, const mote_summary_row *b)
 {
     return strcmp(a->ask, "contact") == 0 ||
@@ -46,7 +47,8 @@ void mote_find_dominated(mote_summary_row *rows, size_t count)
     }
 }
 
-/* Wrong contacts and error of a row; of rows that are good enough, the time decides. */
+/* Wrong contacts, error and time of a row; among rows that are good enough, the time
+   decides. */
 typedef struct standing {
     double wrong, error, time;
 } standing;

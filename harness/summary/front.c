@@ -31,7 +31,7 @@ bool mote_front_has(const mote_summary_row *row)
     return mote_summary_row_measured(row) && row->error.p99 == row->error.p99;
 }
 
-/* Where the front reaches an error: at the point `at`, or a share of the way from there to
+/* Where the front reaches an error: at the point `at`, or a fraction of the way from there to
    the faster `towards`, on logarithmic scales. */
 typedef struct route {
     size_t at, towards;
@@ -76,29 +76,29 @@ double mote_front_time(const double *times, const double *errors, size_t count, 
     return time_between(times[way.at], times[way.towards], way.share);
 }
 
-/* What fronts are computed with. */
+/* Data for computing fronts. */
 typedef struct workshop {
     const mote_summary *summary;
     size_t processes;       /* replicates of the run */
-    double *total, *given;  /* [rows][processes] medians: of all, and of all but deformation;
-                               MOTE_NONE where a row has none */
+    double *total, *given;  /* [rows][processes] medians, with and without deformation;
+                               MOTE_NONE if a row has none */
     size_t *rows, *others;  /* of a family, and of FCL */
     double *times, *errors; /* [rows] */
     double *drawn;          /* [processes] */
 } workshop;
 
-/* The rows of one side at one level of error, and where they reach it. */
+/* The rows of one side at one error level, and where they reach it. */
 typedef struct side {
     const size_t *rows;
     size_t count;
     route way;
-    double time; /* from the figures of the rows, those over all processes; or MOTE_NONE */
+    double time; /* from the rows' times over all processes, or MOTE_NONE */
 } side;
 
-/* One family against FCL at one level. */
+/* A comparison of one family with FCL at one level. */
 typedef struct comparison {
     const workshop *shop;
-    bool given; /* times leave deformation out */
+    bool given; /* times exclude deformation */
     side mine, theirs;
 } comparison;
 
@@ -107,7 +107,7 @@ static void find_side(const workshop *w, bool given, double level, side *s)
     for (size_t i = 0; i < s->count; ++i) {
         const mote_summary_row *row = &w->summary->rows[s->rows[i]];
         w->times[i] = given ? row->given_total.median : row->total.median;
-        /* A row counts as exact where it is exact in every frame. */
+        /* A row counts as exact if it is exact in every frame. */
         w->errors[i] = level <= MOTE_EXACT_ERROR ? row->error.max : row->error.p99;
     }
     s->time = MOTE_NONE;
@@ -115,7 +115,7 @@ static void find_side(const workshop *w, bool given, double level, side *s)
         s->time = time_between(w->times[s->way.at], w->times[s->way.towards], s->way.share);
 }
 
-/* Median of a row's times in those of the drawn processes that it has. */
+/* The median of a row's times over those of the drawn processes that it has. */
 static double drawn_median(const comparison *c, size_t row, const size_t *drawn, size_t count)
 {
     const workshop *w = c->shop;
@@ -135,9 +135,9 @@ static double drawn_time(const comparison *c, const side *s, const size_t *drawn
     return time_between(at, towards, s->way.share);
 }
 
-/* How many times faster than FCL in the drawn processes. Which configurations reach the
-   error is decided by all processes together and not drawn again: otherwise a process in
-   which fewer particles happen to suffice would estimate something else. */
+/* The speedup over FCL in the drawn processes. All processes together decide which
+   configurations reach the error, and this is not resampled: otherwise a process in which fewer
+   particles happen to suffice would estimate a different quantity. */
 static double drawn_speed(void *context, const size_t *drawn, size_t count)
 {
     const comparison *c = context;
@@ -151,7 +151,7 @@ static void free_workshop(workshop *w)
     free(w->times);
 }
 
-/* Fills the processes of one row; work holds the frames of each. */
+/* Fills in the processes of one row; work holds the frames of each. */
 static void fill_row(const workshop *w, size_t index, double *work)
 {
     const mote_summary_row *row = &w->summary->rows[index];
@@ -200,15 +200,15 @@ static void make_workshop(const mote_summary *summary, workshop *w)
     fill_rows(w);
 }
 
-/* The interval of the speed: the spread of the processes around their own centre, placed
-   around the estimate, which uses the frames of all of them. */
+/* The interval of the speedup: the spread of the processes around their own centre, shifted to
+   the estimate, which uses the frames of all of them. */
 static void find_interval(const comparison *c, mote_front_speed *speed)
 {
     const size_t processes = c->shop->processes;
     comparison context = *c;
     const mote_confidence spread =
         mote_statistics_process_interval(drawn_speed, &context, processes, BOOTSTRAP_SEED);
-    double centre = sqrt(spread.low * spread.high); /* of Student's interval */
+    double centre = sqrt(spread.low * spread.high); /* of Student's t interval */
     if (processes >= MOTE_BOOTSTRAP_REPLICATES) {
         size_t *all = mote_allocate(processes, sizeof *all);
         for (size_t k = 0; k < processes; ++k)
@@ -220,14 +220,14 @@ static void find_interval(const comparison *c, mote_front_speed *speed)
     speed->interval.high = speed->faster * (spread.high / centre);
 }
 
-/* Whether both sides are the same figures: the ratio is 1 whatever was measured. */
+/* Whether both sides are the same rows, so that the ratio is 1 whatever was measured. */
 static bool same_side(const side *a, const side *b)
 {
     return a->rows[a->way.at] == b->rows[b->way.at] &&
            a->rows[a->way.towards] == b->rows[b->way.towards];
 }
 
-/* Fills one family; its rows are w->rows, those of FCL w->others. */
+/* Fills in one family; its rows are w->rows, those of FCL w->others. */
 static void make_front(const workshop *w, size_t row_count, size_t other_count,
                        mote_front *front)
 {
@@ -249,9 +249,8 @@ static void make_front(const workshop *w, size_t row_count, size_t other_count,
     }
 }
 
-/* Collects the rows of one family, and those of FCL's in the same block that are accounted for
-   in the same way: without deformation where positions are given. False when a row before first
-   is of that family. */
+/* Collects the rows of one family, and FCL's rows in the same block with the same accounting:
+   without deformation if positions are given. False if a row before first is of that family. */
 static bool collect(const workshop *w, size_t first, const char *title, size_t *row_count,
                     size_t *other_count)
 {

@@ -24,7 +24,7 @@ static void print_speed(const mote_front_speed *speed, FILE *out)
     (void)fprintf(out, " %22s", text);
 }
 
-/* What distinguishes this block from others of the same scenario and caches. */
+/* Prints what distinguishes this block from others of the same scenario and caches. */
 static void print_apart(const mote_summary *summary, const mote_summary_row *row, FILE *out)
 {
     bool frames = false;
@@ -66,7 +66,7 @@ static int by_time(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Lists the rows on the front of a block, fastest first: those of one accounting. */
+/* Lists the rows of one accounting on the front of a block, fastest first. */
 static void print_members(const mote_fronts *fronts, const mote_summary_row *block, bool given,
                           FILE *out)
 {
@@ -159,7 +159,7 @@ static void add_numbers(const double *numbers, size_t count, mote_text *text)
     }
 }
 
-/* The numbers of fronts.csv, and the column that each is. */
+/* The numbers of fronts.csv, with their columns. */
 static const struct number {
     const char *name, *object, *key;
 } row_numbers[] = {{"n", NULL, "n"},

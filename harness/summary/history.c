@@ -16,7 +16,7 @@
 #define FILE_LIMIT ((size_t)1 << 28)
 enum { FIELD_DATE, FIELD_COMMIT, FIELD_WHY, FIELD_ROW, FIELD_TOTAL, FIELD_RATIO };
 
-/* A smaller change than this share counts as none. */
+/* A change below this share does not count. */
 #define CHANGE_SHARE 0.05
 #define CHANGE_TIMES_USUAL 3
 
@@ -27,7 +27,7 @@ static void add_plain(mote_text *text, const char *value)
         mote_text_add(text, "%c", strchr(",\"\n\r", *value) ? ';' : *value);
 }
 
-/* The figures of a row, and the column that each is; without a key, the mean of a count. */
+/* The values of a row, with their columns; without a key, the mean of a count. */
 static const struct figure {
     const char *name, *object, *key;
 } figures[] = {{"total_ns", "total_ns", "median"}, {"ratio", "ratio", "value"},
@@ -90,7 +90,7 @@ static mote_status check_header(const char *file, const char *text)
         "%s:1: not the header of a history; name a file that `mote history --add` made", file);
 }
 
-/* The history so far, with its last line ended, or the header. */
+/* The history so far, with its last line terminated, or the header. */
 static mote_status begin_text(const char *file, mote_text *text)
 {
     if (access(file, F_OK) != 0) {
@@ -218,8 +218,8 @@ bool mote_history_begins_series(const mote_history *history, size_t index)
     return true;
 }
 
-/* How much the series that begins with a point moves from one reference to the next; *count:
-   how often. */
+/* The usual change from one reference to the next in the series that begins with a point;
+ *count: the number of changes. */
 static double usual_move(const mote_history *h, const mote_history_point *start, size_t *count)
 {
     double *moves = mote_allocate(h->count, sizeof *moves);
@@ -249,7 +249,7 @@ static void mark_series(mote_history *h, const mote_history_point *start)
             continue;
         const double move = fabs(log(here->time / before));
         here->relative_time = here->time / start->time;
-        /* Of one move, its own size is what is usual. */
+        /* A single change is its own usual size. */
         here->changed =
             move > log(1 + CHANGE_SHARE) && (count < 3 || move > CHANGE_TIMES_USUAL * usual);
         before = here->time;
@@ -277,7 +277,8 @@ void mote_history_free(mote_history *history)
     *history = (mote_history){.text = NULL};
 }
 
-/* The series that begins with a point, as a block "reference relative-time changed commit". */
+/* Adds the series that begins with a point, as a block "reference relative-time changed
+   commit". */
 static void add_series(const mote_history *h, const mote_history_point *start, mote_text *text)
 {
     mote_gnuplot_block(text, start->row);

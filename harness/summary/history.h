@@ -1,5 +1,5 @@
 /* The history of accepted references: results/history.csv, a line for each row of each
- * reference. */
+   reference. */
 #ifndef MOTE_HARNESS_HISTORY_H
 #define MOTE_HARNESS_HISTORY_H
 
@@ -8,16 +8,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A line of the file that has a time. Texts are borrowed from the history. */
+/* A line of the file with a time. Texts are borrowed from the history. */
 typedef struct mote_history_point {
     const char *date, *commit, *why, *row;
-    double time;        /* relative to fcl-aabb where the run had it (1 / ratio), so that
-                           references of different machines can stand in one series */
-    bool relative;      /* else in ns: another series, since the two have no scale in common */
-    unsigned reference; /* counted from 0 by dates */
+    double time;          /* relative to fcl-aabb if the run had it (1 / ratio), so that
+                             references from different machines can be in one series */
+    bool relative;        /* otherwise in ns: a separate series, since the scales differ */
+    unsigned reference;   /* numbered from 0 by date */
     double relative_time; /* to the first point of its series */
-    bool changed;         /* a change point: more than 5 %, and more than three times what the
-                             series usually moves from one reference to the next */
+    bool changed;         /* a change point: more than 5 %, and more than three times the usual
+                             change of the series from one reference to the next */
 } mote_history_point;
 
 typedef struct mote_history {
@@ -27,24 +27,24 @@ typedef struct mote_history {
     unsigned references;
 } mote_history;
 
-/* MOTE_EINVAL with the line when the file is not one that mote wrote. Free with
-   mote_history_free, also after a failure. */
+/* MOTE_EINVAL with the line if mote did not write the file. Free with mote_history_free, even
+   after a failure. */
 mote_status mote_history_read(const char *file, mote_history *history);
 void mote_history_free(mote_history *history);
 
-/* Whether two points are of one row, and on one scale. */
+/* Whether two points are of one row and on the same scale. */
 bool mote_history_same_series(const mote_history_point *a, const mote_history_point *b);
 
-/* Whether no point before this one is of its series. */
+/* Whether this is the first point of its series. */
 bool mote_history_begins_series(const mote_history *history, size_t index);
 
-/* Adds the rows of the run in directory to the file, which is made if missing: date, commit,
-   why, row, time, ratio, counts, bytes, error. why may not be empty. */
+/* Adds the rows of the run in directory to the file, which is created if missing: date, commit,
+   why, row, time, ratio, counts, bytes, error. why must not be empty. */
 mote_status mote_history_add(const char *file, const char *directory, const char *why);
 
-/* Draws the file's series, one a row, their times relative to the first, change points marked,
-   to results/history.svg and .png beside it. The errors of mote_history_read; MOTE_EINVAL where
-   there is nothing to draw. */
+/* Draws the file's series, one per row, as times relative to the first, with change points
+   marked, to results/history.svg and .png beside it. Errors as mote_history_read; MOTE_EINVAL
+   if there is nothing to draw. */
 mote_status mote_history_draw(const char *file);
 
 #endif

@@ -23,7 +23,7 @@ static mote_status copy_file(const char *from, const char *to, const char *name)
     return status;
 }
 
-/* The CSV first, as when it was measured: a cell is there when its JSON is. */
+/* Copies the CSV first, as when it was measured: a cell exists once its JSON does. */
 static mote_status copy_cell(const mote_stored_cell *cell, const char *from, const char *to,
                              mote_merged *merged)
 {
@@ -36,7 +36,7 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     } else {
         if (cell->status == MOTE_CELL_OK)
             status = copy_file(from, to, csv);
-        if (status == MOTE_OK && mote_record_exists(from, pairs)) /* of more than two bodies */
+        if (status == MOTE_OK && mote_record_exists(from, pairs)) /* more than two bodies */
             status = copy_file(from, to, pairs);
         if (status == MOTE_OK)
             status = copy_file(from, to, json);
@@ -48,7 +48,8 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
     return status;
 }
 
-/* Adds those sessions of a manifest that another one has not: when and where was measured. */
+/* Adds the sessions (when and where was measured) that another manifest has and this one
+   lacks. */
 static mote_status add_sessions(const char *directory, json_t *here, const json_t *there)
 {
     json_t *mine = json_object_get(here, "sessions");
@@ -70,8 +71,8 @@ static mote_status add_sessions(const char *directory, json_t *here, const json_
     return mote_record_json(directory, "manifest.json", json_incref(here));
 }
 
-/* The manifest of the first run is the directory's; the others must be of the same program, and
-   add their sessions. */
+/* The first run's manifest becomes the directory's; the others must be from the same program,
+   and add their sessions. */
 static mote_status merge_manifest(const char *directory, const char *run)
 {
     json_t *here = NULL, *there = NULL;

@@ -9,7 +9,7 @@
 
 #define FILE_LIMIT ((size_t)1 << 32)
 
-/* Fields of a line of cells/ID.pairs.csv before the one that says whether it is a contact. */
+/* Fields before the contact field in a line of cells/ID.pairs.csv. */
 #define FIELDS_BEFORE_CONTACT 6
 
 static int order(const mote_scene_contact *a, const mote_scene_contact *b)
@@ -35,8 +35,8 @@ size_t mote_scene_contacts_lacking(const mote_scene_contacts *of, const mote_sce
     return count;
 }
 
-/* Reads a line "frame,body_a,body_b,steps,distance,lower,contact,..."; NULL when it is not one,
-   else the next line. */
+/* Reads a line "frame,body_a,body_b,steps,distance,lower,contact,..."; returns the next line,
+   or NULL if the line is different. */
 static const char *read_line(const char *line, mote_scene_contact *contact, bool *touches)
 {
     uint32_t *const numbers[] = {&contact->frame, &contact->body[0], &contact->body[1]};
@@ -100,7 +100,7 @@ mote_status mote_scene_contacts_read(const char *directory, const mote_stored_ce
     return status;
 }
 
-/* How good a row is as a reference; the lowest is the best, UINT32_MAX: none. */
+/* The rank of a row as a reference; the lowest is the best, UINT32_MAX: none. */
 static uint32_t reference_rank(const mote_summary_row *row)
 {
     static const char *const names[] = {"fcl-aabb", "aabb-tree", "certified"};
@@ -135,7 +135,7 @@ static double sum_of(const double *values, size_t count)
     return sum;
 }
 
-/* What a row's own cells say. */
+/* Counts from a row's own cells. */
 static void count_own(mote_summary_row *row)
 {
     double pairs = 0, contacts = 0, frames = 0;
@@ -180,7 +180,7 @@ mote_status mote_scene_contacts_count(const char *directory, mote_summary_row *r
                                       size_t count)
 {
     mote_scene_contacts real = {.count = 0};
-    const mote_summary_row *known = NULL; /* the row that they are of */
+    const mote_summary_row *known = NULL; /* the row whose contacts are loaded */
     mote_status status = MOTE_OK;
     for (size_t k = 0; k < count && status == MOTE_OK; ++k) {
         mote_summary_row *row = &rows[k];

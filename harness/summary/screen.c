@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns for the method, of which the first two are for the mark of the front. */
+/* Columns for the method; the first two hold the front mark. */
 #define LABEL_WIDTH 39
 #define INDENT 2
 
-/* Whether a row is marked: it is on the front. Where times have no interval (one replicate)
-   none is surely faster than another, and a mark would say nothing. */
+/* Whether a row is marked: it is on the front. If times have no interval (one replicate), none
+   is certainly faster than another, and a mark would mean nothing. */
 static bool is_marked(const mote_summary_row *row)
 {
     return row->on_front && row->total.low == row->total.low;
@@ -23,11 +23,11 @@ static bool is_marked(const mote_summary_row *row)
 typedef struct choice {
     const mote_summary_row **rows; /* the best, at most MOTE_SCREEN_ROWS */
     size_t count;
-    size_t others; /* that are left out */
+    size_t others; /* omitted rows */
     bool any_marked;
 } choice;
 
-/* Prints words, from the left, in lines that begin with two spaces from the second on. */
+/* Prints words, indented by two spaces from the second line on. */
 static void print_words(const mote_text *words, FILE *out)
 {
     mote_print_wrapped(words->data, 0, INDENT, MOTE_SCREEN_WIDTH, out);
@@ -51,7 +51,7 @@ static int by_time(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Takes out the least accurate row that does not stand for its method; false: there is none. */
+/* Removes the least accurate row that does not stand for its method; false if there is none. */
 static bool drop_worst(choice *c)
 {
     size_t worst = SIZE_MAX;
@@ -88,7 +88,8 @@ static choice choose(const mote_summary *summary, size_t start, size_t end, bool
     return c;
 }
 
-/* A row on one line, or on two where its label is too long; its notes on one of their own. */
+/* Prints a row on one line, or on two if its label is too long; its notes on a separate
+   line. */
 static void print_row(const mote_summary_row *row, FILE *out)
 {
     (void)fprintf(out, "%-*s%-*s", INDENT, is_marked(row) ? "*" : "", LABEL_WIDTH - INDENT,
@@ -104,7 +105,7 @@ static void print_row(const mote_summary_row *row, FILE *out)
     }
 }
 
-/* The row of FCL that ratios are taken to, of the first row that has any. */
+/* The FCL row that ratios are relative to, from the first row that has any. */
 static const char *best_fcl(const choice *c)
 {
     for (size_t i = 0; i < c->count; ++i) {
@@ -162,7 +163,7 @@ static void print_choice(const choice *c, bool given, FILE *out)
     print_foot(c, out);
 }
 
-/* Rows without a figure, and why. */
+/* Prints the rows without values, and why. */
 static void print_failures(const mote_summary *summary, size_t start, size_t end, FILE *out)
 {
     for (size_t i = start; i < end; ++i) {

@@ -1,4 +1,4 @@
-/* A summary on one screen a scenario: what is read first, on a terminal. */
+/* A summary on one screen per scenario: the first thing to read on a terminal. */
 #ifndef MOTE_HARNESS_SCREEN_H
 #define MOTE_HARNESS_SCREEN_H
 
@@ -6,16 +6,16 @@
 
 #include <stdio.h>
 
-/* No line is longer, but for a name that is. */
+/* No line is longer, unless a name is. */
 #define MOTE_SCREEN_WIDTH 100
 
-/* Rows of one block and one accounting that are shown at most. */
+/* The largest number of rows shown per block and accounting. */
 #define MOTE_SCREEN_ROWS 20
 
-/* For each block, and in it for each accounting, the best rows: those that stand for their
-   method and those on the front of time against error, which are marked; sorted by time. Of
-   more than MOTE_SCREEN_ROWS the least accurate that stand for no method are left out. Below a
-   block: what the marks and ratios mean, which rows ended badly, how many more there are.
+/* For each block and accounting, the best rows: those that stand for their method and those on
+   the front of time against error, which are marked; sorted by time. If there are more than
+   MOTE_SCREEN_ROWS, the least accurate ones that stand for no method are omitted. Below a
+   block: the meaning of marks and ratios, the rows that failed, the number of omitted rows.
    Columns are those of MOTE_VIEW_SCREEN. */
 void mote_screen_print(const mote_summary *summary, FILE *out);
 

@@ -23,7 +23,7 @@ const char *const mote_stored_count_names[MOTE_STORED_COUNTS] = {
     MOTE_COUNTERS(NAME_TEXT) MOTE_COUNTERS_MORE(NAME_TEXT) "allocations"};
 #undef NAME_TEXT
 
-/* What a field of a frame is, and what an empty one means. */
+/* The type of a frame's field, and the meaning of an empty one. */
 typedef enum field_kind {
     FIELD_NUMBER, /* of the frame: uint32_t */
     FIELD_TIME,   /* double; empty: 0 */
@@ -127,7 +127,7 @@ static int find_column(const char *name, size_t length)
     return -1;
 }
 
-/* False where a column that every cell has is missing. */
+/* False if a column that every cell has is missing. */
 static bool map_columns(const char *header, mote_cell_columns *columns)
 {
     unsigned found = 0;
@@ -157,13 +157,13 @@ static void put_field(const mote_stored_cell *cell, size_t row, int column, doub
     }
 }
 
-/* A row of a cell's arrays. */
+/* The position of a row in a cell's arrays. */
 typedef struct frame_row {
     mote_stored_cell *cell;
     size_t row;
 } frame_row;
 
-/* Puts the value of one field, MOTE_NONE when empty, where it belongs. */
+/* Stores the value of one field, MOTE_NONE if empty. */
 static void put_value(void *context, int index, double value)
 {
     const frame_row *to = context;
@@ -180,7 +180,7 @@ static void put_value(void *context, int index, double value)
     }
 }
 
-/* Reads one line into a row; NULL when it is not one. */
+/* Reads one line into a row; NULL if it is not valid. */
 static const char *read_row(const char *line, const mote_cell_columns *columns,
                             mote_stored_cell *cell, size_t row)
 {
@@ -210,8 +210,8 @@ static mote_status read_frames(const char *path, const char *text, mote_stored_c
     return MOTE_OK;
 }
 
-/* A key that is equal for the replicates of one configuration, and sorts by scenario, caches
-   and method. */
+/* A key that is equal for the replicates of one configuration and sorts by scenario, caches and
+   method. */
 static char *group_name(const mote_stored_cell *cell)
 {
     char *parameters = json_dumps(cell->parameters, JSON_COMPACT | JSON_SORT_KEYS);
@@ -238,7 +238,7 @@ static bool read_status(const char *text, mote_cell_status *status)
     return false;
 }
 
-/* Bytes are whole numbers, null where they were not counted. */
+/* Whether bytes are whole numbers, or null if they were not counted. */
 static bool has_bytes_right(const json_t *cell)
 {
     static const char *const keys[] = {"heap_live_bytes", "heap_peak_bytes", "deform_bytes",
@@ -259,13 +259,13 @@ static uint32_t frame_number(const json_t *value)
     return number >= 1 && number <= UINT32_MAX ? (uint32_t)number : 0;
 }
 
-/* Fills the fields that lie in cell->json. */
+/* Fills in the fields that point into cell->json. */
 static mote_status read_fields(const char *name, mote_stored_cell *cell)
 {
     const char *status;
     json_int_t seed;
     int replicate, stride, first, last, jobs = 1, fixed = 0;
-    json_t *shown[3]; /* that are only there for a summary's row */
+    json_t *shown[3]; /* only needed by a summary's row */
     if (json_unpack(cell->json,
                     "{s:s, s:s, s:s, s:s, s:s, s:s, s:o, s:i, s:i, s:[i,i], s?i, s:I, s?b, "
                     "s:o, s:o, s:o}",
@@ -296,8 +296,8 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     return MOTE_OK;
 }
 
-/* A file that was cut at the end of a line looks whole; cells of older builds do not store
-   the number of rows. */
+/* A file cut at the end of a line looks complete; cells of older builds do not store the number
+   of rows. */
 static mote_status check_rows(const char *path, const mote_stored_cell *cell)
 {
     const json_t *rows = json_object_get(cell->json, "rows");
@@ -325,7 +325,7 @@ static mote_status read_csv(const char *directory, mote_stored_cell *cell)
     return status;
 }
 
-/* *wanted: measured by this program ("": any). */
+/* *wanted: whether it was measured by this program ("": any). */
 static mote_status read_cell(const char *directory, const char *file, const char *program,
                              mote_stored_cell *cell, bool *wanted)
 {
@@ -348,7 +348,7 @@ static mote_status read_cell(const char *directory, const char *file, const char
     return status;
 }
 
-/* The program that measured last; "" without a manifest. */
+/* The program of the last session; "" without a manifest. */
 static void manifest_program(const char *directory, char *program, size_t size)
 {
     json_t *manifest = NULL;
@@ -375,7 +375,7 @@ static bool is_cell_file(const char *name)
     return name[0] != '.' && mote_name_ends(name, ".json");
 }
 
-/* A file that cannot be read is an error, or, with damaged, a line there. */
+/* Adds a cell file. If it cannot be read, that is an error or, with damaged, a line there. */
 static mote_status add_file(const char *directory, const char *file, const char *program,
                             mote_text *damaged, mote_stored *stored)
 {

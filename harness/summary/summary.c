@@ -34,9 +34,9 @@ static int by_place(const void *a, const void *b)
     return order ? order : strcmp(first->first->group, second->first->group);
 }
 
-/* Whether a row's time may be set against another one's. One that pays for deformation is
-   compared with others that pay; one with positions given with the time that others need
-   without deformation, whoever measured it. */
+/* Whether two rows' times may be compared. A row charged for deformation is compared with
+   others that are; a row with positions given is compared with the time that others need
+   without deformation. */
 static bool comparable(const mote_summary_row *row, const mote_summary_row *other)
 {
     return row->status == MOTE_CELL_OK && other->status == MOTE_CELL_OK &&
@@ -44,7 +44,7 @@ static bool comparable(const mote_summary_row *row, const mote_summary_row *othe
            mote_summary_by_scene(row, other) == 0 && (row->given || !other->given);
 }
 
-/* The part of a frame's time that is compared with that of other rows. */
+/* The part of a frame's time that is compared with other rows. */
 static mote_part compared_part(const mote_summary_row *row)
 {
     return row->given ? MOTE_PART_GIVEN : MOTE_PART_TOTAL;
@@ -59,7 +59,7 @@ bool mote_summary_machines_differ(const mote_summary *summary)
     return false;
 }
 
-/* Whether another row was asked for all frames that this one was. */
+/* Whether another row was asked for all frames of this one. */
 static bool covers(const mote_summary_row *other, const mote_summary_row *row)
 {
     return other->frame_range[0] <= row->frame_range[0] &&
@@ -73,9 +73,9 @@ static bool is_plain_fcl(const mote_summary_row *row)
     return strcmp(row->label, row->given ? "fcl-aabb:positions=given" : "fcl-aabb") == 0;
 }
 
-/* The row that this one's ratio is taken to: fcl-aabb with its defaults (seed=none, queue=2),
-   or any fcl-aabb; on all of this row's frames, best with positions from where this row has
-   them and on these frames alone, measured in turn with it. */
+/* The row that this one's ratio is relative to: fcl-aabb with its defaults (seed=none,
+   queue=2), or any fcl-aabb, on all of this row's frames; preferably with positions from the
+   same source and on exactly these frames, measured in turn with it. */
 static const mote_summary_row *find_reference(const mote_summary *summary,
                                               const mote_summary_row *row)
 {
@@ -100,7 +100,8 @@ static bool is_right_engine(const mote_summary_row *row)
     return mote_summary_is_engine(row) && mote_summary_row_right(row);
 }
 
-/* Of rows on all of this row's frames, or else of any, the fastest over these frames. */
+/* The fastest row over these frames, among rows on all of this row's frames, otherwise among
+   all rows. */
 static const mote_summary_row *find_best(const mote_summary *summary,
                                          const mote_summary_row *row,
                                          bool (*competes)(const mote_summary_row *))
@@ -133,7 +134,7 @@ static void make_ratio(const mote_summary_row *row, const mote_summary_row *to, 
     if (to)
         mote_summary_ratio(row, to, part, ratio);
     if (to == row)
-        ratio->low = ratio->high = MOTE_NONE; /* 1 whatever was measured */
+        ratio->low = ratio->high = MOTE_NONE; /* always 1 */
 }
 
 static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)
@@ -162,12 +163,12 @@ static void make_rows(mote_summary *summary)
     }
 }
 
-/* The digits of a fingerprint that are shown. */
+/* Displayed digits of a fingerprint. */
 #define SHOWN_DIGITS 8
 
-/* Names the scene of a row by its scenario and, where several scenes have that name, by its
-   fingerprint: a file may have changed between two runs, or there are two in different
-   folders. */
+/* Names the scene of a row by its scenario and, if several scenes have that name, by its
+   fingerprint: a file may have changed between two runs, or different folders may have files of
+   one name. */
 static char *name_scene(const mote_summary *summary, const mote_summary_row *row)
 {
     bool scenes = false, questions = false, tolerances = false;
@@ -191,7 +192,7 @@ static char *name_scene(const mote_summary *summary, const mote_summary_row *row
     return text.data;
 }
 
-/* The median over the cells of a number of theirs. */
+/* The median over the cells of one of their numbers. */
 static double cells_median(const mote_summary *summary, const char *key, double *work)
 {
     size_t known = 0;

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* The object of a row that a column stands in. */
+/* The object of a row that contains a column. */
 static json_t *object_of(json_t *row, const mote_column *column)
 {
     if (!column->object)
@@ -27,8 +27,7 @@ json_t *mote_summary_row_json(const mote_summary_row *row)
         if (column->of_scenes && row->bodies == 0)
             continue;
         json_t *value = mote_column_write(column, row);
-        /* An object that begins with an optional member is null without it: there is nothing
-           that it would be of. */
+        /* An object that begins with an optional member is null without it. */
         const bool null_object = column->object && column->optional && !value;
         const bool null_already =
             column->object && json_is_null(json_object_get(object, column->object));
@@ -87,7 +86,7 @@ static const json_t *value_in(const json_t *row, const mote_column *column)
                            column->key);
 }
 
-/* What follows from what a row says. */
+/* Derives members from others of the row. */
 static void complete_row(mote_summary_row *row)
 {
     row->given = strcmp(row->accounting, "given") == 0;
@@ -95,11 +94,11 @@ static void complete_row(mote_summary_row *row)
     while (row->status < MOTE_CELL_STATUSES &&
            strcmp(row->ending, mote_cell_status_names[row->status]) != 0)
         ++row->status;
-    if (row->scene[0] == '\0') /* of an older build */
+    if (row->scene[0] == '\0') /* older builds */
         row->scene = (char *)(uintptr_t)row->scenario;
 }
 
-/* The row of a label in the scene of another row, which may be that row itself. */
+/* The row with a label in the scene of another row, possibly that row itself. */
 static const mote_summary_row *row_labelled(const mote_summary *summary, const char *label,
                                             const mote_summary_row *row)
 {
@@ -113,7 +112,7 @@ static const mote_summary_row *row_labelled(const mote_summary *summary, const c
     return NULL;
 }
 
-/* Finds the rows that the columns of a row name. */
+/* Resolves the rows that the columns of a row name. */
 static void link_row(const mote_summary *summary, const json_t *object, mote_summary_row *row)
 {
     for (size_t i = 0; i < mote_column_count; ++i) {

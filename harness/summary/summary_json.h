@@ -4,19 +4,19 @@
 
 #include "harness/summary/summary.h"
 
-/* A row as summary.json holds it: every column (column.h). The caller decrefs it. */
+/* A row as in summary.json: every column (column.h). The caller decrefs it. */
 json_t *mote_summary_row_json(const mote_summary_row *row);
 
-/* The summary as the object that summary.json holds. The caller decrefs it. */
+/* The summary as in summary.json. The caller decrefs it. */
 json_t *mote_summary_json(const mote_summary *summary);
 
 /* Writes directory/summary.json, summary.csv (mote_table_csv), and fronts.csv and speed.csv
    (harness/summary/front.h). */
 mote_status mote_summary_write(const mote_summary *summary, const char *directory);
 
-/* Reads the rows of directory/name, a summary.json, also one of an older build. They have no
-   cells; what the file does not say is "", MOTE_NONE, 0 or true. MOTE_EIO or MOTE_EINVAL, with
-   the file, where it cannot be read or has no list of rows. The caller frees *summary. */
+/* Reads the rows of directory/name, a summary.json, possibly of an older build. They have no
+   cells; values missing from the file are "", MOTE_NONE, 0 or true. MOTE_EIO or MOTE_EINVAL,
+   with the file, if it cannot be read or has no list of rows. The caller frees *summary. */
 mote_status mote_summary_read(const char *directory, const char *name, mote_summary *summary);
 
 #endif

@@ -12,16 +12,16 @@ static uint32_t last_replicate(const mote_summary_row *row)
     return last;
 }
 
-/* The group to which one of the replicates 1 .. last belongs: blocks of consecutive numbers,
-   so that groups differ as much as the machine does from one minute to the next. */
+/* The group of one of the replicates 1 .. last: blocks of consecutive numbers, so that groups
+   differ as much as the machine does from one minute to the next. */
 static uint32_t group_of(uint32_t replicate, uint32_t last, uint32_t groups)
 {
     return (uint32_t)((uint64_t)(replicate - 1) * groups / last);
 }
 
-/* Of each frame the fastest of the replicates of a group of 1 .. last, without deformation
-   where positions are given; returns how many replicates there were. times holds row->frames.
- */
+/* For each frame the fastest time among the replicates of a group of 1 .. last, without
+   deformation if positions are given; returns the number of replicates. times holds
+   row->frames. */
 static size_t fastest(const mote_summary_row *row, bool given, uint32_t last, uint32_t groups,
                       uint32_t group, double *times)
 {
@@ -41,7 +41,7 @@ static size_t fastest(const mote_summary_row *row, bool given, uint32_t last, ui
     return count;
 }
 
-/* The quiet total of a group, and its ratio to that of the reference's replicates of these
+/* The quiet total of a group, and its ratio to that of the reference's replicates with these
    numbers; MOTE_NONE without replicates. */
 static void quiet_group(const mote_summary_row *row, const mote_summary_row *reference,
                         uint32_t groups, uint32_t group, double *total, double *ratio)
@@ -77,8 +77,8 @@ void mote_summary_quiet(mote_summary_row *row, const mote_summary_row *reference
     }
 }
 
-/* Whether a row's times are taken relative to the reference. All of them are, or none: a time
-   in nanoseconds among ratios would be a change by a thousand. */
+/* Whether a row's times are relative to the reference. Either all are or none: a time in
+   nanoseconds among ratios would look like a change by a factor of a thousand. */
 static bool is_relative(const mote_summary_row *row)
 {
     for (size_t p = 0; p < row->process_count; ++p) {
@@ -88,7 +88,7 @@ static bool is_relative(const mote_summary_row *row)
     return false;
 }
 
-/* The medians of a row's early or late processes, their logarithms averaged. */
+/* The mean logarithm of the medians of a row's early or late processes. */
 static double half_of_processes(const mote_summary_row *row, uint32_t half)
 {
     double sum = 0, count = 0;
@@ -125,7 +125,7 @@ static bool is_compared(const mote_summary_row *row)
     return row->ratio.to != row && row->finished > 0 && row->times_comparable;
 }
 
-/* The value that 90 % of them stay below; MOTE_NONE of none. values are reordered. */
+/* The 90 % quantile; MOTE_NONE without values. values are reordered. */
 static double most_of(double *values, size_t count)
 {
     mote_statistics_sort(values, count);
@@ -148,7 +148,7 @@ double mote_summary_noise_floor(const mote_summary_row *rows, size_t count)
     return floor;
 }
 
-/* The logarithms of what comparisons are made from; returns how many. */
+/* The logarithms used by comparisons; returns their number. */
 static size_t comparable_logs(const mote_summary_row *row, double *logs)
 {
     size_t count = 0;

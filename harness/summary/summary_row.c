@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Any fixed seed, so that the same data give the same intervals. */
+/* A fixed seed, so the same data give the same intervals. */
 #define BOOTSTRAP_SEED 20030901u
 
-/* The frames of a time that count: from first to last, 0, 0 for all. */
+/* The values of a time over the frames that count. */
 typedef struct slice {
     double *all;              /* values of all replicates */
     mote_replicate *replicas; /* [count], inside all */
@@ -39,7 +39,7 @@ DEFINE_VALUE(given_of, cell->update_ns[frame] + cell->query_ns[frame])
 DEFINE_VALUE(error_of, cell->error[frame])
 #undef DEFINE_VALUE
 
-/* Gathers the values of a row's replicates over the frames first .. last. */
+/* Gathers the values of a row's replicates over the frames first .. last (0, 0: all). */
 static slice gather(const mote_summary_row *row, value_of value, uint32_t first, uint32_t last)
 {
     slice made = {0};
@@ -178,7 +178,7 @@ static void count_contacts(mote_summary_row *row)
     row->false_contacts = answers > 0 ? false_contacts / finished : MOTE_NONE;
 }
 
-/* The largest over the replicates of a number of theirs. */
+/* The largest over the replicates of one of their numbers. */
 static double largest(const mote_summary_row *row, const char *key)
 {
     double most = MOTE_NONE;
@@ -189,8 +189,8 @@ static double largest(const mote_summary_row *row, const char *key)
     return most;
 }
 
-/* The parameter of a key, of the method or of scenes, with its default; NULL: none in this
-   build. */
+/* The parameter with a key, of the method or of scenes, with its default; NULL if this build
+   has none. */
 static const mote_parameter *find_parameter(const mote_method *method, const char *key,
                                             double *fallback)
 {
@@ -210,8 +210,8 @@ static const mote_parameter *find_parameter(const mote_method *method, const cha
     return NULL;
 }
 
-/* A parameter's value as it would be written on the command line, and whether it is the
-   default. The method may not be in this build: then nothing counts as a default. */
+/* A parameter's value as on the command line, and whether it is the default. If the method is
+   not in this build, nothing counts as a default. */
 static char *value_text(const mote_method *method, const char *key, const json_t *value,
                         bool *usual)
 {
@@ -219,7 +219,7 @@ static char *value_text(const mote_method *method, const char *key, const json_t
     double fallback;
     const mote_parameter *parameter = find_parameter(method, key, &fallback);
     *usual = false;
-    /* Of a choice it is the name that is stored; a number need not be that of one. */
+    /* A choice is stored by name; a number need not be a valid choice. */
     if (parameter && json_is_number(value) && parameter->kind != MOTE_PARAMETER_CHOICE)
         (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
     else if (parameter && json_is_string(value))
@@ -231,7 +231,7 @@ static char *value_text(const mote_method *method, const char *key, const json_t
     return mote_format("%s", text);
 }
 
-/* "method:key=value,..." with what differs from the defaults. */
+/* "method:key=value,..." with the values that differ from the defaults. */
 static char *make_label(const mote_stored_cell *cell)
 {
     mote_text text = {0};
@@ -253,7 +253,7 @@ static char *make_label(const mote_stored_cell *cell)
     return text.data;
 }
 
-/* The processes that ended well, and the sums of their counts. */
+/* The processes that succeeded, and the sums of their counts. */
 static void make_processes(mote_summary_row *row)
 {
     size_t most = 0;
@@ -361,7 +361,7 @@ bool mote_summary_same_block(const mote_summary_row *a, const mote_summary_row *
 
 void mote_summary_row_free(mote_summary_row *row)
 {
-    if (row->cells) { /* else these are in the document that it was read from */
+    if (row->cells) { /* otherwise the document owns them */
         free(row->label);
         free(row->scene);
     }
@@ -372,13 +372,13 @@ void mote_summary_row_free(mote_summary_row *row)
 
 static const mote_ratio no_ratio = {NULL, MOTE_NONE, MOTE_NONE, MOTE_NONE};
 
-/* How bad an end is; 0: none. */
+/* How bad a status is; 0: ok. */
 static int badness(mote_cell_status status)
 {
     return status == MOTE_CELL_OK ? 0 : MOTE_CELL_STATUSES - (int)status;
 }
 
-/* Whether the method was given the positions of all vertices at no charge. */
+/* Whether the method was given the positions of all vertices without being charged. */
 static bool is_given(const mote_stored_cell *cell)
 {
     return strcmp(mote_text_at(cell->parameters, "positions"), "given") == 0;
@@ -393,14 +393,15 @@ static void read_two(const json_t *json, const char *key, uint32_t numbers[2])
     }
 }
 
-/* Vertices of all bodies; 0: not known. */
+/* Vertices of all bodies; 0: unknown. */
 static double all_vertices(const mote_summary_row *row)
 {
-    const double total = mote_stored_number(row->first, "vertices_total"); /* of many bodies */
+    const double total = mote_stored_number(row->first, "vertices_total"); /* for more than two
+                                                                              bodies */
     return total > 0 ? total : (double)row->vertices[0] + (double)row->vertices[1];
 }
 
-/* What was measured, as the row's first cell says. */
+/* Fills in what was measured, from the row's first cell. */
 static void describe(mote_summary_row *row)
 {
     const mote_stored_cell *cell = row->first;
@@ -462,7 +463,7 @@ mote_summary_row mote_summary_row_make(const mote_stored_cell *cells, size_t rep
     return made;
 }
 
-/* The ratios other / row of the frames that two cells share; returns how many. */
+/* The ratios other / row of the frames that two cells share; returns their number. */
 static size_t pair_frames(const mote_stored_cell *row, const mote_stored_cell *other,
                           value_of value, double *ratios)
 {

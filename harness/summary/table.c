@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A smallest change above this is not worth printing. */
+/* A smallest change above this is not printed. */
 #define CHANGE_MAX 10.0
 
 static size_t label_width(const mote_summary *summary)
@@ -83,7 +83,7 @@ size_t mote_table_block_end(const mote_summary *summary, size_t start)
     return end;
 }
 
-/* With the largest number of frames and of replicates of its rows. */
+/* Includes the largest number of frames and of replicates of its rows. */
 char *mote_table_heading(const mote_summary *summary, size_t start)
 {
     const mote_summary_row *row = &summary->rows[start];
@@ -149,8 +149,8 @@ static void print_row(const mote_summary_row *row, int width, FILE *out)
     (void)fprintf(out, "\n");
 }
 
-/* What the columns of ratios are taken to, below a block: those of rows that pay for
-   deformation, and those of rows with positions given. */
+/* Prints below a block what ratios are relative to: for rows charged for deformation, and for
+   rows with positions given. */
 static void print_foot(const mote_summary *summary, size_t start, size_t end, FILE *out)
 {
     for (int given = 0; given < 2; ++given) {
@@ -172,7 +172,7 @@ static void print_foot(const mote_summary *summary, size_t start, size_t end, FI
     }
 }
 
-/* How far the times can be trusted. */
+/* Prints how far the times can be trusted. */
 static void print_quality(const mote_summary *summary, FILE *out)
 {
     const mote_overhead *overhead = &summary->overhead;

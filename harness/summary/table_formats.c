@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MHZ_MAX 1e9 /* no core's clock */
+#define MHZ_MAX 1e9 /* no core is faster */
 
-/* Whether another row differs from this one in frames, stride or seed only. */
+/* Whether another row differs from this one only in frames, stride or seed. */
 static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *row)
 {
     size_t same = 0;
@@ -23,8 +23,8 @@ static bool is_ambiguous(const mote_summary *summary, const mote_summary_row *ro
     return same > 1;
 }
 
-/* "scene/method:key=value/evict": the name of a row in other tools; with "/machine" where
-   there are several, and with frames, stride and seed where these tell rows apart. */
+/* "scene/method:key=value/evict": the name of a row in other tools; with "/machine" if there
+   are several, and with frames, stride and seed if they are needed to distinguish rows. */
 static char *row_name(const mote_summary *summary, const mote_summary_row *row)
 {
     bool several = mote_summary_machines_differ(summary);
@@ -37,14 +37,14 @@ static char *row_name(const mote_summary *summary, const mote_summary_row *row)
                        several ? "/" : "", several ? row->machine : "");
 }
 
-/* Sets a member to what is known; leaves it out when there is nothing. */
+/* Sets a member if its value is known. */
 static void set_known(json_t *object, const char *key, json_t *value)
 {
     if (json_is_string(value) ? json_string_length(value) > 0 : json_is_number(value))
         (void)json_object_set(object, key, value);
 }
 
-/* When, where and by which build the run was measured, from its manifest. */
+/* When, where and with which build the run was measured, from its manifest. */
 static json_t *gbench_context(const json_t *manifest, const mote_summary *summary)
 {
     json_t *context = json_pack("{s:s, s:[], s:[], s:i}", "executable", "mote", "caches",

@@ -13,10 +13,10 @@ static bool same_group(const mote_summary_row *a, const mote_summary_row *b)
            strcmp(a->method, b->method) == 0;
 }
 
-/* Lets a row compete in its group. */
+/* Enters a row into its group's comparison. */
 static void compete(const mote_summary_row *row, mote_tuned *group)
 {
-    /* A time that is not known is neither the smallest nor the largest. */
+    /* An unknown time is neither the smallest nor the largest. */
     if (row->status != MOTE_CELL_OK || !row->times_comparable ||
         row->total.median != row->total.median)
         return;
@@ -24,7 +24,7 @@ static void compete(const mote_summary_row *row, mote_tuned *group)
     bool right = mote_summary_row_right(row);
     if (group->right && !right)
         return;
-    /* The first configuration that is right replaces those that are not. */
+    /* The first correct configuration replaces incorrect ones. */
     bool first = !group->best || (right && !group->right);
     if (first || row->total.median < group->best->total.median)
         group->best = row;
@@ -47,7 +47,7 @@ mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count)
     return groups;
 }
 
-/* What tune.json says of the best row, and by which name. */
+/* The members of tune.json for the best row, with their names. */
 static const struct told {
     const char *name, *object, *key; /* the column */
 } told[] = {{"scenario", NULL, "scenario"},       {"fingerprint", NULL, "fingerprint"},

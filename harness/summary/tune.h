@@ -6,19 +6,18 @@
 
 #include <stdio.h>
 
-/* The configurations of one method on the same frames, with deformation accounted for in the
-   same way. */
+/* The configurations of one method on the same frames, with the same accounting of
+   deformation. */
 typedef struct mote_tuned {
     const mote_summary_row *best, *worst; /* by total.median, of those compared */
-    size_t configurations;                /* that ran well */
-    bool
-        right; /* those compared are right: no error above 1e-9 L, no missed or false contact */
+    size_t configurations;                /* that succeeded */
+    bool right; /* those compared are correct: no error above 1e-9 L, no missed or false
+                   contact */
 } mote_tuned;
 
 /* Groups the rows of a summary, which are sorted by scene, caches and method, and compares
-   within each group the configurations that are right, or all of them where none is. Groups
-   without any that ran well are left out. The caller frees the array; it points into summary.
- */
+   within each group the correct configurations, or all of them if none is correct. Groups in
+   which none succeeded are left out. The caller frees the array; it points into summary. */
 mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count);
 
 /* {"schema": 1, "rows": [{"scenario", "fingerprint", "accounting", "cache", "method",
@@ -26,9 +25,9 @@ mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count);
    "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]} */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
-/* The configuration of FCL that directory/tune.json calls the fastest right one on a scenario
-   with hot caches, as it is written behind --method; "" when it names none. MOTE_EIO or
-   MOTE_EINVAL when the file cannot be read or has no rows. The caller frees *configuration. */
+/* The FCL configuration that directory/tune.json lists as the fastest correct one on a scenario
+   with hot caches, as written after --method; "" if it lists none. MOTE_EIO or MOTE_EINVAL if
+   the file cannot be read or has no rows. The caller frees *configuration. */
 mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
                                char **configuration);
 

@@ -9,11 +9,11 @@
 typedef struct goal {
     const char *directory;
     double share;
-    double widest; /* interval of all, as a share of its median */
+    double widest; /* widest interval, as a share of its median */
 } goal;
 
-/* The half width of the interval of a row's median on its wider side, as a share of the
-   median; infinite when there is none yet, 0 when more replicates would not help. */
+/* The half width of the interval of a row's median, on its wider side, as a share of the
+   median; infinite if there is none yet, 0 if more replicates would not help. */
 static double interval_width(const mote_summary *summary, const mote_cell *cell)
 {
     for (size_t i = 0; i < summary->count; ++i) {
@@ -32,7 +32,7 @@ static double interval_width(const mote_summary *summary, const mote_cell *cell)
     return 0;
 }
 
-/* Asks for a replicate of each row whose interval is too wide, and of the reference of its
+/* Requests a replicate of each row whose interval is too wide, and of the reference of its
    ratios. */
 static mote_status want_wide(void *context, const mote_cell *cells, size_t count, bool *wanted)
 {
