@@ -1,8 +1,8 @@
 #!/bin/sh
-# ablation.sh MOTE PROFILE OUT: what each step of the certified query brings: one left out at a
-# time, and every start. Leaves OUT/summary.json, the table in OUT/ablation.txt, which it prints,
-# and OUT/report.html with intervals. A run that was stopped goes on where it stopped. quick: 200
-# frames of three scenarios, once; full: all frames, three times, a million triangles too.
+# ablation.sh MOTE PROFILE OUT: what each step of the certified query contributes: leaves out one at a
+# time, and tries every start. Writes OUT/summary.json, the table in OUT/ablation.txt, which it prints,
+# and OUT/report.html with intervals. A stopped run is continued. quick: 200 frames of three scenarios,
+# once; full: all frames, three times, also a million triangles.
 set -eu
 mote=$1
 profile=$2
@@ -17,7 +17,7 @@ paper | full) set -- ww fast-25 jump comb ww-1m --replicates 3 ;;
     ;;
 esac
 
-# A cell that failed (5) is a row, not the end.
+# A failed cell (5) is a row; it does not end the run.
 status=0
 "$mote" run "$@" --out "$out" \
     --method 'certified:seed=witness|pair|none|tracked' \

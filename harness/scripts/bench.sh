@@ -1,6 +1,6 @@
 #!/bin/sh
-# bench.sh MOTE PROFILE OUT: the experiments of one profile, into one run directory. A run that was
-# stopped goes on where it stopped. Ends with the figures, the report and one screen a scenario.
+# bench.sh MOTE PROFILE OUT: runs the experiments of one profile in one run directory. A stopped run is
+# continued. Ends with the figures, the report and one screen per scenario.
 set -eu
 mote=$1
 profile=$2
@@ -12,9 +12,9 @@ out=$3
 plain=fcl-aabb:seed=none,queue=2
 tuned=fcl-aabb:seed=previous,queue=64
 
-# sizes: the same 200 frames, around a touch, of letters W of 1,000 to 1,000,000 triangles. What
-# takes over 10 ms a frame is measured on each 16th of them; oriented boxes take too long to refit
-# at the end.
+# sizes: the same 200 frames, around a contact, of letters W of 1,000 to 1,000,000 triangles. Methods
+# that take over 10 ms per frame are measured on every 16th frame; oriented boxes are left out at the
+# largest sizes, where refits take too long.
 sizes() {
     for part in ww-1k:1200-1399 ww-10k:1200-1399 ww:1200-1399 ww-100k:101-300 ww-1m:1-200; do
         scenario=${part%:*}
@@ -27,8 +27,7 @@ sizes() {
     done
 }
 
-# engines REPLICATES: other engines and ours, asked for contacts and for distances of the same
-# frames.
+# engines REPLICATES: other engines and ours, asked for contacts and for distances on the same frames.
 engines() {
     for scenario in ww-contact mv-contact tt-distance; do
         measure $scenario --replicates "$1" --method $plain --method aabb-tree --method certified
@@ -40,8 +39,8 @@ engines() {
     for scenario in tt tt-distance; do measure_rigid $scenario --replicates "$1"; done
 }
 
-# The claims into the same directory, once for each build; whether this implementation meets its
-# requirements (1) is for `make claims` to say.
+# Measures the claims into the same directory, once per build; `make claims` reports whether this
+# implementation meets its requirements (1).
 claims() {
     [ -f "$out/claims.json" ] && [ "$out/claims.json" -nt "$mote" ] && return
     status=0
@@ -49,8 +48,8 @@ claims() {
     [ $status -le 1 ] || exit $status
 }
 
-# measure_best SCENARIO ARGUMENT...: also the best configuration of FCL that `make tune` has found on
-# this scenario, if it ran.
+# measure_best SCENARIO ARGUMENT...: also measures the best configuration of FCL that `make tune` found
+# on this scenario, if it ran.
 measure_best() {
     [ -f results/tune/tune.json ] || return 0
     best=$("$mote" tune results/tune --best-fcl "$1")

@@ -1,8 +1,8 @@
-# The engines of others that this program was built with, each as its authors would have it and at
-# the best setting that we know of. Sourced after measure.sh by bench.sh and tune.sh; needs $mote.
+# The third-party engines in this build, each with its authors' settings and with the best settings that
+# we know of. Sourced after measure.sh by bench.sh and tune.sh; needs $mote.
 methods=$("$mote" list methods | sed -n 's/^\([a-z0-9-]*\):.*/\1/p')
 
-# has METHOD: whether it was built.
+# has METHOD: whether this build has it.
 has() {
     case "
 $methods
@@ -14,7 +14,7 @@ $1
     esac
 }
 
-# measure_engine METHOD CONFIGURATION ARGUMENT...: if it was built.
+# measure_engine METHOD CONFIGURATION ARGUMENT...: measures a method if this build has it.
 measure_engine() {
     if has "$1"; then
         engine=$1$2
@@ -23,14 +23,14 @@ measure_engine() {
     fi
 }
 
-# measure_distances SCENARIO ARGUMENT...: engines that answer for a distance.
+# measure_distances SCENARIO ARGUMENT...: engines that answer distances.
 measure_distances() {
     measure "$@" --method 'fcl-aabb:seed=previous,queue=2|64,build=rest|samples'
     measure_engine coal-aabb ':bound=coal|full,seed=previous' "$@"
     measure_engine coal-aabb ':bound=full,seed=previous,queue=64' "$@"
 }
 
-# measure_contacts SCENARIO ARGUMENT...: engines that answer for a contact.
+# measure_contacts SCENARIO ARGUMENT...: engines that answer contacts.
 measure_contacts() {
     measure "$@" --method 'fcl-aabb:build=rest|samples'
     measure_engine coal-aabb '' "$@"
@@ -40,8 +40,8 @@ measure_contacts() {
     measure_engine embree-contact '' "$@"
 }
 
-# measure_rigid SCENARIO ARGUMENT...: engines that move rigid bodies by their poses; where contact
-# is asked, those that answer for nothing else too.
+# measure_rigid SCENARIO ARGUMENT...: engines that move rigid bodies by their poses; if contacts are
+# asked, also those that answer only contacts.
 measure_rigid() {
     for volume in obb rss obbrss kios; do
         measure "$@" --method "fcl-$volume:update=none,build=rest|samples"

@@ -1,9 +1,9 @@
 #!/bin/sh
-# ingredients.sh MOTE PROFILE OUT: what each ingredient of the tracked particles contributes: one
-# switched off or on at a time, and the front of speed against error over n, launch and track. Leaves
-# OUT/summary.json, the table in OUT/ingredients.txt, figures 13 and 14 and the report, and prints the
-# table. A run that was stopped goes on where it stopped. quick: once, 20 frames at a million
-# triangles; full: three times, more scenarios, all frames.
+# ingredients.sh MOTE PROFILE OUT: what each ingredient of the tracked particles contributes: switches
+# one off or on at a time, and measures the front of speed against error over n, launch and track.
+# Writes OUT/summary.json, the table in OUT/ingredients.txt, figures 13 and 14 and the report, and
+# prints the table. A stopped run is continued. quick: once, 20 frames at a million triangles; full:
+# three times, more scenarios, all frames.
 set -eu
 mote=$1
 profile=$2
@@ -24,7 +24,8 @@ paper | full)
     ;;
 esac
 
-# measure ARGUMENT...: one mote run; a cell that failed (5) is a row of the table, not the end.
+# measure ARGUMENT...: one mote run; a failed cell (5) is a row of the table and does not end the
+# script.
 failed=0
 measure() {
     status=0
@@ -53,7 +54,7 @@ for scenarios in "$small" "$large"; do
         --method 'particle:n=8,track=4|16|64' \
         --method 'particle:n=32,launch=32,track=64,refine=64'
 done
-# What they are compared with; and with caches that something else has filled.
+# The methods they are compared with; also with evicted caches.
 tuned=fcl-aabb:seed=previous,queue=64
 for scenarios in ww "$large"; do
     # shellcheck disable=SC2086

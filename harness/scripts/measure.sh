@@ -1,5 +1,5 @@
-# measure ARGUMENT...: one mote run into $out by $mote; a cell that failed (5) is a row of the
-# table, not the end, and is kept in $failed. Sourced by bench.sh and tune.sh.
+# measure ARGUMENT...: one mote run into $out by $mote; a failed cell (5) is a row of the table, is
+# recorded in $failed and does not end the script. Sourced by bench.sh and tune.sh.
 failed=0
 measure() {
     status=0

@@ -1,9 +1,9 @@
 #!/bin/sh
-# perf.sh counts MOTE OUT: the same without times, which perf_ab.sh compares: counts, bytes, accuracy and
-#   instructions alone are judged.
 # perf.sh check MOTE OUT: measures a fixed set into OUT and compares it with results/reference. Fails
-#   only where something is worse twice, measured anew, and names what stays undecided. perf.sh
-# accept MOTE OUT WHY: measures it and makes it the reference, with a line in the history.
+# only if something is worse in two measurements, and names what remains undecided. perf.sh counts MOTE
+# OUT: the same without times, which perf_ab.sh compares: judges only counts, bytes, accuracy and
+# instructions. perf.sh accept MOTE OUT WHY: measures the set and makes it the reference, with a line in
+# the history.
 set -eu
 action=$1
 mote=$2
@@ -19,7 +19,7 @@ fi
 ours="--method particle-paper:start=fps --method aabb-tree --method particle --method certified"
 measure() {
     rm -rf "$out"
-    # One seed: replicates differ by the machine only.
+    # One seed: replicates differ only through the machine.
     for set in 'ww --frames 950-1149' 'mv --frames 300-499'; do
         # shellcheck disable=SC2086
         "$mote" run $set --replicates "$replicates" --seed 1 --fixed-seed --stride 1 --particles 5,16 \
@@ -33,7 +33,7 @@ measure() {
     fi
 }
 
-# Exit code of the comparison.
+# The exit status of the comparison.
 compare() {
     status=0
     "$mote" compare "$reference" "$out" --floor "$floor" || status=$?

@@ -1,8 +1,8 @@
 #!/bin/sh
-# perf_ab.sh BUILD OUT [BASE]: races a base revision against what stands in BUILD, on the fixed set of
-# perf.sh, within five minutes. BASE: any revision; by default the commit of the accepted reference.
-#   Its build is kept in build-perf-ab/COMMIT, the last KEEP of them. Leaves OUT/DATE.json and OUT/last.json.
-# Exit status as that of `mote compare`; 4 where BASE cannot be raced. CHANGED=1: answers may differ.
+# perf_ab.sh BUILD OUT [BASE]: races a base revision against the build in BUILD, on the fixed set of
+# perf.sh, within five minutes. BASE: any revision; by default the commit of the accepted reference. Its
+# build is kept in build-perf-ab/COMMIT, the last KEEP of them. Writes OUT/DATE.json and OUT/last.json.
+# Exit status as for `mote compare`; 4 if BASE cannot be raced. CHANGED=1: answers may differ.
 set -eu
 build=$1
 out=$2
@@ -31,13 +31,13 @@ build_base() {
         cmake --build "$folder/build" --parallel "$(nproc)" --target mote
 }
 
-# Whether the sources of BASE are there, as they are in the revision.
+# Whether the sources of BASE are present and unchanged.
 has_source() {
     [ "$(git -C "$folder/source" rev-parse HEAD 2>/dev/null)" = "$base" ] &&
         [ -z "$(git -C "$folder/source" status --porcelain -uno)" ]
 }
 
-# Builds BASE once. A build that was interrupted goes on.
+# Builds BASE once; an interrupted build is continued.
 make_base() {
     folder=$cache/$base
     if [ ! -d "$folder/programs" ]; then
@@ -68,7 +68,7 @@ harness/scripts/relink.sh "$build" "$orders" "$cache/now"
 mkdir -p "$out"
 file=$out/$(date -u +%Y%m%dT%H%M%SZ).json
 status=0
-# The race ends with this script, however that ends.
+# The race ends with this script, however the script ends.
 with_us=
 if setpriv --pdeathsig TERM true 2>/dev/null; then
     with_us="setpriv --pdeathsig TERM"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# perf_study.sh BUILD OUT RACES PLANTED [record]: how often the verdicts of races are wrong (make perf-study).
-# What stands in OUT/races.csv is not raced again. record: into results/reference.
+# perf_study.sh BUILD OUT RACES PLANTED [record]: measures how often the verdicts of races are wrong
+# (make perf-study). Races already in OUT/races.csv are not repeated. record: into results/reference.
 set -eu
 build=$1
 out=$2

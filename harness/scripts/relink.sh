@@ -1,8 +1,8 @@
 #!/bin/sh
-# relink.sh BUILD COUNT OUT [PROGRAM]: links a program of a build folder (by default mote; tests/NAME for
-# one of the tests') COUNT times with its object files in random orders, into OUT/PROGRAM-NN. Where functions lie in memory changes their times by about a per
-# cent, so that two builds can only be compared over several such orders (mote race A B, each a folder).
-# What is there and newer than the build is kept.
+# relink.sh BUILD COUNT OUT [PROGRAM]: links a program of a build folder (mote by default; tests/NAME
+# for a test) COUNT times with its object files in random orders, into OUT/PROGRAM-NN. The position of
+# functions in memory changes their times by about a per cent, so two builds can be compared only over
+# several such orders (mote race A B, each a folder). Existing programs newer than the build are kept.
 set -eu
 build=$1
 count=$2
@@ -13,8 +13,8 @@ out=$(cd "$3" && pwd)
 cd "$build"
 built=$PWD/$program
 
-# The command that makes the file $1 of the target $3 in the folder $2: from CMake's makefiles, which run
-# it there, or from Ninja, which runs it here.
+# Prints the command that links the file $1 of the target $3 in the folder $2: from CMake's makefiles,
+# which run it in that folder, or from Ninja, which runs it in the current one.
 command_of() {
     if [ -f "$2/CMakeFiles/$3.dir/link.txt" ]; then
         head -1 "$2/CMakeFiles/$3.dir/link.txt"
@@ -23,13 +23,13 @@ command_of() {
     fi
 }
 
-# The object files that stand in a command, absolute; $1: the folder that it is run in.
+# The object files in a command, as absolute paths; $1: the folder that it runs in.
 objects_in() {
     tr ' ' '\n' | grep '\.o$' | while read -r object; do realpath -s "$1/$object" 2>/dev/null ||
         echo "$object"; done
 }
 
-# Objects of the program and of our libraries, each once: some stand in both.
+# Objects of the program and of our libraries, without repetition: some are in both.
 place=$(dirname "$program")
 from=.
 [ ! -f "$place/CMakeFiles/$name.dir/link.txt" ] || from=$place
@@ -42,13 +42,13 @@ objects=$({
 } | sort -u)
 cd "$from"
 
-# $1: a seed. The order depends on nothing else.
+# $1: a seed, which alone determines the order.
 shuffled() {
     printf '%s\n' "$objects" | awk -v seed="$1" 'BEGIN { srand(seed) } { print rand() "\t" $0 }' |
         sort | cut -f 2
 }
 
-# The options of the command stay as they are; -o is replaced.
+# The options of the command stay the same; -o is replaced.
 relink() {
     set -- "$1" "$(printf '%s\n' "$link" | awk '
         skip { skip = 0; next } $0 == "-o" { skip = 1; next } { print }')" "$(shuffled "$1")"

@@ -1,7 +1,8 @@
 #!/bin/sh
-# tune.sh MOTE PROFILE OUT: every useful configuration of every baseline on every scenario of the
-# paper, for both questions, and on a scene of many bodies, into one run directory; ends with the
-# best of each. A run that was stopped goes on where it stopped. quick: 100 frames of each scenario, once; full: all frames, three times.
+# tune.sh MOTE PROFILE OUT: measures every useful configuration of every baseline on every scenario of
+# the paper, for both questions, and on a scene of many bodies, in one run directory; ends with the best
+# of each. A stopped run is continued. quick: 100 frames of each scenario, once; full: all frames, three
+# times.
 set -eu
 mote=$1
 profile=$2
@@ -18,7 +19,7 @@ paper | full) replicates=3 ;;
     ;;
 esac
 
-# frames SCENARIO: where it is near and far in turn.
+# frames SCENARIO: frames in which it is near and far in turn.
 frames() {
     [ "$profile" = quick ] || return 0
     case $1 in
@@ -44,7 +45,7 @@ for scenario in ww tt mv; do
         if [ $volume != obb ]; then
             measure "$@" --method "fcl-$volume:call=api"
         fi
-        # Seeds make answers depend on the last frame, so that none can be left out.
+        # With seeds, answers depend on the previous frame, so no frame can be left out.
         if [ "$profile" != quick ] || [ $volume = obbrss ]; then
             measure "$@" --method "fcl-$volume:seed=previous,queue=2|64"
         fi
@@ -56,7 +57,7 @@ for scenario in ww tt mv; do
     fi
 done
 
-# The engines, on these frames, asked for a contact and for a distance.
+# The engines on these frames, asked for contacts and for distances.
 for scenario in ww mv tt-distance; do
     # shellcheck disable=SC2046
     measure_distances $scenario --replicates $replicates $(frames $scenario)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# build.sh OUT: bundles the replay with three.js, and its licence, into OUT/replay.js. Without npm,
-# or where its packages cannot be had, says so, and leaves no bundle: reports then have no replay.
+# build.sh OUT: bundles the replay with three.js, and its licence, into OUT/replay.js. If npm or its
+# packages are not available, says so and writes no bundle: reports then have no replay.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"

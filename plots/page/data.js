@@ -1,8 +1,8 @@
 /* global unpack */ // of packed.js, which the page has before this program
-// The scenes that harness/report/replay_write.c put into the page: packed texts into arrays, differences
-// and places on grids into coordinates, and what is asked of them frame by frame.
+// Unpacks the scenes that harness/report/replay_write.c put into the page: texts into arrays,
+// differences and grid positions into coordinates, and looks them up frame by frame.
 
-// From differences to the value `columns` before, taken `times` times.
+// Undoes differences from the value `columns` before, taken `times` times.
 function sums(differences, columns, Kind, times = 1) {
     const values = Kind.from(differences);
     for (let k = 0; k < times; ++k)
@@ -10,8 +10,8 @@ function sums(differences, columns, Kind, times = 1) {
     return values;
 }
 
-// Points of a text: three numbers each, or null where there is none. A point is told relative to the
-// reference's of the same index, or else to the last one in its column.
+// The points in a text: three numbers each, or null for a missing one. A point is stored relative to
+// the reference's point of the same index, otherwise to the last one in its column.
 class GridPoints {
     constructor(numbers, grid, columns, reference = null) {
         this.low = grid.low;
@@ -36,7 +36,7 @@ class GridPoints {
         return this.places.length;
     }
 
-    // The point into out[at .. at + 2]; false where there is none.
+    // Writes the point to out[at .. at + 2]; false if there is none.
     read(index, out, at = 0) {
         const place = this.places[index];
         if (!place) return false;
@@ -45,7 +45,7 @@ class GridPoints {
     }
 }
 
-// Where each vertex's entries begin, and where the last one's end.
+// The start of each vertex's entries, and the end of the last one's.
 function starts(counts) {
     const start = new Uint32Array(counts.length + 1);
     for (let i = 0; i < counts.length; ++i) start[i + 1] = start[i] + counts[i];
@@ -87,7 +87,7 @@ function field(data) {
     const functions = data.functions ?? data.centreX.length;
     return {
         functions,
-        // CSRBFs by their centres; fields of other kinds function by function, vertex by vertex.
+        // CSRBFs are stored by their centres; other fields function by function, vertex by vertex.
         centres: data.centreX && Float64Array.from({ length: 3 * functions }, (_, k) =>
             [data.centreX, data.centreY, data.centreZ][k % 3][Math.floor(k / 3)]),
         support: data.support,
@@ -111,12 +111,12 @@ function body(data, length) {
 
 const numberOrNaN = (value) => value ?? NaN;
 
-// "particle-paper:n=5,refine=no" without n: what its n can be chosen of.
+// "particle-paper:n=5,refine=no" without n: the family whose n can be chosen.
 function family(label) {
     return label.replace(/([:,])n=[^,]*(,|$)/, (all, before, after) => (after ? before : ""));
 }
 
-// The answers of one configuration, unpacked when it is first shown.
+// The answers of one configuration, unpacked when first shown.
 class Track {
     constructor(data, scene) {
         const { label, n, cell, first, stride, replicate, replicates } = data;
@@ -147,7 +147,7 @@ class Track {
         this.particles = new GridPoints(set.places, scene.grid, 2 * set.perBody);
     }
 
-    // The row that answers a frame, or the last one before it; -1 where there is none.
+    // The row that answers a frame, otherwise the last one before it; -1 if there is none.
     row(frame) {
         const row = Math.floor((frame - this.first) / this.stride);
         return row < 0 ? -1 : Math.min(row, this.distances.length - 1);
@@ -157,12 +157,12 @@ class Track {
         return this.first + row * this.stride;
     }
 
-    // Signed, over L; NaN where there is no distance.
+    // Signed, divided by L; NaN if there is no distance.
     error(row) {
         return this.errors[row];
     }
 
-    // "right", "missed", "false", or "" where the method does not say.
+    // "right", "missed", "false", or "" if the method gives no contact.
     verdict(row) {
         if (this.contacts[row] < 0) return "";
         const truth = this.scene.inContact(this.frameOf(row));
@@ -170,7 +170,7 @@ class Track {
         return truth ? "missed" : "false";
     }
 
-    // The frame of the largest error; without distances the first wrong contact; 0: none.
+    // The frame of the largest error; without distances, of the first wrong contact; 0: none.
     worst() {
         let worst = 0;
         let most = -1;
@@ -215,7 +215,7 @@ class Scene {
     }
 }
 
-// The scenes of the page; read(index) unpacks one when it is first asked for.
+// The scenes of the page; read(index) unpacks one at its first use.
 export function readScenes(json) {
     const { scenes } = JSON.parse(json);
     const ready = new Map();

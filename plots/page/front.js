@@ -1,6 +1,6 @@
 "use strict";
-// Time against error of one table's rows: a point a row, and the front of those that no other row
-// beats in both. Points answer to the pointer and to the keyboard.
+// Time against error of one table's rows: a point per row, and the front of the rows that no other row
+// beats in both. Points can be used with the pointer and the keyboard.
 
 const EXACT = 1e-6; // errors up to here are drawn on the lowest line
 
@@ -11,7 +11,7 @@ function svg(name, attributes = {}, ...children) {
     return element;
 }
 
-// What a point says of its row: the columns that its table shows at first.
+// The text of a point: the columns that its table shows at first.
 function pointLines(row, columns) {
     return columns.filter((column) => !column.extra).map((column) => {
         const interval = intervalOf(row, column);
@@ -20,12 +20,13 @@ function pointLines(row, columns) {
     });
 }
 
-// "n 5, law log, ...": every parameter, defaults too.
+// "n 5, law log, ...": every parameter, including defaults.
 const parametersText = (row) =>
     Object.entries(row.parameters ?? {}).map(([key, value]) => `${key} ${value}`).join(", ");
 
 class Front {
-    // data: the page's. colourOf(row): a class name. onPoint(row, entered) is told where the pointer is.
+    // data: the page's. colourOf(row): a class name. onPoint(row, entered): called when the pointer
+    // moves.
     constructor(data, rows, colourOf, onPoint) {
         this.columns = data.columns;
         this.timeOf = (row) => valueAt(row, data.time.path);
@@ -45,7 +46,7 @@ class Front {
         else this.element.hidden = true;
     }
 
-    // Shows the points of these rows only.
+    // Shows only the points of these rows.
     filter(visible) {
         this.visible = new Set(visible);
         if (this.width) this.draw(this.width);
@@ -65,7 +66,7 @@ class Front {
         }, ...this.axes(width, height), this.line(shown), ...points));
     }
 
-    // Axes over all rows, so that a filter moves no point.
+    // Axes over all rows, so that filtering moves no point.
     scale(width, height) {
         const times = this.rows.map((row) => this.timeOf(row) / 1e3);
         const errors = this.rows.map((row) => Math.max(this.errorOf(row), EXACT));

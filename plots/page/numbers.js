@@ -1,11 +1,11 @@
 "use strict";
-// Numbers as a person reads them: three digits and a unit, as harness/base/number_text.c writes them
-// for a terminal; and the elements of the page.
+// Numbers for reading: three digits and a unit, as harness/base/number_text.c prints them on a
+// terminal; and helpers that make the page's elements.
 
 const NONE = "–";
 const NARROW = "\u202f"; // a narrow blank, which does not break
 
-// Digits after the point for three in all.
+// Digits after the decimal point for three significant digits.
 function fixed(value) {
     const digits = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
     return value.toFixed(digits);
@@ -23,7 +23,7 @@ function bytesText(bytes) {
     return `${(bytes / scale).toFixed(1)}${NARROW}${unit}`;
 }
 
-// "1.2e-3", "0.46", "1.1"; 0 as it is.
+// "1.2e-3", "0.46", "1.1"; 0 unchanged.
 function errorText(error) {
     if (error === 0) return "0";
     if (error < 0.095) return error.toExponential(1);
@@ -32,7 +32,7 @@ function errorText(error) {
 
 const countText = (value) => String(Number(value.toPrecision(4)));
 
-// A share of nearly all frames is not all of them.
+// A share just below 1 must not be shown as 100 %.
 function percentText(share) {
     const percent = 100 * share;
     const text = percent < 100 && percent >= 99.95 ? ">99.9" : percent.toFixed(1);
@@ -50,29 +50,29 @@ const shows = {
 
 const isNumber = (value) => typeof value === "number" && Number.isFinite(value);
 const show = (kind, value) => (isNumber(value) ? shows[kind](value) : NONE);
-// What is not what it should be in a file from elsewhere is shown as nothing.
+// Invalid values in a file from elsewhere are shown as nothing.
 const listOf = (value) => (Array.isArray(value) ? value : []);
 const textOf = (value) => (typeof value === "string" ? value : "");
 const wholeText = (value) => (isNumber(value) ? value.toLocaleString("en") : NONE);
 
-// "11.5 – 11.6 µs": the unit once where both ends have the same.
+// "11.5 – 11.6 µs": the unit once if both ends have the same.
 function intervalText(kind, low, high) {
     const [from, to] = [show(kind, low), show(kind, high)];
     const [unit, other] = [from, to].map((text) => text.split(NARROW)[1]);
     return `${unit && unit === other ? from.split(NARROW)[0] : from} – ${to}`;
 }
 
-// row[path[0]][path[1]]...; undefined where there is none.
+// row[path[0]][path[1]]...; undefined if it does not exist.
 const valueAt = (row, path) => path.reduce((value, key) => value?.[key], row);
 
-// The interval of a column's value in a row; "" where it has none.
+// The interval of a column's value in a row; "" if it has none.
 function intervalOf(row, column) {
     if (!column.interval || valueAt(row, column.path) === 0) return "";
     const { ci_low: low, ci_high: high } = valueAt(row, column.path.slice(0, -1)) ?? {};
     return isNumber(low) && isNumber(high) ? intervalText(column.show, low, high) : "";
 }
 
-// An element with attributes, texts and elements. Texts are never read as HTML.
+// An element with attributes, texts and elements. Texts are never parsed as HTML.
 function el(name, attributes = {}, ...children) {
     const element = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) {
@@ -85,13 +85,13 @@ function el(name, attributes = {}, ...children) {
     return element;
 }
 
-// A configuration, which may be broken behind its colon and its commas.
+// A configuration that may wrap after its colon and its commas.
 const labelElements = (label) => label.split(/(?<=[:,])/).flatMap((part, k) => (k ? [el("wbr"), part] : [part]));
 
-// A relative path as an address: a colon too, so that no path is read as a scheme.
+// A relative path as a URL: colons are escaped, too, or a path could be read as a scheme.
 const pathAddress = (path) => path.split("/").map(encodeURIComponent).join("/");
 
-// Text in which `code` is marked, as elements.
+// Text with `code` parts as elements.
 function inline(text) {
     return text.split("`").map((part, k) => (k % 2 ? el("code", {}, part) : part));
 }

@@ -1,10 +1,11 @@
 "use strict";
-// Data that harness/report/packed.c made small: base 64 of deflated bytes.
+// Unpacks the data of harness/report/packed.c: base 64 of deflated bytes.
 
-// Every browser since 2023 can; without it the page has its tables, and links where drawings were.
+// Every browser since 2023 supports this; without it the page has its tables, and links instead of
+// drawings.
 const canUnpack = typeof DecompressionStream === "function";
 
-// The text that was packed.
+// The unpacked text.
 async function unpack(packed) {
     const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0));
     const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));

@@ -1,4 +1,4 @@
-// The replay of a run's report: what is chosen, what is shown, and the keys.
+// The replay of a run's report: choices, display and keys.
 import { readScenes } from "./data.js";
 import { Stage } from "./stage.js";
 import { Surface } from "./surface.js";
@@ -90,7 +90,7 @@ function redraw() {
     show();
 }
 
-// A choice is shown once its data are unpacked, unless another one was made meanwhile.
+// A choice is shown when its data are unpacked, unless another one was made in the meantime.
 async function chooseTrack(next) {
     root.setAttribute("aria-busy", "true");
     wanted = next;
@@ -112,13 +112,14 @@ async function chooseTrack(next) {
     root.setAttribute("aria-busy", "false");
 }
 
-// Another method: the same n if it has it.
+// When the method changes, n stays the same if possible.
 function chooseFamily(family) {
     const same = scene.tracks.filter((other) => other.family === family);
     chooseTrack(same.find((other) => other.n === track?.n) ?? same[0]);
 }
 
-// The paper's W-W has 5 particles; of several such configurations the plainest.
+// The paper's W-W has 5 particles; of several such configurations, take the one with the fewest
+// options.
 function firstTrack() {
     const particles = scene.tracks.filter((other) => other.hasParticles);
     const five = particles.filter((other) => other.n === 5);
@@ -156,7 +157,7 @@ function pairOf(points, index) {
     return points.read(2 * index, pair, 0) && points.read(2 * index + 1, pair, 3) ? pair : null;
 }
 
-// Coordinates of the particles on either body.
+// Coordinates of the particles on each body.
 function particlesOf(row) {
     if (!track.particles || row < 0) return [[], []];
     return [0, 1].map((body) => {
@@ -292,7 +293,7 @@ const first = Math.max(0, scenes.names.indexOf("ww"));
 parts.scene.value = String(first);
 chooseScene(first);
 
-// For tests and the console: a deformed vertex as it is shown, in the world.
+// For tests and the console: a displayed, deformed vertex in world coordinates.
 window.moteReplay = {
     vertex: (body, index) => surfaces[body].world(index, surfaces[body].pose(frame - scene.first)),
     vertexCount: (body) => surfaces[body].body.vertices.length / 3,

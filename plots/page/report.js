@@ -27,7 +27,7 @@ function damagedSection(data) {
         el("ul", {}, data.damaged.map((what) => el("li", {}, inline(what)))));
 }
 
-// The replay's own program fills it.
+// Filled by the replay's own program.
 function replaySection(replay) {
     const absent = "This page has no replay: it was written without the program that draws it, which `make page` " +
         "bundles where Node and npm are. After that, `make report` adds it.";
@@ -42,10 +42,10 @@ function replaySection(replay) {
             el("ul", {}, notes.map((note) => el("li", {}, note)))));
 }
 
-// --- figures: gnuplot's, drawn for white paper ---
+// --- figures: gnuplot draws them for white paper ---
 
-// A colour for a dark page: light becomes dark and the reverse, with the hue kept; colours stay as
-// light as they must be to be seen.
+// A colour for a dark page: light and dark are exchanged and the hue is kept; colours stay light enough
+// to be visible.
 function darkColour(r, g, b) {
     const [most, least] = [Math.max(r, g, b) / 255, Math.min(r, g, b) / 255];
     const lightness = (most + least) / 2;
@@ -63,7 +63,7 @@ function darkColour(r, g, b) {
     return `hsl(${hue.toFixed(0)} ${(saturation * 85).toFixed(0)}% ${(kept * 100).toFixed(1)}%)`;
 }
 
-// The drawing with every colour exchanged. gnuplot writes #rrggbb, rgb(r, g, b), black and gray.
+// The drawing with every colour replaced. gnuplot writes #rrggbb, rgb(r, g, b), black and gray.
 function darkDrawing(drawing) {
     const hex = (text) => [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16));
     return drawing
@@ -75,8 +75,7 @@ function darkDrawing(drawing) {
 
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
-// An image of its own: names inside one drawing cannot meet those of another, and none can run
-// anything.
+// A separate image: the names in different drawings cannot clash, and no script in one can run.
 function figureElement(figure) {
     const address = pathAddress(figure.file);
     const caption = el("figcaption", {}, el("strong", {}, `${figure.title}.`), ` ${figure.caption}`);
@@ -178,7 +177,7 @@ function cellsSection(data) {
                     el("td", {}, row.scene), el("td", {}, row.cache), el("td", {}, el("ul", {}, row.cells.map(links)))))))));
 }
 
-// A section that cannot be made, as a file is not what mote writes, takes no other with it.
+// A section that fails because a file is not what mote writes does not affect the others.
 function made(name, make) {
     try {
         return [name, make()];
@@ -187,7 +186,7 @@ function made(name, make) {
     }
 }
 
-// Name in the navigation, and the section; those for which the run has something.
+// Name in the navigation, and the section; only sections for which the run has data.
 function sections(data, replay) {
     const hasCells = data.rows.some((row) => row.cells.length > 0);
     const machine = () => section("machine", "The machine and the program", pairsList(data.machine),
@@ -221,7 +220,7 @@ function showReport() {
         main.append(el("p", { class: "legend", id: "missing" }, "Not in this report: ", inline(`${data.missing.join("; ")}.`)));
     document.querySelector("nav").append(...parts.map(([name, content]) =>
         el("a", { href: `#${content.getAttribute("aria-labelledby")}` }, name)));
-    // Its target was not there yet when the page was opened.
+    // The target did not exist yet when the page was opened.
     if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
 }
 

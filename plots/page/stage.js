@@ -1,4 +1,4 @@
-// The scene in three dimensions: two surfaces, particles on them, the true closest points and those
+// The scene in three dimensions: two surfaces, particles on them, the closest points of the truth and
 // of a method, and the place of a contact.
 import {
     Color,
@@ -28,7 +28,7 @@ const PARTICLES = ["#c4122f", "#1746c7"];
 const CONTACT = "#e0202c";
 const UP = new Vector3(0, 1, 0);
 
-// A surface that is coloured around a point in the world.
+// A surface with a coloured region around a point in the world.
 function surfaceMaterial(colour, glow) {
     const material = new MeshLambertMaterial({ color: colour, flatShading: true });
     material.onBeforeCompile = (shader) => {
@@ -57,7 +57,7 @@ function surfaceMaterial(colour, glow) {
     return material;
 }
 
-// Two points and the line between them, drawn over everything.
+// Two points and the line between them, drawn on top of everything.
 class Pair {
     constructor(parent, radius, opacity, order) {
         this.material = new MeshBasicMaterial({
@@ -88,7 +88,7 @@ class Pair {
 }
 
 export class Stage {
-    // Throws where the browser gives no WebGL.
+    // Throws if the browser has no WebGL.
     constructor(canvas) {
         this.canvas = canvas;
         this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -96,13 +96,13 @@ export class Stage {
         this.controls = new OrbitControls(this.camera, canvas);
         this.controls.enableZoom = false;
         canvas.style.touchAction = "pan-y";
-        // The wheel scrolls the page until the picture is chosen.
+        // The wheel scrolls the page until the picture has the focus.
         canvas.addEventListener("focus", () => (this.controls.enableZoom = true));
         canvas.addEventListener("blur", () => (this.controls.enableZoom = false));
         this.controls.addEventListener("change", () => this.render());
     }
 
-    // Makes everything for a scene's surfaces.
+    // Makes all objects for a scene's surfaces.
     open(surfaces, length) {
         this.length = length;
         this.surfaces = surfaces;
@@ -149,7 +149,7 @@ export class Stage {
         return balls;
     }
 
-    // Ink for the truth, another colour for the method: as the page's theme has them.
+    // Ink for the truth, another colour for the method, as in the page's theme.
     paint(truth, method) {
         this.truthPair.material.color.set(truth);
         this.methodPair.material.color.set(method);
@@ -164,8 +164,8 @@ export class Stage {
         this.camera.updateProjectionMatrix();
     }
 
-    // Looks at a point from a distance. Keeps the direction, and how much nearer or farther than
-    // the distance of the last frame the eye was brought by hand.
+    // Looks at a point from a distance. Keeps the direction, and the user's zoom relative to the
+    // distance of the previous frame.
     aim(point, distance) {
         const direction = this.aimed
             ? this.camera.position.clone().sub(this.controls.target)
@@ -177,9 +177,9 @@ export class Stage {
         this.aimed = true;
     }
 
-    // What a frame looks like. view: {index, truth, method, particles, contact, close}; truth and
-    // method: six coordinates or null; particles: [coordinates of body 0, of body 1]; contact: a
-    // point or null; close: whether the closest points are to be followed.
+    // Shows a frame. view: {index, truth, method, particles, contact, close}; truth and method: six
+    // coordinates or null; particles: [coordinates of body 0, of body 1]; contact: a point or null;
+    // close: whether to follow the closest points.
     show(view) {
         const centres = [];
         this.surfaces.forEach((surface, k) => {
@@ -218,7 +218,7 @@ export class Stage {
         balls.instanceMatrix.needsUpdate = true;
     }
 
-    // How far the eye has to be for both bodies, or the closest points, to be seen whole.
+    // The distance of the eye at which both bodies, or the closest points, are fully visible.
     look(view, middle, apart) {
         const pair = view.truth ?? view.method;
         const near = view.close && pair !== null;

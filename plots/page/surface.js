@@ -1,6 +1,6 @@
-// The deformed surface of a body, computed in the page from its field: by basis functions, those of the
-// page's data or Wendland's C2 function of the distance to each centre at rest; or by morph targets and
-// bones (core/skin/skin.h). Either displacement is in rest axes.
+// The deformed surface of a body, computed in the page from its field: by basis functions, either
+// stored or Wendland's C2 function of the distance to each centre at rest; or by morph targets and
+// bones (core/skin/skin.h). Both give displacements in rest axes.
 
 function wendland(r) {
     if (r >= 1) return 0;
@@ -62,7 +62,7 @@ class Bones {
         this.place = new Float64Array(3);
     }
 
-    // Fills place with a vertex moved by its morph targets.
+    // Sets place to a vertex moved by its morph targets.
     morph(i, index) {
         const { vertices, skin, amounts } = this.body;
         const place = this.place;
@@ -101,7 +101,7 @@ export class Surface {
         this.positions = new Float32Array(body.vertices);
     }
 
-    // Fills positions with the deformed vertices, in rest axes, at a frame counted from 0.
+    // Sets positions to the deformed vertices, in rest axes, at a frame counted from 0.
     deform(index) {
         this.field.deform(index, this.positions);
     }
@@ -111,7 +111,7 @@ export class Surface {
         return this.body.poses.subarray(12 * index, 12 * index + 12);
     }
 
-    // A vertex in the world as it is now, for the pose given.
+    // A vertex in world coordinates for the given pose.
     world(vertex, pose) {
         const p = this.positions.subarray(3 * vertex, 3 * vertex + 3);
         return [0, 3, 6].map(

@@ -1,6 +1,6 @@
 "use strict";
-// The tables of results: a block of rows that can be compared is one table, which sorts by any column.
-// What is chosen above them holds for all.
+// The tables of results: each block of comparable rows is one table, which sorts by any column. The
+// choices above the tables apply to all of them.
 
 const COLOURS = 10; // classes c0 .. c9 of report.css
 
@@ -11,7 +11,7 @@ const EXACTNESS = {
     inexact: ["not exact", (row) => !row.right],
 };
 
-// Wrong contacts, which are marked.
+// Wrong contacts are marked.
 const isOfContacts = (column) => column.group === "contacts";
 
 class Block {
@@ -39,7 +39,7 @@ class Block {
         return this.data.columns.filter((column) => this.choice.extra || !column.extra);
     }
 
-    // What to know first.
+    // The rows to mention first.
     glance(block) {
         const { rows, columns, time, error, best } = this.data;
         const parts = [];
@@ -63,7 +63,7 @@ class Block {
         return el("p", {}, parts);
     }
 
-    // Two lines: what belongs together, and the columns, each a button that sorts.
+    // Two lines: the groups, and the columns, each a button that sorts.
     head() {
         this.headElement ??= el("thead");
         const columns = this.columns();
@@ -103,13 +103,13 @@ class Block {
         this.heads.concat(this.method)[focus]?.querySelector("button").focus();
     }
 
-    // Rows with positions given come after those that pay for deformation: their times leave it out.
+    // Rows with positions given come after those charged for deformation: their times exclude it.
     order(rows) {
         const given = (row) => row.accounting === "given";
         return [...this.orderAlike(rows.filter((row) => !given(row))), ...this.orderAlike(rows.filter(given))];
     }
 
-    // Rows without a value come last, whichever way.
+    // Rows without a value come last in either order.
     orderAlike(rows) {
         const { column, down } = this.sorted;
         const path = column < 0 ? ["label"] : this.data.columns[column].path;
@@ -121,7 +121,7 @@ class Block {
         return [...known, ...unknown];
     }
 
-    // The rows that the filters leave; of these the table may show one a method, the front all.
+    // The filtered rows; the table may show one of them per method, the front all.
     filtered() {
         const { method, exactness } = this.choice;
         return this.rows.filter((row) => (!method || row.method === method) &&
@@ -140,7 +140,7 @@ class Block {
         this.front.filter(filtered);
     }
 
-    // With other columns.
+    // Redraws with other columns.
     redraw() {
         this.head();
         this.wide.classList.toggle("all", this.choice.extra);
@@ -169,7 +169,7 @@ class Block {
     }
 }
 
-// What is shown of every table.
+// What every table shows.
 function choices(methods, choice, changed) {
     const select = (label, key, options) => el("label", {}, `${label} `,
         el("select", { id: `choice-${key}`, onchange: (event) => {

@@ -1,5 +1,5 @@
-// Distances over all frames, on a flat canvas: the truth, the method's, contacts, wrong answers,
-// and where the replay stands.
+// Distances over all frames, on a flat canvas: the truth, the method's, contacts, wrong answers, and
+// the current frame of the replay.
 
 export class Timeline {
     constructor(canvas) {
@@ -22,7 +22,7 @@ export class Timeline {
         this.drawBase();
     }
 
-    // Every distance that is shown.
+    // Every displayed distance.
     distances() {
         return [...this.scene.truth, ...this.track.distances];
     }
