@@ -109,7 +109,7 @@ template <class Node> class EarlyNode : public Node
 };
 
 /* Splits FCL's trees by sample poses. */
-template <class BV> class SampleSplitter : public fcl::detail::BVSplitterBase<BV>
+template <class BV> class SampleSplitter final : public fcl::detail::BVSplitterBase<BV>
 {
   public:
     explicit SampleSplitter(const mote_body &body) : sides(body)

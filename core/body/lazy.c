@@ -61,6 +61,7 @@ void mote_lazy_free(mote_lazy *lazy)
 
 static void round_weights(mote_lazy *lazy)
 {
+    assert(lazy->state);
     const mote_weights *w = &lazy->state->weights;
     const uint32_t padded = lazy->body->field->padded;
     assert(padded == 0 || (w->x && w->y && w->z));
@@ -85,7 +86,7 @@ static void clear_stamps(mote_lazy *lazy)
 void mote_lazy_begin(mote_lazy *lazy, const mote_body_state *state, bool use_given)
 {
     lazy->state = state;
-    const bool reads = use_given || (state && mote_body_is_given(lazy->body));
+    const bool reads = state && (use_given || mote_body_is_given(lazy->body));
     lazy->given = reads ? state->vertices : NULL;
     lazy->points = NULL;
     lazy->filled = 0;

@@ -15,7 +15,7 @@ static mote_status streamed_build(mote_engine *e)
     e->boxes = mote_allocate(s->count, sizeof *e->boxes);
     e->looked_at = mote_allocate(s->count, sizeof *e->looked_at);
     e->positions = mote_allocate(s->count, sizeof *e->positions);
-    e->worlds = mote_allocate(s->count, sizeof *e->worlds);
+    e->worlds = mote_allocate(s->count, sizeof(mote_vec3 *));
     mote_status status = mote_broad_phase_create(s->count, &e->broad);
     if (status == MOTE_OK)
         status = mote_stream_scene_create(s->shapes, s->shape_count, s->shape_of, s->count,

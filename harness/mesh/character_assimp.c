@@ -44,7 +44,8 @@ static mote_status add_node(reader *r, const struct aiNode *node, uint32_t paren
     const uint32_t own = (uint32_t)rig->nodes_count;
     if (depth > MOTE_ASSIMP_DEPTH_MAX)
         return mote_assimp_too_deep(r->path);
-    r->nodes = mote_reserve(r->nodes, (size_t)own + 1, &r->node_capacity, sizeof *r->nodes);
+    r->nodes = mote_reserve(r->nodes, (size_t)own + 1, &r->node_capacity,
+                            sizeof(const struct aiNode *));
     r->nodes[own] = node;
     MOTE_RIG_GROW(rig, nodes, 1);
     rig->nodes[own] = (mote_rig_node){parent, mote_rig_add_name(rig, node->mName.data),

@@ -154,7 +154,8 @@ static void set_cubic(gltf *g, mote_rig_track *track, const numbers *times, cons
                               (uint32_t)rig->times_count, (uint32_t)rig->values_count};
     MOTE_RIG_GROW(rig, times, times->count);
     MOTE_RIG_GROW(rig, values, rows * width);
-    memcpy(rig->times + track->time, times->values, times->count * sizeof *times->values);
+    for (size_t k = 0; k < times->count; ++k)
+        rig->times[track->time + k] = times->values[k];
     for (size_t r = 0; r < rows; ++r) {
         for (size_t c = 0; c < width; ++c) /* w first */
             rig->values[track->value + r * width + c] =
@@ -186,7 +187,7 @@ static void find_tracks(gltf *g, const mote_rig_clip *clip, uint32_t node, const
                         tracks *found)
 {
     const size_t most = (size_t)clip->morph_count + 1;
-    *found = (tracks){mote_allocate(most, sizeof *found->list), 0, 1};
+    *found = (tracks){mote_allocate(most, sizeof(mote_rig_track *)), 0, 1};
     for (uint32_t m = 0; strcmp(path, "weights") == 0 && m < clip->morph_count; ++m) {
         mote_rig_morph *morph = &g->rig->morphs[clip->morph + m];
         if (g->rig->targets[morph->target].node == node)
@@ -218,7 +219,7 @@ static mote_status set_cubics(gltf *g, const json_t *sampler, const tracks *foun
     if (status == MOTE_OK &&
         (stride == 0 || stride * 3 * times.count != keys.count || (!is_morph && stride != 1)))
         status = wrong(g, "that are not three for each time");
-    for (size_t t = 0; t < found->count && status == MOTE_OK; ++t)
+    for (size_t t = 0; stride > 0 && t < found->count && status == MOTE_OK; ++t)
         set_cubic(g, found->list[t], &times, keys.values, is_morph ? t % stride : 0,
                   is_morph ? stride : found->width, found->width);
     free(times.values);

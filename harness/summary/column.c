@@ -9,6 +9,8 @@
 
 #define AT(member)                                                                             \
     .offset = offsetof(mote_summary_row, member), .size = sizeof((mote_summary_row *)0)->member
+/* Of a member whose size nobody asks for. */
+#define POINTER(member) .offset = offsetof(mote_summary_row, member)
 #define PLACE(table, report, brief)                                                            \
     {                                                                                          \
         table, report, brief                                                                   \
@@ -63,7 +65,7 @@
      .optional = true,                                                                         \
      .unit = "",                                                                               \
      .meaning = says,                                                                          \
-     AT(ratio.to)},                                                                            \
+     POINTER(ratio.to)},                                                                       \
         {.object = name,                                                                       \
          .key = "value",                                                                       \
          .csv = csv_name,                                                                      \
@@ -325,7 +327,7 @@ const mote_column mote_columns[] = {
      .optional = true,
      .unit = "",
      .meaning = "Label of the fastest row that is faster and no worse",
-     AT(dominated_by)},
+     POINTER(dominated_by)},
     {.key = "stands_for_method",
      .type = MOTE_COLUMN_FLAG,
      .unit = "",
@@ -336,7 +338,7 @@ const mote_column mote_columns[] = {
      .type = MOTE_COLUMN_OBJECT,
      .unit = "",
      .meaning = "Every parameter with its value, defaults included",
-     AT(parameters),
+     POINTER(parameters),
      .schema = "{\"type\": \"object\"}"},
     {.key = "triangles",
      .type = MOTE_COLUMN_COUNTS,
@@ -379,7 +381,7 @@ const mote_column mote_columns[] = {
      .optional = true,
      .unit = "",
      .meaning = "Label of the exact row whose contacts count as true, where there is no truth",
-     AT(contacts_of)},
+     POINTER(contacts_of)},
     {.key = "seed",
      .type = MOTE_COLUMN_COUNT,
      .unit = "",
@@ -429,14 +431,14 @@ const mote_column mote_columns[] = {
      .type = MOTE_COLUMN_COUNTERS,
      .unit = "",
      .meaning = "Mean and largest of each deterministic count over the frames",
-     AT(counts)},
+     POINTER(counts)},
     {.key = "processes",
      .type = MOTE_COLUMN_PROCESSES,
      .unit = "",
      .meaning =
          "Each replicate: the median of its total, its paired ratio to fcl-aabb, the sums of "
          "its counts",
-     AT(processes)},
+     POINTER(processes)},
     {.object = "quiet",
      .key = "total_ns",
      .type = MOTE_COLUMN_NUMBERS,

@@ -203,7 +203,7 @@ static void read_processes(const json_t *value, mote_summary_row *row)
 
 void mote_column_read(const mote_column *column, const json_t *value, mote_summary_row *row)
 {
-    char *to = (char *)row + column->offset;
+    void *to = (char *)row + column->offset;
     const char *text = json_is_string(value) ? json_string_value(value) : "";
     const double number = mote_number_of(value);
     const uint64_t wide = count_in(value, column->size);
@@ -241,6 +241,6 @@ void mote_column_read(const mote_column *column, const json_t *value, mote_summa
         read_processes(value, row);
         break;
     case MOTE_COLUMN_OBJECT:
-        memcpy(to, &value, sizeof(const json_t *));
+        *(const json_t **)to = value;
     }
 }
