@@ -14,7 +14,7 @@ typedef struct mote_frame_file {
 } mote_frame_file;
 
 /* Reads the vertices and faces of an OBJ text (ended by a 0 byte) like mote_soup_read_obj,
-   without making triangles. MOTE_EINVAL with "FILE:LINE: what". About 5 times as fast. */
+   without making triangles. MOTE_EINVAL with "FILE:LINE: what". */
 mote_status mote_frame_file_read_obj(const char *path, const char *text, mote_frame_file *file);
 
 /* Reads a PLY file (data ends with a 0 byte that size does not count): ASCII, little- or
