@@ -264,7 +264,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
 }
 
 /* Not `auto`, which is a word of C. */
-MOTE_METHOD(automatic) = {
+MOTE_METHOD(auto) = {
     .name = "auto",
     .summary = "certified or stream, by the counters of the first frames",
     .parameters = parameters,
