@@ -190,7 +190,7 @@ static void answer_pair(mote_stream_scene *scene, mote_stream_search *s, mote_sc
         mote_stream_seed(s, body, memory, contact_only ? scene->options.tolerance : -1);
     s->scale = scene->scale;
     s->origin = mote_scale(mote_add(s->best.witness[0], s->best.witness[1]), 0.5);
-    pair->distance = NAN;
+    pair->distance = (double)NAN;
     if (!isfinite(s->upper) || (!s->done && mote_stream_prove(s, !near) != MOTE_OK))
         return;
     mote_certificate_answer answer;

@@ -9,17 +9,18 @@ set -eu
 build=$1 runs=${2:-56} jobs=${3:-2} checks=${4:-}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-flags="-std=c17 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -I.
+flags="-std=c17 -D_POSIX_C_SOURCE=200809L -DMOTE_IN_TREE -ffp-contract=off -fno-math-errno -fno-trapping-math -I.
     -include $work/config.h"
 printf '#define MOTE_SOURCE_DIR "%s"\n' "$PWD" >"$work/config.h"
-libraries="-lgsl -lgslcblas -ljansson -lassimp -lHACD -lmeshoptimizer -lpthread -lm"
+# Of baselines, only FCL's broad phase is linked.
+libraries="$build/libmote_baselines.a -lfcl -lccd -lgsl -lgslcblas -ljansson -lassimp -lz -lHACD
+    -lmeshoptimizer -ldl -lpthread -lm"
 cache=$(command -v ccache || true)
 
-sources=$(ls core/*/*.c datasets/*.c harness/scene/scenario*.c harness/mesh/*.c |
-    grep -v core/certificate/plain.c)
-for name in approach catalog child confine curve data file json_line json_memory json_print \
-    json_read memory method_choice motion number_text options pair_motion probe fence spread turn; do
-    sources="$sources $(ls harness/*/$name.c)"
+sources=$(ls core/*/*.c datasets/*.c harness/{base,engine,mesh,scene,sequence}/*.c |
+    grep -v -e core/certificate/plain.c)
+for name in child confine crew; do
+    sources="$sources harness/process/$name.c"
 done
 sources="$sources tests/studies/answers.c $build/core_registry.c"
 
