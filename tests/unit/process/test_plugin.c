@@ -2,6 +2,8 @@
    (support/plugins/). A sound one works as if it were built in; any other is refused or costs a
    cell. */
 #include "core/base/plugin.h"
+#include "core/body/field_maker.h"
+#include "core/method/method.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
@@ -131,6 +133,16 @@ TEST(a_field_of_a_library_deforms_a_body_of_a_scenario)
     /* Both letters fill -h <= z <= h: they intersect at first, and are 3 L - 2 h apart then. */
     assert_true(distance[0] == 0);
     assert_true(distance[1] > 1);
+}
+
+/* Methods compiled elsewhere share these structs with the program. When one changes, raise
+   MOTE_CONTRACT in core/base/plugin.h; if no release had the old one, change only the number
+   here. */
+TEST(the_contract_is_raised_when_its_structs_change)
+{
+    assert_int_equal(MOTE_CONTRACT, 1);
+    assert_int_equal(MOTE_METHOD_SIZES, 944);
+    assert_int_equal(MOTE_FIELD_SIZES, 336);
 }
 
 TEST(what_is_wrong_with_a_library_is_said)
