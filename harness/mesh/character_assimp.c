@@ -324,7 +324,8 @@ static int compare_influences(const void *a, const void *b)
 static void index_influences(influences *from, size_t vertices, uint32_t *start)
 {
     size_t at = 0;
-    qsort(from->list, from->count, sizeof *from->list, compare_influences);
+    if (from->count > 0)
+        qsort(from->list, from->count, sizeof *from->list, compare_influences);
     for (size_t v = 0; v <= vertices; ++v) {
         while (at < from->count && from->list[at].vertex < v)
             ++at;
