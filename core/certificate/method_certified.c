@@ -1,4 +1,5 @@
 /* The method certified: the exact distance with its proof (docs/architecture.md). */
+#include "core/certificate/bracket.h"
 #include "core/certificate/certificate.h"
 #include "core/particle/tracker.h"
 
@@ -14,18 +15,8 @@ static const mote_parameter parameters[] = {
                 .fallback = "witness",
                 .help = "first upper bound: the last faces, refined (witness) or as they are "
                         "(pair); none: no state is kept; tracked: from tracked particles"},
-    [P_SLACK] = {.key = "slack",
-                 .kind = MOTE_PARAMETER_REAL,
-                 .minimum = 0,
-                 .maximum = 1,
-                 .fallback = "0",
-                 .help = "stop when upper - lower <= slack L, and return both bounds"},
-    [P_BUDGET] = {.key = "budget",
-                  .kind = MOTE_PARAMETER_REAL,
-                  .minimum = 0,
-                  .maximum = HUGE_VAL,
-                  .fallback = "inf",
-                  .help = "stop after this many box tests, and return both bounds"},
+    [P_SLACK] = MOTE_PARAMETER_SLACK,
+    [P_BUDGET] = MOTE_PARAMETER_BUDGET,
     [P_WIDTH] = {.key = "width",
                  .kind = MOTE_PARAMETER_CHOICE,
                  .choices = "8|4|2",
@@ -86,7 +77,7 @@ static mote_certificate_options options_of(const mote_setup *setup)
     mote_certificate_options options = mote_default_certificate_options(setup->length);
     options.seed = seeds[(int)v[P_SEED]];
     options.slack = v[P_SLACK];
-    options.budget = v[P_BUDGET] < 0x1p63 ? (uint64_t)v[P_BUDGET] : UINT64_MAX;
+    options.budget = mote_budget_of(v[P_BUDGET]);
     options.width = widths[(int)v[P_WIDTH]];
     options.linear_fits = !(v[P_FITS] > 0);
     options.plane = !(v[P_PLANE] > 0);

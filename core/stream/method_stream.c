@@ -1,4 +1,5 @@
 /* The method stream: the exact distance of bodies of which only positions are known. */
+#include "core/certificate/bracket.h"
 #include "core/stream/stream.h"
 
 #include <math.h>
@@ -13,18 +14,8 @@ static const mote_parameter parameters[] = {
                 .fallback = "witness",
                 .help = "first upper bound: the last faces, refined (witness); none: from the "
                         "boxes, and no state is kept"},
-    [P_SLACK] = {.key = "slack",
-                 .kind = MOTE_PARAMETER_REAL,
-                 .minimum = 0,
-                 .maximum = 1,
-                 .fallback = "0",
-                 .help = "stop when upper - lower <= slack L, and return both bounds"},
-    [P_BUDGET] = {.key = "budget",
-                  .kind = MOTE_PARAMETER_REAL,
-                  .minimum = 0,
-                  .maximum = HUGE_VAL,
-                  .fallback = "inf",
-                  .help = "stop after this many box tests, and return both bounds"},
+    [P_SLACK] = MOTE_PARAMETER_SLACK,
+    [P_BUDGET] = MOTE_PARAMETER_BUDGET,
     [P_POSITIONS] = {.key = "positions",
                      .kind = MOTE_PARAMETER_CHOICE,
                      .choices = "given|deform",
@@ -65,7 +56,7 @@ static mote_status create(const mote_setup *setup, void **state)
     mote_stream_options options = mote_default_stream_options(setup->length);
     options.coherent = !(v[P_SEED] > 0);
     options.slack = v[P_SLACK];
-    options.budget = v[P_BUDGET] < 0x1p63 ? (uint64_t)v[P_BUDGET] : UINT64_MAX;
+    options.budget = mote_budget_of(v[P_BUDGET]);
     stream_state *made = calloc(1, sizeof *made);
     if (!made)
         return mote_fail(MOTE_ENOMEM, "no memory for stream");
