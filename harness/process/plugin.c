@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LIBRARIES_MAX 16
 #define LIBRARY_BYTES ((size_t)1 << 30) /* largest library file */
 #define OFFER_BYTES ((size_t)1 << 22)   /* largest description that a library may give */
 #define OFFER_SECONDS 5.0
@@ -39,7 +38,7 @@ typedef struct slot {
     mote_field_maker field; /* once loaded, the same */
 } slot;
 
-static library libraries[LIBRARIES_MAX];
+static library libraries[MOTE_PLUGINS_MAX];
 static size_t library_count;
 static slot method_slots[SLOTS_MAX], field_slots[SLOTS_MAX];
 static size_t method_count, field_count;
@@ -247,8 +246,8 @@ mote_status mote_plugin_open(const char *path)
         return mote_fail(MOTE_EINVAL,
                          "%s: there is no such file; --plugin takes a shared library", path);
     mote_status status = mote_file_read(real, LIBRARY_BYTES, &data, &size);
-    if (status == MOTE_OK && library_count == LIBRARIES_MAX)
-        status = mote_fail(MOTE_EINVAL, "%s: more than %d libraries", path, LIBRARIES_MAX);
+    if (status == MOTE_OK && library_count == MOTE_PLUGINS_MAX)
+        status = mote_fail(MOTE_EINVAL, "%s: more than %d libraries", path, MOTE_PLUGINS_MAX);
     if (status != MOTE_OK) {
         free(real);
         return status;

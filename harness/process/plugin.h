@@ -22,6 +22,9 @@ mote_status mote_plugin_open(const char *path);
 /* The files of the open libraries, by number; NULL beyond the last. */
 const char *mote_plugin_path(size_t index);
 
+/* At most this many libraries are open. */
+#define MOTE_PLUGINS_MAX 16
+
 /* A hash over the files of all open libraries; 0 if none is open. */
 uint64_t mote_plugin_hash(void);
 

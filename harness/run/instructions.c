@@ -86,24 +86,24 @@ static mote_status count_one(const char *scenario, const char *frames, const cha
                    : mote_fail(MOTE_EIO, "the path of this program's own file is not known");
     if (status == MOTE_OK) {
         program[length] = '\0';
-        /* Without libraries, argv ends after "--inside". */
-        const char *const library = mote_plugin_path(0);
-        const char *const argv[] = {"valgrind",
-                                    "--tool=callgrind",
-                                    "--quiet",
-                                    option,
-                                    "--toggle-collect=timed_*",
-                                    program,
-                                    "instructions",
-                                    scenario,
-                                    "--frames",
-                                    frames,
-                                    "--method",
-                                    method,
-                                    "--inside",
-                                    library ? "--plugin" : NULL,
-                                    library,
-                                    NULL};
+        enum { WORDS = 13 };
+        const char *argv[WORDS + 2 * MOTE_PLUGINS_MAX + 1] = {"valgrind",
+                                                              "--tool=callgrind",
+                                                              "--quiet",
+                                                              option,
+                                                              "--toggle-collect=timed_*",
+                                                              program,
+                                                              "instructions",
+                                                              scenario,
+                                                              "--frames",
+                                                              frames,
+                                                              "--method",
+                                                              method,
+                                                              "--inside"};
+        for (size_t k = 0; mote_plugin_path(k); ++k) {
+            argv[WORDS + 2 * k] = "--plugin";
+            argv[WORDS + 2 * k + 1] = mote_plugin_path(k);
+        }
         status = mote_spawn(argv, NULL, NULL, 0);
     }
     if (status == MOTE_OK)
