@@ -46,7 +46,7 @@ install(FILES ${CMAKE_BINARY_DIR}/mote.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pk
 
 if(NOT MOTE_CORE_ONLY)
   install(TARGETS mote)
-  install(DIRECTORY datasets/scenarios datasets/meshes
+  install(DIRECTORY datasets/characters datasets/meshes datasets/scenarios
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets PATTERN "*.py" EXCLUDE)
   install(FILES datasets/defects.md DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets)
   install(DIRECTORY plots DESTINATION ${CMAKE_INSTALL_DATADIR}/mote

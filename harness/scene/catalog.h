@@ -1,4 +1,5 @@
-/* The built-in scenarios: the files of datasets/scenarios. */
+/* The built-in scenarios: the files of datasets/scenarios and of the folders in it. A scenario
+   is named by its file alone, without the folder. */
 #ifndef MOTE_HARNESS_CATALOG_H
 #define MOTE_HARNESS_CATALOG_H
 
@@ -23,7 +24,8 @@ typedef struct mote_catalog {
 mote_status mote_catalog_read(mote_catalog *catalog);
 void mote_catalog_free(mote_catalog *catalog);
 
-/* The path of the built-in scenario with a name; the caller frees it. */
+/* The path of the built-in scenario with a name, or of the file that it would have in
+   datasets/scenarios if there is none; the caller frees it. */
 char *mote_catalog_path(const char *name);
 
 #endif

@@ -117,6 +117,7 @@ echo '{"purpose": "of the installation", "like": "tt"}' > "$root/share/mote/data
 grep -q '^zz .*of the installation' <<< "$("$root/bin/mote" list scenarios)" || fail "scenarios of elsewhere"
 "$root/bin/mote" run zz --frames 1-2 --replicates 1 --method certified --out run > log 2>&1 ||
     { cat log; fail "the installed program does not run"; }
+"$root/bin/mote" check morph > log 2>&1 || { cat log; fail "a scenario of characters does not find its files"; }
 
 # The engine of docs/extending.md, from the installed headers and program alone.
 if pkg-config --exists ode; then
