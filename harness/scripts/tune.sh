@@ -73,6 +73,16 @@ for scenario in tt tt-distance; do
     measure_rigid $scenario --replicates $replicates $(frames $scenario)
 done
 
+# Characters: trees are built at rest and by sample poses, and the better one counts.
+for scenario in bison-15k jumper-20k; do
+    # shellcheck disable=SC2046
+    set -- $scenario --replicates $replicates $(frames $scenario)
+    measure_distances "$@"
+    measure "$@" --method certified --method 'aabb-tree:seed=none|previous,build=rest|samples' \
+        --method 'fcl-aabb:build=rest|samples' --method 'fcl-rss:build=rest|samples' \
+        --method 'posed-parts:search=fcl|certified'
+done
+
 # shellcheck disable=SC2046
 measure letters --replicates $replicates $(frames letters) --method certified \
     --method 'fcl-aabb:refit=near|every' --method 'aabb-tree:refit=near|every' \
