@@ -17,6 +17,7 @@
 #   make certify [PROFILE=quick|full] [OUT=DIR]      is a proven bound ever above the truth?
 #   make skins [PROFILE=quick|full] [OUT=DIR]        random bones and morph targets against another method
 #   make streamed [PROFILE=quick|full] [OUT=DIR]     are queries of arrays of positions ever wrong?
+#   make impacts [PROFILE=quick|full] [OUT=DIR]      is an impact ever missed, or false?
 #   make soak HOURS=H [SEED=S] [OUT=DIR]             random scenarios against the truth
 #   make reliability [PROFILE=quick|full] [PLANT=1] [RECORD=1]  what was tried, how often, what failed
 #   make fuzz [SECONDS=60]                           what comes from outside, fuzzed (libFuzzer)
@@ -67,7 +68,7 @@ SANITIZER = ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 UBSAN_OPTION
 .DEFAULT_GOAL := build
 .NOTPARALLEL: # JOBS is for what runs inside a target
 .PHONY: deps build build-tests bench test figures perf-check perf-accept test-perf test-kill \
-    test-statistics oracle tune ingredients ablation certify skins streamed soak reliability extremes dynamics claims \
+    test-statistics oracle tune ingredients ablation certify skins streamed impacts soak reliability extremes dynamics claims \
     format lint clean
 
 # packages.txt lists what building and running mote needs, cmake/packages-NAME.txt what deps-NAME adds.
@@ -155,6 +156,11 @@ streamed: program-streamed
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/streamed --out $(OUT)/streamed.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
+
+impacts: program-impacts
+	@mkdir -p $(OUT)
+	@$(BUILD)/tests/impacts --out $(OUT)/impacts.json \
+	    --queries $(if $(filter quick,$(PROFILE)),5000,100000)
 
 # PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
 # into results/reference; ONLY="kills fuzz" runs some of the studies.

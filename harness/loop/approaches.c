@@ -1,7 +1,7 @@
 #include "harness/loop/approaches.h"
 
 #include "core/base/random.h"
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 
 #include <stdio.h>
 #include <string.h>

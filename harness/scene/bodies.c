@@ -1,7 +1,7 @@
 #include "harness/scene/bodies.h"
 
 #include "harness/base/memory.h"
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 
 #include "core/base/random.h"
 #include "harness/base/memory.h"
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 
 #include <math.h>
 #include <stdlib.h>

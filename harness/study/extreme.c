@@ -6,7 +6,7 @@
 #include "harness/scene/motion.h"
 #include "harness/engine/engine.h"
 #include "harness/scene/spread.h"
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 
 #include <stdio.h>
 #include <stdlib.h>

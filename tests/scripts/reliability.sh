@@ -11,10 +11,10 @@ case ${7:-} in
 plant) plant=plant ;;
 record) record=record ;;
 esac
-only=${ONLY:-certify skins streamed metamorphic soak oracle answers threads kills stops faults fuzz}
+only=${ONLY:-certify skins streamed impacts metamorphic soak oracle answers threads kills stops faults fuzz}
 case $profile in
-quick) queries=20000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=56 ;;
-*) queries=1000000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 runs=100 ;;
+quick) queries=20000 impacts=5000 pairs=190000 soak="--cases 40" seconds=10 kills=10 runs=56 ;;
+*) queries=1000000 impacts=100000 pairs=11400000 soak="--cases 11500" seconds=3600 kills=200 runs=100 ;;
 esac
 rm -rf "$out"
 mkdir -p "$out"
@@ -88,6 +88,9 @@ study() { # NAME
     streamed)
         log streamed "$build/tests/streamed" --queries $queries --checks "$checks" \
             --out "$out/streamed.json" ;;
+    impacts)
+        log impacts "$build/tests/impacts" --queries $impacts --checks "$checks" \
+            --out "$out/impacts.json" ;;
     metamorphic) log metamorphic "$build/tests/metamorphic" --queries $queries --checks "$checks" ;;
     soak) # shellcheck disable=SC2086 # two words
         log soak "$build/tests/soak" $soak --checks "$checks" --out "$out" ${plant:+--plant} || return

@@ -30,7 +30,9 @@ typedef struct house {
 } house;
 
 static const house houses[] = {
-    {"core", {"base", "body", "method", "particle", "certificate", "skin", "stream", "motion"}},
+    {"core",
+     {"base", "body", "method", "particle", "certificate", "skin", "stream", "impact",
+      "motion"}},
     {"harness",
      {"base", "process", "engine", "mesh", "sequence", "scene", "run", "loop", "summary",
       "race", "figure", "study", "report", "command"}},

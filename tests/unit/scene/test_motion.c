@@ -1,6 +1,6 @@
 #include "harness/base/curve.h"
 #include "harness/scene/motion.h"
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 #include "tests/support/test.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "harness/scene/turn.h"
+#include "core/base/turn.h"
 
 #include <math.h>
 

@@ -1,0 +1,100 @@
+#include "core/certificate/certificate_state.h"
+#include "core/impact/impact_state.h"
+
+#include <stdlib.h>
+
+mote_impact_options mote_default_impact_options(double length)
+{
+    return (mote_impact_options){
+        .length = length, .resolution = 1e-6, .pieces = 128, .iterations = 10000};
+}
+
+static mote_status check_options(const mote_impact_options *options)
+{
+    if (!(options->length > 0 && options->length < HUGE_VAL))
+        return mote_fail(MOTE_EINVAL, "a length of %g; give a finite number above 0",
+                         options->length);
+    if (!(options->resolution >= 1e-12 && options->resolution <= 1))
+        return mote_fail(MOTE_EINVAL, "a resolution of %g; give a number from 1e-12 to 1",
+                         options->resolution);
+    if (options->pieces < 1 || options->pieces > 1u << 20 || options->iterations < 1)
+        return mote_fail(MOTE_EINVAL,
+                         "%u pieces and %u iterations; give at least 1 of both, and at most "
+                         "1,048,576 pieces",
+                         options->pieces, options->iterations);
+    return MOTE_OK;
+}
+
+static void *counted(mote_impact_search *s, size_t count, size_t size)
+{
+    s->bytes += (count + 1) * size;
+    return calloc(count + 1, size);
+}
+
+static mote_status allocate(mote_impact_search *s)
+{
+    size_t functions = 0, groups = 0;
+    for (int i = 0; i < 2; ++i) {
+        const mote_field *field = s->body[i].field;
+        if (field->count > functions)
+            functions = field->count;
+        if (s->groups[i].padded > groups)
+            groups = s->groups[i].padded;
+        s->weights[i] = counted(s, 3 * (size_t)field->padded, sizeof(double));
+    }
+    s->amounts = counted(s, 3 * functions, sizeof(double));
+    s->sums = counted(s, 3 * groups, sizeof(double));
+    s->rates = counted(s, s->options.pieces, sizeof *s->rates);
+    if (!s->weights[0] || !s->weights[1] || !s->amounts || !s->sums || !s->rates)
+        return mote_fail(MOTE_ENOMEM, "no memory for a search for impacts");
+    return MOTE_OK;
+}
+
+mote_status mote_impact_create(const mote_body *const body[2],
+                               const mote_impact_options *options, mote_impact_search **search)
+{
+    mote_status status = check_options(options);
+    if (status != MOTE_OK)
+        return status;
+    mote_impact_search *made = calloc(1, sizeof *made);
+    if (!made)
+        return mote_fail(MOTE_ENOMEM, "no memory for a search for impacts");
+    made->bytes = sizeof *made;
+    made->options = *options;
+    made->body[0] = *body[0];
+    made->body[1] = *body[1];
+    const mote_certificate_options certified =
+        mote_default_certificate_options(options->length);
+    status = mote_certificate_create(body, &certified, &made->certificate);
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i)
+        status = mote_impact_groups_create(body[i], made->certificate->side[i].tree,
+                                           &made->groups[i], &made->bytes);
+    if (status == MOTE_OK)
+        status = allocate(made);
+    if (status != MOTE_OK) {
+        mote_impact_destroy(made);
+        return status;
+    }
+    *search = made;
+    return MOTE_OK;
+}
+
+void mote_impact_destroy(mote_impact_search *search)
+{
+    if (!search)
+        return;
+    mote_certificate_destroy(search->certificate);
+    for (int i = 0; i < 2; ++i) {
+        mote_impact_groups_destroy(&search->groups[i]);
+        free(search->weights[i]);
+    }
+    free(search->amounts);
+    free(search->sums);
+    free(search->rates);
+    free(search);
+}
+
+size_t mote_impact_bytes(const mote_impact_search *search)
+{
+    return search->bytes + mote_certificate_bytes(search->certificate);
+}

@@ -1,0 +1,171 @@
+/* Conservative advancement on the certified distance.
+
+   At a time t the certified query proves that the surfaces, as they are rounded, are at least
+   `lower` apart, so that those of the path are at least lower - noise apart, and none of their
+   points comes nearer than the tolerance before it has covered the rest of the way at the
+   bounded speed. Twice the noise is left out, so that the distance as it is rounded stays above
+   the tolerance too. Times are rounded by at most 2^-52, in which a point covers 2^-52 times
+   the number of pieces times its speed in one: 2^-48 of that is left out. */
+#include "core/impact/impact_state.h"
+#include "core/body/path_place.h"
+
+#include <string.h>
+
+/* Makes a certified query at a time; false where the bodies are apart by more than the
+   tolerance. */
+static bool touch_at(mote_impact_search *s, double time)
+{
+    const mote_impact_question *q = s->question;
+    for (int i = 0; i < 2; ++i)
+        mote_path_state(q->path[i], &s->body[i], time, s->weights[i], &s->frame.body[i]);
+    ++s->frame.number;
+    mote_certificate_query(s->certificate, &s->frame, NULL, -1, &s->at);
+    ++s->found.iterations;
+    mote_counters *sum = &s->found.counters;
+#define ADD(name) sum->name += s->at.counters.name;
+    MOTE_COUNTERS(ADD)
+    MOTE_COUNTERS_MORE(ADD)
+#undef ADD
+    if (s->at.distance > 0) {
+        const mote_vec3 n = mote_sub(s->at.witness[1], s->at.witness[0]);
+        s->found.normal = mote_scale(n, 1 / mote_length(n));
+    }
+    return s->at.distance <= q->tolerance;
+}
+
+/* What is left of the proven distance at a time, for the bodies to cover. */
+static double gap_at(mote_impact_search *s, mote_place place)
+{
+    const mote_impact_question *q = s->question;
+    const mote_impact_rate *rate = mote_impact_rate_of(s, place.piece);
+    return (s->at.lower - q->tolerance) * (1 - 0x1p-40) - 2 * rate->noise -
+           0x1p-48 * q->path[0]->count * rate->speed;
+}
+
+/* The time until which the last answer, of `time`, proves the bodies to be apart; at most end.
+ */
+static double proven_until(mote_impact_search *s, double time)
+{
+    const uint32_t count = s->question->path[0]->count;
+    mote_place at = mote_path_place(s->question->path[0], time);
+    double gap = gap_at(s, at);
+    if (!(gap > 0))
+        return -1;
+    for (;;) {
+        const mote_impact_rate *rate = mote_impact_rate_of(s, at.piece);
+        const double needed = rate->speed * (1 - at.u);
+        if (needed >= gap) {
+            const double until = (at.piece + (at.u + gap / rate->speed)) / count;
+            return fmin(fmax(until, time), s->question->end);
+        }
+        gap -= needed;
+        ++at.piece;
+        at.u = 0;
+        if (at.piece == count || (double)at.piece / count >= s->question->end)
+            return s->question->end;
+    }
+}
+
+/* The same backwards; at least begin. */
+static double proven_since(mote_impact_search *s, double time)
+{
+    const uint32_t count = s->question->path[0]->count;
+    mote_place at = mote_path_place(s->question->path[0], time);
+    double gap = gap_at(s, at);
+    if (!(gap > 0))
+        return time;
+    for (;;) {
+        const mote_impact_rate *rate = mote_impact_rate_of(s, at.piece);
+        const double needed = rate->speed * at.u;
+        if (needed >= gap) {
+            const double since = (at.piece + (at.u - gap / rate->speed)) / count;
+            return fmax(fmin(since, time), s->question->begin);
+        }
+        gap -= needed;
+        if (at.piece == 0)
+            return s->question->begin;
+        --at.piece;
+        at.u = 1;
+    }
+}
+
+static void end_with(mote_impact_search *s, mote_impact_outcome outcome, double from, double to)
+{
+    s->found.outcome = outcome;
+    s->found.from = from;
+    s->found.to = to;
+    s->found.distance = s->at.distance;
+    s->found.witness[0] = s->at.witness[0];
+    s->found.witness[1] = s->at.witness[1];
+}
+
+/* Near an impact steps become short: looks for it ahead, the bracket's width from where the
+   proof has come to. Returns true when it is found, else the time of the last answer, up to
+   which all is proven. */
+static bool find_ahead(mote_impact_search *s, double reached, double *time)
+{
+    const double end = s->question->end;
+    const double ahead = fmin(reached + s->options.resolution, end);
+    if (touch_at(s, ahead)) {
+        end_with(s, MOTE_IMPACT_FOUND, reached, ahead);
+        return true;
+    }
+    *time = ahead;
+    if (proven_since(s, ahead) <= reached)
+        return false;
+    *time = reached;
+    if (!touch_at(s, reached))
+        return false;
+    end_with(s, MOTE_IMPACT_FOUND, reached, reached);
+    return true;
+}
+
+static void search_for_impact(mote_impact_search *s)
+{
+    const mote_impact_question *q = s->question;
+    double time = q->begin;
+    if (touch_at(s, time)) {
+        end_with(s, MOTE_IMPACT_FOUND, time, time);
+        return;
+    }
+    for (;;) {
+        const double reached = proven_until(s, time);
+        if (reached >= q->end) {
+            end_with(s, MOTE_IMPACT_NONE, q->end, q->end);
+            return;
+        }
+        if (!(reached > time)) {
+            end_with(s, MOTE_IMPACT_GRAZING, time, time);
+            return;
+        }
+        if (s->found.iterations >= s->options.iterations) {
+            end_with(s, MOTE_IMPACT_UNDECIDED, time, time);
+            return;
+        }
+        if (reached - time < 0.5 * s->options.resolution) {
+            if (find_ahead(s, reached, &time))
+                return;
+            continue;
+        }
+        time = reached;
+        if (touch_at(s, time)) {
+            end_with(s, MOTE_IMPACT_FOUND, time, time);
+            return;
+        }
+    }
+}
+
+mote_status mote_impact_query(mote_impact_search *search, const mote_impact_question *question,
+                              mote_impact_found *found)
+{
+    const mote_status status = mote_impact_check(search, question);
+    if (status != MOTE_OK)
+        return status;
+    search->question = question;
+    memset(&search->found, 0, sizeof search->found);
+    for (uint32_t k = 0; k < question->path[0]->count; ++k)
+        search->rates[k].known = false;
+    search_for_impact(search);
+    *found = search->found;
+    return MOTE_OK;
+}

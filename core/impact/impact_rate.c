@@ -1,0 +1,203 @@
+/* Bounds on how fast two bodies can come nearer to each other in a piece of their paths.
+
+   With p = x - pivot + sum_j phi_j w_j, a vertex is at c + R p, and with R' = [omega] R
+
+       its velocity is       c' + omega x R p + R p',
+       its acceleration      c'' + omega' x R p + omega x (omega x R p) + 2 omega x R p' + R
+   p'',
+
+   so that without the pivot's part, with W, W' bounds of |omega| and |omega'|, r of |p| and f,
+   g of |p'| and |p''| over a group, they are at most W r + f and (W' + W^2) r + 2 W f + g.
+   Points of a triangle move with speeds and accelerations within the hull of those of its
+   vertices.
+
+   - p: the middle of a group's ball at rest, its radius, and sum_j most_j |w_j|, where |w_j| is
+     at most the largest of its control points' lengths. Of a piece that spins only what is
+     perpendicular to its axis counts: |omega x R p| = W |R p x axis|.
+   - p' and p'': sums over most_j times the largest length of 3 (b_{i+1} - b_i), and of
+     6 (b_{i+2} - 2 b_{i+1} + b_i), which are the control points of the derivatives.
+   - Cubic quaternions q: R is that of q / |q|, with omega = 2 Im(q' q*) / |q|^2.
+   Differentiated: omega' = 2 Im(q'' q*) / |q|^2 - 2 (q . q') omega / |q|^2, as Im(q' q'*) = 0.
+   With m the least length of q, and d, e the largest of q' and q'': |omega| <= 2 d / m = W and
+   |omega'| <= 2 e / m + W^2. |q| is at least q . a for any unit vector a, and this at least the
+   least b_i . a of the control points.
+
+   Every sum is raised by 1e-9 of itself, which is more than the rounding of any of them: they
+   add up at most 2^20 terms >= 0, each rounded a few times.
+
+   Noise. What mote_path_state and mote_body_position give differs from the path by rounding:
+   control points are added up by factors that add up to 1, in 8 operations; a rotation's
+   entries are wrong by less than 2^-48, and by 2^-50 of the angle of a spin more, since the
+   angle is rounded; products and sums with J functions, in 8 lanes, by (J / 8 + 12) 2^-53. All
+   are multiples of `size`, the sum of the sizes of all parts. 2^-41 (1 + J / 1024) size is more
+   than that, and holds what pieces may miss each other by (impact_check.c), 2^-42 size, too. */
+#include "core/impact/impact_state.h"
+#include "core/body/path_place.h"
+
+#include <string.h>
+
+/* Largest lengths of a cubic's control points and of those of its two derivatives. */
+typedef struct cubic_bounds {
+    double size, rate, change;
+} cubic_bounds;
+
+static cubic_bounds bounds_of(const mote_vec3 b[4])
+{
+    cubic_bounds most = {0, 0, 0};
+    for (int i = 0; i < 4; ++i)
+        most.size = fmax(most.size, mote_length(b[i]));
+    mote_vec3 d[3];
+    for (int i = 0; i < 3; ++i) {
+        d[i] = mote_scale(mote_sub(b[i + 1], b[i]), 3);
+        most.rate = fmax(most.rate, mote_length(d[i]));
+    }
+    for (int i = 0; i < 2; ++i)
+        most.change = fmax(most.change, 2 * mote_length(mote_sub(d[i + 1], d[i])));
+    return most;
+}
+
+/* The same of each weight: amounts[0][j], [1][j], [2][j]. */
+MOTE_CLONES
+static void bound_weights(const double *restrict control, size_t count, size_t padded,
+                          double *restrict amounts)
+{
+    const double *b0 = control, *b1 = b0 + 3 * padded, *b2 = b1 + 3 * padded,
+                 *b3 = b2 + 3 * padded;
+    for (size_t j = 0; j < count; ++j) {
+        double size[4] = {0}, rate[3] = {0}, change[2] = {0};
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t i = c * padded + j;
+            const double d0 = b1[i] - b0[i], d1 = b2[i] - b1[i], d2 = b3[i] - b2[i];
+            size[0] += b0[i] * b0[i];
+            size[1] += b1[i] * b1[i];
+            size[2] += b2[i] * b2[i];
+            size[3] += b3[i] * b3[i];
+            rate[0] += d0 * d0;
+            rate[1] += d1 * d1;
+            rate[2] += d2 * d2;
+            change[0] += (d1 - d0) * (d1 - d0);
+            change[1] += (d2 - d1) * (d2 - d1);
+        }
+        const double s = fmax(fmax(size[0], size[1]), fmax(size[2], size[3]));
+        const double r = fmax(rate[0], fmax(rate[1], rate[2]));
+        amounts[j] = sqrt(s);
+        amounts[count + j] = 3 * sqrt(r);
+        amounts[2 * count + j] = 6 * sqrt(fmax(change[0], change[1]));
+    }
+}
+
+/* sums[0 .. 2][g] = sum_j most[j][g] amounts[0 .. 2][j] */
+MOTE_CLONES
+static void add_up(const double *restrict most, const double *restrict amounts, size_t count,
+                   size_t groups, double *restrict sums)
+{
+    memset(sums, 0, 3 * groups * sizeof *sums);
+    for (size_t j = 0; j < count; ++j) {
+        const double *row = most + j * groups;
+        const double a = amounts[j], b = amounts[count + j], c = amounts[2 * count + j];
+        for (size_t g = 0; g < groups; ++g) {
+            sums[g] += row[g] * a;
+            sums[groups + g] += row[g] * b;
+            sums[2 * groups + g] += row[g] * c;
+        }
+    }
+}
+
+static mote_quaternion difference(mote_quaternion a, mote_quaternion b)
+{
+    return (mote_quaternion){a.w - b.w, a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static double norm(mote_quaternion q)
+{
+    return sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+}
+
+/* Bounds of the angular velocity and of its derivative; axis: in the body's axes, or 0. */
+typedef struct turning {
+    double rate, change;
+    mote_vec3 axis;
+} turning;
+
+static turning turning_of(const mote_path_piece *piece)
+{
+    if (piece->spins) {
+        turning t = {.rate = mote_length(piece->spin)};
+        const mote_mat3 start = mote_quaternion_matrix(piece->turn[0]);
+        if (t.rate > 0)
+            t.axis = mote_rotate_back(&start, mote_scale(piece->spin, 1 / t.rate));
+        return t;
+    }
+    double rate = 0, change = 0;
+    mote_quaternion before = {0, 0, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+        const mote_quaternion d = difference(piece->turn[i + 1], piece->turn[i]);
+        rate = fmax(rate, 3 * norm(d));
+        if (i > 0)
+            change = fmax(change, 6 * norm(difference(d, before)));
+        before = d;
+    }
+    const double least = mote_path_least_turn(piece);
+    const double w = 2 * rate / least;
+    return (turning){.rate = w, .change = 2 * change / least + w * w};
+}
+
+/* The distance of a group's ball from the axis, or from the pivot where there is no axis. */
+static double arm_of(const turning *turn, mote_vec3 from_pivot)
+{
+    if (!(mote_dot(turn->axis, turn->axis) > 0))
+        return mote_length(from_pivot);
+    return mote_length(mote_cross(from_pivot, turn->axis)) + 0x1p-48 * mote_length(from_pivot);
+}
+
+static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
+{
+    const mote_path *path = s->question->path[i];
+    const mote_path_piece *piece = &path->pieces[k];
+    const mote_impact_groups *groups = &s->groups[i];
+    const mote_field *field = s->body[i].field;
+    const size_t n = groups->padded;
+    const turning turn = turning_of(piece);
+    memset(s->sums, 0, 3 * n * sizeof *s->sums);
+    if (field->count > 0 && piece->weights) {
+        bound_weights(piece->weights, field->count, field->padded, s->amounts);
+        add_up(groups->most, s->amounts, field->count, n, s->sums);
+    }
+    mote_impact_motion m = {0, 0, 0};
+    double grown = 0;
+    for (uint32_t g = 0; g < groups->count; ++g) {
+        const double d = s->sums[g], f = s->sums[n + g], e = s->sums[2 * n + g];
+        const double r =
+            arm_of(&turn, mote_sub(groups->middle[g], path->pivot)) + groups->radius[g] + d;
+        const double w = turn.rate;
+        m.speed = fmax(m.speed, w * r + f);
+        m.acceleration = fmax(m.acceleration, (turn.change + w * w) * r + 2 * w * f + e);
+        grown = fmax(grown, d);
+    }
+    const double size =
+        bounds_of(piece->centre).size + mote_length(path->pivot) + groups->size + grown;
+    const double spin = piece->spins ? turn.rate : 0;
+    m.noise = size * (0x1p-41 * (1 + field->most / 1024.0) + 0x1p-49 * spin);
+    return m;
+}
+
+const mote_impact_rate *mote_impact_rate_of(mote_impact_search *s, uint32_t k)
+{
+    mote_impact_rate *rate = &s->rates[k];
+    if (rate->known)
+        return rate;
+    const mote_impact_motion a = motion_of(s, 0, k), b = motion_of(s, 1, k);
+    const mote_vec3 *c[2] = {s->question->path[0]->pieces[k].centre,
+                             s->question->path[1]->pieces[k].centre};
+    mote_vec3 between[4];
+    for (int i = 0; i < 4; ++i)
+        between[i] = mote_sub(c[1][i], c[0][i]);
+    const cubic_bounds pivots = bounds_of(between);
+    /* Control points far from the origin lose digits in the difference: the noise has more. */
+    rate->noise = a.noise + b.noise;
+    rate->speed = (a.speed + b.speed + pivots.rate) * (1 + 1e-9) + rate->noise;
+    rate->acceleration =
+        (a.acceleration + b.acceleration + pivots.change) * (1 + 1e-9) + rate->noise;
+    rate->known = true;
+    return rate;
+}

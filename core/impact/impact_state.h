@@ -1,0 +1,72 @@
+/* The state of a search for an impact: what impact*.c share. */
+#ifndef MOTE_CORE_IMPACT_STATE_H
+#define MOTE_CORE_IMPACT_STATE_H
+
+#include "core/certificate/certificate.h"
+#include "core/certificate/certificate_tree.h"
+#include "core/impact/impact.h"
+
+/* The parts of a body for which speeds are bounded, at most. */
+#define MOTE_IMPACT_GROUPS 64
+
+/* The vertices of a body in groups that lie together at rest. Of each group are known a ball
+   around it at rest and, for each basis function, the largest absolute value at its vertices.
+ */
+typedef struct mote_impact_groups {
+    uint32_t count, padded; /* padded to a multiple of MOTE_LANES, with empty groups */
+    mote_vec3 *middle;      /* [count] */
+    double *radius;         /* [count] */
+    double *most;           /* [functions][padded] */
+    double *most_of_all;    /* [functions] over all groups */
+    double size;            /* of the rest coordinates: the largest length of a vertex */
+} mote_impact_groups;
+
+/* How a body moves and deforms in a piece, by the piece's local time: bounds for each vertex
+   and all times in it, without the motion of the pivot. */
+typedef struct mote_impact_motion {
+    double speed, acceleration;
+    double noise; /* of a position: rounding, and what pieces may miss each other by */
+} mote_impact_motion;
+
+/* The same of both bodies together, the motion of the pivots included. */
+typedef struct mote_impact_rate {
+    bool known;
+    double speed, acceleration; /* of one body's points as the other body's see them */
+    double noise;
+} mote_impact_rate;
+
+struct mote_impact_search {
+    mote_impact_options options;
+    mote_body body[2];
+    mote_certificate *certificate;
+    mote_impact_groups groups[2];
+    double *weights[2];      /* [3 * padded] of the frame */
+    double *amounts;         /* [3][functions] of a piece */
+    double *sums;            /* [3][groups] of a piece */
+    mote_impact_rate *rates; /* [options.pieces] of the question's pieces */
+    mote_frame frame;
+    const mote_impact_question *question;
+    mote_certificate_answer at; /* the last certified answer */
+    mote_impact_found found;
+    size_t bytes; /* without the certificate's */
+};
+
+/* impact_groups.c */
+
+/* MOTE_EUNSUPPORTED for a field that is not linear in its weights; MOTE_ENOMEM. */
+mote_status mote_impact_groups_create(const mote_body *body, const mote_cert_tree *tree,
+                                      mote_impact_groups *groups, size_t *bytes);
+void mote_impact_groups_destroy(mote_impact_groups *groups);
+
+/* impact_rate.c */
+
+/* Bounds of piece k of the question's paths, computed when they are first asked for. */
+const mote_impact_rate *mote_impact_rate_of(mote_impact_search *search, uint32_t k);
+
+/* impact_check.c */
+
+/* MOTE_EINVAL for whatever is wrong with a question. */
+mote_status mote_impact_check(const mote_impact_search *search,
+                              const mote_impact_question *question);
+
+#endif

@@ -1,0 +1,99 @@
+/* Paths: poses and weights between two moments. */
+#include "core/body/path.h"
+
+#include "tests/support/bodies.h"
+
+static const mote_quaternion none = {1, 0, 0, 0};
+
+TEST(mote_path_line_constant_speed)
+{
+    const mote_vec3 a = {1, 2, 3}, b = {-2, 0, 7};
+    mote_path_piece piece = {.turn = {none, none, none, none}};
+    mote_path_line(a, b, piece.centre);
+    const mote_path path = {.pieces = &piece, .count = 1};
+    uint64_t seed = 1;
+    test_body body;
+    solid s = solid_tetrahedron();
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(s.xyz, 4, s.faces, 4, &mesh), MOTE_OK);
+    solid_free(&s);
+    test_body_init(&body, mesh, 0, &seed);
+    for (int i = 0; i <= 8; ++i) {
+        mote_body_state state;
+        mote_path_state(&path, &body.body, i / 8.0, NULL, &state);
+        const mote_vec3 at = mote_add_scaled(a, i / 8.0, mote_sub(b, a));
+        assert_close(mote_length(mote_sub(state.pose.translation, at)), 0, 1e-14);
+        assert_true(state.shape_changed && state.pose_changed && !state.vertices);
+    }
+    test_body_free(&body);
+}
+
+TEST(mote_path_hermite_ends_and_derivatives)
+{
+    const mote_vec3 a = {1, 2, 3}, da = {3, -6, 9}, b = {0, 5, 1}, db = {-3, 0, 6};
+    mote_vec3 c[4];
+    mote_path_hermite(a, da, b, db, c);
+    assert_close(mote_length(mote_sub(c[0], a)), 0, 0);
+    assert_close(mote_length(mote_sub(c[3], b)), 0, 0);
+    assert_close(mote_length(mote_sub(mote_scale(mote_sub(c[1], c[0]), 3), da)), 0, 1e-14);
+    assert_close(mote_length(mote_sub(mote_scale(mote_sub(c[3], c[2]), 3), db)), 0, 1e-14);
+}
+
+/* A quarter turn a piece about z: after two pieces half a turn, about the pivot. */
+TEST(mote_path_state_spin_turns_about_the_pivot)
+{
+    const double half = sqrt(0.5);
+    mote_path_piece pieces[2] = {{.spins = true, .turn = {none}},
+                                 {.spins = true, .turn = {{half, 0, 0, half}}}};
+    for (int k = 0; k < 2; ++k) {
+        pieces[k].spin = mote_vec3_make(0, 0, 1.5707963267948966);
+        for (int i = 0; i < 4; ++i)
+            pieces[k].centre[i] = mote_vec3_make(5, 5, 5);
+    }
+    const mote_path path = {.pivot = {1, 0, 0}, .pieces = pieces, .count = 2};
+    const mote_body body = {.field = &(mote_field){.count = 0}};
+    for (int i = 0; i <= 16; ++i) {
+        mote_body_state state;
+        mote_path_state(&path, &body, i / 16.0, NULL, &state);
+        const double angle = i / 16.0 * 3.141592653589793;
+        const mote_vec3 x = mote_pose_apply(&state.pose, mote_vec3_make(3, 0, 0));
+        assert_close(x.x, 5 + 2 * cos(angle), 1e-14);
+        assert_close(x.y, 5 + 2 * sin(angle), 1e-14);
+        assert_close(x.z, 5, 1e-14);
+    }
+}
+
+/* Weights are given in the body's axes: they turn with it. */
+TEST(mote_path_state_weights_turn_with_the_body)
+{
+    uint64_t seed = 3;
+    test_body body;
+    solid s = solid_icosphere(1);
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
+                     MOTE_OK);
+    solid_free(&s);
+    test_body_init(&body, mesh, 3, &seed);
+    const size_t padded = body.field->padded;
+    double *control = calloc(12 * padded, sizeof *control);
+    double *weights = calloc(3 * padded, sizeof *weights);
+    for (size_t i = 0; i < 4; ++i) /* linear in time: weight 1 goes from 0 to (3, 0, 0) */
+        control[3 * i * padded + 1] = (double)i;
+    const mote_path_piece piece = {
+        .spins = true, .turn = {none}, .spin = {0, 0, 3.141592653589793}, .weights = control};
+    const mote_path path = {.pieces = &piece, .count = 1};
+    mote_body_state state;
+    mote_path_state(&path, &body.body, 0.5, weights, &state);
+    assert_close(state.weights.x[1], 0, 1e-14);
+    assert_close(state.weights.y[1], 1.5, 1e-14);
+    assert_close(state.weights.y[0], 0, 0);
+    mote_path_state(&path, &body.body, 1, weights, &state);
+    assert_close(state.weights.x[1], -3, 1e-14);
+    const mote_path_piece still = {.spins = true, .turn = {none}};
+    const mote_path bare = {.pieces = &still, .count = 1};
+    mote_path_state(&bare, &body.body, 1, weights, &state);
+    assert_close(state.weights.x[1], 0, 0);
+    free(control);
+    free(weights);
+    test_body_free(&body);
+}

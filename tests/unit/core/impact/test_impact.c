@@ -1,0 +1,387 @@
+/* The time of impact: closed forms, the ends of what may be asked, and random paths against
+   samples (tests/studies/impacts.c has many more). */
+#include "core/impact/impact.h"
+
+#include "core/skin/skin.h"
+#include "harness/base/heap_count.h"
+#include "tests/support/impact_scene.h"
+#include "tests/support/test.h"
+
+static const double pi = 3.141592653589793;
+
+static void check_close(double a, double b, double tolerance)
+{
+    if (!(fabs(a - b) <= tolerance))
+        fail_msg("%.17g and %.17g differ by more than %g", a, b, tolerance);
+}
+
+/* Two boxes; body 0 stands at the origin. */
+static void two_boxes(impact_scene *s, double a, double b)
+{
+    impact_scene_init(s, impact_box(a, a, a), impact_box(b, b, b), IMPACT_RIGID, 1);
+}
+
+static mote_impact_found ask(impact_scene *s, mote_impact_question question)
+{
+    mote_impact_found found;
+    const mote_status status = mote_impact_query(s->search, &question, &found);
+    if (status != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_true(question.begin <= found.from && found.from <= found.to &&
+                found.to <= question.end);
+    return found;
+}
+
+static void check_found(const mote_impact_found *found, double time)
+{
+    assert_int_equal(found->outcome, MOTE_IMPACT_FOUND);
+    assert_true(found->from <= time + 1e-12 && time - 1e-12 <= found->to);
+    assert_true(found->to - found->from <= 1.0001e-6);
+}
+
+TEST(mote_impact_query_boxes_on_a_line_meet_when_they_must)
+{
+    static const double tolerances[] = {0, 1e-9, 0.1, 1};
+    static const double sizes[] = {1, 1e-9, 1e30};
+    for (int k = 0; k < 3; ++k) {
+        const double size = sizes[k];
+        impact_scene s;
+        two_boxes(&s, 2 * size, size);
+        mote_path_line(mote_vec3_make(5 * size, 0.1 * size, 0),
+                       mote_vec3_make(-5 * size, 0.1 * size, 0), s.of[1].piece[0].centre);
+        for (int i = 0; i < 4; ++i) {
+            const double tolerance = tolerances[i] * size;
+            const mote_impact_found found = ask(&s, impact_question(&s, tolerance));
+            /* faces at 1 and 4.5 - 10 t */
+            check_found(&found, (3.5 - tolerances[i]) / 10);
+            assert_true(found.distance <= tolerance);
+            check_close(found.normal.x, 1, 1e-9);
+            check_close(found.witness[0].x, size, 2e-5 * size);
+        }
+        impact_scene_free(&s);
+    }
+}
+
+/* It passes through within a hundredth of the time, and is away again at any sample of 20. */
+TEST(mote_impact_query_fast_body_does_not_pass)
+{
+    impact_scene s;
+    two_boxes(&s, 0.5, 0.5);
+    mote_path_line(mote_vec3_make(51.3, 0, 0), mote_vec3_make(-48.7, 0, 0),
+                   s.of[1].piece[0].centre);
+    const mote_impact_found found = ask(&s, impact_question(&s, 1e-3));
+    check_found(&found, (51.3 - 0.501) / 100);
+    impact_scene_free(&s);
+}
+
+/* A bar of half length 1 turns about its middle; a small box beyond stands in the way of its
+   tip. The corner (1, 0.05) of the bar comes to the box's face x = 0.9 at an angle from above.
+ */
+TEST(mote_impact_query_spinning_bar_meets_a_wall)
+{
+    static const double turns[] = {0.4, 3, 20};
+    for (int k = 0; k < 3; ++k) {
+        impact_scene s;
+        impact_scene_init(&s, impact_box(2, 0.1, 0.1), impact_box(1, 4, 1), IMPACT_RIGID, 1);
+        mote_path_piece *bar = s.of[0].piece;
+        bar->spins = true;
+        bar->turn[0] = impact_spun(mote_vec3_make(0, 0, pi / 2), bar->turn[0]);
+        bar->spin = mote_vec3_make(0, 0, -2 * pi * turns[k]);
+        for (int i = 0; i < 4; ++i)
+            s.of[1].piece[0].centre[i] = mote_vec3_make(1.4, 0, 0);
+        const mote_impact_found found = ask(&s, impact_question(&s, 0));
+        /* the upper right corner's radius and angle, as seen from the bar's axis */
+        const double radius = sqrt(1 + 0.05 * 0.05), corner = atan2(0.05, 1);
+        const double angle = pi / 2 - acos(0.9 / radius) - corner;
+        check_found(&found, angle / (2 * pi * turns[k]));
+        impact_scene_free(&s);
+    }
+}
+
+/* Out and back within the interval: at both ends the bodies are as far apart as can be. */
+TEST(mote_impact_query_body_that_returns)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_path_piece *p = s.of[1].piece;
+    p->centre[0] = p->centre[3] = mote_vec3_make(3, 0.2, 0.1);
+    p->centre[1] = p->centre[2] = mote_vec3_make(0, 0.2, 0.1); /* x = 3 - 9 t (1 - t) */
+    const mote_impact_found hit = ask(&s, impact_question(&s, 0));
+    check_found(&hit, 0.5 - sqrt(0.25 - 2.0 / 9));
+    const mote_impact_found touch = ask(&s, impact_question(&s, 0.5));
+    check_found(&touch, 0.5 - sqrt(0.25 - 1.5 / 9));
+    p->centre[1] = p->centre[2] = mote_vec3_make(1, 0.2, 0.1); /* 3 - 6 t (1 - t): to 1.5 */
+    const mote_impact_found none = ask(&s, impact_question(&s, 0.4999));
+    assert_int_equal(none.outcome, MOTE_IMPACT_NONE);
+    assert_true(none.from >= 1);
+    const mote_impact_found near = ask(&s, impact_question(&s, 0.5001));
+    check_found(&near, 0.5 - sqrt(0.25 - 1.4999 / 6));
+    impact_scene_free(&s);
+}
+
+TEST(mote_impact_query_both_still_and_touching_at_the_start)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    for (int i = 0; i < 4; ++i)
+        s.of[1].piece[0].centre[i] = mote_vec3_make(2, 0, 0);
+    const mote_impact_found apart = ask(&s, impact_question(&s, 0.5));
+    assert_int_equal(apart.outcome, MOTE_IMPACT_NONE);
+    assert_int_equal(apart.iterations, 1);
+    const mote_impact_found touching = ask(&s, impact_question(&s, 1));
+    assert_int_equal(touching.outcome, MOTE_IMPACT_FOUND);
+    check_close(touching.from, 0, 0);
+    check_close(touching.to, 0, 0);
+    for (int i = 0; i < 4; ++i)
+        s.of[1].piece[0].centre[i] = mote_vec3_make(0.9, 0, 0);
+    const mote_impact_found within = ask(&s, impact_question(&s, 0));
+    assert_int_equal(within.outcome, MOTE_IMPACT_FOUND);
+    check_close(within.to, 0, 0);
+    assert_true(!(mote_length(within.normal) > 0));
+    impact_scene_free(&s);
+}
+
+/* Just above the tolerance, where nothing can be told from rounding. */
+TEST(mote_impact_query_distance_of_the_tolerance_is_grazing)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_path_line(mote_vec3_make(2, 0, 0), mote_vec3_make(2, 0.5, 0), s.of[1].piece[0].centre);
+    const mote_impact_found found = ask(&s, impact_question(&s, 1 - 1e-15));
+    assert_int_equal(found.outcome, MOTE_IMPACT_GRAZING);
+    check_close(found.distance, 1, 1e-12);
+    impact_scene_free(&s);
+}
+
+TEST(mote_impact_query_gives_up_after_its_iterations)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_impact_options options = mote_default_impact_options(s.length);
+    options.iterations = 2;
+    const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
+    mote_impact_search *few = NULL;
+    assert_int_equal(mote_impact_create(bodies, &options, &few), MOTE_OK);
+    for (int b = 0; b < 2; ++b) {
+        s.of[b].piece[0].spins = true;
+        s.of[b].piece[0].spin = mote_vec3_make(1000, 0, 0);
+    }
+    mote_path_line(mote_vec3_make(3, 0, 0), mote_vec3_make(1.01, 0, 0),
+                   s.of[1].piece[0].centre);
+    const mote_impact_question question = impact_question(&s, 0);
+    mote_impact_found found;
+    assert_int_equal(mote_impact_query(few, &question, &found), MOTE_OK);
+    assert_int_equal(found.outcome, MOTE_IMPACT_UNDECIDED);
+    assert_true(found.from < 1 && found.distance > 0);
+    mote_impact_destroy(few);
+    impact_scene_free(&s);
+}
+
+/* An impact is the same one, whatever part of the path before it is asked about. */
+TEST(mote_impact_query_parts_of_the_interval)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_path_line(mote_vec3_make(6, 0, 0), mote_vec3_make(-4, 0, 0), s.of[1].piece[0].centre);
+    mote_impact_question question = impact_question(&s, 0);
+    question.end = 0.49;
+    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_NONE);
+    question.begin = question.end;
+    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_NONE); /* empty */
+    question.end = 0.6;
+    const mote_impact_found found = ask(&s, question);
+    check_found(&found, 0.5);
+    question.begin = question.end = 0.55;
+    assert_int_equal(ask(&s, question).outcome, MOTE_IMPACT_FOUND);
+    impact_scene_free(&s);
+}
+
+/* The same path in one piece and in four. */
+TEST(mote_impact_query_pieces_change_nothing)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_path_line(mote_vec3_make(6, 0, 0), mote_vec3_make(-4, 0, 0), s.of[1].piece[0].centre);
+    check_close(ask(&s, impact_question(&s, 0)).to, 0.5, 2e-6);
+    for (int k = 0; k < 4; ++k)
+        mote_path_line(mote_vec3_make(6 - 2.5 * k, 0, 0), mote_vec3_make(3.5 - 2.5 * k, 0, 0),
+                       s.of[1].piece[k].centre);
+    s.of[0].path.count = s.of[1].path.count = 4;
+    const mote_impact_found found = ask(&s, impact_question(&s, 0));
+    check_found(&found, 0.5);
+    impact_scene_free(&s);
+}
+
+static void check_refused(impact_scene *s, const mote_impact_question *question,
+                          const char *part)
+{
+    mote_impact_found found;
+    assert_int_equal(mote_impact_query(s->search, question, &found), MOTE_EINVAL);
+    if (!strstr(mote_error_text(), part))
+        fail_msg("\"%s\" does not say \"%s\"", mote_error_text(), part);
+}
+
+TEST(mote_impact_query_bad_questions_are_refused)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    mote_path_line(mote_vec3_make(6, 0, 0), mote_vec3_make(4, 0, 0), s.of[1].piece[0].centre);
+    const mote_impact_question good = impact_question(&s, 0.1);
+    static const double intervals[][2] = {{0.5, 0.4}, {-0.1, 1}, {0, 1.1},
+                                          {NAN, 1},   {0, NAN},  {0, INFINITY}};
+    for (size_t i = 0; i < sizeof intervals / sizeof intervals[0]; ++i) {
+        mote_impact_question q = good;
+        q.begin = intervals[i][0];
+        q.end = intervals[i][1];
+        check_refused(&s, &q, "two times within 0 and 1");
+    }
+    static const double tolerances[] = {-1, NAN, INFINITY};
+    for (int i = 0; i < 3; ++i) {
+        mote_impact_question q = good;
+        q.tolerance = tolerances[i];
+        check_refused(&s, &q, "a tolerance of");
+    }
+    s.of[1].path.count = 2;
+    s.of[1].piece[1] = s.of[1].piece[0];
+    check_refused(&s, &good, "does not begin where");
+    mote_path_line(mote_vec3_make(4, 0, 0), mote_vec3_make(4, 0, 0), s.of[1].piece[1].centre);
+    check_refused(&s, &good, "give both as many");
+    s.of[1].path.count = 0;
+    check_refused(&s, &good, "has 0 pieces");
+    s.of[1].path.count = 129;
+    check_refused(&s, &good, "takes 1 to 128");
+    s.of[1].path.count = 1;
+    s.of[1].path.pivot.y = NAN;
+    check_refused(&s, &good, "pivot of body 1");
+    impact_scene_free(&s);
+}
+
+TEST(mote_impact_query_bad_pieces_are_refused)
+{
+    impact_scene s;
+    impact_scene_init(&s, make_torus(7, 5, 1), impact_box(1, 1, 1), IMPACT_CSRBF, 1);
+    const mote_impact_question good = impact_question(&s, 0.1);
+    mote_path_piece *p = s.of[0].piece;
+    const mote_path_piece kept = *p;
+    p->centre[2].y = INFINITY;
+    check_refused(&s, &good, "centre in piece 0 of body 0");
+    *p = kept;
+    s.of[0].control[0][3] = NAN;
+    check_refused(&s, &good, "weight in piece 0 of body 0");
+    s.of[0].control[0][3] = 0;
+    p->turn[2] = (mote_quaternion){-1, 0, 0, 0};
+    check_refused(&s, &good, "pass near 0");
+    p->turn[2].w = NAN;
+    check_refused(&s, &good, "pass near 0");
+    *p = kept;
+    p->spins = true;
+    p->spin.z = 2 * MOTE_PATH_SPIN_MAX;
+    check_refused(&s, &good, "radians");
+    p->spin.z = NAN;
+    check_refused(&s, &good, "radians");
+    p->spin.z = 1;
+    p->turn[0].w = 2;
+    check_refused(&s, &good, "squared length");
+    impact_scene_free(&s);
+}
+
+TEST(mote_impact_create_refuses_what_it_cannot_answer)
+{
+    impact_scene s;
+    two_boxes(&s, 1, 1);
+    const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
+    mote_impact_search *made = NULL;
+    mote_impact_options bad[5];
+    for (int i = 0; i < 5; ++i)
+        bad[i] = mote_default_impact_options(s.length);
+    bad[0].length = 0;
+    bad[1].resolution = 0;
+    bad[2].resolution = NAN;
+    bad[3].pieces = 0;
+    bad[4].iterations = 0;
+    for (int i = 0; i < 5; ++i)
+        assert_int_equal(mote_impact_create(bodies, &bad[i], &made), MOTE_EINVAL);
+    mote_field *given = NULL;
+    assert_int_equal(mote_field_create_given(&given), MOTE_OK);
+    const mote_body cloth = {.mesh = s.of[0].mesh, .field = given};
+    const mote_body *const unknown[2] = {&cloth, bodies[1]};
+    const mote_impact_options options = mote_default_impact_options(s.length);
+    assert_int_equal(mote_impact_create(unknown, &options, &made), MOTE_EUNSUPPORTED);
+    mote_field_destroy(given);
+    const uint32_t start[] = {0, 1}, vertex[] = {0};
+    const mote_vec3 move[] = {{0.1, 0, 0}};
+    const mote_morph_targets targets = {1, start, vertex, move};
+    mote_field *morphs = NULL;
+    assert_int_equal(
+        mote_field_create_morphs(s.of[0].mesh, 0, NULL, NULL, NULL, &targets, &morphs),
+        MOTE_OK);
+    const mote_body face = {.mesh = s.of[0].mesh, .field = morphs};
+    const mote_body *const morphing[2] = {bodies[0], &face};
+    assert_int_equal(mote_impact_create(morphing, &options, &made), MOTE_EUNSUPPORTED);
+    mote_field_destroy(morphs);
+    assert_null(made);
+    impact_scene_free(&s);
+}
+
+/* Random paths of every kind of field: no sample before the bracket is in contact, and at its
+   end all pairs of triangles are. */
+static void check_random(impact_scene *s, double tolerance)
+{
+    const mote_impact_found found = ask(s, impact_question(s, tolerance));
+    for (int i = 0; i <= 40; ++i) {
+        const double time = i / 40.0 * found.from;
+        if (i < 40 || found.outcome == MOTE_IMPACT_NONE)
+            assert_true(impact_distance(s, time) > tolerance);
+    }
+    if (found.outcome == MOTE_IMPACT_FOUND) {
+        const double distance = impact_distance(s, found.to);
+        assert_true(distance <= tolerance);
+        check_close(distance, found.distance, 1e-12 * s->length);
+        assert_true(found.to - found.from <= 1.0001e-6);
+    }
+}
+
+TEST(mote_impact_query_random_paths_agree_with_samples)
+{
+    for (int kind = 0; kind < IMPACT_KINDS; ++kind) {
+        impact_scene s;
+        impact_scene_init(&s, make_torus(9, 5, 1), make_torus(7, 5, 0.7), (impact_kind)kind,
+                          (uint64_t)kind);
+        for (int k = 0; k < 12; ++k) {
+            for (int b = 0; b < 2; ++b) {
+                const impact_wild w = {.pieces = 1 + 2 * (uint32_t)(k % 3),
+                                       .from = mote_vec3_make(b ? 3 : 0, 0.4 * k - 2, 0),
+                                       .to = mote_vec3_make(b ? -1 : 1, 1, 0.5),
+                                       .stray = 0.3,
+                                       .turn = k % 4,
+                                       .spins = k % 2 == 0,
+                                       .weights = 0.1};
+                impact_path_random(&s.of[b], &w, &s.random);
+            }
+            check_random(&s, k % 3 ? 0.01 * s.length : 0);
+        }
+        impact_scene_free(&s);
+    }
+}
+
+TEST(mote_impact_query_does_not_allocate)
+{
+    impact_scene s;
+    impact_scene_init(&s, make_torus(9, 5, 1), make_torus(7, 5, 0.7), IMPACT_CSRBF, 5);
+    const impact_wild w = {.pieces = 3,
+                           .from = {3, 0, 0},
+                           .to = {-2, 0, 0},
+                           .turn = 1,
+                           .spins = true,
+                           .weights = 0.1};
+    impact_path_random(&s.of[1], &w, &s.random);
+    const impact_wild still = {.pieces = 3};
+    impact_path_random(&s.of[0], &still, &s.random);
+    const mote_impact_question question = impact_question(&s, 0.01);
+    mote_impact_found found;
+    const uint64_t before = mote_heap_read().allocations;
+    assert_int_equal(mote_impact_query(s.search, &question, &found), MOTE_OK);
+    assert_int_equal(mote_heap_read().allocations, before);
+    assert_true(mote_impact_bytes(s.search) > 1000);
+    impact_scene_free(&s);
+}
