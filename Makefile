@@ -34,6 +34,8 @@
 #   make test-statistics                            what intervals cover on simulated runs
 #   make perf-accept WHY="..."                        make what is measured the reference
 #   make claims [OUT=DIR]                             measure the claims of the paper
+#   make check-abi BASE=REVISION                    does a program linked with that revision's library run?
+#   make interface-accept                           renew the list of what libmote promises
 #   make test-library                               the library alone: gcc, clang, musl-gcc
 #   make test-stranger                              a method, field, scenario from docs/extending.md alone
 #   make test-cluster                               a Slurm of one node here: array, kill, merge
@@ -355,6 +357,15 @@ test-cluster: build deps-cluster
 
 test-exports: build deps-exports
 	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) results/schema
+
+# What libmote promises, as the headers are now (docs/compatibility.md).
+.PHONY: interface-accept check-abi
+interface-accept: build
+	@$(call compile,$(BUILD),mote_shared)
+	@/usr/bin/python3 tests/scripts/interface.py $(BUILD) accept
+
+check-abi: deps deps-abi
+	@tests/scripts/abidiff.sh $(call quoted,$(BASE))
 
 # Under either name.
 PREFIX ?= /usr/local

@@ -1,7 +1,9 @@
 # What libmote offers: its public headers, as they are installed, and the functions that they
 # declare. The shared library exports these and nothing else, and so does the program, for the
 # methods and fields of shared libraries that it loads (--plugin).
-set(MOTE_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}) # 0.x: each minor its own
+# The number in the library's name, libmote.so.N: raised when a program that was linked with the last
+# release might fail (docs/compatibility.md), and not with the version.
+set(MOTE_SOVERSION 0)
 
 # Headers of the installed library; everything else in core/ is not for users.
 set(public_headers status vec3 clones mesh field field_maker body positions triangle parameter plugin

@@ -15,8 +15,8 @@ target_include_directories(mote_shared PRIVATE ${CMAKE_SOURCE_DIR})
 target_link_options(mote_shared PRIVATE
   -Wl,--version-script=${CMAKE_BINARY_DIR}/libmote.map -Wl,-Bsymbolic-functions -Wl,--no-undefined)
 target_link_libraries(mote_shared PRIVATE mote_flags m ${core_libraries})
-set_target_properties(mote_shared PROPERTIES OUTPUT_NAME mote VERSION ${PROJECT_VERSION}
-  SOVERSION ${MOTE_SOVERSION} C_VISIBILITY_PRESET default
+set_target_properties(mote_shared PROPERTIES OUTPUT_NAME mote
+  VERSION ${MOTE_SOVERSION}.${PROJECT_VERSION} SOVERSION ${MOTE_SOVERSION} C_VISIBILITY_PRESET default
   LINK_DEPENDS "${CMAKE_BINARY_DIR}/libmote.map")
 
 # What a program that is linked with the static library needs besides. pkg-config asks gsl's own file.
@@ -33,7 +33,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/mote)
 configure_package_config_file(cmake/moteConfig.cmake.in ${CMAKE_BINARY_DIR}/moteConfig.cmake
   INSTALL_DESTINATION ${package_folder} PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/moteConfigVersion.cmake
-                                 COMPATIBILITY SameMinorVersion)
+                                 COMPATIBILITY SameMajorVersion)
 # Found from where the file lies, so that an installation may be moved.
 file(RELATIVE_PATH MOTE_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/mote.pc.in ${CMAKE_BINARY_DIR}/mote.pc @ONLY)

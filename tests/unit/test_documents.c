@@ -22,6 +22,7 @@ static const char *const documents[] = {
     "CHANGELOG.md",
     "docs/architecture.md",
     "docs/certified.md",
+    "docs/compatibility.md",
     "docs/findings.md",
     "docs/benchmarking.md",
     "docs/extending.md",
