@@ -42,6 +42,7 @@
 #   make test-exports                               exports read by jq, pandas, scipy
 #   make test-bare                                   bench and test as on a fresh Debian 12
 #   make install [prefix=/usr/local] [DESTDIR=]      program, library, headers, manual
+#   make uninstall [prefix=/usr/local] [DESTDIR=]    removes exactly what make install put there
 #   make mutation [FILES=GLOB] [COUNT=120] [OUT=DIR] small errors, planted one by one: does a test fail?
 #   make coverage [OUT=DIR]                         branches that tests take: core 98 %, harness 90 %
 #   make lint [DEEP='core|harness'], check-static    clang-tidy, its analyzer on DEEP (core); cppcheck
@@ -373,4 +374,8 @@ prefix ?= $(PREFIX)
 
 install: build
 	@$(call compile,$(BUILD),mote_static mote_shared manual)
-	cmake --install $(BUILD) --prefix $(call quoted,$(prefix))
+	@cmake/install.sh $(BUILD) $(call quoted,$(prefix))
+
+.PHONY: uninstall
+uninstall:
+	@cmake/uninstall.sh $(call quoted,$(prefix))

@@ -1,5 +1,5 @@
 #!/bin/bash
-# install.sh BUILD: installs a build into a folder of its own as `make install` does, moves it, and
+# install.sh BUILD: installs a build into a folder of its own as `make install` does, removes it again, moves it, and
 # uses it as a stranger would: the documented program by pkg-config and by find_package, with the shared
 # and with the static library, every header alone from C and C++, the manual and the completion.
 set -euo pipefail
@@ -10,21 +10,42 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "install.sh: $*" >&2; exit 1; }
 
-# The last line that `make install VARIABLE=VALUE...` would run; the lines before it only build.
-install_line() {
-    env -u MAKEFLAGS -u MAKELEVEL make -s -n -C "$tests/../.." install BUILD="$build" "$@" | tail -n 1
+# make_line TARGET [VARIABLE=VALUE...]: the last line that make would run; the lines before it only build.
+make_line() {
+    echo "cd $(printf %q "$tests/../..")"
+    env -u MAKEFLAGS -u MAKELEVEL make -s -n -C "$tests/../.." BUILD="$build" "$@" | tail -n 1
 }
 # A prefix is one word, whatever characters it has, under either name.
 odd="$work/it's in \$HOME"
 for variable in prefix PREFIX; do
-    sh -e -c "$(install_line "$variable=${odd//\$/\$\$}")" > log
+    sh -e -c "$(make_line install "$variable=${odd//\$/\$\$}")" > log
     [ -x "$odd/bin/mote" ] || fail "make install $variable=: nothing in $odd"
     rm -r "$odd"
 done
-grep -q "'/usr/local'" <<< "$(install_line)" || fail "make install: not into /usr/local"
+grep -q "'/usr/local'" <<< "$(make_line install)" || fail "make install: not into /usr/local"
+
+# What is installed is removed again, by a list, and nothing else: folders and files that were there stay,
+# and so do those that came later.
+mkdir -p "$work/system/usr/bin" "$work/system/usr/share/empty"
+echo theirs > "$work/system/usr/bin/other"
+(cd system && find . | sort) > before
+for round in 1 2; do # the second time over the first
+    DESTDIR=$work/system sh -e -c "$(make_line install prefix=/usr)" > log
+done
+[ -x system/usr/bin/mote ] && (cd system/usr && grep -v '/$' share/mote/installed.txt | xargs ls -d) > log ||
+    fail "the list of what is installed names what is not there"
+touch system/usr/share/mote/mine
+uninstall_line=$(make_line uninstall prefix=/usr)
+DESTDIR=$work/system sh -e -c "$uninstall_line"
+[ -e system/usr/share/mote/mine ] || fail "make uninstall removed a file that it did not put there"
+rm -r system/usr/share/mote
+(cd system && find . | sort) > after
+diff before after || fail "make uninstall left something, or removed what was there before"
+! DESTDIR=$work/system sh -e -c "$uninstall_line" 2> log || fail "make uninstall twice"
+grep -q "installed.txt is not there" log || fail "make uninstall where nothing is: $(cat log)"
 
 # Staged below DESTDIR, then moved elsewhere: no file may contain the prefix.
-DESTDIR=$work/stage sh -e -c "$(install_line prefix=/opt/mote)" > log
+DESTDIR=$work/stage sh -e -c "$(make_line install prefix=/opt/mote)" > log
 [ "$(ls stage)" = opt ] || fail "files outside of DESTDIR/prefix"
 mv stage/opt/mote moved
 root=$work/moved
@@ -111,6 +132,13 @@ echo "the program of docs/extending.md: pkg-config and find_package, shared and 
 [ -e "$root/bin/mote" ] || fail "the program is not installed"
 cited=$(sed -n 's/^version: //p' "$tests/../../CITATION.cff")
 [ "mote $cited" = "$("$root/bin/mote" --version)" ] || fail "CITATION.cff names version $cited"
+
+# Every file that a scenario names is there too.
+find "$root/share/mote/datasets/scenarios" -name '*.json' | while read -r scenario; do
+    grep -oE '"(\.\./)+[^"]+"' "$scenario" | tr -d '"' | sed "s|^|$(dirname "$scenario")/|" || true
+done | sort -u > named
+xargs -d '\n' ls -d < named > log || fail "a scenario names a file that is not installed"
+[ "$(wc -l < named)" -ge 4 ] || fail "scenarios name few files"
 
 # The installed program reads what was installed beside it.
 echo '{"purpose": "of the installation", "like": "tt"}' > "$root/share/mote/datasets/scenarios/zz.json"
