@@ -38,13 +38,18 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/moteConfigVersion.cmake
 file(RELATIVE_PATH MOTE_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/mote.pc.in ${CMAKE_BINARY_DIR}/mote.pc @ONLY)
 
-install(TARGETS mote_static mote_shared)
-install(DIRECTORY ${CMAKE_BINARY_DIR}/include/mote DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# Components are what packages are made of (MotePackages.cmake).
+install(TARGETS mote_static mote_shared ARCHIVE COMPONENT development
+        LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/include/mote DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+        COMPONENT development)
 install(FILES ${CMAKE_BINARY_DIR}/moteConfig.cmake ${CMAKE_BINARY_DIR}/moteConfigVersion.cmake
-        DESTINATION ${package_folder})
-install(FILES ${CMAKE_BINARY_DIR}/mote.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+        DESTINATION ${package_folder} COMPONENT development)
+install(FILES ${CMAKE_BINARY_DIR}/mote.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT development)
 
 if(NOT MOTE_CORE_ONLY)
+  set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
   install(TARGETS mote)
   install(DIRECTORY datasets/characters datasets/meshes datasets/scenarios
           DESTINATION ${CMAKE_INSTALL_DATADIR}/mote/datasets PATTERN "*.py" EXCLUDE)

@@ -1,0 +1,80 @@
+# Debian packages of what is installed (make deb): mote, libmoteN, libmote-dev, python3-mote. Dependencies are
+# computed: on shared libraries by dpkg-shlibdeps, on the packages of files that a static link needs by
+# dpkg-query, between our own packages from the components below. Included last, when all is installed.
+find_program(DPKG_QUERY dpkg-query)
+find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+if(NOT DPKG_QUERY OR NOT DPKG_SHLIBDEPS)
+  return()
+endif()
+
+# The packages that have these files, as a list of dependencies.
+function(mote_packages_of result)
+  set(packages "")
+  foreach(file ${ARGN})
+    file(REAL_PATH ${file} real) # /lib is a link
+    execute_process(COMMAND ${DPKG_QUERY} -S ${file} RESULT_VARIABLE status OUTPUT_VARIABLE text ERROR_QUIET)
+    if(NOT status EQUAL 0)
+      message(STATUS "There will be no Debian packages: ${file} is in none")
+      set(${result} NOTFOUND PARENT_SCOPE)
+      return()
+    endif()
+    string(REGEX REPLACE "[:,].*" "" package "${text}")
+    list(APPEND packages ${package})
+  endforeach()
+  list(REMOVE_DUPLICATES packages)
+  list(JOIN packages ", " text)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# What cmake/mote.pc.in names for a static link.
+find_library(HACD_LIBRARY HACD)
+find_library(MESHOPTIMIZER_LIBRARY meshoptimizer)
+find_library(GSL_LIBRARY gsl)
+mote_packages_of(static_needs ${GSL_LIBRARY} ${HACD_LIBRARY} ${MESHOPTIMIZER_LIBRARY})
+if(NOT static_needs)
+  return()
+endif()
+
+# cpack installs what is built, and does not build the tests for it.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/deb)
+set(CPACK_PACKAGE_NAME mote)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+# As with Debian's own tools, DEBFULLNAME and DEBEMAIL say who makes the packages.
+set(CPACK_PACKAGE_CONTACT "The mote authors <mote@example.org>")
+if(DEFINED ENV{DEBEMAIL} AND DEFINED ENV{DEBFULLNAME})
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "distances and contacts of deforming triangle meshes")
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/package.cmake)
+set(CPACK_MOTE_SOURCE_DIR ${CMAKE_SOURCE_DIR})
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME mote)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox, fonts-dejavu-core") # mote figures draws with them
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libmote${MOTE_SOVERSION})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmote-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${static_needs}")
+
+include(CPack)
+set(about "mote measures how much accuracy a collision query by a few particles
+gives up against bounding volume hierarchies, on deforming triangle
+meshes, and has a query that proves its exact answer.
+")
+cpack_add_component(program DESCRIPTION "${about}This package has the program mote with its scenarios.")
+cpack_add_component(library DESCRIPTION "${about}This package has the shared library.")
+cpack_add_component(development DEPENDS library DESCRIPTION "${about}This package has the headers, the static library, and what methods and
+fields of your own are compiled against.")
