@@ -43,6 +43,8 @@
 #   make test-bare                                   bench and test as on a fresh Debian 12
 #   make install [prefix=/usr/local] [DESTDIR=]      program, library, headers, manual
 #   make uninstall [prefix=/usr/local] [DESTDIR=]    removes exactly what make install put there
+#   make deb                                        Debian packages of these, in build/deb
+#   make test-deb                                   installed, used and removed on a bare Debian 12
 #   make mutation [FILES=GLOB] [COUNT=120] [OUT=DIR] small errors, planted one by one: does a test fail?
 #   make coverage [OUT=DIR]                         branches that tests take: core 98 %, harness 90 %
 #   make lint [DEEP='core|harness'], check-static    clang-tidy, its analyzer on DEEP (core); cppcheck
@@ -375,6 +377,19 @@ prefix ?= $(PREFIX)
 install: build
 	@$(call compile,$(BUILD),mote_static mote_shared manual)
 	@cmake/install.sh $(BUILD) $(call quoted,$(prefix))
+
+# Packages of an older build would be taken for those of this one.
+.PHONY: deb test-deb
+deb: build page
+	@$(call compile,$(BUILD),mote_static mote_shared manual)
+	@rm -rf $(BUILD)/deb
+	@cd $(BUILD) && cpack > cpack.log 2>&1 || { cat cpack.log; exit 1; }
+	@rm -rf $(BUILD)/deb/_CPack_Packages
+	@ls $(BUILD)/deb/*.deb
+
+test-deb: deb deps-deb
+	@cmake/deps.sh cmake/packages-bare.txt
+	@tests/scripts/deb.sh $(BUILD)/deb
 
 .PHONY: uninstall
 uninstall:

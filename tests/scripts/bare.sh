@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# bare.sh COMMAND...: runs each command in a fresh clone of HEAD on a bare Debian 12, which holds
-# nothing but git, make and this machine's apt configuration. Ends with the status of the first
-# command that fails. Needs root (or sudo without a password), mmdebstrap and 10 GB of disk.
+# bare.sh [--bring FOLDER] COMMAND...: runs each command in a fresh clone of HEAD on a bare Debian 12, which
+# holds nothing but git, make and this machine's apt configuration. With --bring there is no clone, and the
+# commands run in a copy of FOLDER. Ends with the status of the first command that fails. Needs root (or
+# sudo without a password), mmdebstrap and 10 GB of disk.
 #
 # The bare root is kept as a tarball in ${XDG_CACHE_HOME:-~/.cache}/mote and rebuilt when a list of
 # packages, the apt configuration or this script changes. Each run unpacks it into a folder of its
@@ -52,14 +53,19 @@ if [ "${1:-}" = --inside ]; then
     exit
 fi
 
-[ $# -gt 0 ] || { echo "usage: bare.sh COMMAND..." >&2; exit 2; }
+[ $# -gt 0 ] || { echo "usage: bare.sh [--bring FOLDER] COMMAND..." >&2; exit 2; }
 if [ "$(id -u)" != 0 ]; then
     sudo -n true 2> /dev/null || fail "a root is made by root: run this as root"
     exec sudo -n --preserve-env="$(IFS=, && echo "${passed[*]}")" "$0" "$@"
 fi
 self=$(realpath "$0")
 source=$(git -C "$(dirname "$self")" rev-parse --show-toplevel)
-[ -z "$(git -C "$source" status --porcelain)" ] ||
+brought=
+if [ "$1" = --bring ]; then
+    brought=$(realpath "$2")
+    shift 2
+fi
+[ -n "$brought" ] || [ -z "$(git -C "$source" status --porcelain)" ] ||
     echo "bare.sh: HEAD is tested, without the changes that are not committed" >&2
 
 # Runs a command with mounts and processes of its own: all end with it, and it ends with us. As a
@@ -140,5 +146,9 @@ mkdir "$work/debian"
 tar -xp --numeric-owner -C "$work/debian" <&7
 exec 7<&-
 cp -L /etc/resolv.conf /etc/hosts "$work/debian/etc"
-git clone --quiet --no-hardlinks "$source" "$work/debian/mote"
+if [ -n "$brought" ]; then
+    cp -r "$brought" "$work/debian/mote"
+else
+    git clone --quiet --no-hardlinks "$source" "$work/debian/mote"
+fi
 apart "$self" --inside "$work/debian" "$@"
