@@ -8,6 +8,7 @@
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make engines [OUT=DIR]                           other engines and ours, asked the same
+#   make verdicts [PROFILE=quick|full] [OUT=DIR]     contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
@@ -121,6 +122,11 @@ sweep: build
 .PHONY: engines
 engines: build
 	@harness/scripts/bench.sh $(MOTE) engines $(call out,engines)
+
+# Contacts that each engine misses or invents, over every built-in scenario.
+.PHONY: verdicts
+verdicts: build
+	@harness/scripts/verdicts.sh $(MOTE) $(PROFILE) $(call out,verdicts)
 
 oracle: program-oracle program-oracle_cgal
 	@mkdir -p $(OUT)

@@ -1,5 +1,6 @@
 # The paper's Figure 3 with ours beside it: total time of a query, all deformation included, against
-# its number. Blocks of BASE.dat: particles, FCL AABB, FCL AABB tuned, FCL OBBRSS.
+# its number. Blocks of BASE.dat: particles, FCL AABB, FCL AABB tuned, FCL OBBRSS, the best engine of
+# others if that is none of these.
 load plots."/style.gp"
 stats data using 2 nooutput
 blocks = STATS_blocks
@@ -24,13 +25,13 @@ average(x) = x >= 950 ? 12.67 : x <= 49 ? 12.06 : NaN
 maximum(x) = x >= 950 || x <= 49 ? 47 : NaN
 set samples 1984
 
-array colour[4] = [dark, blue, orange, grey]
-array width[4] = [1.2, 1.2, 1.2, 2.5]
+array colour[5] = [dark, blue, orange, grey, "#8a2f1c"]
+array width[5] = [1.2, 1.2, 1.2, 2.5, 1.2]
 set lmargin at screen 0.14
 set rmargin at screen 0.96
-set bmargin at screen 0.335
+set bmargin at screen 0.37
 set tmargin at screen 0.91
-set key at screen 0.5,0.125 center center vertical maxrows 3 samplen 2 font ",11"
+set key at screen 0.5,0.145 center center vertical maxrows 4 samplen 2 font ",11"
 
 plot for [i=0:blocks-1] data index i using 1:2 with lines lw width[i+1] lc rgb colour[i+1] \
          title columnheader(1), \

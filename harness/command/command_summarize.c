@@ -81,13 +81,16 @@ const mote_option mote_options_summarize[] = {
     {"best", NULL,
      "only the best rows, sorted by time, in at most 100 columns (default: all, in a wide "
      "table)"},
+    {"engines", NULL,
+     "every row with its mean, 95th percentile and worst frame, and which engine of others is "
+     "best by each (default: all, in a wide table)"},
     {NULL, NULL, NULL}};
-enum { OPTION_FORMAT, OPTION_BEST };
+enum { OPTION_FORMAT, OPTION_BEST, OPTION_ENGINES };
 
 typedef struct request {
     const char *directory;
     size_t format;
-    bool best;
+    const char *screen; /* "--best" or "--engines"; NULL: a format */
 } request;
 
 /* MOTE_EXIT_DONE, or MOTE_EXIT_USAGE after a line on stderr. */
@@ -102,8 +105,8 @@ static int read_arguments(int argc, char **argv, request *q)
             return mote_command_usage(argv[0], "%s: one directory at a time", value);
         if (option == MOTE_OPTION_PLAIN)
             q->directory = value;
-        else if (option == OPTION_BEST)
-            q->best = true;
+        else if (option == OPTION_BEST || option == OPTION_ENGINES)
+            q->screen = option == OPTION_BEST ? "--best" : "--engines";
         else if ((q->format = find_format(value)) == FORMAT_COUNT)
             return mote_command_usage(argv[0], "--format %s: choose %s", value,
                                       mote_options_summarize[OPTION_FORMAT].value);
@@ -111,9 +114,9 @@ static int read_arguments(int argc, char **argv, request *q)
     if (!q->directory)
         return mote_command_usage(argv[0],
                                   "no directory; write `mote summarize results/paper`");
-    if (q->best && q->format != FORMAT_TABLE)
-        return mote_command_usage(argv[0],
-                                  "--best is for --format table; leave out one of them");
+    if (q->screen && q->format != FORMAT_TABLE)
+        return mote_command_usage(argv[0], "%s is for --format table; leave out one of them",
+                                  q->screen);
     return MOTE_EXIT_DONE;
 }
 
@@ -128,8 +131,9 @@ int mote_command_summarize(int argc, char **argv)
         return mote_command_fail();
     /* Rows are printed even if the directory cannot be written to. */
     int code;
-    if (q.best) {
-        mote_screen_print(&summary, stdout);
+    if (q.screen) {
+        const bool best = strcmp(q.screen, "--best") == 0;
+        (best ? mote_screen_print : mote_screen_engines)(&summary, stdout);
         code = mote_command_finish(MOTE_EXIT_DONE);
     } else {
         code = print(&summary, q.directory, q.format);

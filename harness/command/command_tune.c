@@ -22,10 +22,10 @@ static int tune(const char *directory)
     return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }
 
-static int print_best(const char *directory, const char *scenario)
+static int print_best(const char *directory, const char *scenario, bool fcl)
 {
     char *configuration = NULL;
-    if (mote_tune_best_fcl(directory, scenario, &configuration) != MOTE_OK)
+    if (mote_tune_best(directory, scenario, fcl, &configuration) != MOTE_OK)
         return mote_command_fail();
     if (configuration[0])
         (void)printf("%s\n", configuration);
@@ -34,20 +34,24 @@ static int print_best(const char *directory, const char *scenario)
 }
 
 const mote_option mote_options_tune[] = {
-    {"best-fcl", "SCENARIO",
-     "print the best configuration of FCL on this scenario instead, as `mote run` takes it "
-     "(default: not)"},
+    {"best", "SCENARIO",
+     "print the best configuration of the engines of others on this scenario instead, as `mote "
+     "run` takes it (default: not)"},
+    {"best-fcl", "SCENARIO", "the same of FCL alone (default: not)"},
     {NULL, NULL, NULL}};
+enum { OPTION_BEST, OPTION_BEST_FCL };
 
 int mote_command_tune(int argc, char **argv)
 {
     mote_option_reader reader = mote_option_begin(mote_options_tune, argc, argv);
     const char *directory = NULL, *scenario = NULL, *value;
+    bool fcl = false;
     for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == 0) {
+        if (option != MOTE_OPTION_PLAIN) {
             scenario = value;
+            fcl = option == OPTION_BEST_FCL;
             continue;
         }
         if (directory)
@@ -56,5 +60,5 @@ int mote_command_tune(int argc, char **argv)
     }
     if (!directory)
         return mote_command_usage(argv[0], "no directory; write `mote tune results/tune`");
-    return scenario ? print_best(directory, scenario) : tune(directory);
+    return scenario ? print_best(directory, scenario, fcl) : tune(directory);
 }

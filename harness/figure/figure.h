@@ -35,7 +35,7 @@ mote_figure_writer mote_figure_errors;      /* 5: error over the number of parti
 mote_figure_writer mote_figure_size_time;   /* 5: error over n */
 mote_figure_writer mote_figure_size_bytes;  /* 7: memory over triangles */
 mote_figure_writer mote_figure_shares;      /* 8: deform, update, query */
-mote_figure_writer mote_figure_ratios;      /* 9: against the best FCL */
+mote_figure_writer mote_figure_ratios;      /* 9: against the best engine */
 mote_figure_writer mote_figure_extremes;    /* 10: methods on numerical extremes */
 mote_figure_writer mote_figure_claims;      /* 11: the claims table */
 mote_figure_writer mote_figure_history;     /* 12: distance and error over frames */

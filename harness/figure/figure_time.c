@@ -1,4 +1,4 @@
-/* Figures of time: queries (3); deform, update and query (8); ratio to the best FCL (9). */
+/* Figures of time: queries (3); deform, update and query (8); ratio to the best engine (9). */
 #include "harness/base/number_text.h"
 #include "harness/figure/figure.h"
 
@@ -71,14 +71,25 @@ static void add_queries(const mote_summary_row *row, mote_figure *figure)
     mote_text_add(&figure->caption, ".");
 }
 
+/* The engine of others that is fastest over all frames of a row, if it is none of the rows
+   shown already. */
+static const mote_summary_row *further_engine(const mote_summary_row *const *shown,
+                                              size_t count)
+{
+    const mote_summary_row *engine = shown[0]->ratio_engine.to;
+    for (size_t i = 0; i < count; ++i)
+        engine = engine == shown[i] ? NULL : engine;
+    return engine;
+}
+
 mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario,
                                 mote_figure *figure)
 {
     static const char *const labels[] = {"particle-paper:n=5", "fcl-aabb",
                                          "fcl-aabb:queue=64,seed=previous", "fcl-obbrss"};
-    enum { SERIES = sizeof labels / sizeof labels[0] };
-    const mote_summary_row *rows[SERIES];
-    for (int i = 0; i < SERIES; ++i) {
+    enum { FIXED = sizeof labels / sizeof labels[0], SERIES };
+    const mote_summary_row *rows[SERIES] = {NULL};
+    for (int i = 0; i < FIXED; ++i) {
         rows[i] = mote_figure_row(run->summary, scenario, labels[i]);
         if (!rows[i])
             mote_text_add(&figure->missing, "%s%s", figure->missing.size ? ", " : "",
@@ -88,6 +99,7 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
         mote_text_add(&figure->missing, " on %s", scenario);
     if (!rows[0])
         return MOTE_OK;
+    rows[FIXED] = further_engine(rows, FIXED);
     mote_text_add(
         &figure->caption,
         "The paper's Figure 3: collision detection between two letters W of 11,920 "
@@ -101,6 +113,9 @@ mote_status mote_figure_queries(const mote_figure_run *run, const char *scenario
         if (rows[i])
             add_queries(rows[i], figure);
     }
+    if (rows[FIXED])
+        mote_text_add(&figure->caption, " %s is the fastest engine of others in this run.",
+                      rows[FIXED]->label);
     return MOTE_OK;
 }
 
@@ -255,6 +270,33 @@ static void add_ratios(const mote_summary_row *row, const mote_summary_row *othe
     free(values);
 }
 
+/* What a row is compared with: the fastest engine of others without a wrong answer, else the
+   fastest FCL. */
+static const mote_summary_row *rival_of(const mote_summary_row *row)
+{
+    return row->ratio_engine.to ? row->ratio_engine.to : row->ratio_best.to;
+}
+
+/* Adds the caption, and the best FCL as a series if it is not the best engine. */
+static void add_rivals(const mote_summary_row *row, const char *scenario, mote_figure *figure)
+{
+    const mote_summary_row *rival = rival_of(row), *fcl = row->ratio_best.to;
+    mote_text_add(
+        &figure->caption,
+        "How many times as fast as %s, the fastest %s in this run on %s%s: medians "
+        "over at most %d parts of consecutive frames, of ratios paired frame by frame "
+        "within each process, with 95 %% intervals over processes. Below the dashed "
+        "line that engine is faster.",
+        rival->label,
+        rival == row->ratio_engine.to ? "engine of others" : "configuration of FCL", scenario,
+        strcmp(row->ask, "contact") == 0 ? ", asked for contacts" : "", PARTS);
+    if (fcl && fcl != rival) {
+        mote_text_add(&figure->caption, " The fastest configuration of FCL, %s, is shown too.",
+                      fcl->label);
+        add_ratios(fcl, rival, &figure->data);
+    }
+}
+
 mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
                                mote_figure *figure)
 {
@@ -263,26 +305,23 @@ mote_status mote_figure_ratios(const mote_figure_run *run, const char *scenario,
         double n;
     } series[] = {{"particle-paper:refine=no", 5}, {"particle", 8}, {"certified", 0}};
     size_t least = SIZE_MAX;
+    const mote_summary_row *first = NULL;
     for (size_t i = 0; i < sizeof series / sizeof series[0]; ++i) {
         const mote_summary_row *row =
             mote_figure_near(run->summary, scenario, series[i].family, series[i].n);
-        if (!row || !row->ratio_best.to || row->first->frames == 0)
+        if (!row || !rival_of(row) || row->first->frames == 0)
             continue;
-        const mote_summary_row *best = row->ratio_best.to;
-        if (figure->caption.size == 0)
-            mote_text_add(
-                &figure->caption,
-                "How many times as fast as %s, the fastest configuration of FCL in "
-                "this run on %s: medians over at most %d parts of consecutive frames, of "
-                "ratios paired frame by frame within each process, with 95 %% "
-                "intervals over processes. Below the dashed line FCL is faster.",
-                best->label, scenario, PARTS);
+        const mote_summary_row *rival = rival_of(row);
+        if (!first)
+            first = row;
         least = row->finished < least ? row->finished : least;
-        add_ratios(row, best, &figure->data);
+        add_ratios(row, rival, &figure->data);
     }
+    if (first)
+        add_rivals(first, scenario, figure);
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
-                      "a method of ours and one of FCL's on the same frames of %s", scenario);
+                      "a method of ours and one of others on the same frames of %s", scenario);
     else if (least < 2)
         mote_text_add(&figure->missing, "intervals on %s, for which two replicates are needed",
                       scenario);

@@ -111,6 +111,7 @@ static void set_rows(const mote_report *report, json_t *data)
     set(data, "time", column_data(mote_column_find("total_ns", "median")));
     set(data, "error", column_data(mote_column_find("error", "p99")));
     set(data, "best", column_data(mote_column_find("ratio_best", "value")));
+    set(data, "engine", column_data(mote_column_find("ratio_engine", "value")));
     set(data, "blocks", blocks);
     set(data, "rows", rows);
     const double floor = report->summary.noise_floor;

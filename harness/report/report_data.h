@@ -10,7 +10,8 @@
    {"scenarios": [[name, purpose]], "commands": [[when, command]], "machine": [[key, value]],
     "damaged": [text], "missing": [text], "noise_floor",
     "columns": [column], of the tables,
-    "time", "error", "best": the columns of a front's axes, and of the ratio to the best FCL,
+    "time", "error": the columns of a front's axes,
+    "best", "engine": the columns of the ratios to the best FCL and to the best engine,
     "blocks": [{"heading", "first", "end", "right", "fastest"}]: rows first .. end - 1 are one
               table; the last two are rows to mention first, or null,
     "rows": [a row of summary.json, with "right", "contacts_right" (mote_summary_row_right),

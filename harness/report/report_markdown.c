@@ -276,10 +276,13 @@ static void add_results(const mote_report *report, mote_text *text)
         "\n## Results\n\nThe first table of a scenario has one row a method: its fastest "
         "configuration without a wrong\ncontact and with a p99 error of at most %g L, or else "
         "its most accurate one. Times are medians over\nframes and replicates of deformation, "
-        "refit and query together; rows are sorted by them. `FCL/this`\nand `best/this`: how "
-        "many times slower FCL's AABB tree and FCL's fastest configuration are. Errors\nare "
-        "absolute, over L. The numbers in the last column link to the cells that a row was "
-        "computed\nfrom. Intervals and more columns are in [report.html](report.html) and "
+        "refit and query together; rows are sorted by them. `FCL/this`,\n`best FCL/this` and "
+        "`best engine/this`: how many times slower FCL's AABB tree, FCL's "
+        "fastest\nconfiguration "
+        "and the fastest engine of others without a wrong answer are. Errors are "
+        "absolute,\nover "
+        "L. The numbers in the last column link to the cells that a row was computed from. "
+        "Intervals,\nmeans, worst frames and more are in [report.html](report.html) and "
         "[summary.json](summary.json).\n",
         MOTE_CLOSE_ERROR);
     for (size_t first = 0; first < count;) {

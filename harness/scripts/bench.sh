@@ -48,15 +48,16 @@ claims() {
     [ $status -le 1 ] || exit $status
 }
 
-# measure_best SCENARIO ARGUMENT...: also measures the best configuration of FCL that `make tune` found
-# on this scenario, if it ran.
+# measure_best SCENARIO ARGUMENT...: also measures the best configurations of the engines of others and
+# of FCL alone that `make tune` found on this scenario, if it ran. One that this build lacks is left out.
 measure_best() {
     [ -f results/tune/tune.json ] || return 0
-    best=$("$mote" tune results/tune --best-fcl "$1")
-    if [ -n "$best" ]; then
-        echo "bench.sh: the best FCL on $1 is $best, says results/tune/tune.json" >&2
-        measure "$@" --method "$best"
-    fi
+    for which in best best-fcl; do
+        best=$("$mote" tune results/tune --$which "$1")
+        [ -n "$best" ] || continue
+        echo "bench.sh: $which on $1 is $best, says results/tune/tune.json" >&2
+        measure_engine "${best%%:*}" "${best#"${best%%:*}"}" "$@"
+    done
 }
 
 case $profile in
@@ -77,7 +78,9 @@ paper)
     measure ww mv --replicates 5 --method particle:n=8,positions=given \
         --method aabb-tree:positions=given
     measure tt --replicates 5 --method fcl-obb:update=none --method fcl-obbrss:update=none
-    for scenario in ww tt mv; do measure_best $scenario --replicates 5; done
+    for scenario in ww tt mv ww-contact mv-contact tt-distance; do
+        measure_best $scenario --replicates 5
+    done
     engines 5
     measure ww --replicates 5 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
@@ -89,7 +92,9 @@ full)
         --method particle --method 'particle-paper:refine=no|near|always,start=random|fps' \
         --particles 1-8,12,16,24,32,48,64
     measure tt --replicates 10 --method fcl-obb:update=none --method fcl-obbrss:update=none
-    for scenario in ww tt mv; do measure_best $scenario --replicates 10; done
+    for scenario in ww tt mv ww-contact mv-contact tt-distance; do
+        measure_best $scenario --replicates 10
+    done
     engines 10
     measure ww tt mv --replicates 10 --cache evict --method $plain --method $tuned \
         --method aabb-tree --method particle:n=8 --method certified \
@@ -126,7 +131,10 @@ others=$("$mote" figures "$out" 2>&1 >/dev/null) || status=$?
     exit $status
 }
 "$mote" report "$out" >/dev/null
-"$mote" summarize "$out" --best
+case $profile in
+engines) "$mote" summarize "$out" --engines ;;
+*) "$mote" summarize "$out" --best ;;
+esac
 cat <<PLACES
 
 report   $out/report.html, and report.md for a terminal

@@ -11,21 +11,31 @@
     .offset = offsetof(mote_summary_row, member), .size = sizeof((mote_summary_row *)0)->member
 /* Of a member whose size nobody asks for. */
 #define POINTER(member) .offset = offsetof(mote_summary_row, member)
-#define PLACE(table, report, brief)                                                            \
+/* Positions in the views; engines are 0 where they are not given. */
+#define PLACE(...)                                                                             \
     {                                                                                          \
-        table, report, brief                                                                   \
+        __VA_ARGS__                                                                            \
     }
+#define NOWHERE PLACE(0)
 
-/* A member of a time that no table shows. */
-#define TIME_MEMBER(time, name, member, kept)                                                  \
+/* A bound of a time's interval: no table shows it by itself. */
+#define TIME_BOUND(time, name, member, kept)                                                   \
     {                                                                                          \
         .object = name, .key = kept, .csv = name "_" kept, .type = MOTE_COLUMN_REAL,           \
         .unit = "ns", AT(time.member)                                                          \
     }
 
-/* A time: its description, and the positions of its median and 95th percentile in the
-   tables. */
-#define TIME(time, name, above, says, in_report, places, p95_places)                           \
+/* A statistic of a time beside its median; last its positions, which hold commas. */
+#define TIME_STATISTIC(time, name, above, member, kept, below, ...)                            \
+    {                                                                                          \
+        .object = name, .key = kept, .csv = name "_" kept, .type = MOTE_COLUMN_REAL,           \
+        .unit = "ns", AT(time.member), .group = above, .head = below, .show = mote_show_time,  \
+        .place = __VA_ARGS__                                                                   \
+    }
+
+/* A time: its description, and the positions of its median, mean, 95th percentile and worst
+   frame in the tables. */
+#define TIME(time, name, above, says, in_report, places, mean_places, p95_places, max_places)  \
     {.object = name,                                                                           \
      .key = "median",                                                                          \
      .csv = name "_median",                                                                    \
@@ -39,19 +49,10 @@
      .show = mote_show_time,                                                                   \
      .interval = true,                                                                         \
      .place = places},                                                                         \
-        TIME_MEMBER(time, name, low, "ci_low"), TIME_MEMBER(time, name, high, "ci_high"),      \
-        TIME_MEMBER(time, name, mean, "mean"),                                                 \
-        {.object = name,                                                                       \
-         .key = "p95",                                                                         \
-         .csv = name "_p95",                                                                   \
-         .type = MOTE_COLUMN_REAL,                                                             \
-         .unit = "ns",                                                                         \
-         AT(time.p95),                                                                         \
-         .group = above,                                                                       \
-         .head = "p95",                                                                        \
-         .show = mote_show_time,                                                               \
-         .place = p95_places},                                                                 \
-        TIME_MEMBER(time, name, max, "max"),                                                   \
+        TIME_BOUND(time, name, low, "ci_low"), TIME_BOUND(time, name, high, "ci_high"),        \
+        TIME_STATISTIC(time, name, above, mean, "mean", "mean", mean_places),                  \
+        TIME_STATISTIC(time, name, above, p95, "p95", "p95", p95_places),                      \
+        TIME_STATISTIC(time, name, above, max, "max", "worst", max_places),                    \
     {                                                                                          \
         .object = name, .key = "sum", .type = MOTE_COLUMN_REAL, .unit = "ns", AT(time.sum)     \
     }
@@ -188,18 +189,20 @@ const mote_column mote_columns[] = {
      AT(ending),
      .schema = "{\"enum\": [\"ok\", \"crashed\", \"timeout\", \"unsupported\"]}"},
     TIME(total, "total_ns", "total", "Deform, update and query together", "total",
-         PLACE(10, 10, 10), PLACE(11, 11, 0)),
+         PLACE(10, 10, 10, 10), PLACE(11, 11, 0, 11), PLACE(12, 12, 0, 12),
+         PLACE(13, 13, 0, 13)),
     TIME(deform, "deform_ns", "deform", "Deforming all vertices, for methods that need them",
-         NULL, PLACE(12, 93, 0), PLACE(0, 0, 0)),
+         NULL, PLACE(14, 93), NOWHERE, NOWHERE, NOWHERE),
     TIME(update, "update_ns", "update", "Updating the structures: the refit", NULL,
-         PLACE(13, 94, 0), PLACE(0, 0, 0)),
-    TIME(query, "query_ns", "query", "The query", NULL, PLACE(14, 95, 0), PLACE(0, 0, 0)),
+         PLACE(15, 94), NOWHERE, NOWHERE, NOWHERE),
+    TIME(query, "query_ns", "query", "The query", NULL, PLACE(16, 95), NOWHERE, NOWHERE,
+         NOWHERE),
     TIME(active_total, "active_total_ns", "active",
-         "The total within the scenario's active interval: near contact", NULL, PLACE(0, 91, 0),
-         PLACE(0, 0, 0)),
+         "The total within the scenario's active interval: near contact", NULL, PLACE(0, 91),
+         NOWHERE, NOWHERE, NOWHERE),
     TIME(given_total, "given_total_ns", "given",
-         "The total where nobody is charged for deforming all vertices", NULL, PLACE(0, 92, 0),
-         PLACE(0, 0, 0)),
+         "The total where nobody is charged for deforming all vertices", NULL, PLACE(0, 92),
+         NOWHERE, NOWHERE, NOWHERE),
     RATIO(ratio, "ratio", "ratio", "ratio_ci_low", "ratio_ci_high", "fcl-aabb",
           "How many times slower FCL's AABB tree is (the row `to`), paired frame by frame; for "
           "positions=given, without deformation on both sides",
@@ -208,11 +211,11 @@ const mote_column mote_columns[] = {
           "The same where nobody is charged for deforming all vertices", NULL, PLACE(21, 0, 0)),
     RATIO(ratio_best, "ratio_best", "ratio_best", NULL, NULL, "best FCL",
           "How many times slower the fastest configuration of FCL is, in the same way",
-          "best/this", PLACE(22, 22, 20)),
-    RATIO(ratio_engine, "ratio_engine", "ratio_engine", NULL, NULL, "best engine",
+          "best FCL/this", PLACE(22, 22, 20, 20)),
+    RATIO(ratio_engine, "ratio_engine", "ratio_engine", NULL, NULL, "engine",
           "How many times slower the fastest engine of others is (FCL, Coal, ODE, Bullet or "
           "Embree; of those with no wrong answer), in the same way",
-          "engine/this", PLACE(23, 23, 0)),
+          "best engine/this", PLACE(23, 23, 21, 21)),
     ERROR(median, "median", "Absolute error: median over frames and replicates", "median", NULL,
           "median", PLACE(30, 30, 0)),
     ERROR(p95, "p95", "Its 95th percentile", "p95", NULL, NULL, PLACE(0, 0, 0)),
@@ -254,10 +257,10 @@ const mote_column mote_columns[] = {
              "replicates",
              "", NULL, NULL, PLACE(0, 0, 0)),
     CONTACTS(missed, "Frames in contact that the method says are not; mean over replicates",
-             "missed", "missed", "missed", PLACE(50, 50, 50)),
+             "missed", "missed", "missed", PLACE(50, 50, 50, 50)),
     CONTACTS(false_contacts,
              "Frames not in contact that the method says are; mean over replicates", "false",
-             "false", "false contacts", PLACE(51, 51, 51)),
+             "false", "false contacts", PLACE(51, 51, 51, 51)),
     BYTES(heap_live_bytes, "Heap held by the method; the shared rest mesh and field left out",
           "heap", "heap", PLACE(60, 60, 60)),
     BYTES(heap_peak_bytes, "The most heap that it held", NULL, "heap peak", PLACE(0, 0, 0)),

@@ -28,9 +28,10 @@ typedef enum mote_column_type {
 
 /* The tables, each with a selection of columns. */
 typedef enum mote_view {
-    MOTE_VIEW_TABLE,  /* `mote summarize` */
-    MOTE_VIEW_REPORT, /* report.html; report.md has those with `brief` */
-    MOTE_VIEW_SCREEN, /* the screen at the end of `make bench` */
+    MOTE_VIEW_TABLE,   /* `mote summarize` */
+    MOTE_VIEW_REPORT,  /* report.html; report.md has those with `brief` */
+    MOTE_VIEW_SCREEN,  /* the screen at the end of `make bench` */
+    MOTE_VIEW_ENGINES, /* the same of `make engines` */
     MOTE_VIEWS
 } mote_view;
 

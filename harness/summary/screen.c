@@ -5,27 +5,32 @@
 #include "harness/summary/dominance.h"
 #include "harness/summary/table.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns for the method; the first two hold the front mark. */
-#define LABEL_WIDTH 39
+/* Columns for the method, by the view; the first two hold the mark. */
+static const int label_width[MOTE_VIEWS] = {[MOTE_VIEW_SCREEN] = 30, [MOTE_VIEW_ENGINES] = 28};
 #define INDENT 2
-
-/* Whether a row is marked: it is on the front. If times have no interval (one replicate), none
-   is certainly faster than another, and a mark would mean nothing. */
-static bool is_marked(const mote_summary_row *row)
-{
-    return row->on_front && row->total.low == row->total.low;
-}
 
 /* The rows of one block and one accounting. */
 typedef struct choice {
-    const mote_summary_row **rows; /* the best, at most MOTE_SCREEN_ROWS */
+    mote_view view;
+    const mote_summary_row **rows; /* the best, at most MOTE_SCREEN_ROWS; of engines, all */
     size_t count;
     size_t others; /* omitted rows */
     bool any_marked;
 } choice;
+
+/* Whether a row is marked: it is on the front, or the best engine. If times have no interval
+   (one replicate), none is certainly faster than another, and a mark of the front would mean
+   nothing. */
+static bool is_marked(const choice *c, const mote_summary_row *row)
+{
+    if (c->view == MOTE_VIEW_ENGINES)
+        return row->ratio_engine.to == row;
+    return row->on_front && row->total.low == row->total.low;
+}
 
 /* Prints words, indented by two spaces from the second line on. */
 static void print_words(const mote_text *words, FILE *out)
@@ -68,86 +73,126 @@ static bool drop_worst(choice *c)
     return true;
 }
 
-static choice choose(const mote_summary *summary, size_t start, size_t end, bool given)
+static choice choose(const mote_summary *summary, size_t start, size_t end, mote_view view,
+                     bool given)
 {
-    choice c = {.rows = mote_allocate(end - start, sizeof(const mote_summary_row *))};
+    choice c = {.view = view,
+                .rows = mote_allocate(end - start, sizeof(const mote_summary_row *))};
     for (size_t i = start; i < end; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         if (row->given != given || row->status != MOTE_CELL_OK)
             continue;
-        if (is_best(row))
+        if (view == MOTE_VIEW_ENGINES || is_best(row))
             c.rows[c.count++] = row;
         else
             ++c.others;
     }
-    while (c.count > MOTE_SCREEN_ROWS && drop_worst(&c))
+    while (view == MOTE_VIEW_SCREEN && c.count > MOTE_SCREEN_ROWS && drop_worst(&c))
         continue;
     for (size_t i = 0; i < c.count; ++i)
-        c.any_marked = c.any_marked || is_marked(c.rows[i]);
+        c.any_marked = c.any_marked || is_marked(&c, c.rows[i]);
     qsort(c.rows, c.count, sizeof(const mote_summary_row *), by_time);
     return c;
 }
 
-/* Prints a row on one line, or on two if its label is too long; its notes on a separate
-   line. */
-static void print_row(const mote_summary_row *row, FILE *out)
+/* Prints a row on one line, or on two if its label is too long; its notes on separate lines.
+   All engines of others are told the positions. */
+static void print_row(const choice *c, const mote_summary_row *row, FILE *out)
 {
-    (void)fprintf(out, "%-*s%-*s", INDENT, is_marked(row) ? "*" : "", LABEL_WIDTH - INDENT,
+    const int width = label_width[c->view];
+    (void)fprintf(out, "%-*s%-*s", INDENT, is_marked(c, row) ? "*" : "", width - INDENT,
                   row->label);
-    if (strlen(row->label) > LABEL_WIDTH - INDENT)
-        (void)fprintf(out, "\n%*s", LABEL_WIDTH, "");
-    mote_table_values(MOTE_VIEW_SCREEN, row, out);
+    if (strlen(row->label) > (size_t)(width - INDENT))
+        (void)fprintf(out, "\n%*s", width, "");
+    mote_table_values(c->view, row, out);
     (void)fprintf(out, "\n");
     for (int i = 0; i < MOTE_ROW_NOTES; ++i) {
         char note[MOTE_ROW_NOTE];
-        if (mote_table_note(row, i, note))
+        if (mote_table_note(row, i, note) &&
+            !(c->view == MOTE_VIEW_ENGINES && strcmp(note, "told the positions") == 0))
             (void)fprintf(out, "    %s\n", note);
     }
 }
 
-/* The FCL row that ratios are relative to, from the first row that has any. */
-static const char *best_fcl(const choice *c)
+/* Adds the rows that ratios are relative to, from the first row that has any. */
+static void add_rivals(const choice *c, const char *separator, mote_text *words)
 {
+    const mote_summary_row *fcl = NULL, *engine = NULL;
     for (size_t i = 0; i < c->count; ++i) {
-        if (c->rows[i]->ratio_best.to)
-            return c->rows[i]->ratio_best.to->label;
+        fcl = fcl ? fcl : c->rows[i]->ratio_best.to;
+        engine = engine ? engine : c->rows[i]->ratio_engine.to;
     }
-    return NULL;
-}
-
-/* The row of the best engine, likewise, where that is not the best FCL. */
-static const mote_summary_row *best_engine(const choice *c)
-{
-    for (size_t i = 0; i < c->count; ++i) {
-        const mote_summary_row *engine = c->rows[i]->ratio_engine.to;
-        if (engine && engine != c->rows[i]->ratio_best.to)
-            return engine;
-    }
-    return NULL;
+    if (fcl && fcl == engine)
+        mote_text_add(words, "%sbest engine and best FCL: %s", separator, fcl->label);
+    else if (engine)
+        mote_text_add(words, "%sbest engine: %s", separator, engine->label);
+    if (fcl && fcl != engine)
+        mote_text_add(words, "%sbest FCL: %s", words->size > 0 ? "; " : "", fcl->label);
 }
 
 static void print_foot(const choice *c, FILE *out)
 {
     mote_text words = {0};
-    const char *fcl = best_fcl(c), *separator = "";
-    if (c->any_marked) {
+    if (c->any_marked)
         mote_text_add(&words, "* on the front: no row is surely faster and as accurate");
-        separator = "; ";
-    }
-    if (fcl) {
-        mote_text_add(&words, "%sbest FCL: %s", separator, fcl);
-        separator = "; ";
-    }
-    const mote_summary_row *engine = best_engine(c);
-    if (engine) {
-        mote_text_add(&words, "%sbest engine: %s", separator, engine->label);
-        separator = "; ";
-    }
+    add_rivals(c, words.size > 0 ? "; " : "", &words);
     if (c->others > 0)
-        mote_text_add(&words, "%s%zu more in the report", separator, c->others);
+        mote_text_add(&words, "%s%zu more in the report", words.size > 0 ? "; " : "",
+                      c->others);
     if (words.size > 0)
         print_words(&words, out);
     free(words.data);
+}
+
+/* The four statistics of engines. */
+static const struct statistic {
+    const char *name;
+    size_t offset; /* in mote_summary_row */
+} statistics[] = {{"median", offsetof(mote_summary_row, total.median)},
+                  {"mean", offsetof(mote_summary_row, total.mean)},
+                  {"p95", offsetof(mote_summary_row, total.p95)},
+                  {"worst", offsetof(mote_summary_row, total.max)}};
+
+static double statistic_of(const mote_summary_row *row, const struct statistic *s)
+{
+    double value;
+    memcpy(&value, (const char *)row + s->offset, sizeof value);
+    return mote_summary_row_measured(row) ? value : MOTE_NONE;
+}
+
+static bool is_right_fcl(const mote_summary_row *row)
+{
+    return mote_summary_is_fcl(row) && mote_summary_row_right(row);
+}
+
+/* Prints which row that competes has the least of each statistic; nothing without any. */
+static void print_least(const choice *c, bool (*competes)(const mote_summary_row *),
+                        const char *what, FILE *out)
+{
+    mote_text words = {0};
+    for (size_t k = 0; k < sizeof statistics / sizeof *statistics; ++k) {
+        const mote_summary_row *least = NULL;
+        for (size_t i = 0; i < c->count; ++i) {
+            const double value = statistic_of(c->rows[i], &statistics[k]);
+            if (competes(c->rows[i]) && value == value &&
+                (!least || value < statistic_of(least, &statistics[k])))
+                least = c->rows[i];
+        }
+        if (!least)
+            continue;
+        char shown[MOTE_NUMBER_TEXT];
+        mote_text_add(&words, "%s%s %s, %s", k > 0 ? "; " : what, statistics[k].name,
+                      mote_show_time(statistic_of(least, &statistics[k]), shown), least->label);
+    }
+    if (words.size > 0)
+        print_words(&words, out);
+    free(words.data);
+}
+
+static void print_engines_foot(const choice *c, FILE *out)
+{
+    print_least(c, mote_summary_is_right_engine, "best engine of others (*): ", out);
+    print_least(c, is_right_fcl, "best FCL: ", out);
 }
 
 static void print_choice(const choice *c, bool given, FILE *out)
@@ -157,10 +202,13 @@ static void print_choice(const choice *c, bool given, FILE *out)
     if (given)
         (void)fprintf(out,
                       "\npositions=given: nobody is charged for deformation, FCL neither\n");
-    mote_table_heads(MOTE_VIEW_SCREEN, LABEL_WIDTH, out);
+    mote_table_heads(c->view, label_width[c->view], out);
     for (size_t i = 0; i < c->count; ++i)
-        print_row(c->rows[i], out);
-    print_foot(c, out);
+        print_row(c, c->rows[i], out);
+    if (c->view == MOTE_VIEW_ENGINES)
+        print_engines_foot(c, out);
+    else
+        print_foot(c, out);
 }
 
 /* Prints the rows without values, and why. */
@@ -177,22 +225,35 @@ static void print_failures(const mote_summary *summary, size_t start, size_t end
     }
 }
 
-void mote_screen_print(const mote_summary *summary, FILE *out)
+static void print_screen(const mote_summary *summary, mote_view view, FILE *out)
 {
     for (size_t start = 0; start < summary->count;) {
         const size_t end = mote_table_block_end(summary, start);
         char *what = mote_table_heading(summary, start);
-        char *heading = mote_format("%s: %s", summary->rows[start].scene, what);
+        const mote_summary_row *row = &summary->rows[start];
+        const bool asks = view == MOTE_VIEW_ENGINES && row->ask[0];
+        char *heading = mote_format("%s%s%s: %s", row->scene, asks ? ", asked for " : "",
+                                    asks ? row->ask : "", what);
         (void)fprintf(out, "%s", start ? "\n" : "");
         mote_print_wrapped(heading, 0, INDENT, MOTE_SCREEN_WIDTH, out);
         free(heading);
         free(what);
         for (int given = 0; given < 2; ++given) {
-            const choice c = choose(summary, start, end, given != 0);
+            const choice c = choose(summary, start, end, view, given != 0);
             print_choice(&c, given != 0, out);
             free(c.rows);
         }
         print_failures(summary, start, end, out);
         start = end;
     }
+}
+
+void mote_screen_print(const mote_summary *summary, FILE *out)
+{
+    print_screen(summary, MOTE_VIEW_SCREEN, out);
+}
+
+void mote_screen_engines(const mote_summary *summary, FILE *out)
+{
+    print_screen(summary, MOTE_VIEW_ENGINES, out);
 }

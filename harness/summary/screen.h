@@ -19,4 +19,10 @@
    Columns are those of MOTE_VIEW_SCREEN. */
 void mote_screen_print(const mote_summary *summary, FILE *out);
 
+/* For each block and accounting, every row with the mean, the 95th percentile and the worst
+   frame beside the median, sorted by the median, and below it which engine of others without a
+   wrong answer, and which of FCL's, is best by each of these four. Rows of these best engines
+   by the median are marked. Columns are those of MOTE_VIEW_ENGINES. */
+void mote_screen_engines(const mote_summary *summary, FILE *out);
+
 #endif

@@ -94,12 +94,6 @@ static const mote_summary_row *find_reference(const mote_summary *summary,
     return reference;
 }
 
-/* An engine that misses contacts or invents them is no rival. */
-static bool is_right_engine(const mote_summary_row *row)
-{
-    return mote_summary_is_engine(row) && mote_summary_row_right(row);
-}
-
 /* The fastest row over these frames, among rows on all of this row's frames, otherwise among
    all rows. */
 static const mote_summary_row *find_best(const mote_summary *summary,
@@ -147,7 +141,8 @@ static void make_row_ratios(const mote_summary *summary, mote_summary_row *row)
         mote_summary_process_ratios(row, reference, part);
     mote_summary_quiet(row, reference);
     make_ratio(row, find_best(summary, row, mote_summary_is_fcl), part, &row->ratio_best);
-    make_ratio(row, find_best(summary, row, is_right_engine), part, &row->ratio_engine);
+    make_ratio(row, find_best(summary, row, mote_summary_is_right_engine), part,
+               &row->ratio_engine);
 }
 
 static void make_rows(mote_summary *summary)

@@ -315,13 +315,23 @@ bool mote_summary_is_fcl(const mote_summary_row *row)
     return strncmp(row->method, "fcl-", 4) == 0;
 }
 
-bool mote_summary_is_engine(const mote_summary_row *row)
+bool mote_summary_engine_name(const char *method)
 {
     static const char *const single[] = {"ode", "bullet-gimpact", "embree-contact"};
-    bool is = mote_summary_is_fcl(row) || strncmp(row->method, "coal-", 5) == 0;
+    bool is = strncmp(method, "fcl-", 4) == 0 || strncmp(method, "coal-", 5) == 0;
     for (size_t i = 0; i < sizeof single / sizeof *single; ++i)
-        is = is || strcmp(row->method, single[i]) == 0;
+        is = is || strcmp(method, single[i]) == 0;
     return is;
+}
+
+bool mote_summary_is_engine(const mote_summary_row *row)
+{
+    return mote_summary_engine_name(row->method);
+}
+
+bool mote_summary_is_right_engine(const mote_summary_row *row)
+{
+    return mote_summary_is_engine(row) && mote_summary_row_right(row);
 }
 
 static int by_number(double a, double b)

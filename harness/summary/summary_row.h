@@ -133,9 +133,13 @@ const mote_stored_cell *mote_summary_replicate(const mote_summary_row *row, uint
 /* Whether the row's method is one of FCL's. */
 bool mote_summary_is_fcl(const mote_summary_row *row);
 
-/* Whether the row's method is an engine that others wrote (FCL, Coal, ODE, Bullet or Embree),
-   as they would have it used. */
+/* Whether a method, or that of a row, is an engine that others wrote (FCL, Coal, ODE, Bullet or
+   Embree), as they would have it used. */
+bool mote_summary_engine_name(const char *method);
 bool mote_summary_is_engine(const mote_summary_row *row);
+/* Whether it also gave no wrong answer: an engine that misses contacts or invents them is no
+   rival. */
+bool mote_summary_is_right_engine(const mote_summary_row *row);
 
 /* Whether a row has a time that may be compared with other rows. */
 bool mote_summary_row_measured(const mote_summary_row *row);

@@ -82,8 +82,14 @@ json_t *mote_tune_json(const mote_tuned *tuned, size_t count)
     return json_pack("{s:i, s:o}", "schema", 1, "rows", rows);
 }
 
-mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
-                               char **configuration)
+/* Whether a method is one of the engines asked for. */
+static bool is_asked(const char *method, bool fcl)
+{
+    return fcl ? strncmp(method, "fcl-", 4) == 0 : mote_summary_engine_name(method);
+}
+
+mote_status mote_tune_best(const char *directory, const char *scenario, bool fcl,
+                           char **configuration)
 {
     json_t *object = NULL;
     mote_status status = mote_record_read_json(directory, "tune.json", &object);
@@ -107,8 +113,8 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
                         &text, "right", &right, "total_ns", &total, "accounting",
                         &accounting) == 0 &&
             strcmp(name, scenario) == 0 && strcmp(accounting, "charged") == 0 &&
-            strcmp(cache, "hot") == 0 && strncmp(method, "fcl-", 4) == 0 && right &&
-            total > 0 && total < least) {
+            strcmp(cache, "hot") == 0 && is_asked(method, fcl) && right && total > 0 &&
+            total < least) {
             least = total;
             best = text;
         }
@@ -118,18 +124,43 @@ mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
     return MOTE_OK;
 }
 
+/* Prints the best of a scene's groups that are of engines of others, or of FCL's. */
+static void print_best(const mote_tuned *tuned, size_t start, size_t end, bool fcl, FILE *out)
+{
+    for (int given = 0; given < 2; ++given) {
+        const mote_summary_row *best = NULL;
+        for (size_t i = start; i < end; ++i) {
+            const mote_summary_row *row = tuned[i].best;
+            if (tuned[i].right && row->given == (given != 0) && is_asked(row->method, fcl) &&
+                (!best || row->total.median < best->total.median))
+                best = row;
+        }
+        if (best)
+            (void)fprintf(out, "%s%s: %s\n", given ? "of positions=given, " : "",
+                          fcl ? "best FCL" : "best engine of others", best->label);
+    }
+}
+
+static void print_group(const mote_tuned *group, FILE *out)
+{
+    const mote_summary_row *best = group->best;
+    (void)fprintf(out, "%-52s %11.2f %11.2f %11.2f %11.2f %8.2fx  of %zu%s\n", best->label,
+                  best->total.median * 1e-3, best->deform.median * 1e-3,
+                  best->update.median * 1e-3, best->query.median * 1e-3,
+                  group->worst->total.median / best->total.median, group->configurations,
+                  group->right ? "" : ", none of them right");
+}
+
 void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out)
 {
-    for (size_t i = 0; i < count; ++i) {
-        const mote_summary_row *best = tuned[i].best;
-        if (i == 0 || !mote_summary_same_block(tuned[i - 1].best, best))
-            (void)fprintf(out, "%s%s, caches %s\n%-52s %11s %11s %11s %11s %9s\n",
-                          i ? "\n" : "", best->scene, best->cache, "best configuration",
-                          "total us", "deform", "update", "query", "worst");
-        (void)fprintf(out, "%-52s %11.2f %11.2f %11.2f %11.2f %8.2fx  of %zu%s\n", best->label,
-                      best->total.median * 1e-3, best->deform.median * 1e-3,
-                      best->update.median * 1e-3, best->query.median * 1e-3,
-                      tuned[i].worst->total.median / best->total.median,
-                      tuned[i].configurations, tuned[i].right ? "" : ", none of them right");
+    for (size_t start = 0, end; start < count; start = end) {
+        const mote_summary_row *first = tuned[start].best;
+        (void)fprintf(out, "%s%s, caches %s\n%-52s %11s %11s %11s %11s %9s\n",
+                      start ? "\n" : "", first->scene, first->cache, "best configuration",
+                      "total us", "deform", "update", "query", "worst");
+        for (end = start; end < count && mote_summary_same_block(first, tuned[end].best); ++end)
+            print_group(&tuned[end], out);
+        print_best(tuned, start, end, false, out);
+        print_best(tuned, start, end, true, out);
     }
 }

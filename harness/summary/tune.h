@@ -25,12 +25,14 @@ mote_tuned *mote_tune_make(const mote_summary *summary, size_t *count);
    "update_ns", "query_ns" (medians), "worst": {"configuration", "total_ns"}}]} */
 json_t *mote_tune_json(const mote_tuned *tuned, size_t count);
 
-/* The FCL configuration that directory/tune.json lists as the fastest correct one on a scenario
-   with hot caches, as written after --method; "" if it lists none. MOTE_EIO or MOTE_EINVAL if
-   the file cannot be read or has no rows. The caller frees *configuration. */
-mote_status mote_tune_best_fcl(const char *directory, const char *scenario,
-                               char **configuration);
+/* The configuration that directory/tune.json lists as the fastest correct one of the engines of
+   others on a scenario with hot caches, as written after --method; "" if it lists none. fcl:
+   of FCL's alone. MOTE_EIO or MOTE_EINVAL if the file cannot be read or has no rows. The caller
+   frees *configuration. */
+mote_status mote_tune_best(const char *directory, const char *scenario, bool fcl,
+                           char **configuration);
 
+/* Ends each scene with the best engine of others and the best FCL. */
 void mote_tune_print(const mote_tuned *tuned, size_t count, FILE *out);
 
 #endif

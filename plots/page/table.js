@@ -41,16 +41,19 @@ class Block {
 
     // The rows to mention first.
     glance(block) {
-        const { rows, columns, time, error, best } = this.data;
+        const { rows, columns, time, error, best, engine } = this.data;
         const parts = [];
         const said = (row, column) => show(column.show, valueAt(row, column.path));
         const [right, fastest] = [rows[block.right], rows[block.fastest]];
         if (right) {
             parts.push("Fastest without a wrong answer in any frame: ", el("code", {}, right.label),
                 `, ${said(right, time)} a ${right.bodies ? "frame" : "query"}`);
-            const { to } = valueAt(right, best.path.slice(0, -1)) ?? {};
-            if (to && to !== right.label)
-                parts.push("; the best FCL, ", el("code", {}, to), `, takes ${said(right, best)} times as long`);
+            // The best FCL is named beside the best engine only where it is another.
+            const rivals = [[engine, "engine of others"], [best, "FCL"]].map(([column, kind]) =>
+                ({ column, kind, to: valueAt(right, column.path.slice(0, -1))?.to }));
+            for (const [i, { column, kind, to }] of rivals.entries())
+                if (to && to !== right.label && to !== rivals[i - 1]?.to)
+                    parts.push(`; the best ${kind}, `, el("code", {}, to), `, takes ${said(right, column)} times as long`);
             parts.push(". ");
         }
         if (fastest) {

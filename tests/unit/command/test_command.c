@@ -127,7 +127,7 @@ static const command_line bad_lines[] = {
     {"merge --x", 2, "known are: none"},
     {"merge", 2, "runs are missing"},
     {"merge x", 2, "runs are missing"},
-    {"tune --x", 2, "unknown option --x; known are: --best-fcl SCENARIO"},
+    {"tune --x", 2, "unknown option --x; known are: --best SCENARIO, --best-fcl SCENARIO"},
     {"tune x y", 2, "y: one directory at a time"},
     {"tune --best-fcl=s x", 4, "x/tune.json: No such file"},
     {"compare --x", 2, "unknown option --x"},

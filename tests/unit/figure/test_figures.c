@@ -291,7 +291,35 @@ TEST(ratios_of_processes_without_a_pair_are_missing)
     const mote_figure_run run = {"lone", &summary, NULL};
     assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
     assert_int_equal(figure.data.size, 0);
-    assert_non_null(strstr(figure.missing.data, "a method of ours and one of FCL's"));
+    assert_non_null(strstr(figure.missing.data, "a method of ours and one of others"));
+    free(figure.caption.data);
+    free(figure.missing.data);
+    mote_summary_free(&summary);
+}
+
+/* Two blocks: ours and the best FCL, each against the engine that is faster than FCL. */
+TEST(ratios_are_to_the_best_engine_with_the_best_fcl_beside)
+{
+    mote_summary summary;
+    mote_figure figure = {0};
+    for (int r = 1; r <= 2; ++r) {
+        write_replicate("rivals", "certified", r, 1, 100);
+        write_replicate("rivals", "fcl-aabb", r, 1, 4000);
+        write_replicate("rivals", "coal-aabb", r, 1, 1000);
+    }
+    assert_int_equal(mote_summary_make("rivals", &summary), MOTE_OK);
+    const mote_figure_run run = {"rivals", &summary, NULL};
+    assert_int_equal(mote_figure_ratios(&run, "s", &figure), MOTE_OK);
+    const char *ours = strstr(figure.data.data, "certified");
+    const char *fcl = strstr(figure.data.data, "fcl-aabb");
+    assert_true(ours && fcl && ours < fcl);
+    double middle, ratio;
+    assert_int_equal(sscanf(strchr(ours, '\n') + 1, "%lf %lf", &middle, &ratio), 2);
+    assert_true(fabs(ratio - 10) < 1e-9);
+    assert_int_equal(sscanf(strchr(fcl, '\n') + 1, "%lf %lf", &middle, &ratio), 2);
+    assert_true(fabs(ratio - 0.25) < 1e-9);
+    assert_non_null(strstr(figure.caption.data, "coal-aabb, the fastest engine of others"));
+    free(figure.data.data);
     free(figure.caption.data);
     free(figure.missing.data);
     mote_summary_free(&summary);

@@ -60,7 +60,7 @@ TEST(best_rows_are_sorted_by_time_and_the_front_is_marked)
     IN_ORDER("s: 8 and 8 triangles, 2 frames, 2 replicates, caches hot\n", "best FCL", "method",
              "\n* rough ", "5.00 ns", "200", "3.0e-01", "50.0 %", " 1 ", "\n* exact ",
              "50.0 ns", "20.0", "100.0 %", "\n  fcl-aabb ", "1.00", "\n  fcl-obb ", "0.25",
-             "\n* on the front", "best FCL: fcl-aabb\n");
+             "\n* on the front", "best engine and best FCL:", "fcl-aabb\n");
     assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
 }
 
@@ -141,4 +141,41 @@ TEST(best_is_for_the_table_alone)
 {
     write_method((stored_cell){.method = "ours"}, 50, 0, 0);
     mote_expect(2, "--best is for --format table", "summarize --best --format csv .");
+}
+
+/* Two replicates of four frames, the last of which takes `worst`. */
+static void write_engine(const char *method, double ns, double worst, int missed)
+{
+    static int number;
+    for (int replicate = 1; replicate <= 2; ++replicate) {
+        char id[32], rows[200];
+        (void)snprintf(id, sizeof id, "e%d", ++number);
+        (void)snprintf(rows, sizeof rows,
+                       "1,0,0,%g,0,0,%d,1,7\n2,0,0,%g,0,0,1,1,7\n3,0,0,%g,0,0,1,1,7\n"
+                       "4,0,0,%g,0,0,1,1,7\n",
+                       ns, 1 - missed, ns, ns, worst);
+        write_cell(
+            (stored_cell){.id = id, .method = method, .replicate = replicate, .rows = rows});
+    }
+}
+
+/* The best engine by the median is not the one by the mean and the worst frame; one that misses
+   a contact is none, nor is ours. */
+TEST(engines_are_best_by_each_statistic)
+{
+    write_engine("ours", 1, 2, 0);
+    write_engine("bullet-gimpact", 5, 5, 1);
+    write_engine("ode", 10, 9000, 0);
+    write_engine("coal-aabb", 20, 60, 0);
+    write_engine("fcl-aabb", 40, 50, 0);
+    write_engine("fcl-obb", 30, 7000, 0);
+    assert_int_equal(mote("summarize --engines ."), 0);
+    IN_ORDER(
+        "4 frames, 2 replicates", "best FCL", "engine", "median", "mean", "p95", "worst",
+        "\n  ours ", "1.00 ns", "1.25 ns", "2.00 ns", "30.0", "10.0", "\n  bullet-gimpact ",
+        " 1 ", "\n* ode ", "9.00 us", "\n  coal-aabb ", "\n  fcl-obb ", "\n  fcl-aabb ",
+        "\nbest engine of others (*): median 10.0 ns, ode; mean 30.0 ns, coal-aabb;", "worst",
+        "50.0 ns,", "fcl-aabb\n", "best FCL: median 30.0 ns, fcl-obb; mean 42.5", "fcl-aabb;");
+    assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
+    mote_expect(2, "--engines is for --format table", "summarize --engines --format json .");
 }

@@ -91,6 +91,9 @@ TEST(tune_names_the_fastest_right_configuration)
     assert_memory_equal(said, best, strlen(best));
     mote_expect(0, "", "tune --best-fcl ww .");
     assert_string_equal(said, "");
+    /* Of the engines of others there are only FCL's and libccd's, and libccd's parts are no
+       engine for meshes. */
+    mote_expect(0, best, "tune --best tt .");
     json_decref(tuned);
     json_decref(summary);
 }
@@ -149,4 +152,23 @@ TEST(tune_without_a_run_is_bad_input)
     mote_expect(4, "", "tune --best-fcl tt nothing");
     mote_expect(2, "", "tune");
     mote_expect(2, "", "tune . two");
+}
+
+/* Of engines of others, the fastest right one; ours are not among them. */
+TEST(tune_best_is_of_all_engines_of_others)
+{
+    static const char file[] =
+        "{\"rows\": ["
+        "{\"scenario\": \"s\", \"cache\": \"hot\", \"method\": \"certified\", \"right\": true,"
+        " \"configuration\": \"certified\", \"total_ns\": 1},"
+        "{\"scenario\": \"s\", \"cache\": \"hot\", \"method\": \"bullet-gimpact\", \"right\": "
+        "false,"
+        " \"configuration\": \"bullet-gimpact\", \"total_ns\": 2},"
+        "{\"scenario\": \"s\", \"cache\": \"hot\", \"method\": \"ode\", \"right\": true,"
+        " \"configuration\": \"ode:vertices=single\", \"total_ns\": 3},"
+        "{\"scenario\": \"s\", \"cache\": \"hot\", \"method\": \"fcl-aabb\", \"right\": true,"
+        " \"configuration\": \"fcl-aabb\", \"total_ns\": 4}]}\n";
+    file_put("engines/tune.json", file);
+    mote_expect(0, "ode:vertices=single\n", "tune --best s engines");
+    mote_expect(0, "fcl-aabb\n", "tune --best-fcl s engines");
 }
