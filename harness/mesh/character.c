@@ -83,8 +83,8 @@ static mote_status import_in_child(void *context, int output)
     return status;
 }
 
-static mote_status make_character(const char *path, const mote_character_draft *draft,
-                                  mote_character **character)
+mote_status mote_character_make(const char *path, const mote_character_draft *draft,
+                                mote_character **character)
 {
     const mote_soup *soup = &draft->soup;
     mote_mesh *mesh = NULL;
@@ -125,7 +125,7 @@ mote_status mote_character_import_file(const char *path, mote_character **charac
     if (mote_import_is_strict())
         status = mote_import_refuse_split(path, &draft.import.mesh);
     if (status == MOTE_OK)
-        status = make_character(path, &draft, character);
+        status = mote_character_make(path, &draft, character);
     if (status == MOTE_OK) {
         mote_soup_free(&draft.soup); /* the character now owns everything else */
         if (import)

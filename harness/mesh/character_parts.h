@@ -59,6 +59,11 @@ mote_status mote_character_put(int output, const mote_character_draft *draft);
 mote_status mote_character_take(const char *path, const char *data, size_t size,
                                 mote_character_draft *draft);
 
+/* Checks a draft's rig and makes its mesh. *character takes over everything but the soup, which
+   the caller frees. Errors of mote_character_check_rig and mote_mesh_create. */
+mote_status mote_character_make(const char *path, const mote_character_draft *draft,
+                                mote_character **character);
+
 /* Checks for numbers that are not finite, decreasing times and rotations of zero length.
    MOTE_EINVAL, naming node, clip and key. */
 mote_status mote_character_check_rig(const char *path, const mote_rig *rig);
