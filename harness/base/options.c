@@ -202,6 +202,20 @@ bool mote_read_real(const char *text, double minimum, double maximum, double *va
     return true;
 }
 
+bool mote_read_percent(const char *text, double *share)
+{
+    char number[32];
+    size_t length = strlen(text);
+    if (length < 2 || length > sizeof number || text[length - 1] != '%')
+        return false;
+    memcpy(number, text, length - 1);
+    number[length - 1] = '\0';
+    if (!mote_read_real(number, 1e-3, 100, share))
+        return false;
+    *share /= 100;
+    return true;
+}
+
 bool mote_read_triple(const char *text, double value[3])
 {
     for (int axis = 0; axis < 3; ++axis) {

@@ -69,6 +69,9 @@ bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, ui
 /* Reads a finite number in [minimum, maximum]. False for anything else. */
 bool mote_read_real(const char *text, double minimum, double maximum, double *value);
 
+/* Reads "2%" as 0.02, from 0.001% to 100%. False for anything else. */
+bool mote_read_percent(const char *text, double *share);
+
 /* Reads "x,y,z", finite numbers. False for anything else; value is then undefined. */
 bool mote_read_triple(const char *text, double value[3]);
 

@@ -7,6 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
+/* The largest file that is copied, in bytes: the pairs of a cell of a million bodies. */
+#define COPY_LIMIT ((size_t)1 << 30)
+
 /* No file of a run is larger than this. */
 #define FILE_LIMIT ((size_t)1 << 30)
 
@@ -92,4 +95,18 @@ mote_status mote_json_put(json_t *object, size_t flags, FILE *out)
     (void)fprintf(out, "%s\n", text);
     free(text);
     return MOTE_OK;
+}
+
+mote_status mote_record_copy(const char *from, const char *to, const char *name)
+{
+    char *source = mote_format("%s/%s", from, name), *target = mote_format("%s/%s", to, name);
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = mote_file_read(source, COPY_LIMIT, &data, &size);
+    if (status == MOTE_OK)
+        status = mote_file_write(target, data, size);
+    free(data);
+    free(source);
+    free(target);
+    return status;
 }

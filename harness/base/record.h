@@ -18,6 +18,9 @@ mote_status mote_record_text(const char *directory, const char *name, mote_text 
    NULL, which jansson returns for text that is not UTF-8. */
 mote_status mote_record_json(const char *directory, const char *name, json_t *object);
 
+/* Copies from/name to to/name. */
+mote_status mote_record_copy(const char *from, const char *to, const char *name);
+
 /* Reads directory/name as JSON; MOTE_EINVAL with file, line and column if it is not JSON. The
    caller decrefs. */
 mote_status mote_record_read_json(const char *directory, const char *name, json_t **object);

@@ -274,6 +274,12 @@ mote_confidence mote_statistics_process_interval(mote_process_figure figure, voi
     return interval;
 }
 
+double mote_statistics_half_width(double median, mote_confidence interval)
+{
+    const double width = fmax(interval.high - median, median - interval.low) / median;
+    return isnan(width) ? HUGE_VAL : width;
+}
+
 mote_confidence mote_statistics_sign_interval(const double *sorted, size_t count)
 {
     mote_confidence interval = {MOTE_NONE, MOTE_NONE};

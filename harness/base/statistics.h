@@ -60,6 +60,10 @@ typedef struct mote_replicate {
 mote_confidence mote_statistics_median_interval(const mote_replicate *replicates, size_t count,
                                                 bool logarithmic, uint64_t seed);
 
+/* The half width of a median's interval on its wider side, as a share of the median; infinite
+   if there is no interval. */
+double mote_statistics_half_width(double median, mote_confidence interval);
+
 /* A positive figure computed from some processes: drawn[count], numbered from 0; a process may
    be drawn more than once. MOTE_NONE if they do not give one. */
 typedef double (*mote_process_figure)(void *context, const size_t *drawn, size_t count);

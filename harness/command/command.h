@@ -33,7 +33,7 @@
     X(run, "SCENARIO...|--pair A.obj B.obj",                                                   \
       "measures methods on scenarios, goes on where it stopped, writes DIR/summary.json",      \
       mote_options_run)                                                                        \
-    X(simulate, "SCENARIO --method NAME[:key=value,...]",                                      \
+    X(simulate, "SCENARIO... --method NAME[:key=value,...]",                                   \
       "closed loop: bodies move freely and collide where the method says so",                  \
       mote_options_simulate)                                                                   \
     X(extremes, "", "tries every method where numbers are tiny, huge, equal or degenerate",    \

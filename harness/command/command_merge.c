@@ -2,26 +2,30 @@
    them. */
 #include "harness/command/command.h"
 #include "harness/base/options.h"
+#include "harness/command/kept.h"
 #include "harness/summary/merge.h"
 #include "harness/summary/summary_json.h"
-#include "harness/summary/table.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 static int report(const char *directory, const mote_merged *merged)
 {
-    mote_summary summary;
-    (void)fprintf(stderr, "%s: %zu cells copied, %zu were there\n", directory, merged->copied,
-                  merged->present);
-    if (mote_summary_make(directory, &summary) != MOTE_OK)
+    if (merged->simulations)
+        (void)fprintf(stderr, "%s: %zu cells and %zu simulations copied, %zu were there\n",
+                      directory, merged->copied, merged->simulations, merged->present);
+    else
+        (void)fprintf(stderr, "%s: %zu cells copied, %zu were there\n", directory,
+                      merged->copied, merged->present);
+    mote_kept kept;
+    if (mote_kept_read(directory, &kept) != MOTE_OK)
         return mote_command_fail();
     int code = MOTE_EXIT_DONE;
-    if (mote_summary_write(&summary, directory) == MOTE_OK)
-        mote_table_print(&summary, stdout);
-    else
+    if (kept.has_summary && mote_summary_write(&kept.summary, directory) != MOTE_OK)
         code = mote_command_fail();
-    mote_summary_free(&summary);
+    else
+        mote_kept_print(&kept, stdout);
+    mote_kept_free(&kept);
     return mote_command_finish(code);
 }
 

@@ -1,5 +1,6 @@
 #include "harness/process/child.h"
 #include "harness/command/command.h"
+#include "harness/command/shard.h"
 #include "harness/base/options.h"
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
@@ -89,30 +90,13 @@ typedef struct request {
     const char **methods;   /* [argc] */
     size_t method_count;
     const char *particles, *frames;
-    uint32_t shard, shards;                /* shard of shards, from 1; 0, 0: not given */
+    mote_shard shard;
     const char *pair_files[2], *direction; /* of --pair and --direction, or NULL */
     char *pair;                            /* name of the scenario from these, or NULL */
     double until_share;                    /* from --until-ci; 0: not given */
     mote_choices choices;
     mote_choices scene_choices; /* for scenarios of more than two bodies */
 } request;
-
-static bool read_shard(const char *text, request *q)
-{
-    uint64_t shard, shards;
-    char first[16];
-    const char *slash = strchr(text, '/');
-    if (!slash || (size_t)(slash - text) >= sizeof first)
-        return false;
-    memcpy(first, text, (size_t)(slash - text));
-    first[slash - text] = '\0';
-    if (!mote_read_unsigned(slash + 1, 1, UINT32_MAX, &shards) ||
-        !mote_read_unsigned(first, 1, shards, &shard))
-        return false;
-    q->shard = (uint32_t)shard;
-    q->shards = (uint32_t)shards;
-    return true;
-}
 
 static bool read_cache(const char *text, mote_cache *cache)
 {
@@ -134,21 +118,6 @@ static bool read_stride(const char *text, uint32_t *stride)
 {
     *stride = MOTE_STRIDE_AUTO;
     return strcmp(text, "auto") == 0 || read_count(text, UINT32_MAX, stride);
-}
-
-/* "2%" */
-static bool read_percent(const char *text, double *share)
-{
-    char number[32];
-    size_t length = strlen(text);
-    if (length < 2 || length > sizeof number || text[length - 1] != '%')
-        return false;
-    memcpy(number, text, length - 1);
-    number[length - 1] = '\0';
-    if (!mote_read_real(number, 1e-3, 100, share))
-        return false;
-    *share /= 100;
-    return true;
 }
 
 static bool read_direction(const char *text, const char **direction)
@@ -182,7 +151,7 @@ static bool set_option(request *q, int option, const char *value, const char **e
         return value[0] != '\0';
     case OPTION_SHARD:
         *expected = "I/N with 1 <= I <= N";
-        return read_shard(value, q);
+        return mote_shard_read(value, &q->shard);
     case OPTION_SEED:
         *expected = "a whole number below 2^62";
         return mote_read_unsigned(value, 0, MOTE_SEED_MAX, &plan->seed);
@@ -201,7 +170,7 @@ static bool set_option(request *q, int option, const char *value, const char **e
         return read_count(value, MOTE_CHILDREN_MAX, &plan->jobs);
     case OPTION_UNTIL_CI:
         *expected = "a percentage from 0.001% to 100%";
-        return read_percent(value, &q->until_share);
+        return mote_read_percent(value, &q->until_share);
     case OPTION_BUDGET:
         *expected = "seconds";
         return mote_read_real(value, 0, 1e9, &q->run.budget);
@@ -291,42 +260,6 @@ static int read_arguments(int argc, char **argv, request *q)
     return MOTE_EXIT_DONE;
 }
 
-/* Without --shard, a task of a Slurm job array is a shard. False, after a line on stderr, if
-   Slurm's variables do not describe a task. */
-static bool read_array_task(const char *command, request *q)
-{
-    const char *task = getenv("SLURM_ARRAY_TASK_ID");
-    const char *count = getenv("SLURM_ARRAY_TASK_COUNT");
-    if (q->shards > 0 || (!task && !count))
-        return true;
-    char *text = mote_format("%s/%s", task ? task : "", count ? count : "");
-    bool read = read_shard(text, q);
-    free(text);
-    if (read)
-        (void)fprintf(stderr, "shard %u/%u, from SLURM_ARRAY_TASK_ID and _COUNT\n", q->shard,
-                      q->shards);
-    else
-        (void)mote_command_usage(command,
-                                 "SLURM_ARRAY_TASK_ID=%s, SLURM_ARRAY_TASK_COUNT=%s: not task "
-                                 "I of N with 1 <= I <= N; submit with --array=1-N, or give "
-                                 "--shard I/N (1/1: everything)",
-                                 task ? task : "(not set)", count ? count : "(not set)");
-    return read;
-}
-
-/* Keeps the scenarios of the shard: every shards-th. Shards are whole scenarios, so that the
-   methods compared are measured on one machine. */
-static void keep_shard(request *q)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < q->run.scenario_count && q->shards > 0; ++i) {
-        if (i % q->shards == q->shard - 1)
-            q->scenarios[kept++] = q->scenarios[i];
-    }
-    if (q->shards > 0)
-        q->run.scenario_count = kept;
-}
-
 /* The configurations requested, the same for all scenarios; by default every method, and for
    more than two bodies every method in each of its forms. */
 static mote_status expand_methods(request *q)
@@ -412,9 +345,9 @@ int mote_command_run(int argc, char **argv)
     q.run.scenarios = q.scenarios;
     q.run.choices = &q.choices;
     int code = read_arguments(argc, argv, &q);
-    if (code == MOTE_EXIT_DONE && !read_array_task(argv[0], &q))
+    if (code == MOTE_EXIT_DONE && !mote_shard_of_task(argv[0], &q.shard))
         code = MOTE_EXIT_USAGE;
-    keep_shard(&q);
+    q.run.scenario_count = mote_shard_keep(q.shard, q.scenarios, q.run.scenario_count);
     if (code == MOTE_EXIT_DONE)
         code = execute(&q);
     mote_choices_free(&q.choices);

@@ -1,15 +1,16 @@
-/* mote simulate SCENARIO --method NAME[:...]: the closed loop on the command line, once or,
+/* mote simulate SCENARIO... --method NAME[:...]: the closed loop on the command line, once or,
    with a directory, several times. */
 #include "harness/base/file.h"
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
-#include "harness/base/record.h"
 #include "harness/base/statistics.h"
 #include "harness/command/command.h"
+#include "harness/command/shard.h"
 #include "harness/loop/film.h"
 #include "harness/loop/replicates.h"
 #include "harness/loop/simulate.h"
 #include "harness/loop/simulate_print.h"
+#include "harness/loop/simulations.h"
 #include "harness/loop/trace.h"
 #include "harness/process/child.h"
 #include "harness/process/manifest.h"
@@ -17,13 +18,17 @@
 #include <stdlib.h>
 
 typedef struct request {
-    const char *scenario, *trace, *film, *out;
+    const char **scenarios; /* [argc] */
+    size_t scenario_count;
+    const char *trace, *film, *out;
     mote_choices choices;
+    mote_shard shard;
     bool json;
     double density, restitution, tolerance, time_step; /* MOTE_NONE: the default */
     mote_vec3 gravity;
     uint64_t steps, seed; /* steps 0: all frames */
     uint64_t replicates, jobs;
+    double share, budget; /* of --until-ci, 0: not given; and --budget */
     int argc;
     char **argv;
 } request;
@@ -94,89 +99,98 @@ static mote_status simulate(const request *wish, const mote_subject *subject)
         status = mote_trace_write(subject, mote_simulator_masses(simulator), trace,
                                   (uint32_t)result.steps + 1, &options, wish->trace);
     FILE *out = result_stream(wish);
-    const mote_method_choice *choice = &wish->choices.items[0];
+    const char *method = wish->choices.items[0].text;
     if (status == MOTE_OK && wish->json)
         status = mote_simulation_put(
-            mote_simulation_json(wish->scenario, bodies, choice, &result), out);
+            mote_simulation_json(wish->scenarios[0], bodies, method, &result), out);
     else if (status == MOTE_OK)
-        mote_simulation_print(wish->scenario, bodies, choice, &result, out);
+        mote_simulation_print(wish->scenarios[0], bodies, method, &result, out);
     free(trace);
     mote_simulator_destroy(simulator);
     return status;
 }
 
-/* Prints each method's figures and the interval of its time. */
-static void print_rows(const mote_replicates *plan, const mote_replicates_row *rows)
+/* Prints and writes what the directory keeps; returns the exit status. */
+static int report(const request *wish)
 {
-    const uint32_t bodies = mote_subject_facts_of(plan->subject).bodies;
-    for (size_t m = 0; m < plan->choices->count; ++m) {
-        const mote_replicates_row *row = &rows[m];
-        const mote_method_choice *choice = &plan->choices->items[m];
-        if (row->done == 0) {
-            (void)printf("%s, %s: %s%s\n", plan->scenario, choice->text,
-                         row->unsupported ? "unsupported: " : "every replicate failed",
-                         row->unsupported ? row->unsupported : "");
-            continue;
-        }
-        mote_simulation_print(plan->scenario, bodies, choice, &row->sum, stdout);
-        (void)printf("replicates %u, failed %u; median time a step %.3g us", row->done,
-                     row->failed, row->query_ns / 1e3);
-        if (!isnan(row->interval.low))
-            (void)printf(" (%.3g to %.3g)", row->interval.low / 1e3, row->interval.high / 1e3);
-        (void)printf("\n");
-    }
-}
-
-/* Prints and writes the results of the replicates; returns the exit status. */
-static int report(const request *wish, const mote_replicates *plan,
-                  const mote_replicates_row *rows)
-{
-    uint32_t failed = 0;
-    for (size_t m = 0; m < plan->choices->count; ++m)
-        failed += rows[m].failed;
-    json_t *root = mote_replicates_json(plan, rows);
-    mote_status status =
-        mote_record_json(plan->directory, "simulations.json", json_incref(root));
+    mote_simulations list = {0};
+    size_t failed = 0, all = 0;
+    mote_status status = mote_simulations_read(wish->out, &list);
+    if (status == MOTE_OK)
+        status = mote_simulations_write(&list, wish->out);
     if (status == MOTE_OK && wish->json)
-        status = mote_simulation_put(json_incref(root), stdout);
+        status = mote_simulation_put(mote_simulations_json(&list), stdout);
     else if (status == MOTE_OK)
-        print_rows(plan, rows);
-    json_decref(root);
+        mote_simulations_print(&list, stdout);
+    for (size_t i = 0; i < list.count; ++i) {
+        failed += list.rows[i].failed;
+        all += list.rows[i].failed + list.rows[i].done;
+    }
+    mote_simulations_free(&list);
     if (status != MOTE_OK)
         return mote_command_fail();
     if (failed == 0)
         return mote_command_finish(MOTE_EXIT_DONE);
-    (void)fprintf(stderr, "mote: %u of %zu simulations failed; see their reason in %s/%s\n",
-                  failed, plan->choices->count * plan->replicates, plan->directory,
-                  "simulations");
+    (void)fprintf(stderr, "mote: %zu of %zu simulations failed; see their reason in %s/%s\n",
+                  failed, all, wish->out, "simulations");
     return mote_command_finish(MOTE_EXIT_CELL_FAILED);
 }
 
-/* Simulates several methods or replicates, storing results in a directory. */
-static int simulate_replicates(const request *wish, mote_subject *subject)
+/* Opens the scenarios and makes a plan for each; nothing is written. */
+static mote_status make_plans(const request *wish, uint64_t program, mote_subject *subjects,
+                              mote_replicates *plans)
 {
-    mote_replicates plan = {.subject = subject,
-                            .scenario = wish->scenario,
-                            .choices = &wish->choices,
-                            .options = mote_default_simulation_options(subject),
-                            .steps = (uint32_t)wish->steps,
-                            .seed = wish->seed,
-                            .replicates = (uint32_t)wish->replicates,
-                            .jobs = (uint32_t)wish->jobs,
-                            .directory = wish->out};
-    mote_replicates_row *rows = NULL;
-    set_options(wish, &plan.options);
-    mote_status status = mote_subject_identify(subject);
+    mote_status status = MOTE_OK;
+    for (size_t i = 0; i < wish->scenario_count && status == MOTE_OK; ++i) {
+        status = mote_subject_load(wish->scenarios[i], &subjects[i]);
+        if (status != MOTE_OK)
+            break;
+        plans[i] = (mote_replicates){.subject = &subjects[i],
+                                     .scenario = wish->scenarios[i],
+                                     .choices = &wish->choices,
+                                     .options = mote_default_simulation_options(&subjects[i]),
+                                     .steps = (uint32_t)wish->steps,
+                                     .seed = wish->seed,
+                                     .replicates = (uint32_t)wish->replicates,
+                                     .jobs = (uint32_t)wish->jobs,
+                                     .program = program,
+                                     .directory = wish->out,
+                                     .share = wish->share,
+                                     .budget = wish->budget};
+        set_options(wish, &plans[i].options);
+        status = mote_replicates_check(&plans[i]);
+    }
+    return status;
+}
+
+static mote_status simulate_plans(const request *wish, mote_subject *subjects,
+                                  mote_replicates *plans)
+{
+    uint64_t program;
+    mote_status status = mote_program_hash(&program);
     if (status == MOTE_OK)
-        status = mote_program_hash(&plan.program);
+        status = make_plans(wish, program, subjects, plans);
     mote_child_heed_signals();
+    for (size_t i = 0; i < wish->scenario_count && status == MOTE_OK; ++i)
+        status = mote_replicates_run(&plans[i]);
+    if (status == MOTE_OK && wish->scenario_count == 0)
+        status = mote_simulations_make(wish->out); /* a shard without a scenario */
     if (status == MOTE_OK)
-        status = mote_replicates_run(&plan, &rows);
-    if (status == MOTE_OK)
-        status = mote_manifest_write(plan.directory, plan.program, plan.seed, wish->argc,
-                                     wish->argv);
-    const int code = status == MOTE_OK ? report(wish, &plan, rows) : mote_command_fail();
-    mote_replicates_free(rows, plan.choices->count);
+        status = mote_manifest_write(wish->out, program, wish->seed, wish->argc, wish->argv);
+    return status;
+}
+
+/* Simulates several scenarios, methods or replicates, storing results in a directory. */
+static int simulate_replicates(const request *wish)
+{
+    mote_subject *subjects = mote_allocate(wish->scenario_count, sizeof *subjects);
+    mote_replicates *plans = mote_allocate(wish->scenario_count, sizeof *plans);
+    const mote_status status = simulate_plans(wish, subjects, plans);
+    const int code = status == MOTE_OK ? report(wish) : mote_command_fail();
+    for (size_t i = 0; i < wish->scenario_count; ++i)
+        mote_subject_free(&subjects[i]);
+    free(subjects);
+    free(plans);
     return code;
 }
 
@@ -209,6 +223,13 @@ const mote_option mote_options_simulate[] = {
      "keep each simulation in DIR/simulations, where a run that was stopped goes on (default: "
      "not kept)"},
     {"jobs", "J", "1 to 256 simulations at a time (default: 1)"},
+    {"shard", "I/N",
+     "with --out: every N-th scenario, from the I-th on (default: 1/1, or the task of a Slurm "
+     "array)"},
+    {"until-ci", "2%",
+     "with --out: add replicates until the interval of each method's time is within this share "
+     "of its median (default: none are added)"},
+    {"budget", "SECONDS", "--until-ci stops after this time (default: 600)"},
     {NULL, NULL, NULL}};
 enum {
     OPTION_METHOD,
@@ -224,8 +245,13 @@ enum {
     OPTION_FILM,
     OPTION_REPLICATES,
     OPTION_OUT,
-    OPTION_JOBS
+    OPTION_JOBS,
+    OPTION_SHARD,
+    OPTION_UNTIL_CI,
+    OPTION_BUDGET
 };
+
+#define DEFAULT_BUDGET 600
 
 static bool read_number(const char *value, double *number)
 {
@@ -270,6 +296,13 @@ static const char *read_value(request *wish, int option, const char *value)
     case OPTION_OUT:
         wish->out = value;
         return NULL;
+    case OPTION_SHARD:
+        return mote_shard_read(value, &wish->shard) ? NULL : "give I/N with 1 <= I <= N";
+    case OPTION_UNTIL_CI:
+        return mote_read_percent(value, &wish->share) ? NULL
+                                                      : "give a percentage from 0.001% to 100%";
+    case OPTION_BUDGET:
+        return mote_read_real(value, 0, 1e9, &wish->budget) ? NULL : "give seconds";
     default:
         return mote_read_unsigned(value, 1, MOTE_CHILDREN_MAX, &wish->jobs)
                    ? NULL
@@ -282,6 +315,12 @@ static const char *clash(const request *wish)
 {
     if (!wish->out && (wish->replicates > 1 || wish->jobs > 1))
         return "--replicates and --jobs keep what they simulate: name a directory with --out";
+    if (!wish->out && (wish->share > 0 || wish->shard.shards > 0))
+        return "--until-ci and --shard keep what they simulate: name a directory with --out";
+    if (!wish->out && wish->scenario_count > 1)
+        return "one scenario at a time, or --out DIR to keep the results of several";
+    if (wish->share > 0 && wish->jobs > 1)
+        return "--until-ci is for times, --jobs for accuracy: leave out one of them";
     if (!wish->out && wish->choices.count > 1)
         return "one method at a time, or --out DIR to keep the results of several";
     if (wish->out && (wish->trace || wish->film))
@@ -300,10 +339,8 @@ static int read_arguments(int argc, char **argv, request *wish)
         const char *wrong = NULL;
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN && wish->scenario)
-            return mote_command_usage("simulate", "%s: one scenario at a time", value);
         if (option == MOTE_OPTION_PLAIN)
-            wish->scenario = value;
+            wish->scenarios[wish->scenario_count++] = value;
         else if (option == OPTION_METHOD) {
             if (mote_choices_add(&wish->choices, value, NULL) != MOTE_OK)
                 return mote_command_fail();
@@ -313,42 +350,47 @@ static int read_arguments(int argc, char **argv, request *wish)
             return mote_command_usage("simulate", "--%s %s: %s",
                                       mote_options_simulate[option].name, value, wrong);
     }
-    if (!wish->scenario || wish->choices.count == 0)
+    if (wish->scenario_count == 0 || wish->choices.count == 0)
         return mote_command_usage("simulate", "something is missing; write `mote simulate "
                                               "SCENARIO --method NAME`");
     const char *wrong = clash(wish);
     return wrong ? mote_command_usage("simulate", "%s", wrong) : MOTE_EXIT_DONE;
 }
 
-static int execute(const request *wish)
+static int execute(request *wish)
 {
+    if (wish->out) {
+        if (!mote_shard_of_task("simulate", &wish->shard))
+            return MOTE_EXIT_USAGE;
+        wish->scenario_count =
+            mote_shard_keep(wish->shard, wish->scenarios, wish->scenario_count);
+        return simulate_replicates(wish);
+    }
     mote_subject subject = {0};
-    mote_status status = mote_subject_open(wish->scenario, &subject);
-    int code = MOTE_EXIT_DONE;
-    if (status == MOTE_OK && wish->out)
-        code = simulate_replicates(wish, &subject);
-    else if (status == MOTE_OK)
+    mote_status status = mote_subject_open(wish->scenarios[0], &subject);
+    if (status == MOTE_OK)
         status = simulate(wish, &subject);
     mote_subject_free(&subject);
-    if (status != MOTE_OK)
-        return mote_command_fail();
-    return wish->out ? code : mote_command_finish(MOTE_EXIT_DONE);
+    return status == MOTE_OK ? mote_command_finish(MOTE_EXIT_DONE) : mote_command_fail();
 }
 
 int mote_command_simulate(int argc, char **argv)
 {
-    request wish = {.density = MOTE_NONE,
+    request wish = {.scenarios = mote_allocate((size_t)argc + 1, sizeof *wish.scenarios),
+                    .density = MOTE_NONE,
                     .restitution = MOTE_NONE,
                     .tolerance = MOTE_NONE,
                     .time_step = MOTE_NONE,
                     .seed = 1,
                     .replicates = 1,
                     .jobs = 1,
+                    .budget = DEFAULT_BUDGET,
                     .argc = argc,
                     .argv = argv};
     int code = read_arguments(argc, argv, &wish);
     if (code == MOTE_EXIT_DONE)
         code = execute(&wish);
     mote_choices_free(&wish.choices);
+    free(wish.scenarios);
     return code;
 }

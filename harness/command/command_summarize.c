@@ -3,6 +3,7 @@
 #include "harness/base/options.h"
 #include "harness/summary/front.h"
 #include "harness/base/record.h"
+#include "harness/command/kept.h"
 #include "harness/summary/screen.h"
 #include "harness/summary/summary_json.h"
 #include "harness/summary/table.h"
@@ -47,8 +48,25 @@ static int print_csv(const mote_summary *summary)
     return mote_command_finish(MOTE_EXIT_DONE);
 }
 
-static int print(const mote_summary *summary, const char *directory, size_t format)
+/* The simulations of a directory without cells. */
+static int print_simulations(const mote_simulations *simulations, size_t format)
 {
+    if (format == FORMAT_JSON)
+        return print_json(mote_simulations_json(simulations));
+    if (format != FORMAT_TABLE)
+        return mote_command_usage("summarize",
+                                  "--format %s is for runs; of simulations there are table and "
+                                  "json",
+                                  formats[format]);
+    mote_simulations_print(simulations, stdout);
+    return mote_command_finish(MOTE_EXIT_DONE);
+}
+
+static int print(const mote_kept *kept, const char *directory, size_t format)
+{
+    const mote_summary *summary = &kept->summary;
+    if (!kept->has_summary)
+        return print_simulations(&kept->simulations, format);
     switch (format) {
     case FORMAT_JSON:
         return print_json(mote_summary_json(summary));
@@ -61,7 +79,7 @@ static int print(const mote_summary *summary, const char *directory, size_t form
     case FORMAT_CSV:
         return print_csv(summary);
     default:
-        mote_table_print(summary, stdout);
+        mote_kept_print(kept, stdout);
         print_fronts(summary);
         break;
     }
@@ -126,20 +144,21 @@ int mote_command_summarize(int argc, char **argv)
     const int understood = read_arguments(argc, argv, &q);
     if (understood != MOTE_EXIT_DONE)
         return understood;
-    mote_summary summary;
-    if (mote_summary_make(q.directory, &summary) != MOTE_OK)
+    mote_kept kept;
+    if (mote_kept_read(q.directory, &kept) != MOTE_OK)
         return mote_command_fail();
     /* Rows are printed even if the directory cannot be written to. */
     int code;
-    if (q.screen) {
+    if (q.screen && kept.has_summary) {
         const bool best = strcmp(q.screen, "--best") == 0;
-        (best ? mote_screen_print : mote_screen_engines)(&summary, stdout);
+        (best ? mote_screen_print : mote_screen_engines)(&kept.summary, stdout);
         code = mote_command_finish(MOTE_EXIT_DONE);
     } else {
-        code = print(&summary, q.directory, q.format);
+        code = print(&kept, q.directory, q.format);
     }
-    if (code == MOTE_EXIT_DONE && mote_summary_write(&summary, q.directory) != MOTE_OK)
+    if (code == MOTE_EXIT_DONE && kept.has_summary &&
+        mote_summary_write(&kept.summary, q.directory) != MOTE_OK)
         code = mote_command_fail();
-    mote_summary_free(&summary);
+    mote_kept_free(&kept);
     return code;
 }

@@ -1,12 +1,15 @@
 #include "harness/loop/replicates.h"
 
+#include "harness/base/clock.h"
 #include "harness/base/hash.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "harness/loop/simulate.h"
 #include "harness/loop/simulate_print.h"
+#include "harness/loop/simulations.h"
 #include "harness/process/crew.h"
 #include "harness/process/manifest.h"
+#include "harness/run/progress.h"
 
 #include <ctype.h>
 #include <inttypes.h>
@@ -14,13 +17,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A fixed seed, so the same data give the same intervals. */
-#define INTERVAL_SEED 1
-
-/* Task t is replicate t / methods + 1 of method t % methods: replicates outermost. */
+/* Simulation t is replicate t / methods + 1 of method t % methods: replicates outermost. The
+   tasks of one crew are the simulations from first on. */
 typedef struct work {
     const mote_replicates *plan;
-    bool *there; /* [tasks]: stored by an earlier run */
+    size_t first;
+    bool *skipped; /* [tasks]: stored by an earlier run, or not wanted */
 } work;
 
 static const mote_method_choice *choice_of(const mote_replicates *plan, size_t task)
@@ -31,11 +33,6 @@ static const mote_method_choice *choice_of(const mote_replicates *plan, size_t t
 static uint32_t replicate_of(const mote_replicates *plan, size_t task)
 {
     return (uint32_t)(task / plan->choices->count) + 1;
-}
-
-static size_t task_count(const mote_replicates *plan)
-{
-    return plan->choices->count * plan->replicates;
 }
 
 /* Everything that determines a result. The caller decrefs. */
@@ -55,6 +52,15 @@ static json_t *identity(const mote_replicates *plan, size_t task)
         (json_int_t)plan->steps, "density", o->density, "restitution", o->restitution,
         "tolerance", o->tolerance, "time_step", o->time_step, "gravity", o->gravity.x,
         o->gravity.y, o->gravity.z, "program", program, "alone", plan->jobs == 1);
+}
+
+/* A simulation's identity with the names that are shown. The caller decrefs. */
+static json_t *describe(const mote_replicates *plan, size_t task)
+{
+    json_t *object = identity(plan, task);
+    (void)json_object_set_new(object, "scenario", json_string(plan->scenario));
+    (void)json_object_set_new(object, "method", json_string(choice_of(plan, task)->text));
+    return object;
 }
 
 /* "simulations/letters-particle-r2-0123456789abcdef.json"; the caller frees it. */
@@ -99,9 +105,10 @@ static mote_status keep(const mote_replicates *plan, size_t task,
 {
     char machine[MOTE_MACHINE_SIZE];
     mote_machine_name(machine, sizeof machine);
-    json_t *object = json_pack("{s:i, s:s, s:s, s:s}", "schema", 1, "status", status, "machine",
-                               machine, "scenario", plan->scenario);
-    json_t *what = identity(plan, task);
+    const uint32_t bodies = mote_subject_facts_of(plan->subject).bodies;
+    json_t *object = json_pack("{s:i, s:s, s:s, s:I}", "schema", 1, "status", status, "machine",
+                               machine, "bodies", (json_int_t)bodies);
+    json_t *what = describe(plan, task);
     (void)json_object_update(object, what);
     json_decref(what);
     if (reason)
@@ -109,10 +116,9 @@ static mote_status keep(const mote_replicates *plan, size_t task,
     json_t *figures = NULL;
     if (result)
         figures =
-            mote_simulation_json(plan->scenario, mote_subject_facts_of(plan->subject).bodies,
-                                 choice_of(plan, task), result);
+            mote_simulation_json(plan->scenario, bodies, choice_of(plan, task)->text, result);
     if (figures)
-        (void)json_object_update(object, figures); /* "method" is now as requested */
+        (void)json_object_update(object, figures);
     json_decref(figures);
     char *name = file_name(plan, task);
     const mote_status done = mote_record_json(plan->directory, name, object);
@@ -152,14 +158,15 @@ static mote_status simulate(void *context, int output)
 static mote_status start_task(void *context, size_t task, mote_child *child)
 {
     const work *w = context;
-    task_context t = {w->plan, task};
+    task_context t = {w->plan, w->first + task};
     const mote_child_limits limits = {.output_bytes = sizeof(mote_simulation_result)};
-    return w->there[task] ? MOTE_OK : mote_child_start(simulate, &t, limits, child);
+    return w->skipped[task] ? MOTE_OK : mote_child_start(simulate, &t, limits, child);
 }
 
 static mote_status finish_task(void *context, size_t task, mote_child *child, double seconds)
 {
     const work *w = context;
+    const size_t which = w->first + task;
     const bool done = child->end == MOTE_CHILD_DONE && child->status == MOTE_OK &&
                       child->size == sizeof(mote_simulation_result);
     const char *how = done ? "ok" : "crashed";
@@ -171,13 +178,12 @@ static mote_status finish_task(void *context, size_t task, mote_child *child, do
     else if (child->end == MOTE_CHILD_DONE && child->status == MOTE_EUNSUPPORTED)
         how = "unsupported";
     (void)fprintf(stderr, "%s %s r%u: %s%s%s, %.1f s\n", w->plan->scenario,
-                  choice_of(w->plan, task)->text, replicate_of(w->plan, task), how,
+                  choice_of(w->plan, which)->text, replicate_of(w->plan, which), how,
                   done ? "" : ": ", done ? "" : child->text, seconds);
-    return keep(w->plan, task, done ? &result : NULL, how, done ? NULL : child->text);
+    return keep(w->plan, which, done ? &result : NULL, how, done ? NULL : child->text);
 }
 
-/* Rejects invalid input before anything is written. */
-static mote_status check_methods(const mote_replicates *plan)
+mote_status mote_replicates_check(const mote_replicates *plan)
 {
     mote_status status = MOTE_OK;
     for (size_t m = 0; m < plan->choices->count && status == MOTE_OK; ++m) {
@@ -188,115 +194,103 @@ static mote_status check_methods(const mote_replicates *plan)
     return status;
 }
 
-static mote_status simulate_missing(const mote_replicates *plan)
+static bool is_stored(const mote_replicates *plan, size_t task)
 {
-    work w = {plan, mote_allocate(task_count(plan), sizeof *w.there)};
-    size_t there = 0;
-    for (size_t task = 0; task < task_count(plan); ++task) {
-        json_t *object = recall(plan, task);
-        w.there[task] = object != NULL;
-        there += w.there[task];
-        json_decref(object);
+    json_t *object = recall(plan, task);
+    json_decref(object);
+    return object != NULL;
+}
+
+/* Simulates the replicates first .. last that are not stored, of the wanted methods (NULL:
+   all). */
+static mote_status simulate_missing(const mote_replicates *plan, uint32_t first, uint32_t last,
+                                    const bool *wanted)
+{
+    const size_t methods = plan->choices->count, tasks = (last - first + 1) * methods;
+    work w = {plan, (first - 1) * methods, mote_allocate(tasks, sizeof *w.skipped)};
+    size_t done = 0;
+    for (size_t task = 0; task < tasks; ++task) {
+        const bool stored = is_stored(plan, w.first + task);
+        w.skipped[task] = stored || (wanted && !wanted[task % methods]);
+        done += stored;
     }
-    (void)fprintf(stderr, "plan: %zu simulations, %zu of them done\n", task_count(plan), there);
-    const mote_crew crew = {.tasks = task_count(plan),
+    if (!wanted)
+        (void)fprintf(stderr, "plan: %zu simulations, %zu of them done\n", tasks, done);
+    const mote_crew crew = {.tasks = tasks,
                             .places = plan->jobs,
                             .context = &w,
                             .start = start_task,
                             .finish = finish_task};
     const mote_status status = mote_crew_run(&crew);
-    free(w.there);
+    free(w.skipped);
     return status;
 }
 
-/* Collects the row of method m from the files. */
-static mote_replicates_row gather(const mote_replicates *plan, size_t m)
+/* The half width of the interval of a method's time, as a share of it: infinite if there is
+   none yet, 0 if more replicates would not help. */
+static double width_of(const mote_replicates *plan, size_t m, const mote_simulations *list)
 {
-    mote_replicates_row row = {0};
-    double *ns = mote_allocate(plan->replicates, sizeof *ns);
-    mote_replicate *each = mote_allocate(plan->replicates, sizeof *each);
-    for (uint32_t r = 0; r < plan->replicates; ++r) {
-        json_t *object = recall(plan, r * plan->choices->count + m);
-        mote_simulation_result result;
-        const char *status = json_string_value(json_object_get(object, "status"));
-        const char *reason = json_string_value(json_object_get(object, "reason"));
-        if (mote_simulation_read(object, &result)) {
-            mote_simulation_add(&row.sum, &result);
-            ns[row.done] = result.query_ns;
-            each[row.done] = (mote_replicate){&ns[row.done], 1};
-            ++row.done;
-        } else if (status && strcmp(status, "unsupported") == 0 && reason) {
-            free(row.unsupported);
-            row.unsupported = mote_duplicate(reason);
-        } else {
-            ++row.failed;
-        }
-        json_decref(object);
+    json_t *object = describe(plan, m);
+    json_t *question = mote_simulation_question(object);
+    double width = 0;
+    for (size_t i = 0; i < list->count; ++i) {
+        const mote_simulations_row *row = &list->rows[i];
+        if (json_equal(row->question, question) &&
+            json_equal(json_object_get(row->origin, "program"),
+                       json_object_get(object, "program")) &&
+            row->done > 0 && row->failed == 0)
+            width = mote_statistics_half_width(row->query_ns, row->interval);
     }
-    row.interval = mote_statistics_median_interval(each, row.done, true, INTERVAL_SEED);
-    row.query_ns = row.done > 0 ? mote_statistics_median(ns, row.done) : MOTE_NONE;
-    free(each);
-    free(ns);
-    return row;
+    json_decref(question);
+    json_decref(object);
+    return width;
 }
 
-mote_status mote_replicates_run(const mote_replicates *plan, mote_replicates_row **rows)
+/* Adds replicates of the methods whose time is not precise enough, until there are none or the
+   time is spent. */
+static mote_status add_replicates(const mote_replicates *plan)
+{
+    const size_t methods = plan->choices->count;
+    const uint64_t start = mote_clock_ns();
+    bool *wanted = mote_allocate(methods, sizeof *wanted);
+    uint32_t replicates = plan->replicates;
+    double widest = 0, round = 0;
+    mote_status status = MOTE_OK;
+    while (status == MOTE_OK) {
+        mote_simulations list = {0};
+        status = mote_simulations_read(plan->directory, &list);
+        widest = 0;
+        for (size_t m = 0; m < methods && status == MOTE_OK; ++m) {
+            const double width = width_of(plan, m, &list);
+            wanted[m] = width > plan->share;
+            widest = fmax(widest, width);
+        }
+        mote_simulations_free(&list);
+        const double spent = (double)(mote_clock_ns() - start) * 1e-9;
+        if (status != MOTE_OK || !(widest > plan->share) || spent + round > plan->budget ||
+            replicates == MOTE_REPLICATES_MAX)
+            break;
+        ++replicates;
+        status = simulate_missing(plan, replicates, replicates, wanted);
+        round = (double)(mote_clock_ns() - start) * 1e-9 - spent;
+    }
+    free(wanted);
+    if (status == MOTE_OK)
+        mote_progress_precision(replicates, widest, plan->share);
+    return status;
+}
+
+mote_status mote_replicates_run(const mote_replicates *plan)
 {
     char *folder = mote_format("%s/simulations", plan->directory);
     const bool is_new = access(plan->directory, F_OK) != 0;
-    mote_status status = check_methods(plan);
+    mote_status status = mote_directory_make(folder);
     if (status == MOTE_OK)
-        status = mote_directory_make(folder);
-    if (status == MOTE_OK)
-        status = simulate_missing(plan);
+        status = simulate_missing(plan, 1, plan->replicates, NULL);
+    if (status == MOTE_OK && plan->share > 0)
+        status = add_replicates(plan);
     if (status != MOTE_OK && rmdir(folder) == 0 && is_new) /* nothing was stored */
         (void)rmdir(plan->directory);
     free(folder);
-    if (status != MOTE_OK)
-        return status;
-    *rows = mote_allocate(plan->choices->count, sizeof **rows);
-    for (size_t m = 0; m < plan->choices->count; ++m)
-        (*rows)[m] = gather(plan, m);
-    return MOTE_OK;
-}
-
-void mote_replicates_free(mote_replicates_row *rows, size_t count)
-{
-    for (size_t m = 0; rows && m < count; ++m)
-        free(rows[m].unsupported);
-    free(rows);
-}
-
-static json_t *row_json(const mote_replicates *plan, size_t m, const mote_replicates_row *row)
-{
-    const mote_method_choice *choice = &plan->choices->items[m];
-    const uint32_t bodies = mote_subject_facts_of(plan->subject).bodies;
-    json_t *object = NULL;
-    if (row->done > 0) {
-        object = mote_simulation_json(plan->scenario, bodies, choice, &row->sum);
-        (void)json_object_set_new(object, "query_ns", mote_json_number(row->query_ns));
-        (void)json_object_set_new(object, "query_ns_low", mote_json_number(row->interval.low));
-        (void)json_object_set_new(object, "query_ns_high",
-                                  mote_json_number(row->interval.high));
-    } else {
-        object = json_pack("{s:s, s:s, s:I}", "scenario", plan->scenario, "method",
-                           choice->text, "bodies", (json_int_t)bodies);
-    }
-    if (row->unsupported)
-        (void)json_object_set_new(object, "unsupported", json_string(row->unsupported));
-    (void)json_object_set_new(object, "replicates", json_integer(row->done));
-    (void)json_object_set_new(object, "replicates_failed", json_integer(row->failed));
-    return object;
-}
-
-json_t *mote_replicates_json(const mote_replicates *plan, const mote_replicates_row *rows)
-{
-    char fingerprint[20];
-    json_t *list = json_array();
-    (void)snprintf(fingerprint, sizeof fingerprint, "%016" PRIx64, plan->subject->fingerprint);
-    for (size_t m = 0; m < plan->choices->count; ++m)
-        (void)json_array_append_new(list, row_json(plan, m, &rows[m]));
-    return json_pack("{s:i, s:s, s:s, s:I, s:o}", "schema", 1, "scenario", plan->scenario,
-                     "fingerprint", fingerprint, "bodies",
-                     (json_int_t)mote_subject_facts_of(plan->subject).bodies, "rows", list);
+    return status;
 }

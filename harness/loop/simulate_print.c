@@ -68,12 +68,11 @@ static double *real_of(mote_simulation_result *result, const figure *f)
     return (double *)(void *)((char *)result + f->offset);
 }
 
-json_t *mote_simulation_json(const char *scenario, uint32_t bodies,
-                             const mote_method_choice *choice,
+json_t *mote_simulation_json(const char *scenario, uint32_t bodies, const char *method,
                              const mote_simulation_result *result)
 {
     mote_simulation_result values = *result;
-    json_t *root = json_pack("{s:s, s:s, s:I}", "scenario", scenario, "method", choice->text,
+    json_t *root = json_pack("{s:s, s:s, s:I}", "scenario", scenario, "method", method,
                              "bodies", (json_int_t)bodies);
     for (size_t k = 0; k < FIGURES; ++k) {
         const figure *f = &figures[k];
@@ -143,12 +142,11 @@ mote_status mote_simulation_put(json_t *object, FILE *out)
     return MOTE_OK;
 }
 
-void mote_simulation_print(const char *scenario, uint32_t bodies,
-                           const mote_method_choice *choice,
+void mote_simulation_print(const char *scenario, uint32_t bodies, const char *method,
                            const mote_simulation_result *result, FILE *out)
 {
     (void)fprintf(out, "%s, %s: %u bodies, %" PRIu64 " steps, %.3g us each for the method\n",
-                  scenario, choice->text, bodies, result->steps, result->query_ns / 1e3);
+                  scenario, method, bodies, result->steps, result->query_ns / 1e3);
     (void)fprintf(out,
                   "approaches %" PRIu64 ", passes through %" PRIu64 " (%" PRIu64
                   " of them with a vertex inside)\n",

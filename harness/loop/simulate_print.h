@@ -8,10 +8,9 @@
 #include <jansson.h>
 #include <stdio.h>
 
-/* {"scenario", "method", "bodies", "steps", ...}; scenario is the displayed name. NULL if that
-   is not UTF-8. The caller decrefs. */
-json_t *mote_simulation_json(const char *scenario, uint32_t bodies,
-                             const mote_method_choice *choice,
+/* {"scenario", "method", "bodies", "steps", ...}; scenario and method are the displayed names.
+   NULL if one is not UTF-8. The caller decrefs. */
+json_t *mote_simulation_json(const char *scenario, uint32_t bodies, const char *method,
                              const mote_simulation_result *result);
 
 /* Reads the figures of such an object; false if one is missing or invalid. */
@@ -25,8 +24,7 @@ void mote_simulation_add(mote_simulation_result *sum, const mote_simulation_resu
 mote_status mote_simulation_put(json_t *object, FILE *out);
 
 /* Prints lines for people. */
-void mote_simulation_print(const char *scenario, uint32_t bodies,
-                           const mote_method_choice *choice,
+void mote_simulation_print(const char *scenario, uint32_t bodies, const char *method,
                            const mote_simulation_result *result, FILE *out);
 
 #endif

@@ -5,6 +5,7 @@
 #define MOTE_HARNESS_REPORT_H
 
 #include "harness/base/file.h"
+#include "harness/loop/simulations.h"
 #include "harness/summary/summary.h"
 
 #include <jansson.h>
@@ -26,6 +27,7 @@ typedef struct mote_report {
     mote_summary summary;  /* made from the cells, otherwise read from summary.json */
     bool has_summary, has_cells;
     size_t *order; /* [rows of summary], display order: see mote_report_sort */
+    mote_simulations simulations;
     json_t *claims, *requirements;
     char *claims_folder; /* their folder, relative to the run: "" or "../claims/" */
     mote_report_figure *figures;

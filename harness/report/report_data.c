@@ -164,6 +164,11 @@ mote_status mote_report_data(const mote_report *report, json_t **data)
     (void)json_object_set(made, "damaged", report->damaged);
     (void)json_object_set(made, "missing", report->missing);
     set_rows(report, made);
+    if (report->simulations.count > 0) {
+        json_t *simulations = mote_simulations_json(&report->simulations);
+        (void)json_object_set(made, "simulations", json_object_get(simulations, "rows"));
+        json_decref(simulations);
+    }
     if (json_is_array(report->claims))
         (void)json_object_set(made, "claims", report->claims);
     if (json_is_array(report->requirements))

@@ -151,13 +151,16 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
     read_rows(&made);
     mote_report_sort(&made);
     mote_report_figures(&made);
-    if (!made.has_summary && !made.figure_count &&
+    if (mote_simulations_exist(directory) &&
+        mote_simulations_read(directory, &made.simulations) != MOTE_OK)
+        add_text(made.damaged, mote_format("simulations: %s", mote_error_text()));
+    if (!made.has_summary && !made.figure_count && !made.simulations.count &&
         !mote_record_exists(directory, "claims.json")) {
         mote_report_free(&made);
         return mote_fail(
             MOTE_EIO,
             "%s: nothing to report: no cells that can be read, no summary.json, no "
-            "claims.json, no figures; name the directory of a run",
+            "simulations, no claims.json, no figures; name the directory of a run",
             directory);
     }
     read_claims(&made);
@@ -169,6 +172,7 @@ mote_status mote_report_gather(const char *directory, mote_report *report)
 void mote_report_free(mote_report *report)
 {
     mote_summary_free(&report->summary);
+    mote_simulations_free(&report->simulations);
     json_decref(report->manifest);
     json_decref(report->claims);
     json_decref(report->requirements);

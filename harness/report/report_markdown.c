@@ -8,6 +8,7 @@
 #include "harness/summary/dominance.h"
 #include "harness/summary/table.h"
 
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -292,6 +293,35 @@ static void add_results(const mote_report *report, mote_text *text)
     }
 }
 
+/* A row a method; the figures of simulations.json that say whether bodies passed through each
+   other. */
+static void add_simulations(const mote_report *report, mote_text *text)
+{
+    if (report->simulations.count == 0)
+        return;
+    mote_text_add(
+        text,
+        "\n## Simulations\n\nBodies that move freely and collide where the method "
+        "reports a contact. All figures are in\n[simulations.json](simulations.json)."
+        "\n\n| scenario | method | replicates | us a step | approaches | passes through "
+        "| missed steps | penetration / L |\n|:---|:---|---:|---:|---:|---:|---:|---:|\n");
+    for (size_t i = 0; i < report->simulations.count; ++i) {
+        const mote_simulations_row *row = &report->simulations.rows[i];
+        mote_text_add(text, "| ");
+        mote_escape_markdown(text, row->scenario);
+        mote_text_add(text, " | ");
+        mote_escape_markdown(text, row->method);
+        if (row->done > 0)
+            mote_text_add(text,
+                          " | %u | %.3g | %" PRIu64 " | %" PRIu64 " | %" PRIu64 " | %.2g |\n",
+                          row->done, row->query_ns / 1e3, row->sum.approaches, row->sum.passes,
+                          row->sum.missed_steps, row->sum.depth_max);
+        else
+            mote_text_add(text, " | 0 | %s | | | | |\n",
+                          row->unsupported ? "unsupported" : "failed");
+    }
+}
+
 static void add_figures(const mote_report *report, mote_text *text)
 {
     if (report->figure_count == 0)
@@ -383,6 +413,7 @@ void mote_report_markdown(const mote_report *report, mote_text *text)
     add_damaged(report, text);
     add_results(report, text);
     add_figures(report, text);
+    add_simulations(report, text);
     add_claims(report, report->claims, "Claims of the paper", "claims.json", text);
     add_claims(report, report->requirements, "Requirements", "requirements.json", text);
     if (report->manifest) {

@@ -68,6 +68,13 @@ void mote_progress_keep(mote_progress *progress, const char *text)
     progress->last = seconds_now();
 }
 
+void mote_progress_precision(uint32_t replicates, double widest, double share)
+{
+    (void)fprintf(stderr, "after %u replicates the widest interval is +-%.2g %%%s\n",
+                  replicates, 100 * widest,
+                  widest <= share ? "" : ", wider than asked for: the budget ends");
+}
+
 void mote_progress_end(mote_progress *progress)
 {
     if (progress->drawn)

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct mote_progress {
     bool terminal;
@@ -30,6 +31,10 @@ void mote_progress_cell(mote_progress *progress, const char *text);
 
 /* Prints a line that stays, on a terminal or not. */
 void mote_progress_keep(mote_progress *progress, const char *text);
+
+/* Reports the precision that --until-ci reached: the widest interval, as a share of its median,
+   after so many replicates. */
+void mote_progress_precision(uint32_t replicates, double widest, double share);
 
 /* Removes the moving line. */
 void mote_progress_end(mote_progress *progress);

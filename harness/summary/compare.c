@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Counts are equal if they differ by less than this share. */
-#define EXACT_SHARE 1e-9
 /* Instructions may grow by this share: a few branches depend on memory addresses. */
 #define INSTRUCTIONS_SHARE 0.01
 /* At most this many replicates are paired. */
@@ -133,8 +131,7 @@ static size_t process_changes(const mote_summary_row *base, const mote_summary_r
     return count;
 }
 
-/* Notes that something in the base cannot be compared, which makes the row undecided. */
-static void say_unknown(mote_change *change, const char *what)
+void mote_change_unknown(mote_change *change, const char *what)
 {
     change->unknown = true;
     mote_text_add(&change->what, "%s%s", change->what.size ? "; " : "", what);
@@ -149,6 +146,15 @@ static bool has_time(const mote_summary_row *row)
     return row->quiet.total[0] > 0 || row->quiet.ratio[0] > 0;
 }
 
+void mote_change_times(mote_change *change, const double *logs, size_t count)
+{
+    change->ratio = exp(mote_statistics_mean(logs, count));
+    change->interval = mote_statistics_t_interval(logs, count);
+    change->interval.low = exp(change->interval.low);
+    change->interval.high = exp(change->interval.high);
+    change->p = mote_statistics_t_test(logs, count);
+}
+
 static void compare_times(const mote_summary_row *base, const mote_summary_row *fresh,
                           bool other_machine, mote_change *change)
 {
@@ -158,13 +164,9 @@ static void compare_times(const mote_summary_row *base, const mote_summary_row *
         count = process_changes(base, fresh, other_machine, logs);
     /* Between machines, a row without a ratio to fcl-aabb has no comparable time. */
     if (count == 0 && !other_machine && has_time(base))
-        say_unknown(change, "no time to compare");
+        mote_change_unknown(change, "no time to compare");
     change->smallest_change = fmax(base->smallest_change, fresh->smallest_change);
-    change->ratio = exp(mote_statistics_mean(logs, count));
-    change->interval = mote_statistics_t_interval(logs, count);
-    change->interval.low = exp(change->interval.low);
-    change->interval.high = exp(change->interval.high);
-    change->p = mote_statistics_t_test(logs, count);
+    mote_change_times(change, logs, count);
 }
 
 static void say(mote_change *change, const char *name, double base, double fresh)
@@ -177,9 +179,8 @@ static void say(mote_change *change, const char *name, double base, double fresh
         mote_text_add(&change->what, "%s%s %.6g to %.6g", separator, name, base, fresh);
 }
 
-/* Compares a value of which less is better, equal within a share, and notes a difference. */
-static void compare_figure(mote_change *change, const char *name, double base, double fresh,
-                           double share)
+void mote_change_figure(mote_change *change, const char *name, double base, double fresh,
+                        double share)
 {
     double slack = share * fmax(fabs(base), fabs(fresh));
     bool known = base == base && fresh == fresh;
@@ -220,7 +221,7 @@ static void compare_counts(const mote_summary_row *base, const mote_summary_row 
                            mote_change *change)
 {
     if (base->process_count > 0 && !has_pair(base, fresh)) {
-        say_unknown(change, "no replicate in common: counts are not compared");
+        mote_change_unknown(change, "no replicate in common: counts are not compared");
         return;
     }
     for (size_t k = 0; k < base->count_count; ++k) {
@@ -234,9 +235,9 @@ static void compare_counts(const mote_summary_row *base, const mote_summary_row 
             sums[0] += was->sums[k];
             sums[1] += count_in(fresh, is, name);
         }
-        change->counted =
-            change->counted || fabs(sums[0] - sums[1]) > EXACT_SHARE * fmax(sums[0], sums[1]);
-        compare_figure(change, name, sums[0], sums[1], EXACT_SHARE);
+        change->counted = change->counted ||
+                          fabs(sums[0] - sums[1]) > MOTE_EXACT_SHARE * fmax(sums[0], sums[1]);
+        mote_change_figure(change, name, sums[0], sums[1], MOTE_EXACT_SHARE);
     }
 }
 
@@ -256,7 +257,7 @@ static void compare_columns(const mote_summary_row *base, const mote_summary_row
                 values[k] = 1 - values[k];
         }
         if (!(fabs(values[0]) <= rule->negligible && fabs(values[1]) <= rule->negligible))
-            compare_figure(change, rule->name, values[0], values[1], rule->share);
+            mote_change_figure(change, rule->name, values[0], values[1], rule->share);
     }
 }
 
@@ -277,7 +278,7 @@ static void compare_row(const mote_summary_row *base, const mote_summary_row *fr
     }
     if (strcmp(is, "ok") != 0) {
         if (is[0] == '\0')
-            say_unknown(change, "no status");
+            mote_change_unknown(change, "no status");
         return;
     }
     if (!base->times_comparable || !fresh->times_comparable)
@@ -344,8 +345,8 @@ static double raised_floor(double floor, const mote_compared_run runs[2])
     return floor;
 }
 
-static mote_status compare_rows(const mote_summary *base, const mote_summary *fresh,
-                                mote_comparison *c)
+static void compare_rows(const mote_summary *base, const mote_summary *fresh,
+                         mote_comparison *c)
 {
     c->changes = mote_allocate(base->count, sizeof *c->changes);
     for (size_t i = 0; i < base->count; ++i) {
@@ -358,11 +359,6 @@ static mote_status compare_rows(const mote_summary *base, const mote_summary *fr
     /* Several rows of the base, on different machines, may have the same partner. */
     for (size_t i = 0; i < fresh->count; ++i)
         c->only_new += find_partner(base, &fresh->rows[i]) ? 0 : 1;
-    c->undecided = c->only_base > 0; /* rows missing from the new run */
-    if (c->count == 0)
-        return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
-                                      "runs of the same scenarios, methods, frames and seed");
-    return MOTE_OK;
 }
 
 /* Whether both manifests exist and differ in this key. */
@@ -415,11 +411,11 @@ static void compare_instructions(const mote_compared_run runs[2], bool judged,
         bool known = a == a && b == b;
         change->executed = known && fabs(b - a) > INSTRUCTIONS_SHARE * fmax(a, b);
         if (judged && known)
-            compare_figure(change, "instructions", a, b, INSTRUCTIONS_SHARE);
+            mote_change_figure(change, "instructions", a, b, INSTRUCTIONS_SHARE);
         else if (change->executed)
             say(change, "instructions (another processor or compiler)", a, b);
         else if (judged && a == a)
-            say_unknown(change, "instructions are not counted over the same frames");
+            mote_change_unknown(change, "instructions are not counted over the same frames");
     }
 }
 
@@ -430,9 +426,12 @@ static mote_status compare_runs(const mote_compared_run runs[2], double floor,
     c->floor = raised_floor(floor, runs);
     if (c->other_machine && c->floor < MOTE_OTHER_MACHINE_FLOOR)
         c->floor = MOTE_OTHER_MACHINE_FLOOR;
-    const mote_status status = compare_rows(&runs[0].summary, &runs[1].summary, c);
-    if (status != MOTE_OK)
-        return status;
+    compare_rows(&runs[0].summary, &runs[1].summary, c);
+    mote_compare_simulations(&runs[0].simulations, &runs[1].simulations, c);
+    c->undecided = c->only_base > 0; /* rows missing from the new run */
+    if (c->count == 0)
+        return mote_fail(MOTE_EINVAL, "the two runs have no configuration in common; compare "
+                                      "runs of the same scenarios, methods, frames and seed");
     c->instructions = runs[0].instructions && runs[1].instructions;
     if (c->instructions)
         compare_instructions(runs, !c->other_machine && !manifests_differ(runs, "compiler"), c);

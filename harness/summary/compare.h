@@ -5,6 +5,7 @@
 
 #include "harness/base/file.h"
 #include "harness/base/statistics.h"
+#include "harness/loop/simulations.h"
 
 #include <jansson.h>
 
@@ -13,7 +14,8 @@
 
 /* A row that both runs have. */
 typedef struct mote_change {
-    char *name;   /* "ww/particle-paper:n=5/hot": scene, label and caches */
+    char *name;   /* "ww/particle-paper:n=5/hot": scene, label and caches; or
+                     "ww/certified/simulated" */
     double ratio; /* time new / base; relative to fcl-aabb within each run if both have it */
     mote_confidence
         interval;           /* of the ratio: t over groups of quiet times, or over replicates */
@@ -39,15 +41,35 @@ typedef struct mote_comparison {
     bool worse, undecided;      /* of any row; also undecided if the base has more rows */
 } mote_comparison;
 
+/* A share by which equal counts may differ. */
+#define MOTE_EXACT_SHARE 1e-9
+
+/* Notes that something in the base cannot be compared, which makes the row undecided. */
+void mote_change_unknown(mote_change *change, const char *what);
+
+/* Compares a value of which less is better, equal within a share, and notes a difference. */
+void mote_change_figure(mote_change *change, const char *name, double base, double fresh,
+                        double share);
+
+/* Sets the ratio of times new / base, its interval and p from the logarithms of paired times.
+ */
+void mote_change_times(mote_change *change, const double *logs, size_t count);
+
+/* Compares the simulations of two directories: what methods missed and how deep bodies went,
+   over the replicates that both have, and times where no other simulation ran beside them.
+   Appends to comparison->changes. */
+void mote_compare_simulations(const mote_simulations *base, const mote_simulations *fresh,
+                              mote_comparison *comparison);
+
 /* Compares directories (or summary.json files). floor: a share, a minimum that the noise floors
    of both runs can raise. A time is slower only if its ratio is beyond the floor and beyond the
    smallest change that the rows can detect. If manifest.json names another processor, times are
    compared only as ratios to fcl-aabb, from MOTE_OTHER_MACHINE_FLOOR on. Counts, bytes,
-   accuracy and the number of failed replicates are compared directly. Instructions
-   (instructions.json of both) may grow by 1 %; with another processor or compiler they are
-   reported but not judged. MOTE_EIO or MOTE_EINVAL if a summary, or an existing manifest.json
-   or instructions.json, cannot be read; MOTE_EINVAL if the runs have no row in common. The
-   caller frees *comparison. */
+   accuracy and the number of failed replicates are compared directly, and so are simulations.
+   Instructions (instructions.json of both) may grow by 1 %; with another processor or compiler
+   they are reported but not judged. MOTE_EIO or MOTE_EINVAL if a summary, or an existing
+   manifest.json or instructions.json, cannot be read; MOTE_EINVAL if the runs have no row in
+   common. The caller frees *comparison. */
 mote_status mote_compare(const char *base, const char *new_run, double floor,
                          mote_comparison *comparison);
 void mote_comparison_free(mote_comparison *comparison);

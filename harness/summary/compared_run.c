@@ -43,7 +43,13 @@ mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
     mote_compared_run made = {.manifest = NULL};
     const char *name;
     char *directory = split(path, &name);
-    mote_status status = read_summary(directory, name, &made.summary);
+    const bool simulated =
+        strcmp(name, "summary.json") == 0 && mote_simulations_exist(directory);
+    mote_status status = MOTE_OK;
+    if (!simulated || mote_record_exists(directory, "cells"))
+        status = read_summary(directory, name, &made.summary);
+    if (status == MOTE_OK && simulated)
+        status = mote_simulations_read(directory, &made.simulations);
     if (status == MOTE_OK)
         status = read_beside(directory, "manifest.json", &made.manifest);
     if (status == MOTE_OK)
@@ -59,6 +65,7 @@ mote_status mote_compared_run_read(const char *path, mote_compared_run *run)
 void mote_compared_run_free(mote_compared_run *run)
 {
     mote_summary_free(&run->summary);
+    mote_simulations_free(&run->simulations);
     json_decref(run->manifest);
     json_decref(run->instructions);
     run->manifest = run->instructions = NULL;

@@ -2,10 +2,12 @@
 #ifndef MOTE_HARNESS_COMPARED_RUN_H
 #define MOTE_HARNESS_COMPARED_RUN_H
 
+#include "harness/loop/simulations.h"
 #include "harness/summary/summary.h"
 
 typedef struct mote_compared_run {
-    mote_summary summary;
+    mote_summary summary; /* without rows if there are only simulations */
+    mote_simulations simulations;
     json_t *manifest;     /* manifest.json, or NULL */
     json_t *instructions; /* instructions.json, or NULL */
 } mote_compared_run;

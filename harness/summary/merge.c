@@ -1,27 +1,12 @@
 #include "harness/summary/merge.h"
 
 #include "harness/base/record.h"
+#include "harness/loop/simulations.h"
 #include "harness/summary/stored.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#define FILE_LIMIT ((size_t)1 << 30)
-
-static mote_status copy_file(const char *from, const char *to, const char *name)
-{
-    char *source = mote_format("%s/%s", from, name), *target = mote_format("%s/%s", to, name);
-    char *data = NULL;
-    size_t size = 0;
-    mote_status status = mote_file_read(source, FILE_LIMIT, &data, &size);
-    if (status == MOTE_OK)
-        status = mote_file_write(target, data, size);
-    free(data);
-    free(source);
-    free(target);
-    return status;
-}
 
 /* Copies the CSV first, as when it was measured: a cell exists once its JSON does. */
 static mote_status copy_cell(const mote_stored_cell *cell, const char *from, const char *to,
@@ -35,11 +20,11 @@ static mote_status copy_cell(const mote_stored_cell *cell, const char *from, con
         ++merged->present;
     } else {
         if (cell->status == MOTE_CELL_OK)
-            status = copy_file(from, to, csv);
+            status = mote_record_copy(from, to, csv);
         if (status == MOTE_OK && mote_record_exists(from, pairs)) /* more than two bodies */
-            status = copy_file(from, to, pairs);
+            status = mote_record_copy(from, to, pairs);
         if (status == MOTE_OK)
-            status = copy_file(from, to, json);
+            status = mote_record_copy(from, to, json);
         merged->copied += status == MOTE_OK ? 1 : 0;
     }
     free(json);
@@ -80,7 +65,7 @@ static mote_status merge_manifest(const char *directory, const char *run)
     if (status != MOTE_OK)
         return status;
     if (!mote_record_exists(directory, "manifest.json")) {
-        status = copy_file(run, directory, "manifest.json");
+        status = mote_record_copy(run, directory, "manifest.json");
     } else {
         status = mote_record_read_json(directory, "manifest.json", &here);
         if (status == MOTE_OK &&
@@ -96,7 +81,7 @@ static mote_status merge_manifest(const char *directory, const char *run)
     return status;
 }
 
-mote_status mote_merge(const char *directory, const char *run, mote_merged *merged)
+static mote_status merge_cells(const char *directory, const char *run, mote_merged *merged)
 {
     mote_stored stored;
     mote_status status = mote_stored_read(run, NULL, &stored);
@@ -110,5 +95,28 @@ mote_status mote_merge(const char *directory, const char *run, mote_merged *merg
         status = copy_cell(&stored.cells[i], run, directory, merged);
     free(cells);
     mote_stored_free(&stored);
+    return status;
+}
+
+static mote_status merge_simulations(const char *directory, const char *run, bool has_cells,
+                                     mote_merged *merged)
+{
+    mote_status status = mote_directory_make(directory);
+    if (status == MOTE_OK && !has_cells)
+        status = merge_manifest(directory, run);
+    if (status == MOTE_OK)
+        status = mote_simulations_copy(run, directory, &merged->simulations, &merged->present);
+    return status;
+}
+
+mote_status mote_merge(const char *directory, const char *run, mote_merged *merged)
+{
+    const bool simulated = mote_simulations_exist(run);
+    const bool has_cells = !simulated || mote_record_exists(run, "cells");
+    mote_status status = MOTE_OK;
+    if (has_cells)
+        status = merge_cells(directory, run, merged);
+    if (status == MOTE_OK && simulated)
+        status = merge_simulations(directory, run, has_cells, merged);
     return status;
 }

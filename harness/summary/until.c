@@ -1,9 +1,10 @@
 #include "harness/summary/until.h"
 
+#include "harness/base/statistics.h"
+#include "harness/run/progress.h"
 #include "harness/summary/summary.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 typedef struct goal {
@@ -24,9 +25,8 @@ static double interval_width(const mote_summary *summary, const mote_cell *cell)
             if (row->status != MOTE_CELL_OK)
                 return 0;
             const mote_time *time = &row->total;
-            double width =
-                fmax(time->high - time->median, time->median - time->low) / time->median;
-            return width == width ? width : HUGE_VAL;
+            return mote_statistics_half_width(time->median,
+                                              (mote_confidence){time->low, time->high});
         }
     }
     return 0;
@@ -62,8 +62,6 @@ mote_status mote_run_until(const mote_run_options *options, double share,
     run.context = &g;
     const mote_status status = mote_run(&run, outcome);
     if (status == MOTE_OK && !options->dry_run)
-        (void)fprintf(stderr, "after %u replicates the widest interval is +-%.2g %%%s\n",
-                      outcome->replicates, 100 * g.widest,
-                      g.widest <= share ? "" : ", wider than asked for: the budget ends");
+        mote_progress_precision(outcome->replicates, g.widest, share);
     return status;
 }

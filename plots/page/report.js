@@ -143,6 +143,34 @@ function claimsSection(data) {
             list(data.requirements, "requirements.json")]);
 }
 
+// --- simulations ---
+
+// A row a method: what `mote simulate` found. The figures are those of simulations.json.
+function simulationsSection(data) {
+    const columns = [
+        ["replicates", (row) => wholeText(row.replicates)],
+        ["time a step", (row) => [show("time", row.query_ns), isNumber(row.query_ns_low) &&
+            ` (${intervalText("time", row.query_ns_low, row.query_ns_high)})`]],
+        ["approaches", (row) => wholeText(row.approaches)],
+        ["passes through", (row) => wholeText(row.passes_through)],
+        ["missed steps", (row) => wholeText(row.missed_steps)],
+        ["false steps", (row) => wholeText(row.false_steps)],
+        ["penetration / L", (row) => show("error", row.max_penetration)],
+    ];
+    const head = ["scenario", "method", ...columns.map(([name]) => name)].map((text) => el("th", { scope: "col" }, text));
+    const cells = (row) => row.steps === undefined
+        ? el("td", { colspan: columns.length }, row.unsupported ? `unsupported: ${row.unsupported}` : "every replicate failed")
+        : columns.map(([, value]) => el("td", {}, value(row)));
+    return section("simulations", "Simulations",
+        el("p", {}, "Bodies that move freely and collide where the method reports a contact. A pass is an approach to a " +
+            "true contact that the method never reports. Counts are sums over the replicates; more figures are in ",
+            el("a", { href: "simulations.json" }, "simulations.json"), "."),
+        el("div", { class: "wide", tabindex: 0, role: "region", "aria-label": "Simulations" },
+            el("table", {}, el("thead", {}, el("tr", {}, head)), el("tbody", {}, data.simulations.map((row) =>
+                el("tr", {}, el("td", {}, textOf(row.scenario)), el("th", { scope: "row" }, labelElements(textOf(row.method))),
+                    cells(row)))))));
+}
+
 // --- the end of the page ---
 
 // The Markdown that the notes on defects use: headings, paragraphs, `code`, and indented code, which
@@ -199,6 +227,7 @@ function sections(data, replay) {
         ["Results", data.rows.length > 0, () => resultsSection(data)],
         ["Replay", hasCells, () => replaySection(replay)],
         ["Figures", data.figures.length > 0, () => section("figures", "Figures", data.figures.map(figureElement))],
+        ["Simulations", data.simulations, () => simulationsSection(data)],
         ["Claims", data.claims || data.requirements, () => claimsSection(data)],
         ["Machine", data.machine.length > 0, machine],
         ["Known defects", data.defects, defects],

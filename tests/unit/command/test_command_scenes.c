@@ -131,7 +131,7 @@ static const command_line bad_lines[] = {
      "time step of 1"},
     {"simulate tt --method certified --steps 2 --trace /proc/x.json", 4, "/proc/x.json"},
     {"simulate s.json --method certified --yaml", 2, "unknown option --yaml"},
-    {"simulate s.json b.json --method certified", 2, "b.json: one scenario at a time"},
+    {"simulate s.json b.json --method certified", 2, "one scenario at a time"},
     {"simulate s.json --method certified --seed -1", 2, "--seed -1: give a whole number"},
     {"simulate s.json --method certified --density x", 2, "--density x: give a number"},
     {"simulate s.json --method certified --restitution x", 2, "--restitution x: give"},
