@@ -18,7 +18,20 @@ static inline size_t mote_lowest_bit(uint32_t bits)
 #endif
 }
 
-/* The same of a word of 64 bits. */
+/* How many bits are set. */
+static inline uint32_t mote_bit_count(uint32_t bits)
+{
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_popcount(bits);
+#else
+    uint32_t count = 0;
+    for (; bits; bits &= bits - 1)
+        ++count;
+    return count;
+#endif
+}
+
+/* The place of the lowest bit of a word of 64 bits, which is not 0. */
 static inline size_t mote_lowest_bit_of_64(uint64_t bits)
 {
 #if defined(__GNUC__)

@@ -135,7 +135,7 @@ typedef struct gathered {
 } gathered;
 
 /* Adds the gathered pairs that may be near to `near`, and empties the list. */
-static void test_gathered(const mote_cert_hulls *p, float need, gathered *pairs,
+static void test_gathered(const mote_cert_hulls *p, float need, bool normals, gathered *pairs,
                           mote_cert_near *near)
 {
     mote_cert_face_lanes lanes[2];
@@ -145,6 +145,8 @@ static void test_gathered(const mote_cert_hulls *p, float need, gathered *pairs,
         mote_cert_load_faces(&p->leaf[s], pairs->face[s], pairs->count, &lanes[s]);
     uint32_t left =
         mote_cert_near_pairs(&lanes[0], &lanes[1], (1u << pairs->count) - 1, need, p->loose);
+    if (normals && left)
+        left = mote_cert_near_along_normals(&lanes[0], &lanes[1], left, need, p->loose);
     for (; left; left &= left - 1) {
         const size_t l = mote_lowest_bit(left);
         near->undecided[pairs->face[0][l]] |= 1u << pairs->face[1][l];
@@ -154,8 +156,8 @@ static void test_gathered(const mote_cert_hulls *p, float need, gathered *pairs,
 }
 
 /* Adds the pairs in `left` that may be near to `near`. */
-static void test_all_pairs(const mote_cert_hulls *p, float need, const mote_cert_near *left,
-                           mote_cert_near *near)
+static void test_all_pairs(const mote_cert_hulls *p, float need, bool normals,
+                           const mote_cert_near *left, mote_cert_near *near)
 {
     gathered pairs;
     pairs.count = 0;
@@ -165,10 +167,10 @@ static void test_all_pairs(const mote_cert_hulls *p, float need, const mote_cert
             pairs.face[0][pairs.count] = (uint8_t)i;
             pairs.face[1][pairs.count++] = (uint8_t)mote_lowest_bit(undecided);
             if (pairs.count == MOTE_CERT_FACE_LANES)
-                test_gathered(p, need, &pairs, near);
+                test_gathered(p, need, normals, &pairs, near);
         }
     }
-    test_gathered(p, need, &pairs, near);
+    test_gathered(p, need, normals, &pairs, near);
 }
 
 void mote_cert_hulls_near(const mote_cert_hulls *p, float need, const float facing[3],
@@ -186,5 +188,19 @@ void mote_cert_hulls_near(const mote_cert_hulls *p, float need, const float faci
     if (left.used)
         filter_along(p, need, p->nearest, &left);
     if (left.used)
-        test_all_pairs(p, need, &left, near);
+        test_all_pairs(p, need, false, &left, near);
+}
+
+void mote_cert_hulls_drop(const mote_cert_hulls *p, float need, mote_cert_near *left)
+{
+    filter_along(p, need, p->nearest, left);
+}
+
+void mote_cert_hulls_test(const mote_cert_hulls *p, float need, const mote_cert_near *left,
+                          mote_cert_near *near)
+{
+    near->used = 0;
+    for (size_t i = 0; i < p->leaf[0].faces; ++i)
+        near->undecided[i] = 0;
+    test_all_pairs(p, need, true, left, near);
 }

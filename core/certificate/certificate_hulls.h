@@ -78,6 +78,14 @@ bool mote_cert_hulls_search(mote_cert_hulls *pair, float need);
 void mote_cert_hulls_near(const mote_cert_hulls *pair, float need, const float facing[3],
                           mote_cert_near *near);
 
+/* Drops the pairs that are `need` apart along pair->nearest. */
+void mote_cert_hulls_drop(const mote_cert_hulls *pair, float need, mote_cert_near *left);
+
+/* Of the pairs in `left`, those that may be nearer than `need`: each is tested by itself, along
+   the normals of its faces too. */
+void mote_cert_hulls_test(const mote_cert_hulls *pair, float need, const mote_cert_near *left,
+                          mote_cert_near *near);
+
 /* certificate_triangles.c */
 
 /* The largest coordinate of each face of a leaf along a direction. */
@@ -110,5 +118,11 @@ void mote_cert_load_faces(const mote_cert_points *leaf, const uint8_t *faces, ui
    much a difference of two corners may be wrong in each coordinate. */
 uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *s, const mote_cert_face_lanes *t,
                               uint32_t undecided, float need, const float loose[3]);
+
+/* Likewise, along the normals of both faces: where a corner of one is nearest to the inside of
+   the other, as in a sheet that lies on a body, these show their distance exactly. */
+uint32_t mote_cert_near_along_normals(const mote_cert_face_lanes *s,
+                                      const mote_cert_face_lanes *t, uint32_t undecided,
+                                      float need, const float loose[3]);
 
 #endif

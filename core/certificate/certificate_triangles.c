@@ -162,3 +162,54 @@ uint32_t mote_cert_near_pairs(const mote_cert_face_lanes *restrict s,
     }
     return undecided;
 }
+
+/* A normal whose square is below this is not used: times need squared it could be subnormal. A
+   smaller need than 2^-27 is met wherever there is a gap beyond the error of the corners. */
+#define SHORTEST_NORMAL_SQUARED 0x1p-60F
+
+/* Whether lane l of both is at least the root of `enough` apart along the normal of s: >= 0. */
+MOTE_INLINE float clear_of(const mote_cert_face_lanes *restrict s,
+                           const mote_cert_face_lanes *restrict t, size_t l, float enough,
+                           const float loose[3])
+{
+    const float ax = s->corner[0][0][l], ay = s->corner[0][1][l], az = s->corner[0][2][l];
+    const float bx = s->corner[1][0][l] - ax, by = s->corner[1][1][l] - ay;
+    const float bz = s->corner[1][2][l] - az, cx = s->corner[2][0][l] - ax;
+    const float cy = s->corner[2][1][l] - ay, cz = s->corner[2][2][l] - az;
+    const float x = by * cz - bz * cy;
+    const float y = bz * cx - bx * cz;
+    const float z = bx * cy - by * cx;
+    const float s0 = ax * x + ay * y + az * z;
+    const float s1 = s->corner[1][0][l] * x + s->corner[1][1][l] * y + s->corner[1][2][l] * z;
+    const float s2 = s->corner[2][0][l] * x + s->corner[2][1][l] * y + s->corner[2][2][l] * z;
+    const float t0 = t->corner[0][0][l] * x + t->corner[0][1][l] * y + t->corner[0][2][l] * z;
+    const float t1 = t->corner[1][0][l] * x + t->corner[1][1][l] * y + t->corner[1][2][l] * z;
+    const float t2 = t->corner[2][0][l] * x + t->corner[2][1][l] * y + t->corner[2][2][l] * z;
+    const float s01 = s0 > s1 ? s0 : s1, s10 = s0 > s1 ? s1 : s0;
+    const float t01 = t0 > t1 ? t0 : t1, t10 = t0 > t1 ? t1 : t0;
+    const float s_most = s01 > s2 ? s01 : s2, s_least = s10 < s2 ? s10 : s2;
+    const float t_most = t01 > t2 ? t01 : t2, t_least = t10 < t2 ? t10 : t2;
+    const float above = t_least - s_most, below = s_least - t_most;
+    const float slack = loose[0] * fabsf(x) + loose[1] * fabsf(y) + loose[2] * fabsf(z);
+    const float gap = (above > below ? above : below) - slack;
+    const float squared = x * x + y * y + z * z;
+    const float over = gap * gap - enough * squared;
+    const float used = squared >= SHORTEST_NORMAL_SQUARED ? over : -1;
+    return gap > 0 ? used : -1;
+}
+
+MOTE_CLONES
+uint32_t mote_cert_near_along_normals(const mote_cert_face_lanes *restrict s,
+                                      const mote_cert_face_lanes *restrict t,
+                                      uint32_t undecided, float need, const float loose[3])
+{
+    const float enough = need * need * (1 + 0x1p-18F);
+    uint32_t far = 0;
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < LANES; ++l) {
+        const float by_s = clear_of(s, t, l, enough, loose);
+        const float by_t = clear_of(t, s, l, enough, loose);
+        far |= (by_s > by_t ? by_s : by_t) >= 0 ? 1u << l : 0;
+    }
+    return undecided & ~far;
+}

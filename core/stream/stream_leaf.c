@@ -9,49 +9,34 @@
 /* Points that are turned at a time: as many floats as the widest vectors hold. */
 #define TURN (2 * WIDTH)
 
-/* Positions of a leaf relative to the origin, filled up to a multiple of TURN with copies of
-   the last. The fourth number of each is no coordinate. */
+/* Positions of a leaf, filled up to a multiple of TURN with copies of the last. */
 typedef struct gathered {
-    float point[MOTE_CERT_POINTS][4];
+    double x[MOTE_CERT_POINTS], y[MOTE_CERT_POINTS], z[MOTE_CERT_POINTS];
 } gathered;
 
-/* Four numbers are read and converted at once where the mesh has a vertex after this one. */
-#define GATHER(from, vertex, last, origin, scale, to)                                          \
-    do {                                                                                       \
-        const size_t wanted = (vertex) < (last) ? 4 : 3;                                       \
-        if (wanted == 4) {                                                                     \
-            MOTE_LANE_LOOP                                                                     \
-            for (size_t k = 0; k < 4; ++k)                                                     \
-                (to)[k] = (float)(((double)(from)[k] - (origin)[k]) * (scale));                \
-        } else {                                                                               \
-            for (size_t k = 0; k < 3; ++k)                                                     \
-                (to)[k] = (float)(((double)(from)[k] - (origin)[k]) * (scale));                \
-            (to)[3] = 0;                                                                       \
-        }                                                                                      \
-    } while (0)
-
-MOTE_CLONES
-static void gather(const mote_stream_search *restrict s, const mote_stream_body *restrict body,
-                   const uint32_t *restrict vertices, uint32_t count, gathered *restrict to)
+static void gather(const mote_stream_body *restrict body, const uint32_t *restrict vertices,
+                   size_t count, gathered *restrict to)
 {
     const char *data = body->positions.data;
     const size_t stride = body->positions.stride;
-    const uint32_t last = body->tree->mesh->vertex_count - 1;
-    const double origin[4] = {s->origin.x, s->origin.y, s->origin.z, 0};
-    const double scale = s->scale;
-    for (uint32_t i = 0; !body->positions.single && i < count; ++i) {
+    for (size_t i = 0; !body->positions.single && i < count; ++i) {
         const void *at = data + vertices[i] * stride;
         const double *p = at;
-        GATHER(p, vertices[i], last, origin, scale, to->point[i]);
+        to->x[i] = p[0];
+        to->y[i] = p[1];
+        to->z[i] = p[2];
     }
-    for (uint32_t i = 0; body->positions.single && i < count; ++i) {
+    for (size_t i = 0; body->positions.single && i < count; ++i) {
         const void *at = data + vertices[i] * stride;
         const float *p = at;
-        GATHER(p, vertices[i], last, origin, scale, to->point[i]);
+        to->x[i] = (double)p[0];
+        to->y[i] = (double)p[1];
+        to->z[i] = (double)p[2];
     }
-    for (uint32_t i = count; i % TURN; ++i) {
-        for (size_t k = 0; k < 4; ++k)
-            to->point[i][k] = to->point[count - 1][k];
+    for (size_t i = count; i % TURN; ++i) {
+        to->x[i] = to->x[count - 1];
+        to->y[i] = to->y[count - 1];
+        to->z[i] = to->z[count - 1];
     }
 }
 
@@ -65,36 +50,26 @@ MOTE_INLINE void halve(float *restrict least, float *restrict most, size_t width
     }
 }
 
-/* The points along one axis, with the least and the largest. */
-typedef struct along {
-    float least[TURN], most[TURN];
-} along;
+/* The least and the largest coordinates of the points so far, in each lane. */
+typedef struct extents {
+    float least[3][TURN], most[3][TURN];
+} extents;
 
-MOTE_INLINE void start(along *a)
+MOTE_INLINE void widen(extents *e, size_t axis, size_t lane, float p)
 {
-    MOTE_LANE_LOOP
-    for (size_t l = 0; l < TURN; ++l) {
-        a->least[l] = HUGE_VALF;
-        a->most[l] = -HUGE_VALF;
-    }
+    e->least[axis][lane] = p < e->least[axis][lane] ? p : e->least[axis][lane];
+    e->most[axis][lane] = p > e->most[axis][lane] ? p : e->most[axis][lane];
 }
 
-MOTE_INLINE void finish(along *a, float *low, float *high)
+MOTE_INLINE void finish(extents *e, mote_stream_slot *to)
 {
-    halve(a->least, a->most, 8);
-    halve(a->least, a->most, 4);
-    halve(a->least, a->most, 2);
-    *low = a->least[1] < a->least[0] ? a->least[1] : a->least[0];
-    *high = a->most[1] > a->most[0] ? a->most[1] : a->most[0];
-}
-
-/* One coordinate of the positions. */
-MOTE_INLINE void pick(const gathered *restrict from, size_t count, size_t k, float *restrict to)
-{
-    for (size_t g = 0; g < count; g += TURN) {
-        MOTE_LANE_LOOP
-        for (size_t l = 0; l < TURN; ++l)
-            to[g + l] = from->point[g + l][k];
+    for (size_t k = 0; k < 3; ++k) {
+        float *least = e->least[k], *most = e->most[k];
+        halve(least, most, 8);
+        halve(least, most, 4);
+        halve(least, most, 2);
+        to->low[k] = least[1] < least[0] ? least[1] : least[0];
+        to->high[k] = most[1] > most[0] ? most[1] : most[0];
     }
 }
 
@@ -103,28 +78,36 @@ MOTE_CLONES
 static void turn_leaf(const mote_stream_search *restrict s, const gathered *restrict from,
                       mote_stream_slot *restrict to)
 {
-    const size_t count = to->groups * WIDTH;
-    float x[MOTE_CERT_POINTS], y[MOTE_CERT_POINTS], z[MOTE_CERT_POINTS];
-    pick(from, count, 0, x);
-    pick(from, count, 1, y);
-    pick(from, count, 2, z);
-    for (size_t r = 0; r < 3; ++r) {
-        const float ax = s->turn[r][0];
-        const float ay = s->turn[r][1];
-        const float az = s->turn[r][2];
-        along a;
-        start(&a);
-        for (size_t g = 0; g < count; g += TURN) {
-            MOTE_LANE_LOOP
-            for (size_t l = 0; l < TURN; ++l) {
-                const float p = x[g + l] * ax + y[g + l] * ay + z[g + l] * az;
-                to->x[r][g + l] = p;
-                a.least[l] = p < a.least[l] ? p : a.least[l];
-                a.most[l] = p > a.most[l] ? p : a.most[l];
-            }
+    const double ox = s->origin.x, oy = s->origin.y, oz = s->origin.z, scale = s->scale;
+    const float ux = s->turn[0][0], uy = s->turn[0][1], uz = s->turn[0][2];
+    const float vx = s->turn[1][0], vy = s->turn[1][1], vz = s->turn[1][2];
+    const float wx = s->turn[2][0], wy = s->turn[2][1], wz = s->turn[2][2];
+    extents e;
+    for (size_t k = 0; k < 3; ++k) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < TURN; ++l) {
+            e.least[k][l] = HUGE_VALF;
+            e.most[k][l] = -HUGE_VALF;
         }
-        finish(&a, &to->low[r], &to->high[r]);
     }
+    for (size_t g = 0; g < to->groups * WIDTH; g += TURN) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < TURN; ++l) {
+            const float x = (float)((from->x[g + l] - ox) * scale);
+            const float y = (float)((from->y[g + l] - oy) * scale);
+            const float z = (float)((from->z[g + l] - oz) * scale);
+            const float u = x * ux + y * uy + z * uz;
+            const float v = x * vx + y * vy + z * vz;
+            const float w = x * wx + y * wy + z * wz;
+            to->x[0][g + l] = u;
+            to->x[1][g + l] = v;
+            to->x[2][g + l] = w;
+            widen(&e, 0, l, u);
+            widen(&e, 1, l, v);
+            widen(&e, 2, l, w);
+        }
+    }
+    finish(&e, to);
 }
 
 mote_stream_slot *mote_stream_leaf(mote_stream_search *s, int side, uint32_t leaf)
@@ -139,9 +122,10 @@ mote_stream_slot *mote_stream_leaf(mote_stream_search *s, int side, uint32_t lea
     slot->leaf = leaf;
     slot->stamp = s->stamp;
     slot->reach_stamp = 0;
+    slot->boxed = false;
     slot->groups = (count + WIDTH - 1) / WIDTH;
     gathered points;
-    gather(s, of->body, tree->leaf_vertices + first, count, &points);
+    gather(of->body, tree->leaf_vertices + first, count, &points);
     turn_leaf(s, &points, slot);
     s->counters.positions += count;
     return slot;

@@ -42,8 +42,11 @@ typedef struct mote_stream_memory {
 typedef struct mote_stream_slot {
     float x[3][MOTE_CERT_POINTS];
     float low[3], high[3];
+    float face_low[3][MOTE_STREAM_LEAF]; /* boxes of the faces; infinite where there is none */
+    float face_high[3][MOTE_STREAM_LEAF];
     uint32_t leaf, stamp; /* the query; another: empty */
     uint32_t groups;      /* of WIDTH points */
+    bool boxed;           /* the faces' boxes are made */
     uint32_t reach_stamp; /* the direction that reach belongs to; 0: none */
     double reach;         /* the largest coordinate towards the other body, exact to noise */
 } mote_stream_slot;
@@ -93,6 +96,8 @@ typedef struct mote_stream_search {
     uint32_t aim; /* stamp of toward; never 0 */
     bool has_direction;
     float direction[3]; /* the last that separated two leaves, in the gap's axes */
+    uint32_t searches;  /* for such a direction, before the faces were boxed */
+    uint32_t found;     /* ... with success */
     bool done;          /* the answer is known: contact, or near enough */
     bool stopped;       /* the budget is spent */
     double unvisited;   /* smallest bound of the pairs left then */
@@ -161,6 +166,12 @@ const mote_stream_block *mote_stream_open_group(mote_stream_search *s, int side,
 
 /* How far a leaf reaches towards the other body along the gap. */
 double mote_stream_reach(mote_stream_search *s, int side, mote_stream_slot *slot);
+
+/* stream_faces.c */
+
+/* The pairs of faces of two leaves whose boxes are nearer than the limit; returns how many. */
+uint32_t mote_stream_near_faces(const mote_stream_search *s, mote_stream_slot *const slot[2],
+                                mote_cert_near *near);
 
 /* stream_pair.c */
 
