@@ -40,6 +40,72 @@ TEST(query_any_deformation_equals_all_pairs)
     mote_stream_destroy(NULL);
 }
 
+/* A sheet of 2 * n * n triangles on the outside of a body, each vertex at a height above a
+   vertex of it: draped, so that no plane separates most pairs of leaves. */
+static mote_mesh *make_sheet(uint32_t n)
+{
+    double *xyz = malloc((size_t)3 * (n + 1) * (n + 1) * sizeof *xyz);
+    uint32_t(*faces)[3] = malloc((size_t)2 * n * n * sizeof *faces);
+    need(xyz && faces);
+    for (uint32_t i = 0; i <= n; ++i) {
+        for (uint32_t j = 0; j <= n; ++j) {
+            double *p = xyz + (size_t)3 * (i * (n + 1) + j);
+            p[0] = 1.0 * i / n - 0.5;
+            p[1] = 1.0 * j / n - 0.5;
+            p[2] = 0;
+        }
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        for (uint32_t j = 0; j < n; ++j) {
+            const uint32_t a = i * (n + 1) + j, c = a + n + 1;
+            const uint32_t two[2][3] = {{a, c, a + 1}, {a + 1, c, c + 1}};
+            memcpy(faces[2 * (i * n + j)], two, sizeof two);
+        }
+    }
+    mote_mesh *mesh = NULL;
+    need(mote_mesh_create(xyz, (n + 1) * (n + 1), &faces[0][0], 2 * n * n, &mesh) == MOTE_OK);
+    free(xyz);
+    free(faces);
+    return mesh;
+}
+
+/* Height of a body with waves and a ridge, and of a sheet that lies on it. */
+static double ground(double x, double y)
+{
+    return 0.06 * sin(9 * x) * cos(7 * y) - 0.5 * fabs(x);
+}
+
+/* The pairs of leaves that touch each other in thousands of places within rounding are decided
+   face by face: the way of a cloth at rest. */
+TEST(query_sheet_at_rest_on_a_body_equals_all_pairs)
+{
+    static const double gaps[] = {0.004, 1e-6, 0.02};
+    for (size_t i = 0; i < ROWS_OF(gaps); ++i) {
+        scene s;
+        scene_init_meshes(&s, make_sheet(22), make_sheet(19), false);
+        mote_stream *stream = stream_of(&s, NULL);
+        uint64_t leaf_pairs = 0;
+        for (int k = 0; k < 6; ++k) {
+            (void)scene_next(&s, 0, false);
+            for (int b = 0; b < 2; ++b) {
+                for (uint32_t v = 0; v < s.mesh[b]->vertex_count; ++v) {
+                    const mote_vec3 p = s.mesh[b]->positions[v];
+                    const double settled = k % 2 ? 0 : scene_random(&s, -1e-5, 1e-5);
+                    s.world[b][v] = mote_vec3_make(
+                        p.x, p.y, ground(p.x, p.y) + (b == 0 ? gaps[i] + settled : 0));
+                }
+            }
+            const double truth = scene_distance(&s);
+            check_streamed(&s, stream, truth);
+            const mote_stream_frame frame = positions_of(&s);
+            leaf_pairs += stream_answer(stream, &frame, -1).counters.leaf_pairs;
+        }
+        assert_true(i == 1 || leaf_pairs > 6 * 30);
+        mote_stream_destroy(stream);
+        scene_free(&s);
+    }
+}
+
 /* Separate triangles: leaves with the largest possible number of vertices, and trees of one
    leaf, of one group, and of more. */
 TEST(query_separate_triangles_equals_all_pairs)
