@@ -1,5 +1,7 @@
 #include "harness/run/scene_check.h"
 
+#include "harness/run/scene_referee.h"
+
 static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
                               mote_subject_frame *frame, mote_scene_facts *facts)
 {
@@ -14,6 +16,12 @@ static mote_status ask_frames(const mote_subject *subject, mote_engine *engine,
         status = mote_engine_ask(engine, &cost);
         if (status != MOTE_OK)
             break;
+        if (mote_scene_referee_wants(subject, k)) {
+            size_t count;
+            const mote_near_pair *pairs = mote_engine_pairs(engine, &count);
+            status = mote_scene_referee_judge(subject, k, frame->states, pairs, count,
+                                              &facts->checked);
+        }
         facts->near_pairs += (double)cost.pairs / frames;
         facts->pair_contacts += cost.contacts;
         facts->contacts += cost.contacts > 0;

@@ -8,9 +8,11 @@ typedef struct mote_scene_facts {
     double near_pairs;      /* mean per frame */
     uint64_t pair_contacts; /* near pairs in contact, over all frames */
     uint32_t contacts;      /* frames with some pair in contact */
+    uint32_t checked;       /* pairs that brute force confirmed */
 } mote_scene_facts;
 
-/* Asks certified about all near pairs of every frame. */
+/* Asks certified about all near pairs of every frame; brute force judges some of them
+   (scene_referee.h). */
 mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *facts);
 
 #endif
