@@ -7,6 +7,7 @@
 #   make test-page                                    the report's page, in headless Chromium
 #   make figures [OUT=DIR]                            draw again from what is stored
 #   make report [OUT=DIR]                             write report.html and report.md again
+#   make record [OUT=DIR]                             keep a run's summary in results/records
 #   make engines [OUT=DIR]                           other engines and ours, asked the same
 #   make verdicts [PROFILE=quick|full] [OUT=DIR]     contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
@@ -267,9 +268,12 @@ claims: build
 figures: build
 	@$(MOTE) figures $(OUT)
 
-.PHONY: report
+.PHONY: report record
 report: build page
 	@$(MOTE) report $(OUT)
+
+record:
+	@harness/scripts/record.sh $(call quoted,$(OUT)) results/records
 
 # The replay of reports: bundled where npm is, left out where it is not.
 .PHONY: page test-page

@@ -67,6 +67,8 @@
       mote_options_none)                                                                       \
     X(report, "DIR", "makes a page and a plain text of a run, from what is stored",            \
       mote_options_none)                                                                       \
+    X(site, "DIR... -o DIR",                                                                   \
+      "makes a page and a CSV file of several runs, by their summaries", mote_options_site)    \
     X(claims, "", "measures every claim of the paper, writes DIR/claims.json",                 \
       mote_options_study)
 

@@ -87,7 +87,7 @@ static json_t *row_data(const mote_summary_row *row)
     return data;
 }
 
-static void set_rows(const mote_report *report, json_t *data)
+void mote_report_rows_data(const mote_report *report, json_t *data)
 {
     json_t *columns = json_array(), *blocks = json_array(), *rows = json_array();
     const mote_column *shown[MOTE_VIEW_MAX];
@@ -112,6 +112,8 @@ static void set_rows(const mote_report *report, json_t *data)
     set(data, "error", column_data(mote_column_find("error", "p99")));
     set(data, "best", column_data(mote_column_find("ratio_best", "value")));
     set(data, "engine", column_data(mote_column_find("ratio_engine", "value")));
+    set(data, "ratio", column_data(mote_column_find("ratio", "value")));
+    set(data, "memory", column_data(mote_column_find(NULL, "heap_peak_bytes")));
     set(data, "blocks", blocks);
     set(data, "rows", rows);
     const double floor = report->summary.noise_floor;
@@ -163,7 +165,7 @@ mote_status mote_report_data(const mote_report *report, json_t **data)
     set(made, "machine", mote_report_machine(report));
     (void)json_object_set(made, "damaged", report->damaged);
     (void)json_object_set(made, "missing", report->missing);
-    set_rows(report, made);
+    mote_report_rows_data(report, made);
     if (report->simulations.count > 0) {
         json_t *simulations = mote_simulations_json(&report->simulations);
         (void)json_object_set(made, "simulations", json_object_get(simulations, "rows"));

@@ -12,6 +12,7 @@
     "columns": [column], of the tables,
     "time", "error": the columns of a front's axes,
     "best", "engine": the columns of the ratios to the best FCL and to the best engine,
+    "ratio", "memory": the columns of the ratio to FCL's AABB tree, and of the peak heap,
     "blocks": [{"heading", "first", "end", "right", "fastest"}]: rows first .. end - 1 are one
               table; the last two are rows to mention first, or null,
     "rows": [a row of summary.json, with "right", "contacts_right" (mote_summary_row_right),
@@ -22,5 +23,9 @@
 
    MOTE_EIO if a figure cannot be read. The caller decrefs *data. */
 mote_status mote_report_data(const mote_report *report, json_t **data);
+
+/* Sets the parts of this data that come from the rows of report->summary in the order of
+   report->order: "columns" to "rows". */
+void mote_report_rows_data(const mote_report *report, json_t *data);
 
 #endif

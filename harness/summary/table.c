@@ -216,6 +216,12 @@ void mote_table_print(const mote_summary *summary, FILE *out)
 
 void mote_table_csv(const mote_summary *summary, mote_text *text)
 {
+    mote_table_csv_with(summary, NULL, NULL, text);
+}
+
+void mote_table_csv_with(const mote_summary *summary, const char *names, char *const *fields,
+                         mote_text *text)
+{
     const char *separator = "";
     for (size_t k = 0; k < mote_column_count; ++k) {
         if (!mote_columns[k].csv)
@@ -223,7 +229,7 @@ void mote_table_csv(const mote_summary *summary, mote_text *text)
         mote_text_add(text, "%s%s", separator, mote_columns[k].csv);
         separator = ",";
     }
-    mote_text_add(text, "\n");
+    mote_text_add(text, "%s%s\n", names ? "," : "", names ? names : "");
     for (size_t i = 0; i < summary->count; ++i) {
         separator = "";
         for (size_t k = 0; k < mote_column_count; ++k) {
@@ -238,6 +244,6 @@ void mote_table_csv(const mote_summary *summary, mote_text *text)
                 mote_csv_number(text, mote_column_number(column, &summary->rows[i]));
             separator = ",";
         }
-        mote_text_add(text, "\n");
+        mote_text_add(text, "%s%s\n", names ? "," : "", names ? fields[i] : "");
     }
 }

@@ -33,6 +33,11 @@ bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE
    empty fields. */
 void mote_table_csv(const mote_summary *summary, mote_text *text);
 
+/* The same with further columns at the end: their names, and their fields in each row [count],
+   both as they stand in the file. */
+void mote_table_csv_with(const mote_summary *summary, const char *names, char *const *fields,
+                         mote_text *text);
+
 /* The formats of benchmark trackers. NULL if memory ran out; the caller decrefs. */
 json_t *mote_gha_json(const mote_summary *summary);     /* github-action-benchmark */
 json_t *mote_bencher_json(const mote_summary *summary); /* Bencher */

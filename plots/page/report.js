@@ -1,13 +1,6 @@
 "use strict";
 // The page, section by section, from the data that harness/report/report_data.c put into it.
 
-function section(id, title, ...children) {
-    return el("section", { "aria-labelledby": id }, el("h2", { id }, title), children);
-}
-
-const pairsList = (pairs) =>
-    el("dl", {}, pairs.flatMap(([key, value]) => [el("dt", {}, key), el("dd", {}, value)]));
-
 function askedSection(data) {
     const commands = data.commands.map(([when, command]) => `# ${when}\n${command}\n`).join("");
     const others = data.scenarios.filter(([, purpose]) => !purpose).map(([name]) => name);
@@ -205,15 +198,6 @@ function cellsSection(data) {
                     el("td", {}, row.scene), el("td", {}, row.cache), el("td", {}, el("ul", {}, row.cells.map(links)))))))));
 }
 
-// A section that fails because a file is not what mote writes does not affect the others.
-function made(name, make) {
-    try {
-        return [name, make()];
-    } catch (error) {
-        return [name, section(name.toLowerCase(), name, el("p", {}, `This section could not be made: ${error.message}.`))];
-    }
-}
-
 // Name in the navigation, and the section; only sections for which the run has data.
 function sections(data, replay) {
     const hasCells = data.rows.some((row) => row.cells.length > 0);
@@ -232,25 +216,15 @@ function sections(data, replay) {
         ["Machine", data.machine.length > 0, machine],
         ["Known defects", data.defects, defects],
         ["Raw cells", hasCells, () => cellsSection(data)],
-    ].filter(([, wanted]) => wanted).map(([name, , make]) => made(name, make));
-}
-
-function embedded(id) {
-    const text = document.getElementById(id)?.textContent;
-    return text ? JSON.parse(text) : null;
+    ];
 }
 
 function showReport() {
     const data = embedded("report-data");
-    const parts = sections(data, embedded("replay-data"));
-    const main = document.querySelector("main");
-    main.append(...parts.map(([, content]) => content));
+    showSections(sections(data, embedded("replay-data")));
     if (data.missing.length > 0)
-        main.append(el("p", { class: "legend", id: "missing" }, "Not in this report: ", inline(`${data.missing.join("; ")}.`)));
-    document.querySelector("nav").append(...parts.map(([name, content]) =>
-        el("a", { href: `#${content.getAttribute("aria-labelledby")}` }, name)));
-    // The target did not exist yet when the page was opened.
-    if (location.hash) document.getElementById(decodeURIComponent(location.hash.slice(1)))?.scrollIntoView();
+        document.querySelector("main").append(
+            el("p", { class: "legend", id: "missing" }, "Not in this report: ", inline(`${data.missing.join("; ")}.`)));
 }
 
 showReport();

@@ -11,6 +11,12 @@ const EXACTNESS = {
     inexact: ["not exact", (row) => !row.right],
 };
 
+// Whether a row is as exact, and takes as little memory, as chosen.
+function passes(row, { exactness, memory }) {
+    return (exactness === "any" || (row.status === "ok" && EXACTNESS[exactness][1](row))) &&
+        (!memory || row.heap_peak_bytes <= memory);
+}
+
 // Wrong contacts are marked.
 const isOfContacts = (column) => column.group === "contacts";
 
@@ -30,8 +36,8 @@ class Block {
             "aria-label": `Results, ${this.rows[0].scene}` },
         el("table", {}, this.head(), this.body));
         const title = el("h3", {}, textOf(this.rows[0].scene), " ", el("span", { class: "aside" }, block.heading));
-        this.element = el("div", { class: "block" }, title, this.glance(block), this.front.element,
-            this.count, this.wide);
+        this.element = el("div", { class: "block" }, title, block.caution && el("p", { class: "caution" }, block.caution),
+            this.glance(block), this.front.element, this.count, this.wide);
         this.update();
     }
 
@@ -126,9 +132,8 @@ class Block {
 
     // The filtered rows; the table may show one of them per method, the front all.
     filtered() {
-        const { method, exactness } = this.choice;
-        return this.rows.filter((row) => (!method || row.method === method) &&
-            (exactness === "any" || (row.status === "ok" && EXACTNESS[exactness][1](row))));
+        const { method } = this.choice;
+        return this.rows.filter((row) => (!method || row.method === method) && passes(row, this.choice));
     }
 
     update() {
@@ -152,7 +157,7 @@ class Block {
 
     line(row) {
         const target = this.data.rows.indexOf(row) + 1;
-        const address = row.cells.length > 0 ? `#cells-${target}` : "summary.json";
+        const address = row.address ?? (row.cells.length > 0 ? `#cells-${target}` : "summary.json");
         const notes = row.notes.map((note) => el("small", {}, note));
         const columns = this.columns();
         const cells = row.status === "ok"
@@ -172,13 +177,13 @@ class Block {
     }
 }
 
-// What every table shows.
-function choices(methods, choice, changed) {
+// What every table shows. more: [label, key, [value, text]...] of further choices.
+function choices(methods, choice, changed, more = []) {
     const select = (label, key, options) => el("label", {}, `${label} `,
         el("select", { id: `choice-${key}`, onchange: (event) => {
             choice[key] = event.target.value;
             changed();
-        } }, options.map(([value, text]) => el("option", { value }, text))));
+        } }, options.map(([value, text]) => el("option", { value, selected: value === choice[key] }, text))));
     return el("div", { class: "bar choices", role: "group", "aria-label": "What the tables show" },
         el("label", {}, "Rows ", el("select", { id: "choice-rows", onchange: (event) => {
             choice.all = event.target.value === "all";
@@ -186,29 +191,38 @@ function choices(methods, choice, changed) {
         } }, el("option", { value: "one" }, "one a method"), el("option", { value: "all" }, "all"))),
         select("Method", "method", [["", "all"], ...methods.map((method) => [method, method])]),
         select("Exactness", "exactness", Object.entries(EXACTNESS).map(([key, [text]]) => [key, text])),
+        more.map(([label, key, ...options]) => select(label, key, options)),
         el("label", {}, el("input", { type: "checkbox", id: "choice-extra", onchange: (event) => {
             choice.extra = event.target.checked;
             changed();
         } }), " All columns"));
 }
 
+const methodsOf = (data) => [...new Set(data.rows.map((row) => textOf(row.method)))].sort();
+
+const coloursLegend = (methods) => el("p", { class: "legend colours" }, methods.map((method, k) =>
+    el("span", {}, el("span", { class: `swatch c${k % COLOURS}` }), method)));
+
+function blocksOf(data, choice) {
+    const methods = methodsOf(data);
+    const colourOf = (row) => `c${methods.indexOf(textOf(row.method)) % COLOURS}`;
+    return data.blocks.map((block) => new Block(data, block, choice, colourOf));
+}
+
 // The section of results.
 function resultsSection(data) {
     const choice = { all: false, method: "", exactness: "any", extra: false };
-    const methods = [...new Set(data.rows.map((row) => textOf(row.method)))].sort();
-    const colourOf = (row) => `c${methods.indexOf(textOf(row.method)) % COLOURS}`;
-    const blocks = data.blocks.map((block) => new Block(data, block, choice, colourOf));
+    const methods = methodsOf(data);
+    const blocks = blocksOf(data, choice);
     const floor = isNumber(data.noise_floor)
         ? [" Measured twice, a row differs from itself by up to ", el("a", { href: "summary.json" },
             `${(100 * data.noise_floor).toFixed(1)}${NARROW}%`), " (the noise floor of this run)."] : [];
-    const legend = el("p", { class: "legend colours" }, methods.map((method, k) =>
-        el("span", {}, el("span", { class: `swatch c${k % COLOURS}` }), method)));
     return section("results", "Results",
         el("p", {}, "A row is one configuration, the fastest first. Times are medians over frames and replicates, with " +
             "95 % intervals below; errors are absolute, over the larger body's size L. Every number links to the " +
             "cells that it was computed from.", floor),
         el("p", {}, "“One a method” is the method's fastest configuration without a wrong contact and with a " +
             "p99 error of at most 0.01 L, or else its most accurate one."),
-        choices(methods, choice, () => blocks.forEach((block) => block.redraw())), legend,
+        choices(methods, choice, () => blocks.forEach((block) => block.redraw())), coloursLegend(methods),
         blocks.map((block) => block.element));
 }

@@ -2,10 +2,14 @@
 # deb_inside.sh before|use|develop|remove: what deb.sh does on the bare machine, in this order.
 set -eu
 fail() { echo "deb_inside.sh: $*" >&2; exit 1; }
-files() { find / -xdev -path /mote -prune -o -path /proc -prune -o -path /tmp -prune -o -print | sort; }
+# Every file of ours on the machine; "remote" is none.
+files() {
+    find / -xdev -path /mote -prune -o -path /proc -prune -o -path /tmp -prune -o -path /var/cache/apt -prune -o -print |
+        grep -E '(^|[^a-z])(lib)?mote' | sort
+}
 case $1 in
 before)
-    files | grep -i mote > before || true
+    files > before || true
     ;;
 use)
     [ ! -e /mote/CMakeLists.txt ] || fail "the sources are here"
@@ -38,7 +42,7 @@ develop)
     ;;
 remove)
     apt-get purge -y mote 'libmote*' $(dpkg-query -W -f '${Package}\n' | grep '^python3-mote$' || true) > log
-    files | grep -i mote | grep -v '^/var/cache/apt' > after || true
+    files > after || true
     diff before after || fail "removing the packages leaves something"
     echo "removed, and nothing is left"
     ;;

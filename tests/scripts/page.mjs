@@ -5,6 +5,7 @@ import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, s
 import { createRequire } from "node:module";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { testSite } from "./page_site.mjs";
 import { testPoor, testTables } from "./page_tables.mjs";
 
 const { chromium } = createRequire(new URL("../../plots/page/package.json", import.meta.url))("playwright-core");
@@ -93,7 +94,7 @@ function measure() {
 }
 
 // A page that fails on any message, request or dialog.
-async function open(browser, directory, options = {}, before = null) {
+async function open(browser, directory, options = {}, before = null, file = "report.html") {
     const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, ...options });
     if (before) await page.addInitScript(before);
     page.troubles = [];
@@ -105,7 +106,7 @@ async function open(browser, directory, options = {}, before = null) {
     page.on("request", (request) => {
         if (!/^(file|data|blob):/.test(request.url())) page.troubles.push(`asked for ${request.url()}`);
     });
-    await page.goto(pathToFileURL(`${directory}/report.html`).href);
+    await page.goto(pathToFileURL(`${directory}/${file}`).href);
     return page;
 }
 
@@ -335,7 +336,7 @@ async function testOthers(browser) {
         const page = await open(browser, `${work}/hostile`);
         await settled(page);
         equal(page.troubles.join("; "), "", "messages");
-        equal(await page.evaluate(() => document.scripts.length), 8, "scripts"); // 2 of data, 5 plain, the replay
+        equal(await page.evaluate(() => document.scripts.length), 9, "scripts"); // 2 of data, 6 plain, the replay
         truth((await page.locator("main").textContent()).includes(HOSTILE), "the name is not shown");
         truth(Number(await shown(page, "truth")) > 0, "no replay");
         await page.close();
@@ -400,6 +401,7 @@ for (const [name, length] of [["morph", 3.464], ["bison-15k", 3.697]]) {
     await testField(name, characters, name, [1, 60], length);
 }
 await characters.close();
+await testSite(browser, tools, open, program, work);
 await testPoor(browser, tools, run, work, bundle);
 await browser.close();
 console.log(`${passed} passed, ${failed} failed`);
