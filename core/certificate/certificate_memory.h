@@ -16,6 +16,8 @@ typedef struct mote_cert_memory {
                     comes no nearer */
     bool has_direction;
     float direction[3]; /* the last that separated two leaves */
+    bool parted;        /* the last query, a contact question, showed the bodies to be apart */
+    float parting[3];   /* along this direction, from body 0 to body 1, or one near it */
 } mote_cert_memory;
 
 #endif

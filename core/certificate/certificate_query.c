@@ -158,15 +158,35 @@ static bool plane_clears(mote_certificate *c)
     return false;
 }
 
+/* Sets up both sides for a frame, around the origin. */
+static void begin_sides(mote_certificate *c, const mote_frame *frame)
+{
+    for (int s = 0; s < 2; ++s)
+        mote_cert_side_begin(&c->side[s], &frame->body[s], c->origin);
+    c->noise = c->side[0].noise + c->side[1].noise;
+}
+
+/* The point halfway between the middles of both bodies at rest, where their poses place them.
+ */
+static mote_vec3 between(const mote_certificate *c, const mote_frame *frame)
+{
+    mote_vec3 middle[2];
+    for (int s = 0; s < 2; ++s)
+        middle[s] = mote_pose_apply(&frame->body[s].pose, c->side[s].tree->origin);
+    return mote_scale(mote_add(middle[0], middle[1]), 0.5);
+}
+
 /* Proves the limit; lowers the upper bound whenever something nearer is found. */
 static void prove(mote_certificate *c)
 {
     while (!c->done) {
         c->unvisited = DBL_MAX;
         c->proven = true;
-        set_plane(c);
-        if (c->options.plane && plane_clears(c))
-            return;
+        if (c->upper < HUGE_VAL) { /* else no pair is known, and both sides face each other */
+            set_plane(c);
+            if (c->options.plane && plane_clears(c))
+                return;
+        }
         if (!c->done)
             mote_cert_traverse(c);
         c->proven = !c->done;
@@ -188,25 +208,24 @@ static void begin(mote_certificate *c, double enough)
     c->done = c->improved = c->stopped = c->proven = false;
     c->unrefined = c->crossed = false;
     if (c->options.seed == MOTE_CERT_SEED_NONE)
-        c->memory.has_direction = false;
+        c->memory.has_direction = c->memory.parted = false;
     c->unvisited = DBL_MAX;
 }
 
-static void write_answer(mote_certificate *c, uint64_t evaluated,
-                         mote_certificate_answer *answer)
+/* An upper bound where no pair was measured: a vertex of each body's last face. */
+static void take_vertices(mote_certificate *c, const mote_frame *frame)
 {
-    const double aim = (c->upper - c->slack) * c->scale * (1 - 1e-13);
-    double lower = c->unvisited < c->limit ? c->unvisited : c->limit;
-    lower = lower < aim ? lower : aim;
-    lower = (lower - 3 * c->noise) / c->scale;
-    answer->distance = c->upper;
-    answer->lower = c->proven && lower > 0 ? lower : 0;
-    answer->witness[0] = c->best.witness[0];
-    answer->witness[1] = c->best.witness[1];
-    answer->stopped = c->stopped;
-    answer->counters = c->counters;
-    answer->counters.positions +=
-        c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
+    for (int s = 0; s < 2; ++s)
+        c->best.witness[s] =
+            mote_body_position(c->side[s].tree->body, &frame->body[s], c->best.triangle[s][0]);
+    c->best.squared = mote_distance_squared(c->best.witness[0], c->best.witness[1]);
+    c->upper = sqrt(c->best.squared);
+    c->counters.positions += 2;
+}
+
+/* Keeps for the next query the pair of faces that this one ended with. */
+static void remember(mote_certificate *c)
+{
     mote_cert_memory *memory = &c->memory;
     memory->steady = memory->has_last && same_face(memory->last[0], c->best.triangle[0]) &&
                      same_face(memory->last[1], c->best.triangle[1]);
@@ -216,20 +235,83 @@ static void write_answer(mote_certificate *c, uint64_t evaluated,
     memory->leap = c->upper + LEAP * c->options.length;
 }
 
+/* The proven lower bound. */
+static double lower_bound(const mote_certificate *c)
+{
+    if (!c->proven)
+        return 0;
+    const double aim = (c->upper - c->slack) * c->scale * (1 - 1e-13);
+    double lower = c->unvisited < c->limit ? c->unvisited : c->limit;
+    lower = lower < aim ? lower : aim;
+    lower = (lower - 3 * c->noise) / c->scale;
+    return lower > 0 ? lower : 0;
+}
+
+static void write_answer(mote_certificate *c, uint64_t evaluated, double lower,
+                         mote_certificate_answer *answer)
+{
+    answer->distance = c->upper;
+    answer->lower = lower;
+    answer->witness[0] = c->best.witness[0];
+    answer->witness[1] = c->best.witness[1];
+    answer->stopped = c->stopped;
+    answer->counters = c->counters;
+    answer->counters.positions +=
+        c->side[0].lazy.evaluated + c->side[1].lazy.evaluated - evaluated;
+}
+
+/* Finds a first upper bound and proves from there. Returns the proven lower bound. */
+static double search_from_seed(mote_certificate *c, const mote_frame *frame,
+                               const uint32_t (*first)[3])
+{
+    find_seed(c, frame, first);
+    c->upper = sqrt(c->best.squared);
+    if (c->upper > c->enough) { /* else it is the contact that was asked for */
+        c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
+        begin_sides(c, frame);
+        mote_cert_set_best(c, c->best.squared);
+        prove(c);
+    }
+    remember(c);
+    const double lower = lower_bound(c);
+    mote_cert_remember_parting(c, lower);
+    return lower;
+}
+
+/* A contact question after one that showed the bodies to be apart. No upper bound is looked for
+   first: it would cost more than most of these proofs do, and they do not need one. */
+static double search_apart(mote_certificate *c, const mote_frame *frame)
+{
+    double lower;
+    memcpy(c->best.triangle, c->memory.last, sizeof c->best.triangle);
+    c->origin = between(c, frame);
+    for (int s = 0; s < 2; ++s)
+        mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);
+    begin_sides(c, frame);
+    mote_cert_set_best(c, HUGE_VAL);
+    if (!mote_cert_still_apart(c, &lower)) {
+        prove(c);
+        lower = lower_bound(c);
+    }
+    if (c->upper < HUGE_VAL) {
+        remember(c);
+        mote_cert_remember_parting(c, lower);
+    } else {
+        c->memory.parted = lower > c->enough;
+        take_vertices(c, frame);
+    }
+    return lower;
+}
+
 void mote_certificate_query(mote_certificate *c, const mote_frame *frame,
                             const uint32_t (*first)[3], double enough,
                             mote_certificate_answer *answer)
 {
     const uint64_t evaluated = c->side[0].lazy.evaluated + c->side[1].lazy.evaluated;
     begin(c, enough);
-    find_seed(c, frame, first);
-    c->origin = mote_scale(mote_add(c->best.witness[0], c->best.witness[1]), 0.5);
-    for (int s = 0; s < 2; ++s)
-        mote_cert_side_begin(&c->side[s], &frame->body[s], c->origin);
-    c->noise = c->side[0].noise + c->side[1].noise;
-    mote_cert_set_best(c, c->best.squared);
-    prove(c);
-    write_answer(c, evaluated, answer);
+    const bool parted = enough >= 0 && c->memory.parted;
+    const double lower = parted ? search_apart(c, frame) : search_from_seed(c, frame, first);
+    write_answer(c, evaluated, lower, answer);
 }
 
 void mote_certificate_report(const mote_certificate_answer *found, mote_ask ask,

@@ -48,8 +48,7 @@ static void open_child(mote_certificate *c, int s, mote_cert_node *node, size_t 
         node->reach[lane] = reach;
 }
 
-/* The child that reaches farthest; the first among equals. */
-static size_t farthest_child(const mote_cert_node *node)
+size_t mote_cert_farthest_child(const mote_cert_node *node)
 {
     size_t best = 0;
     for (size_t l = 1; l < node->block->children; ++l)
@@ -57,8 +56,8 @@ static size_t farthest_child(const mote_cert_node *node)
     return best;
 }
 
-/* How far that child reaches. All but the root have eight. */
-static float farthest_reach(const mote_cert_node *node)
+/* All but the root have eight children. */
+float mote_cert_farthest_reach(const mote_cert_node *node)
 {
     if (node->block->children == WIDTH)
         return mote_cert_largest(node->reach);
@@ -75,14 +74,14 @@ static bool clear_node(mote_certificate *c, int s, mote_cert_node *node, uint32_
 {
     uint32_t left = node->crossing;
     if (c->unrefined && left) {
-        const size_t first = farthest_child(node);
+        const size_t first = mote_cert_farthest_child(node);
         if (left >> first & 1)
             open_child(c, s, node, first, depth);
         left &= ~(1u << first);
     }
     for (; left && !c->crossed; left &= left - 1)
         open_child(c, s, node, mote_lowest_bit(left), depth);
-    *reach = farthest_reach(node);
+    *reach = mote_cert_farthest_reach(node);
     return node->clear == node->block->mask;
 }
 

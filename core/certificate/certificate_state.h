@@ -119,6 +119,23 @@ void mote_cert_traverse(mote_certificate *c);
 /* A pair of vertices that are near each other, by the trees alone. */
 void mote_cert_descend(mote_certificate *c, uint32_t vertex[2]);
 
+/* The child of a projected node that reaches farthest towards the other body, the first among
+   equals; and how far it reaches. */
+size_t mote_cert_farthest_child(const mote_cert_node *node);
+float mote_cert_farthest_reach(const mote_cert_node *node);
+
+/* certificate_apart.c */
+
+/* For a contact question after one that showed the bodies to be apart, when both sides have
+   begun and the limit is set: whether the roots of both trees are apart along the direction
+   remembered, or one found from it. *lower: proven, in world units; negative where they
+   overlap. */
+bool mote_cert_still_apart(mote_certificate *c, double *lower);
+
+/* Keeps the direction across the gap of the best pair for the next contact question. lower:
+   proven. */
+void mote_cert_remember_parting(mote_certificate *c, double lower);
+
 /* certificate_query.c */
 
 /* Sets the upper bound, and from it the limit to be proven. */
