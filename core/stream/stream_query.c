@@ -1,5 +1,5 @@
 /* Streamed queries of two bodies. */
-#include "core/stream/stream.h"
+#include "core/stream/stream_beside.h"
 
 #include "core/stream/stream_state.h"
 
@@ -7,6 +7,7 @@
 
 struct mote_stream {
     mote_stream_tree *tree[2];
+    bool borrowed; /* the trees are another one's */
     mote_stream_body body[2];
     mote_stream_search search;
     mote_stream_memory memory;
@@ -27,38 +28,51 @@ void mote_stream_destroy(mote_stream *stream)
     mote_stream_search_free(&stream->search);
     for (int b = 0; b < 2; ++b) {
         mote_stream_body_free(&stream->body[b]);
-        mote_stream_tree_destroy(stream->tree[b]);
+        if (!stream->borrowed)
+            mote_stream_tree_destroy(stream->tree[b]);
     }
     free(stream);
 }
 
-static mote_status build(mote_stream *stream, const mote_body *const body[2],
-                         const mote_stream_options *options)
+/* The trees are there; makes the rest. */
+static mote_status build_on_trees(mote_stream *stream, const mote_stream_options *options)
 {
-    uint32_t room[2] = {0, 0};
+    const mote_body *body[2];
+    uint32_t room[2];
     mote_status status = MOTE_OK;
     if (options->threads != 1)
         status = mote_pool_create(options->threads, &stream->pool);
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
-        status = mote_stream_tree_create(body[b], &stream->tree[b]);
-        if (status == MOTE_OK)
-            status = mote_stream_body_init(&stream->body[b], stream->tree[b]);
-        if (status == MOTE_OK)
-            room[b] = stream->tree[b]->groups;
+        body[b] = &stream->tree[b]->body;
+        room[b] = stream->tree[b]->groups;
+        status = mote_stream_body_init(&stream->body[b], stream->tree[b]);
     }
     if (status == MOTE_OK)
         status = mote_stream_search_init(&stream->search, options, body, room);
     return status;
 }
 
+static mote_stream *allocate(void)
+{
+    mote_stream *made = aligned_alloc(64, (sizeof *made + 63) / 64 * 64);
+    if (made)
+        *made = (mote_stream){.pool = NULL};
+    else
+        (void)mote_fail(MOTE_ENOMEM, "no memory for a streamed query");
+    return made;
+}
+
 mote_status mote_stream_create(const mote_body *const body[2],
                                const mote_stream_options *options, mote_stream **stream)
 {
-    mote_stream *made = aligned_alloc(64, (sizeof *made + 63) / 64 * 64);
+    mote_stream *made = allocate();
     if (!made)
-        return mote_fail(MOTE_ENOMEM, "no memory for a streamed query");
-    *made = (mote_stream){.pool = NULL};
-    mote_status status = build(made, body, options);
+        return MOTE_ENOMEM;
+    mote_status status = MOTE_OK;
+    for (int b = 0; b < 2 && status == MOTE_OK; ++b)
+        status = mote_stream_tree_create(body[b], &made->tree[b]);
+    if (status == MOTE_OK)
+        status = build_on_trees(made, options);
     if (status == MOTE_OK)
         *stream = made;
     else
@@ -66,12 +80,33 @@ mote_status mote_stream_create(const mote_body *const body[2],
     return status;
 }
 
+mote_status mote_stream_create_beside(const mote_stream *owner, mote_stream **stream)
+{
+    mote_stream *made = allocate();
+    if (!made)
+        return MOTE_ENOMEM;
+    made->borrowed = true;
+    for (int b = 0; b < 2; ++b)
+        made->tree[b] = owner->tree[b];
+    mote_status status = build_on_trees(made, &owner->search.options);
+    if (status == MOTE_OK)
+        *stream = made;
+    else
+        mote_stream_destroy(made);
+    return status;
+}
+
+void mote_stream_forget(mote_stream *stream)
+{
+    stream->memory = (mote_stream_memory){.has_last = false};
+}
+
 size_t mote_stream_bytes(const mote_stream *stream)
 {
     size_t bytes = sizeof *stream + mote_stream_search_bytes(&stream->search);
     for (int b = 0; b < 2; ++b)
-        bytes +=
-            mote_stream_tree_bytes(stream->tree[b]) + mote_stream_body_bytes(&stream->body[b]);
+        bytes += (stream->borrowed ? 0 : mote_stream_tree_bytes(stream->tree[b])) +
+                 mote_stream_body_bytes(&stream->body[b]);
     return bytes;
 }
 

@@ -31,7 +31,7 @@ typedef struct house {
 
 static const house houses[] = {
     {"core",
-     {"base", "body", "method", "particle", "certificate", "skin", "stream", "impact",
+     {"base", "body", "method", "particle", "certificate", "skin", "stream", "impact", "batch",
       "motion"}},
     {"harness",
      {"base", "process", "engine", "mesh", "sequence", "scene", "run", "loop", "summary",
