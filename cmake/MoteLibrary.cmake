@@ -48,6 +48,8 @@ install(FILES ${CMAKE_BINARY_DIR}/moteConfig.cmake ${CMAKE_BINARY_DIR}/moteConfi
 install(FILES ${CMAKE_BINARY_DIR}/mote.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
         COMPONENT development)
 
+include(MotePython)
+
 if(NOT MOTE_CORE_ONLY)
   set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
   install(TARGETS mote)
