@@ -30,6 +30,16 @@ static mote_status check_threads(const mote_method_choice *choice)
     return MOTE_OK;
 }
 
+static mote_status check_frames(const char *scenario, const mote_subject *subject,
+                                uint32_t first, uint32_t last)
+{
+    const uint32_t frames = mote_subject_facts_of(subject).frames;
+    if (last > frames)
+        return mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u", first,
+                         last, scenario, frames);
+    return MOTE_OK;
+}
+
 mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t last,
                                   const mote_method_choice *choice)
 {
@@ -37,10 +47,8 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
     mote_status status = check_threads(choice);
     if (status == MOTE_OK)
         status = mote_subject_open(scenario, &subject);
-    const uint32_t frames = status == MOTE_OK ? mote_subject_facts_of(&subject).frames : 0;
-    if (status == MOTE_OK && last > frames)
-        status = mote_fail(MOTE_EINVAL, "frames %u-%u: outside %s; it has frames 1-%u", first,
-                           last, scenario, frames);
+    if (status == MOTE_OK)
+        status = check_frames(scenario, &subject, first, last);
     if (status == MOTE_OK) {
         const mote_cell cell = {.subject = &subject,
                                 .choice = choice,
@@ -55,6 +63,20 @@ mote_status mote_instructions_run(const char *scenario, uint32_t first, uint32_t
             mote_cell_result_free(&result);
     }
     mote_subject_free(&subject);
+    return status;
+}
+
+/* Refuses a scenario, frames or a method before anything is written. */
+static mote_status check_input(const char *scenario, uint32_t first, uint32_t last,
+                               const mote_choices *choices)
+{
+    mote_subject subject = {0};
+    mote_status status = mote_subject_open(scenario, &subject);
+    if (status == MOTE_OK)
+        status = check_frames(scenario, &subject, first, last);
+    mote_subject_free(&subject);
+    for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i)
+        status = check_threads(&choices->items[i]);
     return status;
 }
 
@@ -154,7 +176,9 @@ mote_status mote_instructions_count(const char *scenario, uint32_t first, uint32
 {
     char frames[32];
     (void)snprintf(frames, sizeof frames, "%u-%u", first, last);
-    mote_status status = mote_directory_make(directory);
+    mote_status status = check_input(scenario, first, last, choices);
+    if (status == MOTE_OK)
+        status = mote_directory_make(directory);
     json_t *rows = status == MOTE_OK ? read_rows(directory) : NULL;
     for (size_t i = 0; i < choices->count && status == MOTE_OK; ++i) {
         const mote_method_choice *choice = &choices->items[i];

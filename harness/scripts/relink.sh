@@ -13,20 +13,33 @@ out=$(cd "$3" && pwd)
 cd "$build"
 built=$PWD/$program
 
+# Lists are words, one a line: a path may have blanks.
+newline='
+'
+IFS=$newline
+set -f
+
+# The words of a command as CMake writes it, quoted where they need it.
+words_in() {
+    IFS=' '
+    eval "set -- $1"
+    printf '%s\n' "$@"
+}
+
 # Prints the command that links the file $1 of the target $3 in the folder $2: from CMake's makefiles,
 # which run it in that folder, or from Ninja, which runs it in the current one.
 command_of() {
     if [ -f "$2/CMakeFiles/$3.dir/link.txt" ]; then
         head -1 "$2/CMakeFiles/$3.dir/link.txt"
     else
-        ninja -t commands "$1" | tail -1
+        ninja -t commands "$1" | tail -1 | sed 's/^: && //; s/ && :$//; s/ && / /g'
     fi
 }
 
-# The object files in a command, as absolute paths; $1: the folder that it runs in.
+# The object files in a command, relative to the folder in which the program is linked, so that a
+# blank in the path of the build is in none of them; $2: the folder that the command $1 runs in.
 objects_in() {
-    tr ' ' '\n' | grep '\.o$' | while read -r object; do realpath -s "$1/$object" 2>/dev/null ||
-        echo "$object"; done
+    words_in "$1" | grep '\.o$' | while read -r object; do realpath -s --relative-to="$from" "$2/$object"; done
 }
 
 # Objects of the program and of our libraries, without repetition: some are in both.
@@ -34,11 +47,11 @@ place=$(dirname "$program")
 from=.
 [ ! -f "$place/CMakeFiles/$name.dir/link.txt" ] || from=$place
 whole=$(command_of "$program" "$place" "$name")
-link=$(echo "$whole" | tr ' ' '\n' | grep -vx -e ':' -e '&&' -e '.*libmote_[a-z]*\.a' -e '.*\.o')
+link=$(words_in "$whole" | grep -vx -e '.*libmote_[a-z]*\.a' -e '.*\.o')
 objects=$({
-    echo "$whole" | objects_in "$from"
-    echo "$whole" | tr ' ' '\n' | sed -n 's|.*lib\(mote_[a-z]*\)\.a$|\1|p' | sort -u |
-        while read -r library; do command_of "lib$library.a" . "$library" | objects_in .; done
+    objects_in "$whole" "$from"
+    words_in "$whole" | sed -n 's|.*lib\(mote_[a-z]*\)\.a$|\1|p' | sort -u |
+        while read -r library; do objects_in "$(command_of "lib$library.a" . "$library")" .; done
 } | sort -u)
 cd "$from"
 

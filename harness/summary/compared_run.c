@@ -20,6 +20,25 @@ static char *split(const char *path, const char **name)
     return slash ? mote_format("%.*s", (int)(slash - path), path) : mote_format(".");
 }
 
+/* Rows of a file from elsewhere may lack what says which rows are the same. */
+static mote_status check_rows(const char *directory, const char *name,
+                              const mote_summary *summary)
+{
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        const char *missing = row->scenario[0] == '\0'      ? "scenario"
+                              : row->method[0] == '\0'      ? "method"
+                              : row->fingerprint[0] == '\0' ? "fingerprint"
+                                                            : NULL;
+        if (missing)
+            return mote_fail(MOTE_EINVAL,
+                             "%s/%s: row %zu has no %s; rows are compared where scenario, "
+                             "fingerprint and method are the same",
+                             directory, name, i + 1, missing);
+    }
+    return MOTE_OK;
+}
+
 static mote_status read_summary(const char *directory, const char *name, mote_summary *summary)
 {
     if (strcmp(name, "summary.json") == 0 && mote_record_exists(directory, "cells"))
@@ -28,7 +47,8 @@ static mote_status read_summary(const char *directory, const char *name, mote_su
         return mote_fail(MOTE_EIO,
                          "%s: neither cells nor a %s; name a run, or its summary.json",
                          directory, name);
-    return mote_summary_read(directory, name, summary);
+    const mote_status status = mote_summary_read(directory, name, summary);
+    return status == MOTE_OK ? check_rows(directory, name, summary) : status;
 }
 
 /* *object stays NULL if there is no such file. */

@@ -14,7 +14,8 @@ typedef struct mote_compared_run {
 
 /* Reads a run's directory, its summary.json, or another file in that format. If there are
    cells, the summary is made from them, since summary.json may be older. MOTE_EIO or
-   MOTE_EINVAL, with the file, if one cannot be read. The caller frees *run. */
+   MOTE_EINVAL, with the file, if one cannot be read or a row of it lacks its scenario,
+   fingerprint or method. The caller frees *run. */
 mote_status mote_compared_run_read(const char *path, mote_compared_run *run);
 void mote_compared_run_free(mote_compared_run *run);
 

@@ -86,8 +86,8 @@ TEST(command_instructions_counts_scenes_in_one_thread)
         skip();
     mote_expect(4, "leave out threads= and ahead=", "%s certified:threads=2", line);
     mote_expect(4, "it has frames 1-4",
-                "instructions b.json --frames 1-5 --out i --method "
-                "certified");
+                "instructions b.json --frames 1-5 --out none --method certified");
+    assert_false(file_exists("none")); /* refused before anything is written */
     mote_expect(0, "instructions a frame", "%s certified --method particle:n=2", line);
     json_t *root = read_json("i", "instructions.json");
     const json_t *rows = json_object_get(root, "rows");

@@ -4,6 +4,7 @@
 #include "core/base/plugin.h"
 #include "core/body/field_maker.h"
 #include "core/method/method.h"
+#include "harness/base/heap_count.h"
 #include "harness/base/memory.h"
 #include "harness/base/record.h"
 #include "tests/support/folder.h"
@@ -60,6 +61,22 @@ TEST(methods_of_a_library_are_measured_as_those_built_in)
         /* Its rows can be read without it. */
         mote_expect(0, "plugin-points", "summarize %s", directory);
     }
+}
+
+/* Each method is counted in a process of its own, in which both libraries must be open. */
+TEST(instructions_are_counted_with_every_library)
+{
+    if (!mote_heap_read().counted || system("valgrind --version >/dev/null 2>&1") != 0)
+        skip(); /* callgrind cannot run what sanitizers have built */
+    mote_expect(0, "plugin-points",
+                "instructions tt --frames 1-2 --out counted --method plugin-points --method "
+                "plugin-second --plugin %s --plugin " MOTE_PLUGINS "/libplugin_second.so",
+                sound[0]);
+    assert_non_null(strstr(said, "plugin-second"));
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json("counted", "instructions.json", &object), MOTE_OK);
+    assert_int_equal(json_array_size(json_object_get(object, "rows")), 2);
+    json_decref(object);
 }
 
 TEST(a_library_is_told_of_in_lists_and_in_the_manifest)

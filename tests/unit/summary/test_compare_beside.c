@@ -1,6 +1,8 @@
 /* Comparisons with other files of a run: instructions, and a manifest that names the processor
    and the compiler. */
 #include "harness/summary/summary_json.h"
+#include "harness/base/file.h"
+#include "tests/support/mote.h"
 #include "tests/support/stored_cells.h"
 #include "tests/support/two_runs.h"
 
@@ -17,6 +19,21 @@ static mote_comparison compare_beside(const figures *fresh, const char *processo
     assert_int_equal(mote_compare("old", "new", 0.02, &c), MOTE_OK);
     remove_beside();
     return c;
+}
+
+/* Without them any two rows would be the same, and the verdict "undecided". */
+TEST(compare_of_rows_that_are_not_named_says_what_is_missing)
+{
+    static const char *const rows[][2] = {
+        {"{}", "row 1 has no scenario"},
+        {"{\"scenario\": \"s\"}", "row 1 has no method"},
+        {"{\"scenario\": \"s\", \"method\": \"m\"}", "row 1 has no fingerprint"}};
+    for (size_t i = 0; i < ROWS_OF(rows); ++i) {
+        char *text = mote_format("{\"schema\": 1, \"rows\": [%s]}\n", rows[i][0]);
+        file_put("unnamed.json", text);
+        free(text);
+        mote_expect(4, rows[i][1], "compare unnamed.json unnamed.json");
+    }
 }
 
 TEST(compare_with_more_instructions_is_worse)
