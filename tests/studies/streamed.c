@@ -7,24 +7,19 @@
    by more than 1e-12 L. Here L is the larger of L at rest and half the size of the positions,
    which may be in another unit. */
 #include "core/stream/stream.h"
-#include "tests/support/checks.h"
 #include "tests/support/shapes.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "tests/support/variants.h"
 
 #define ROUNDING 1e-12 /* of L */
 
 enum { VARIANTS = 6, FRAMES_A_SCENE = 200 };
 
 typedef struct variant {
-    const char *name;
     mote_stream_options options;
     mote_stream *stream;
     size_t numbers; /* per vertex */
     bool single, contact;
-    uint64_t queries, above, wrong, stopped, contacts;
-    double most_error; /* of |distance - truth|, over L, where exact */
+    variant_counts found;
 } variant;
 
 /* Positions in the layouts of the variants. */
@@ -32,12 +27,13 @@ typedef struct layouts {
     void *data[2];
 } layouts;
 
-static const variant plain[VARIANTS] = {{.name = "witness", .numbers = 3},
-                                        {.name = "none", .numbers = 4},
-                                        {.name = "slack", .numbers = 3},
-                                        {.name = "budget", .numbers = 3, .single = true},
-                                        {.name = "floats", .numbers = 4, .single = true},
-                                        {.name = "contact", .numbers = 3, .contact = true}};
+static const variant plain[VARIANTS] = {
+    {.found.name = "witness", .numbers = 3},
+    {.found.name = "none", .numbers = 4},
+    {.found.name = "slack", .numbers = 3},
+    {.found.name = "budget", .numbers = 3, .single = true},
+    {.found.name = "floats", .numbers = 4, .single = true},
+    {.found.name = "contact", .numbers = 3, .contact = true}};
 
 static bool create_all(variant v[VARIANTS], const scene *s)
 {
@@ -126,13 +122,10 @@ static bool check(variant *v, const scene *s, double truth)
         return false;
     }
     const double error = fabs(a.distance - truth) / length;
-    ++v->queries;
-    v->stopped += a.stopped;
-    v->contacts += truth > 0 ? 0 : 1;
-    v->above += a.lower <= truth ? 0 : 1;
-    v->wrong += right(v, &a, truth, tolerance, length) ? 0 : 1;
+    variant_count(&v->found, truth, a.lower, a.stopped, length);
+    v->found.wrong += right(v, &a, truth, tolerance, length) ? 0 : 1;
     if (!v->contact && !a.stopped && !(v->options.slack > 0))
-        v->most_error = error > v->most_error ? error : v->most_error;
+        v->found.most_error = error > v->found.most_error ? error : v->found.most_error;
     return true;
 }
 
@@ -181,67 +174,23 @@ static bool run_scene(variant v[VARIANTS], uint32_t index)
     return good;
 }
 
-static uint64_t all_queries(const variant v[VARIANTS])
-{
-    uint64_t sum = 0;
-    for (int i = 0; i < VARIANTS; ++i)
-        sum += v[i].queries;
-    return sum;
-}
-
-static bool write_json(const char *path, const variant v[VARIANTS])
-{
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        fprintf(stderr, "streamed: cannot write %s\n", path);
-        return false;
-    }
-    fprintf(file, "[\n");
-    for (int i = 0; i < VARIANTS; ++i)
-        fprintf(file,
-                "  {\"variant\": \"%s\", \"queries\": %" PRIu64
-                ", \"lower_above_truth\": %" PRIu64 ", \"wrong\": %" PRIu64
-                ", \"stopped\": %" PRIu64 ", \"contacts\": %" PRIu64
-                ", \"largest_error\": %.3g}%s\n",
-                v[i].name, v[i].queries, v[i].above, v[i].wrong, v[i].stopped, v[i].contacts,
-                v[i].most_error, i + 1 < VARIANTS ? "," : "");
-    fprintf(file, "]\n");
-    return fclose(file) == 0;
-}
-
-static int report(const variant v[VARIANTS], const checks_options *options)
-{
-    uint64_t above = 0, wrong = 0;
-    printf("%-10s %10s %12s %8s %8s %9s %14s\n", "variant", "queries", "above truth", "wrong",
-           "stopped", "contacts", "largest error");
-    for (int i = 0; i < VARIANTS; ++i) {
-        printf("%-10s %10" PRIu64 " %12" PRIu64 " %8" PRIu64 " %8" PRIu64 " %9" PRIu64
-               " %14.2e\n",
-               v[i].name, v[i].queries, v[i].above, v[i].wrong, v[i].stopped, v[i].contacts,
-               v[i].most_error);
-        above += v[i].above;
-        wrong += v[i].wrong;
-    }
-    if (options->out && !write_json(options->out, v))
-        return 1;
-    if (!checks_add(options->checks, "arrays of positions: a lower bound above the truth",
-                    all_queries(v), above) ||
-        !checks_add(options->checks, "arrays of positions: streamed beyond 1e-12 L",
-                    all_queries(v), wrong))
-        return 1;
-    return above == 0 && wrong == 0 ? 0 : 1;
-}
-
 int main(int argc, char **argv)
 {
     checks_options options = {.queries = 25000};
     if (!checks_read(argc, argv, "streamed", &options))
         return 2;
     variant v[VARIANTS];
+    const variant_counts *found[VARIANTS];
     memcpy(v, plain, sizeof v);
-    for (uint32_t index = 0; all_queries(v) < options.queries; ++index) {
+    for (int i = 0; i < VARIANTS; ++i) {
+        v[i].found.least_margin = HUGE_VAL;
+        found[i] = &v[i].found;
+    }
+    for (uint32_t index = 0; variants_queries(found, VARIANTS) < options.queries; ++index) {
         if (!run_scene(v, index))
             return 1;
     }
-    return report(v, &options);
+    return variants_report(
+        found, VARIANTS, &options, "arrays of positions: a lower bound above the truth",
+        "arrays of positions: streamed beyond 1e-12 L", variants_queries(found, VARIANTS));
 }

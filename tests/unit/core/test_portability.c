@@ -22,6 +22,13 @@ static void hash_vec3(uint64_t *hash, mote_vec3 v)
     *hash = mote_hash_double(*hash, v.z);
 }
 
+static void hash_answer(uint64_t *hash, const mote_certificate_answer *answer)
+{
+    *hash = mote_hash_double(*hash, answer->distance);
+    *hash = mote_hash_double(*hash, answer->lower);
+    hash_vec3(hash, answer->witness[0]);
+}
+
 static void expect_hash(uint64_t hash, uint64_t expected)
 {
     if (hash != expected)
@@ -173,7 +180,60 @@ TEST(refined_pairs_of_fixed_bodies_have_the_committed_hash)
     expect_hash(hash, 0x78b1def009c20fe1u);
 }
 
-/* Certified queries, counters included: floats decide which boxes are tested. */
+/* Hashes positions of a body computed in the three possible ways. */
+static void hash_positions(uint64_t *hash, const test_body *b, const mote_body_state *state)
+{
+    mote_deform *deform = NULL;
+    mote_lazy lazy;
+    mote_vec3 *world = malloc(b->mesh->vertex_count * sizeof *world);
+    assert_non_null(world);
+    assert_int_equal(mote_deform_create(&b->body, &deform), MOTE_OK);
+    assert_int_equal(mote_lazy_init_single(&lazy, &b->body, 10), MOTE_OK);
+    mote_deform_all(deform, state, world);
+    mote_lazy_begin(&lazy, state, false);
+    for (uint32_t v = 0; v < b->mesh->vertex_count; ++v) {
+        hash_vec3(hash, world[v]);
+        hash_vec3(hash, mote_body_position(&b->body, state, v));
+        hash_vec3(hash, mote_lazy_position(&lazy, v));
+    }
+    mote_lazy_free(&lazy);
+    mote_deform_destroy(deform);
+    free(world);
+}
+
+/* The answers to queries of two bodies that come nearer by `step` a frame. Counters are
+   included: floats decide which boxes are tested. Of skinned bodies also the positions. */
+static void hash_certified(uint64_t *hash, test_body b[2], bool skinned, int frames,
+                           double step, uint64_t *seed)
+{
+    const mote_body *bodies[2] = {&b[0].body, &b[1].body};
+    const mote_certificate_options options =
+        mote_default_certificate_options(b[0].mesh->diagonal);
+    mote_certificate *certificate = NULL;
+    if (mote_certificate_create(bodies, &options, &certificate) != MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    for (int number = 1; number <= frames; ++number) {
+        mote_frame frame = {.number = (uint64_t)number};
+        for (int k = 0; k < 2; ++k)
+            frame.body[k] =
+                skinned ? skin_body_state(&b[k], 0.1, seed) : test_body_state(&b[k], 0.1, seed);
+        frame.body[1].pose.translation.x += 2.6 - step * number;
+        if (skinned && number == 1)
+            hash_positions(hash, &b[1], &frame.body[1]);
+        mote_certificate_answer answer;
+        mote_certificate_query(certificate, &frame, NULL, -1, &answer);
+        hash_answer(hash, &answer);
+        *hash = mote_hash_word(*hash, answer.counters.blocks);
+        *hash = mote_hash_word(*hash, answer.counters.rows);
+        if (skinned)
+            *hash = mote_hash_word(*hash, answer.counters.leaf_pairs);
+        *hash = mote_hash_word(*hash, answer.counters.triangle_tests);
+    }
+    mote_certificate_destroy(certificate);
+    test_body_free(&b[0]);
+    test_body_free(&b[1]);
+}
+
 TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
 {
     const int sizes[] = {0, 14, -3};
@@ -183,31 +243,25 @@ TEST(certified_queries_of_fixed_bodies_have_the_committed_hash)
         test_body b[2];
         for (int k = 0; k < 2; ++k)
             test_body_init(&b[k], solid_to_mesh(solid_icosphere(4 - k)), sizes[size], &seed);
-        const mote_body *bodies[2] = {&b[0].body, &b[1].body};
-        const mote_certificate_options options =
-            mote_default_certificate_options(b[0].mesh->diagonal);
-        mote_certificate *certificate = NULL;
-        if (mote_certificate_create(bodies, &options, &certificate) != MOTE_OK)
-            fail_msg("%s", mote_error_text());
-        for (uint64_t number = 1; number <= 30; ++number) {
-            mote_frame frame = {.number = number};
-            for (int k = 0; k < 2; ++k)
-                frame.body[k] = test_body_state(&b[k], 0.1, &seed);
-            frame.body[1].pose.translation.x += 2.6 - 0.04 * (double)number;
-            mote_certificate_answer answer;
-            mote_certificate_query(certificate, &frame, NULL, -1, &answer);
-            hash = mote_hash_double(hash, answer.distance);
-            hash = mote_hash_double(hash, answer.lower);
-            hash_vec3(&hash, answer.witness[0]);
-            hash = mote_hash_word(hash, answer.counters.blocks);
-            hash = mote_hash_word(hash, answer.counters.rows);
-            hash = mote_hash_word(hash, answer.counters.triangle_tests);
-        }
-        mote_certificate_destroy(certificate);
-        test_body_free(&b[0]);
-        test_body_free(&b[1]);
+        hash_certified(&hash, b, false, 30, 0.04, &seed);
     }
     expect_hash(hash, 0x115a90b56a3882f7u);
+}
+
+/* Skins, skins with morph targets, and targets alone. */
+TEST(skins_and_morphs_of_fixed_bodies_have_the_committed_hash)
+{
+    const uint32_t plans[3][2] = {{16, 0}, {7, 8}, {0, 3}};
+    uint64_t seed = 7;
+    uint64_t hash = MOTE_HASH_START;
+    for (int plan = 0; plan < 3; ++plan) {
+        test_body b[2];
+        for (int k = 0; k < 2; ++k)
+            skin_body_init(&b[k], solid_to_mesh(solid_icosphere(4 - k)), plans[plan][0],
+                           plans[plan][1], &seed);
+        hash_certified(&hash, b, true, 20, 0.06, &seed);
+    }
+    expect_hash(hash, 0x4828aed60103aecbu);
 }
 
 /* Positions of a fixed body, each displaced at random. */
@@ -241,9 +295,7 @@ TEST(streamed_queries_of_fixed_bodies_have_the_committed_hash)
             .positions = {mote_positions_of(at[0]), mote_positions_of(at[1])}};
         mote_certificate_answer answer;
         assert_int_equal(mote_stream_query(stream, &frame, -1, &answer), MOTE_OK);
-        hash = mote_hash_double(hash, answer.distance);
-        hash = mote_hash_double(hash, answer.lower);
-        hash_vec3(&hash, answer.witness[0]);
+        hash_answer(&hash, &answer);
         hash = mote_hash_word(hash, answer.counters.blocks);
         hash = mote_hash_word(hash, answer.counters.box_tests);
         hash = mote_hash_word(hash, answer.counters.leaf_pairs);
@@ -297,66 +349,4 @@ TEST(tracked_queries_of_fixed_bodies_have_the_committed_hash)
         test_body_free(&b[1]);
     }
     expect_hash(hash, 0x850b688448d7a806u);
-}
-
-/* Hashes positions of a body computed in the three possible ways. */
-static void hash_positions(uint64_t *hash, const test_body *b, const mote_body_state *state)
-{
-    mote_deform *deform = NULL;
-    mote_lazy lazy;
-    mote_vec3 *world = malloc(b->mesh->vertex_count * sizeof *world);
-    assert_non_null(world);
-    assert_int_equal(mote_deform_create(&b->body, &deform), MOTE_OK);
-    assert_int_equal(mote_lazy_init_single(&lazy, &b->body, 10), MOTE_OK);
-    mote_deform_all(deform, state, world);
-    mote_lazy_begin(&lazy, state, false);
-    for (uint32_t v = 0; v < b->mesh->vertex_count; ++v) {
-        hash_vec3(hash, world[v]);
-        hash_vec3(hash, mote_body_position(&b->body, state, v));
-        hash_vec3(hash, mote_lazy_position(&lazy, v));
-    }
-    mote_lazy_free(&lazy);
-    mote_deform_destroy(deform);
-    free(world);
-}
-
-/* Skins, skins with morph targets, and targets alone: positions, and certified queries. */
-TEST(skins_and_morphs_of_fixed_bodies_have_the_committed_hash)
-{
-    const uint32_t plans[3][2] = {{16, 0}, {7, 8}, {0, 3}};
-    uint64_t seed = 7;
-    uint64_t hash = MOTE_HASH_START;
-    for (int plan = 0; plan < 3; ++plan) {
-        test_body b[2];
-        for (int k = 0; k < 2; ++k)
-            skin_body_init(&b[k], solid_to_mesh(solid_icosphere(4 - k)), plans[plan][0],
-                           plans[plan][1], &seed);
-        const mote_body *bodies[2] = {&b[0].body, &b[1].body};
-        const mote_certificate_options options =
-            mote_default_certificate_options(b[0].mesh->diagonal);
-        mote_certificate *certificate = NULL;
-        if (mote_certificate_create(bodies, &options, &certificate) != MOTE_OK)
-            fail_msg("%s", mote_error_text());
-        for (uint64_t number = 1; number <= 20; ++number) {
-            mote_frame frame = {.number = number};
-            for (int k = 0; k < 2; ++k)
-                frame.body[k] = skin_body_state(&b[k], 0.1, &seed);
-            frame.body[1].pose.translation.x += 2.6 - 0.06 * (double)number;
-            if (number == 1)
-                hash_positions(&hash, &b[1], &frame.body[1]);
-            mote_certificate_answer answer;
-            mote_certificate_query(certificate, &frame, NULL, -1, &answer);
-            hash = mote_hash_double(hash, answer.distance);
-            hash = mote_hash_double(hash, answer.lower);
-            hash_vec3(&hash, answer.witness[0]);
-            hash = mote_hash_word(hash, answer.counters.blocks);
-            hash = mote_hash_word(hash, answer.counters.rows);
-            hash = mote_hash_word(hash, answer.counters.leaf_pairs);
-            hash = mote_hash_word(hash, answer.counters.triangle_tests);
-        }
-        mote_certificate_destroy(certificate);
-        test_body_free(&b[0]);
-        test_body_free(&b[1]);
-    }
-    expect_hash(hash, 0x4828aed60103aecbu);
 }
