@@ -24,9 +24,10 @@ esac
 ask_contact() {
     mkdir -p "$out/scenarios"
     asked=$out/scenarios/$1.json
-    if grep -q '^  "like":' "datasets/scenarios/$1.json"; then
+    built_in=$(find datasets/scenarios -name "$1.json")
+    if grep -q '^  "like":' "$built_in"; then
         # A scenario like another one cannot be named by "like".
-        sed 's/^  "like": "[^"]*",$/&\n  "ask": "contact",/' "datasets/scenarios/$1.json" >"$asked"
+        sed 's/^  "like": "[^"]*",$/&\n  "ask": "contact",/' "$built_in" >"$asked"
     else
         printf '{"purpose": "Contacts of %s.", "like": "%s", "ask": "contact"}\n' "$1" "$1" >"$asked"
     fi

@@ -28,7 +28,9 @@
     X(no_missed_contact)                                                                       \
     X(faster_than_fcl)                                                                         \
     X(no_allocation)                                                                           \
-    X(bodies_swapped)
+    X(bodies_swapped)                                                                          \
+    X(best_engine_distance)                                                                    \
+    X(best_engine_contact)
 
 /* mote_claim_NAME: fills claim, which is zero-initialised; the caller frees it, even after a
    failure. */

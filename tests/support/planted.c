@@ -25,8 +25,6 @@ static void need(bool condition)
         abort();
 }
 
-#define FCL_RATIO 1000.0
-
 static mote_status due(const char *function)
 {
     return ++planted.calls == planted.failing ? mote_fail(MOTE_EIO, "planted in %s", function)
@@ -246,27 +244,40 @@ PLANT(mote_run, const mote_run_options *options, mote_run_outcome *outcome)
 /* The rows for the claims about hierarchies, three replicates each. */
 enum { TIMED_FRAMES = 20, REPLICATES = 3 };
 static const struct {
-    const char *scenario, *cache, *label;
-} timed[PLANTED_ROWS] = {{"ww", "hot", "particle-paper:n=5"},
-                         {"ww", "hot", "fcl-aabb"},
-                         {"ww", "hot", "fcl-aabb:queue=64,seed=previous"},
-                         {"ww", "hot", "fcl-obbrss"},
-                         {"ww", "evict", "particle-paper:n=5"},
-                         {"ww", "evict", "fcl-aabb"},
-                         {"ww", "evict", "fcl-aabb:queue=64,seed=previous"},
-                         {"tt", "hot", "particle-paper:n=3"},
-                         {"tt", "hot", "fcl-aabb"},
-                         {"tt", "hot", "fcl-obbrss:update=none"}};
+    const char *scenario, *cache, *label, *method;
+    uint32_t frames[2];
+} timed[PLANTED_ROWS] = {{"ww", "hot", "particle-paper:n=5", "particle-paper", {0}},
+                         {"ww", "hot", "fcl-aabb", "fcl-aabb", {0}},
+                         {"ww", "hot", "fcl-aabb:queue=64,seed=previous", "fcl-aabb", {0}},
+                         {"ww", "hot", "fcl-obbrss", "fcl-obbrss", {0}},
+                         {"ww", "evict", "particle-paper:n=5", "particle-paper", {0}},
+                         {"ww", "evict", "fcl-aabb", "fcl-aabb", {0}},
+                         {"ww", "evict", "fcl-aabb:queue=64,seed=previous", "fcl-aabb", {0}},
+                         {"tt", "hot", "particle-paper:n=3", "particle-paper", {0}},
+                         {"tt", "hot", "fcl-aabb", "fcl-aabb", {0}},
+                         {"tt", "hot", "fcl-obbrss:update=none", "fcl-obbrss", {0}},
+                         {"ww", "hot", "certified", "certified", {1201, 1400}},
+                         {"ww", "hot", "fcl-aabb:seed=previous", "fcl-aabb", {1201, 1400}},
+                         {"mv", "hot", "certified", "certified", {301, 500}},
+                         {"mv", "hot", "coal-aabb:seed=previous", "coal-aabb", {301, 500}},
+                         {"tt-distance", "hot", "certified", "certified", {201, 400}},
+                         {"tt-distance", "hot", "fcl-rss:update=none", "fcl-rss", {201, 400}},
+                         {"ww-contact", "hot", "certified", "certified", {1201, 1400}},
+                         {"ww-contact", "hot", "ode", "ode", {1201, 1400}},
+                         {"mv-contact", "hot", "certified", "certified", {301, 500}},
+                         {"mv-contact", "hot", "bullet-gimpact", "bullet-gimpact", {301, 500}},
+                         {"tt", "hot", "certified", "certified", {201, 400}},
+                         {"tt", "hot", "fcl-obb:update=none", "fcl-obb", {201, 400}}};
 enum { TIMED = PLANTED_ROWS };
 
 static void plant_cell(size_t row, size_t replicate, mote_stored_cell *cell)
 {
     static uint32_t frames[TIMED_FRAMES];
     static double times[2][3][TIMED_FRAMES]; /* particles, trees; total, refit, query */
-    const bool tree = strncmp(timed[row].label, "fcl", 3) == 0;
+    const bool tree = mote_summary_engine_name(timed[row].method);
     for (uint32_t k = 0; k < TIMED_FRAMES; ++k) {
         frames[k] = k + 1;
-        times[tree][0][k] = planted.ours_ns * (tree ? FCL_RATIO : 1) + k;
+        times[tree][0][k] = planted.ours_ns * (tree ? planted.trees_ratio : 1) + k;
         times[tree][1][k] = tree ? 0.9 * times[tree][0][k] : 0;
         times[tree][2][k] = times[tree][0][k] - times[tree][1][k];
     }
@@ -371,14 +382,20 @@ PLANT(mote_summary_make, const char *directory, mote_summary *summary)
         mote_stored_cell *cells = &summary->stored.cells[i * REPLICATES];
         for (size_t r = 0; r < REPLICATES; ++r)
             plant_cell(i, r, &cells[r]);
-        summary->rows[i] = (mote_summary_row){.cells = cells,
-                                              .replicates = REPLICATES,
-                                              .first = &cells[0],
-                                              .status = MOTE_CELL_OK,
-                                              .scenario = timed[i].scenario,
-                                              .cache = timed[i].cache,
-                                              .label = (char *)(uintptr_t)timed[i].label,
-                                              .times_comparable = true};
+        summary->rows[i] =
+            (mote_summary_row){.cells = cells,
+                               .replicates = REPLICATES,
+                               .first = &cells[0],
+                               .status = MOTE_CELL_OK,
+                               .scenario = timed[i].scenario,
+                               .cache = timed[i].cache,
+                               .label = (char *)(uintptr_t)timed[i].label,
+                               .method = timed[i].method,
+                               .frame_range = {timed[i].frames[0], timed[i].frames[1]},
+                               .fingerprint = "",
+                               .machine = "",
+                               .ask = "",
+                               .times_comparable = true};
     }
     return MOTE_OK;
 }
@@ -425,6 +442,7 @@ void plant_good(void)
                        .exponent = 0.05,
                        .contact_seen = true,
                        .ours_ns = 1e4,
+                       .trees_ratio = 1000,
                        .rows = PLANTED_ROWS,
                        .ratio = 25,
                        .body_bytes = 1 << 20,
