@@ -142,6 +142,20 @@ double mote_coal_sum_outside(double degrees)
     return most;
 }
 
+double mote_coal_fit_outside(void)
+{
+    const std::vector<Vec3s> corners = {{0, 0, 3}, {2, 0, 0}, {3, 0, 2}, {2, 1, 0}, {3, 3, 2},
+                                        {3, 0, 2}, {0, 3, 2}, {2, 1, 4}, {3, 2, 3}};
+    coal::BVHModel<coal::RSS> model;
+    model.beginModel(3, 9);
+    model.addSubModel(corners, {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}});
+    model.endModel();
+    double most = 0;
+    for (const Vec3s &corner : corners)
+        most = std::max(most, outside(model.getBV(0).bv, corner));
+    return most;
+}
+
 coal_refit mote_coal_refit(coal_volume volume, bool bottom_up, const mote_mesh *mesh,
                            const mote_vec3 *vertices, int poses)
 {

@@ -16,6 +16,10 @@ typedef enum coal_volume { COAL_AABB, COAL_OBB, COAL_RSS, COAL_OBBRSS, COAL_KIOS
    with a cube 1 above it along z. Should be 0. */
 double mote_coal_sum_outside(double degrees);
 
+/* How far a corner of three small triangles sticks out of the swept rectangle that is fitted to
+   them. Should be 0. */
+double mote_coal_fit_outside(void);
+
 /* Volumes of a tree that do not contain their triangles: `failing` of `volumes` by more than
    1e-9 of the mesh's diagonal, the worst by `worst` of it. */
 typedef struct coal_refit {
