@@ -16,6 +16,12 @@ mote_place mote_path_place(const mote_path *path, double time);
    where they may pass 0. */
 double mote_path_least_turn(const mote_path_piece *piece);
 
+/* What mote_path_state sets, differentiated by the local time of the place's piece and
+   multiplied by factor: with this state, mote_body_position gives the velocity of a vertex,
+   times factor. */
+void mote_path_velocity(const mote_path *path, const mote_body *body, mote_place at,
+                        double factor, double *weights, mote_body_state *state);
+
 /* The rotation of a piece at u in [0, 1]. */
 mote_mat3 mote_path_rotation(const mote_path_piece *piece, double u);
 

@@ -55,21 +55,28 @@ static mote_quaternion spun(mote_vec3 spin, double u)
     return (mote_quaternion){cosine, s * spin.x, s * spin.y, s * spin.z};
 }
 
+static mote_quaternion add_quaternion(mote_quaternion a, double s, mote_quaternion b)
+{
+    return (mote_quaternion){a.w + s * b.w, a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+/* Of a piece that does not spin, of any length. */
+static mote_quaternion quaternion_at(const mote_path_piece *piece, double u)
+{
+    const double v = 1 - u;
+    const double b[4] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u};
+    mote_quaternion sum = {0, 0, 0, 0};
+    for (int i = 0; i < 4; ++i)
+        sum = add_quaternion(sum, b[i], piece->turn[i]);
+    return sum;
+}
+
 mote_mat3 mote_path_rotation(const mote_path_piece *piece, double u)
 {
     if (piece->spins)
         return mote_quaternion_matrix(
             mote_quaternion_multiply(spun(piece->spin, u), piece->turn[0]));
-    const double v = 1 - u;
-    const double b[4] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u};
-    mote_quaternion sum = {0, 0, 0, 0};
-    for (int i = 0; i < 4; ++i) {
-        sum.w += b[i] * piece->turn[i].w;
-        sum.x += b[i] * piece->turn[i].x;
-        sum.y += b[i] * piece->turn[i].y;
-        sum.z += b[i] * piece->turn[i].z;
-    }
-    return mote_quaternion_matrix(sum);
+    return mote_quaternion_matrix(quaternion_at(piece, u));
 }
 
 static double along(mote_quaternion a, mote_quaternion b)
@@ -125,6 +132,94 @@ void mote_path_state(const mote_path *path, const mote_body *body, double time, 
         return;
     if (piece->weights)
         weights_at(piece->weights, at.u, &state->pose.rotation, padded, weights);
+    else
+        memset(weights, 0, 3 * padded * sizeof *weights);
+    state->weights.x = weights;
+    state->weights.y = weights + padded;
+    state->weights.z = weights + 2 * padded;
+}
+
+/* The derivative of a cubic's factors by u. */
+static void slopes_at(double u, double b[4])
+{
+    const double v = 1 - u;
+    b[0] = -3 * v * v;
+    b[1] = 3 * v * (v - 2 * u);
+    b[2] = 3 * u * (2 * v - u);
+    b[3] = 3 * u * u;
+}
+
+static mote_vec3 angular_velocity_at(const mote_path_piece *piece, double u)
+{
+    if (piece->spins)
+        return piece->spin;
+    const mote_quaternion q = quaternion_at(piece, u);
+    double b[4];
+    slopes_at(u, b);
+    mote_quaternion d = {0, 0, 0, 0};
+    for (int i = 0; i < 4; ++i)
+        d = add_quaternion(d, b[i], piece->turn[i]);
+    const double scale = 2 / along(q, q);
+    const mote_quaternion back = {q.w, -q.x, -q.y, -q.z};
+    const mote_quaternion w = mote_quaternion_multiply(d, back);
+    return mote_scale(mote_vec3_make(w.x, w.y, w.z), scale);
+}
+
+/* omega x R w + R w', times factor. */
+static void weight_velocities(const mote_path_piece *piece, double u, mote_vec3 spin,
+                              double factor, size_t padded, double *out)
+{
+    const mote_mat3 rotation = mote_path_rotation(piece, u);
+    const double v = 1 - u;
+    const double a[4] = {v * v * v, 3 * u * v * v, 3 * u * u * v, u * u * u};
+    double b[4];
+    slopes_at(u, b);
+    for (size_t j = 0; j < padded; ++j) {
+        double w[3] = {0, 0, 0}, dw[3] = {0, 0, 0};
+        for (size_t i = 0; i < 4; ++i) {
+            for (size_t c = 0; c < 3; ++c) {
+                const double control = piece->weights[(3 * i + c) * padded + j];
+                w[c] += a[i] * control;
+                dw[c] += b[i] * control;
+            }
+        }
+        const mote_vec3 turned = mote_rotate(&rotation, mote_vec3_make(w[0], w[1], w[2]));
+        const mote_vec3 grown = mote_rotate(&rotation, mote_vec3_make(dw[0], dw[1], dw[2]));
+        const mote_vec3 sum = mote_add(mote_cross(spin, turned), grown);
+        out[j] = factor * sum.x;
+        out[padded + j] = factor * sum.y;
+        out[2 * padded + j] = factor * sum.z;
+    }
+}
+
+void mote_path_velocity(const mote_path *path, const mote_body *body, mote_place at,
+                        double factor, double *weights, mote_body_state *state)
+{
+    const mote_path_piece *piece = &path->pieces[at.piece];
+    const size_t padded = body->field->padded;
+    const mote_mat3 rotation = mote_path_rotation(piece, at.u);
+    const mote_vec3 spin = angular_velocity_at(piece, at.u);
+    *state = (mote_body_state){.shape_changed = true, .pose_changed = true};
+    for (int c = 0; c < 3; ++c) {
+        const mote_vec3 column = mote_cross(
+            spin, mote_vec3_make(rotation.m[0][c], rotation.m[1][c], rotation.m[2][c]));
+        state->pose.rotation.m[0][c] = factor * column.x;
+        state->pose.rotation.m[1][c] = factor * column.y;
+        state->pose.rotation.m[2][c] = factor * column.z;
+    }
+    double b[4];
+    slopes_at(at.u, b);
+    mote_vec3 moved = {0, 0, 0};
+    for (int i = 0; i < 4; ++i)
+        moved = mote_add_scaled(moved, b[i], piece->centre[i]);
+    state->pose.translation =
+        mote_sub(mote_scale(moved, factor), mote_rotate(&state->pose.rotation, path->pivot));
+    state->weights.count = body->field->count;
+    state->weights.padded = body->field->padded;
+    if (padded == 0)
+        return;
+    if (piece->weights)
+        weight_velocities(piece, at.u, spin, factor, padded, weights);
     else
         memset(weights, 0, 3 * padded * sizeof *weights);
     state->weights.x = weights;

@@ -24,9 +24,12 @@ typedef struct mote_impact_options {
     double resolution;   /* > 0: width of the bracket, as a part of the time 0 .. 1 */
     uint32_t pieces;     /* >= 1: the most pieces that a path will have */
     uint32_t iterations; /* >= 1: certified queries after which the search gives up */
+    uint32_t patience;   /* steps by speeds alone before the first sweep by directions, which is
+                            as dear as ten of them; UINT32_MAX: no sweeps */
 } mote_impact_options;
 
-/* A bracket of 1e-6, at most 128 pieces and 10,000 queries. length > 0: L of the pair. */
+/* A bracket of 1e-6, at most 128 pieces and 10,000 queries, a patience of 10. length > 0: L of
+ * the pair. */
 mote_impact_options mote_default_impact_options(double length);
 
 /* Makes what queries about two bodies need: trees of both and all memory. The bodies are

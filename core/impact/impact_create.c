@@ -5,8 +5,11 @@
 
 mote_impact_options mote_default_impact_options(double length)
 {
-    return (mote_impact_options){
-        .length = length, .resolution = 1e-6, .pieces = 128, .iterations = 10000};
+    return (mote_impact_options){.length = length,
+                                 .resolution = 1e-6,
+                                 .pieces = 128,
+                                 .iterations = 10000,
+                                 .patience = 10};
 }
 
 static mote_status check_options(const mote_impact_options *options)
@@ -41,11 +44,14 @@ static mote_status allocate(mote_impact_search *s)
         if (s->groups[i].padded > groups)
             groups = s->groups[i].padded;
         s->weights[i] = counted(s, 3 * (size_t)field->padded, sizeof(double));
+        s->speeds[i] = counted(s, 3 * (size_t)field->padded, sizeof(double));
+        if (!s->weights[i] || !s->speeds[i])
+            return mote_fail(MOTE_ENOMEM, "no memory for a search for impacts");
     }
     s->amounts = counted(s, 3 * functions, sizeof(double));
     s->sums = counted(s, 3 * groups, sizeof(double));
     s->rates = counted(s, s->options.pieces, sizeof *s->rates);
-    if (!s->weights[0] || !s->weights[1] || !s->amounts || !s->sums || !s->rates)
+    if (!s->amounts || !s->sums || !s->rates)
         return mote_fail(MOTE_ENOMEM, "no memory for a search for impacts");
     return MOTE_OK;
 }
@@ -71,6 +77,8 @@ mote_status mote_impact_create(const mote_body *const body[2],
                                            &made->groups[i], &made->bytes);
     if (status == MOTE_OK)
         status = allocate(made);
+    if (status == MOTE_OK)
+        status = mote_sweep_create(made->certificate, &made->sweep, &made->bytes);
     if (status != MOTE_OK) {
         mote_impact_destroy(made);
         return status;
@@ -83,10 +91,12 @@ void mote_impact_destroy(mote_impact_search *search)
 {
     if (!search)
         return;
+    mote_sweep_destroy(&search->sweep);
     mote_certificate_destroy(search->certificate);
     for (int i = 0; i < 2; ++i) {
         mote_impact_groups_destroy(&search->groups[i]);
         free(search->weights[i]);
+        free(search->speeds[i]);
     }
     free(search->amounts);
     free(search->sums);

@@ -1,4 +1,4 @@
-/* Conservative advancement on the certified distance.
+/* Conservative advancement on the certified distance, by speeds alone or by sweeps.
 
    At a time t the certified query proves that the surfaces, as they are rounded, are at least
    `lower` apart, so that those of the path are at least lower - noise apart, and none of their
@@ -120,6 +120,25 @@ static bool find_ahead(mote_impact_search *s, double reached, double *time)
     return true;
 }
 
+/* A sweep takes as long as some ten certified queries. It is made after `patience` steps by
+   speeds alone, and again at once as long as it gains this many times what they would. */
+#define GAIN_LEAST 3
+#define WAIT_AFTER 4
+
+/* The time up to which the last answer, of `time`, shows the bodies to be apart: by speeds
+   alone `reached`, or by a sweep if it is time for one. */
+static double sweep_at_times(mote_impact_search *s, double time, double reached)
+{
+    if (s->wait > 0) {
+        --s->wait;
+        return reached;
+    }
+    const double until = mote_impact_swept_until(s, time);
+    if (until - time < GAIN_LEAST * (reached - time))
+        s->wait = WAIT_AFTER;
+    return fmax(reached, until);
+}
+
 static void search_for_impact(mote_impact_search *s)
 {
     const mote_impact_question *q = s->question;
@@ -129,7 +148,9 @@ static void search_for_impact(mote_impact_search *s)
         return;
     }
     for (;;) {
-        const double reached = proven_until(s, time);
+        double reached = proven_until(s, time);
+        if (reached > time && reached < q->end)
+            reached = sweep_at_times(s, time, reached);
         if (reached >= q->end) {
             end_with(s, MOTE_IMPACT_NONE, q->end, q->end);
             return;
@@ -162,6 +183,7 @@ mote_status mote_impact_query(mote_impact_search *search, const mote_impact_ques
     if (status != MOTE_OK)
         return status;
     search->question = question;
+    search->wait = search->options.patience;
     memset(&search->found, 0, sizeof search->found);
     for (uint32_t k = 0; k < question->path[0]->count; ++k)
         search->rates[k].known = false;

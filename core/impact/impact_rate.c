@@ -163,7 +163,7 @@ static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
         bound_weights(piece->weights, field->count, field->padded, s->amounts);
         add_up(groups->most, s->amounts, field->count, n, s->sums);
     }
-    mote_impact_motion m = {0, 0, 0};
+    mote_impact_motion m = {.turn = turn.rate};
     double grown = 0;
     for (uint32_t g = 0; g < groups->count; ++g) {
         const double d = s->sums[g], f = s->sums[n + g], e = s->sums[2 * n + g];
@@ -179,6 +179,56 @@ static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
     const double spin = piece->spins ? turn.rate : 0;
     m.noise = size * (0x1p-41 * (1 + field->most / 1024.0) + 0x1p-49 * spin);
     return m;
+}
+
+static double weights_kink(const mote_impact_search *s, int i, const mote_path_piece *before,
+                           const mote_path_piece *after)
+{
+    const mote_field *field = s->body[i].field;
+    const size_t padded = field->padded;
+    double sum = 0;
+    for (uint32_t j = 0; j < field->count; ++j) {
+        double change = 0;
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t at = c * padded + j;
+            const double *a = before->weights, *b = after->weights;
+            const double end = a ? a[9 * padded + at] - a[6 * padded + at] : 0;
+            const double start = b ? b[3 * padded + at] - b[at] : 0;
+            change += fabs(end - start);
+        }
+        sum += 3 * change * s->groups[i].most_of_all[j];
+    }
+    return sum;
+}
+
+/* A bound on how much the velocity of any vertex changes at once where piece k of body i's path
+   begins. Infinite between two kinds of rotation. */
+static double kink_of(const mote_impact_search *s, int i, uint32_t k)
+{
+    const mote_path *path = s->question->path[i];
+    const mote_path_piece *a = &path->pieces[k - 1], *b = &path->pieces[k];
+    if (a->spins != b->spins)
+        return HUGE_VAL;
+    const mote_vec3 end = mote_sub(a->centre[3], a->centre[2]);
+    const mote_vec3 start = mote_sub(b->centre[1], b->centre[0]);
+    double turn = mote_length(mote_sub(a->spin, b->spin));
+    if (!a->spins)
+        turn = 6 *
+               norm(difference(difference(a->turn[3], a->turn[2]),
+                               difference(b->turn[1], b->turn[0]))) /
+               fmin(mote_path_least_turn(a), mote_path_least_turn(b));
+    double size = 0; /* of what turns */
+    if (turn > 0) {
+        size = s->groups[i].size + mote_length(path->pivot);
+        for (uint32_t j = 0; j < s->body[i].field->count && b->weights; ++j) {
+            const size_t padded = s->body[i].field->padded;
+            const mote_vec3 w = {b->weights[j], b->weights[padded + j],
+                                 b->weights[2 * padded + j]};
+            size += s->groups[i].most_of_all[j] * mote_length(w);
+        }
+    }
+    return (3 * mote_length(mote_sub(start, end)) + turn * size + weights_kink(s, i, a, b)) *
+           (1 + 1e-9);
 }
 
 const mote_impact_rate *mote_impact_rate_of(mote_impact_search *s, uint32_t k)
@@ -198,6 +248,8 @@ const mote_impact_rate *mote_impact_rate_of(mote_impact_search *s, uint32_t k)
     rate->speed = (a.speed + b.speed + pivots.rate) * (1 + 1e-9) + rate->noise;
     rate->acceleration =
         (a.acceleration + b.acceleration + pivots.change) * (1 + 1e-9) + rate->noise;
+    rate->turn = fmax(a.turn, b.turn);
+    rate->kink = k > 0 ? kink_of(s, 0, k) + kink_of(s, 1, k) : 0;
     rate->known = true;
     return rate;
 }

@@ -5,6 +5,7 @@
 #include "core/certificate/certificate.h"
 #include "core/certificate/certificate_tree.h"
 #include "core/impact/impact.h"
+#include "core/impact/impact_sweep.h"
 
 /* The parts of a body for which speeds are bounded, at most. */
 #define MOTE_IMPACT_GROUPS 64
@@ -26,13 +27,15 @@ typedef struct mote_impact_groups {
 typedef struct mote_impact_motion {
     double speed, acceleration;
     double noise; /* of a position: rounding, and what pieces may miss each other by */
+    double turn;  /* of the angular velocity, in radians */
 } mote_impact_motion;
 
 /* The same of both bodies together, the motion of the pivots included. */
 typedef struct mote_impact_rate {
     bool known;
     double speed, acceleration; /* of one body's points as the other body's see them */
-    double noise;
+    double noise, turn;
+    double kink; /* how much the speeds of points change at once where the piece begins */
 } mote_impact_rate;
 
 struct mote_impact_search {
@@ -45,6 +48,9 @@ struct mote_impact_search {
     double *sums;            /* [3][groups] of a piece */
     mote_impact_rate *rates; /* [options.pieces] of the question's pieces */
     mote_frame frame;
+    mote_sweep sweep;
+    uint32_t wait;     /* steps by speeds alone before the next sweep */
+    double *speeds[2]; /* [3 * padded] weights of the sweep's states */
     const mote_impact_question *question;
     mote_certificate_answer at; /* the last certified answer */
     mote_impact_found found;
@@ -62,6 +68,12 @@ void mote_impact_groups_destroy(mote_impact_groups *groups);
 
 /* Bounds of piece k of the question's paths, computed when they are first asked for. */
 const mote_impact_rate *mote_impact_rate_of(mote_impact_search *search, uint32_t k);
+
+/* impact_step.c */
+
+/* The time up to which a sweep shows the bodies to be apart after the last answer, of `time`;
+   at most end. */
+double mote_impact_swept_until(mote_impact_search *search, double time);
 
 /* impact_check.c */
 

@@ -162,8 +162,9 @@ static bool run_scene(uint64_t index, counts all[FAMILIES], uint64_t *left)
     impact_scene s;
     samples sampled;
     mote_mesh *const first = random_mesh(&r, f, size);
-    impact_scene_init(&s, first, random_mesh(&r, f, size * impact_between(&r, 0.3, 1)), kind,
-                      index);
+    static const uint32_t patiences[] = {10, 0, 3}; /* 0: sweeps in every step */
+    impact_scene_init_patient(&s, first, random_mesh(&r, f, size * impact_between(&r, 0.3, 1)),
+                              kind, index, patiences[index / FAMILIES % 3]);
     const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
     mote_certificate_options options = mote_default_certificate_options(s.length);
     options.directions = false; /* another way to the same distance */

@@ -148,17 +148,24 @@ static inline void impact_body_free(impact_body *b)
     mote_mesh_destroy(b->mesh);
 }
 
-/* Takes ownership of the meshes. */
-static inline void impact_scene_init(impact_scene *s, mote_mesh *a, mote_mesh *b,
-                                     impact_kind kind, uint64_t seed)
+/* Takes ownership of the meshes. patience: see mote_impact_options. */
+static inline void impact_scene_init_patient(impact_scene *s, mote_mesh *a, mote_mesh *b,
+                                             impact_kind kind, uint64_t seed, uint32_t patience)
 {
     *s = (impact_scene){.random = {seed}};
     s->length = fmax(a->diagonal, b->diagonal);
     impact_body_init(&s->of[0], a, kind, &s->random);
     impact_body_init(&s->of[1], b, kind, &s->random);
     const mote_body *const bodies[2] = {&s->of[0].body, &s->of[1].body};
-    const mote_impact_options options = mote_default_impact_options(s->length);
+    mote_impact_options options = mote_default_impact_options(s->length);
+    options.patience = patience;
     need(mote_impact_create(bodies, &options, &s->search) == MOTE_OK);
+}
+
+static inline void impact_scene_init(impact_scene *s, mote_mesh *a, mote_mesh *b,
+                                     impact_kind kind, uint64_t seed)
+{
+    impact_scene_init_patient(s, a, b, kind, seed, 10);
 }
 
 static inline void impact_scene_free(impact_scene *s)

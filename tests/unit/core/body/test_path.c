@@ -1,5 +1,6 @@
 /* Paths: poses and weights between two moments. */
 #include "core/body/path.h"
+#include "core/body/path_place.h"
 
 #include "tests/support/bodies.h"
 
@@ -95,5 +96,46 @@ TEST(mote_path_state_weights_turn_with_the_body)
     assert_close(state.weights.x[1], 0, 0);
     free(control);
     free(weights);
+    test_body_free(&body);
+}
+
+/* Velocities against differences of positions, of a spin and of cubic quaternions. */
+TEST(mote_path_velocity_is_the_derivative)
+{
+    uint64_t seed = 5;
+    test_body body;
+    solid s = solid_icosphere(1);
+    mote_mesh *mesh = NULL;
+    assert_int_equal(mote_mesh_create(s.xyz, s.vertex_count, s.faces, s.triangle_count, &mesh),
+                     MOTE_OK);
+    solid_free(&s);
+    test_body_init(&body, mesh, 3, &seed);
+    const size_t padded = body.field->padded;
+    double *numbers = calloc(15 * padded, sizeof *numbers), *control = numbers + 3 * padded;
+    for (size_t i = 0; i < 12 * padded; ++i)
+        control[i] = i % padded < 3 ? random_between(&seed, -1, 1) : 0;
+    for (int spins = 0; spins < 2; ++spins) {
+        mote_path_piece piece = {.spins = spins, .turn = {none}, .weights = control};
+        for (int i = 0; i < 4; ++i) {
+            piece.centre[i] = random_vec3(&seed, 1);
+            piece.turn[i].x = 0.2 * i * (1 - spins);
+            piece.turn[i].w = 1;
+        }
+        piece.spin = mote_vec3_make(1, -2, 3);
+        const mote_path path = {.pivot = {0.3, 0, 0}, .pieces = &piece, .count = 1};
+        for (int i = 1; i < 8; ++i) {
+            const double u = i / 8.0, h = 1e-5;
+            mote_body_state state;
+            mote_path_velocity(&path, &body.body, (mote_place){0, u}, 0.5, numbers, &state);
+            const mote_vec3 v = mote_body_position(&body.body, &state, 7);
+            mote_path_state(&path, &body.body, u + h, numbers, &state);
+            const mote_vec3 after = mote_body_position(&body.body, &state, 7);
+            mote_path_state(&path, &body.body, u - h, numbers, &state);
+            const mote_vec3 before = mote_body_position(&body.body, &state, 7);
+            const mote_vec3 d = mote_scale(mote_sub(after, before), 0.5 / (2 * h));
+            assert_close(mote_length(mote_sub(v, d)), 0, 1e-8);
+        }
+    }
+    free(numbers);
     test_body_free(&body);
 }
