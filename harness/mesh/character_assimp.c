@@ -189,6 +189,17 @@ static void add_influence(influences *to, influence one)
     to->list[to->count++] = one;
 }
 
+/* Whether a bone has a weight that is not 0; assimp gives a weight of 0 to bones without any.
+ */
+static bool moves_any(const struct aiBone *bone)
+{
+    for (unsigned k = 0; k < bone->mNumWeights; ++k) {
+        if (bone->mWeights[k].mWeight != 0)
+            return true;
+    }
+    return false;
+}
+
 /* Adds the weights of the mesh's vertices, whose numbers begin at base. back: from rest
    coordinates to those of the mesh. */
 static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t base,
@@ -200,7 +211,7 @@ static mote_status add_weights(reader *r, const struct aiMesh *mesh, uint32_t ba
         const mote_affine offset = mote_assimp_affine(&bone->mOffsetMatrix);
         const mote_affine bind = mote_affine_multiply(&offset, back);
         uint32_t node = 0, own = 0;
-        if (bone->mNumWeights == 0)
+        if (!moves_any(bone))
             continue;
         status = node_of_bone(r, bone, &node);
         if (status == MOTE_OK)

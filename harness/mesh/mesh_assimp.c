@@ -1,6 +1,7 @@
 /* Meshes read by assimp: PLY, STL, glTF and the other formats that it knows. */
 #include "harness/mesh/mesh_assimp.h"
 
+#include "harness/base/file.h"
 #include "harness/base/memory.h"
 
 #include <assimp/cimport.h>
@@ -8,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define GLB_BYTES ((size_t)4 << 30)
 
 const char *mote_assimp_line(const char *text, char said[MOTE_SAID_MAX])
 {
@@ -125,9 +128,35 @@ static void note_dropped(const char *message, char *dropped)
         *dropped = 1;
 }
 
+/* MOTE_EINVAL for a binary glTF file that is shorter than its header says: assimp then does not
+   know the format. */
+static mote_status check_length(const char *path)
+{
+    char *data = NULL;
+    size_t size = 0;
+    mote_status status = MOTE_OK;
+    if (mote_file_read(path, GLB_BYTES, &data, &size) != MOTE_OK)
+        return MOTE_OK; /* assimp has said why it cannot be read */
+    const unsigned char *head = (const unsigned char *)data;
+    if (size >= 4 && memcmp(head, "glTF", 4) == 0) {
+        const uint32_t whole = size < 12
+                                   ? 12
+                                   : (uint32_t)head[8] | (uint32_t)head[9] << 8 |
+                                         (uint32_t)head[10] << 16 | (uint32_t)head[11] << 24;
+        if (size < whole)
+            status = mote_fail(MOTE_EINVAL,
+                               "%s: ends after %zu of %u bytes; give the whole glTF file", path,
+                               size, whole);
+    }
+    free(data);
+    return status;
+}
+
 static mote_status fail_as_assimp_says(const char *path)
 {
     char said[MOTE_SAID_MAX];
+    if (check_length(path) != MOTE_OK)
+        return MOTE_EINVAL;
     (void)mote_assimp_line(aiGetErrorString(), said);
     if (strncmp(said, "No suitable reader", strlen("No suitable reader")) == 0)
         return mote_fail(MOTE_EINVAL,

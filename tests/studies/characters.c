@@ -3,10 +3,9 @@
    vertices must be finite.
 
    Usage: characters FILE|FOLDER...
-   Prints a line for each file with clips, {file, triangles, edges of more than two faces,
-   bones, morph targets, clips, said}, then the counts. Exit status 1 where a refusal is not one
-   line that names the file and what would be right, where a pose is not finite, or where no
-   file was read. */
+   Prints a table with a line for each file with clips, then the counts. Exit status 1 where a
+   refusal is not one line that names the file and what would be right, where a pose is not
+   finite, or where no file was read. */
 #define _XOPEN_SOURCE 700 /* nftw */
 #include "harness/mesh/character.h"
 
@@ -53,9 +52,9 @@ static void note_read(const char *path, const mote_character *c, const mote_impo
     ++tally.read;
     tally.whole += mesh->split.edges == 0;
     tally.wild += !finite;
-    printf("%s\t%u\t%zu\t%zu\t%zu\t%zu\t%s\n", path, c->mesh->triangle_count, mesh->split.edges,
-           c->rig.bones_count, c->rig.targets_count, c->rig.clips_count,
-           finite ? "read" : "a pose is not finite");
+    printf("%9u %5zu %5zu %7zu %5zu  %s%s\n", c->mesh->triangle_count, mesh->split.edges,
+           c->rig.bones_count, c->rig.targets_count, c->rig.clips_count, path,
+           finite ? "" : ": a pose is not finite");
 }
 
 static void note_refused(const char *path)
@@ -65,7 +64,7 @@ static void note_refused(const char *path)
         strncmp(text, path, strlen(path)) == 0 && strstr(text, "; ") && !strchr(text, '\n');
     ++tally.refused;
     tally.unclear += !clear;
-    printf("%s\t\t\t\t\t\t%s%s\n", path, clear ? "" : "not clear: ", text);
+    printf("%35s  %s\n", clear ? "refused:" : "refused, not clear:", text);
 }
 
 static int visit(const char *path, const struct stat *info, int type, struct FTW *where)
@@ -95,6 +94,9 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: characters FILE|FOLDER...\n");
         return 2;
     }
+    /* "edges" counts those of more than two faces. */
+    printf("%9s %5s %5s %7s %5s  %s\n", "triangles", "edges", "bones", "targets", "clips",
+           "file");
     for (int at = 1; at < argc; ++at)
         (void)nftw(argv[at], visit, 16, FTW_PHYS);
     printf(

@@ -134,3 +134,17 @@ TEST(mote_character_of_gltf_with_bad_cubic_keys_is_refused)
     assert_int_equal(mote_character_import_file("a.gltf", &c, NULL), MOTE_EINVAL);
     assert_non_null(strstr(mote_error_text(), "a.gltf: "));
 }
+
+/* The hand has 25 joints; those of the five tips have no weight, and assimp gives each a weight
+   of 0. */
+TEST(mote_character_of_gltf_leaves_out_bones_that_move_nothing)
+{
+    mote_character *c = NULL;
+    if (mote_character_import_file(MOTE_SOURCE_DIR "/datasets/characters/hand.glb", &c, NULL) !=
+        MOTE_OK)
+        fail_msg("%s", mote_error_text());
+    assert_int_equal(c->rig.bones_count, 20);
+    for (size_t b = 0; b < c->rig.bones_count; ++b)
+        assert_null(strstr(c->rig.names + c->rig.nodes[c->rig.bones[b].node].name, "tip"));
+    mote_character_destroy(c);
+}

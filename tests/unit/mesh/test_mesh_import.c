@@ -212,6 +212,8 @@ static const bad_text bad_texts[] = {
      "declares 77777777"},
     {"b.stl", "solid t\nendsolid t\n", "b.stl"},
     {"b.xyz", "what is this?", "b.xyz: no mesh format that is known by this name or content"},
+    {"b.glb", "glTFvvvvLLL\1more",
+     "b.glb: ends after 16 of 21777484 bytes; give the whole glTF file"},
     {"b.ac", "AC3Db\nOBJECT", "b.ac: assimp cannot read it ("},
     {"b.ply", "", "b.ply: an empty file"},
     {"b.ply", PLY_HEAD "0 0 0\n", ":11: ends after 1 of 4 elements vertex; give all"},
