@@ -213,15 +213,16 @@ typedef struct scene_cell {
     bool fails;
 } scene_cell;
 
-/* The cells of all runs since the last summary. */
+/* The cells of all runs of a study; from scene_first on, those since the last summary. Rows of
+   summaries point to them. */
 static scene_cell scene_cells[128];
-static size_t scene_count;
+static size_t scene_count, scene_first;
 
 static void plant_scene(const mote_run_options *options, const char *label, size_t k)
 {
     const char *name = strrchr(options->scenarios[0], '/') + 1; /* w-1000-0.1.json */
     if (k == 0 && strcmp(name, "w-10-0.1.json") == 0)
-        scene_count = 0; /* a new study begins; the one before may have failed */
+        scene_count = scene_first = 0; /* a new study; the one before may have failed */
     need(scene_count < sizeof scene_cells / sizeof scene_cells[0]);
     scene_cell *cell = &scene_cells[scene_count++];
     *cell = (scene_cell){.fails = planted.bodies_failed || (planted.body_failed && k == 1)};
@@ -346,15 +347,15 @@ static void plant_scene_row(const scene_cell *of, const mote_summary_row *first,
 
 static void plant_scene_rows(mote_summary *summary)
 {
-    *summary = (mote_summary){.rows = calloc(scene_count, sizeof *summary->rows),
-                              .count = scene_count};
-    summary->stored.cells = calloc(scene_count, sizeof *summary->stored.cells);
-    summary->stored.count = scene_count;
+    const size_t count = scene_count - scene_first;
+    *summary = (mote_summary){.rows = calloc(count, sizeof *summary->rows), .count = count};
+    summary->stored.cells = calloc(count, sizeof *summary->stored.cells);
+    summary->stored.count = count;
     need(summary->rows && summary->stored.cells);
-    for (size_t i = 0; i < scene_count; ++i)
-        plant_scene_row(&scene_cells[i], summary->rows, &summary->stored.cells[i],
+    for (size_t i = 0; i < count; ++i)
+        plant_scene_row(&scene_cells[scene_first + i], summary->rows, &summary->stored.cells[i],
                         &summary->rows[i]);
-    scene_count = 0;
+    scene_first = scene_count;
 }
 
 PLANT(mote_summary_write, const mote_summary *summary, const char *directory)
@@ -368,7 +369,7 @@ PLANT(mote_summary_make, const char *directory, mote_summary *summary)
 {
     (void)directory;
     const mote_status status = due("mote_summary_make");
-    const bool of_scenes = scene_count > 0;
+    const bool of_scenes = scene_count > scene_first;
     if (status == MOTE_OK && of_scenes)
         plant_scene_rows(summary);
     if (status != MOTE_OK || of_scenes)

@@ -281,6 +281,7 @@ TEST(bodies_are_met_where_every_requirement_is)
     assert_true(bodies_met());
     assert_int_equal(size_of("bodies.json", "requirements"), 4);
     assert_int_equal(size_of("bodies.json", "gains"), 27);
+    assert_true(text_has("characters/crowd-200-4.json", "\"near_pairs\": 4}"));
     planted.ratio = 19;
     assert_false(bodies_met());
     plant_good();
