@@ -169,10 +169,12 @@ streamed: program-streamed
 	@$(BUILD)/tests/streamed --out $(OUT)/streamed.json \
 	    --queries $(if $(filter quick,$(PROFILE)),25000,1000000)
 
-impacts: program-impacts
+impacts: program-impacts program-impact_steps
 	@mkdir -p $(OUT)
 	@$(BUILD)/tests/impacts --out $(OUT)/impacts.json \
 	    --queries $(if $(filter quick,$(PROFILE)),5000,100000)
+	@$(BUILD)/tests/impact_steps --out $(OUT)/impact-steps.csv \
+	    --intervals $(if $(filter quick,$(PROFILE)),20,100) ww mv rigid-ww rigid-mv
 
 # PLANT=1 plants a wrong answer, a lost row and a leak, which must be found; RECORD=1 puts the table
 # into results/reference; ONLY="kills fuzz" runs some of the studies.
