@@ -1,137 +1,13 @@
 /* The paper's claims about its own times and about hierarchies, i, k and l, and the required
-   smallest ratios to FCL and to the best engine of others. Measured in cells, each in its own
-   process. */
+   smallest ratio to FCL. */
 #include "harness/study/claims.h"
 
 #include "harness/base/memory.h"
-#include "harness/run/run.h"
-#include "harness/summary/summary.h"
+#include "harness/study/claims_run.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PLAIN "fcl-aabb:seed=none,queue=2"
-#define TUNED "fcl-aabb:seed=previous,queue=64"
-
-/* One part of the run. */
-typedef struct leg {
-    const char *scenario;
-    mote_cache cache;
-    uint32_t first, last; /* 0, 0: all */
-    const char *methods[6];
-    const char *optional[8]; /* measured where their library was found */
-} leg;
-
-static const leg legs[] = {
-    {"ww", MOTE_CACHE_HOT, 0, 0, {"particle-paper:n=5", PLAIN, TUNED}, {NULL}},
-    {"ww", MOTE_CACHE_HOT, 949, 1492, {"fcl-obbrss"}, {NULL}},
-    {"ww", MOTE_CACHE_EVICT, 950, 1249, {"particle-paper:n=5", PLAIN, TUNED}, {NULL}},
-    {"tt",
-     MOTE_CACHE_HOT,
-     0,
-     0,
-     {"particle-paper:n=3", PLAIN, "fcl-obbrss:update=none"},
-     {NULL}},
-};
-
-/* Frames near contact, in which engines at their best are asked the same as certified
-   (docs/peers.md). */
-#define ENGINES_DISTANCE                                                                       \
-    {"certified", "fcl-aabb:seed=previous|none", "fcl-aabb:seed=previous,build=samples"},      \
-    {                                                                                          \
-        "coal-aabb:bound=full,seed=previous"                                                   \
-    }
-#define ENGINES_CONTACT                                                                        \
-    {"certified", "fcl-aabb"},                                                                 \
-    {                                                                                          \
-        "ode:vertices=double|single", "bullet-gimpact:stop=no|yes", "coal-aabb",               \
-            "coal-aabb:contact=distance,bound=full,seed=previous", "embree-contact"            \
-    }
-
-static const leg engine_legs[] = {
-    {"ww", MOTE_CACHE_HOT, 1201, 1400, ENGINES_DISTANCE},
-    {"mv", MOTE_CACHE_HOT, 301, 500, ENGINES_DISTANCE},
-    {"tt-distance",
-     MOTE_CACHE_HOT,
-     201,
-     400,
-     {"certified", "fcl-rss:update=none,build=rest|samples",
-      "fcl-obbrss:update=none,build=rest|samples"},
-     {"coal-rss:update=none", "coal-kios:update=none", "coal-obbrss:update=none"}},
-    {"ww-contact", MOTE_CACHE_HOT, 1201, 1400, ENGINES_CONTACT},
-    {"mv-contact", MOTE_CACHE_HOT, 301, 500, ENGINES_CONTACT},
-    {"tt",
-     MOTE_CACHE_HOT,
-     201,
-     400,
-     {"certified", "fcl-obb:update=none,build=rest|samples", "fcl-obbrss:update=none"},
-     {"ode:update=none,vertices=double|single", "bullet-gimpact:update=none,stop=yes",
-      "coal-obb:update=none", "coal-rss:update=none", "coal-obbrss:update=none"}},
-};
-
-#define ENGINE_LEGS (sizeof engine_legs / sizeof engine_legs[0])
-
-/* Adds a leg's methods, and of the optional ones those that this build has. */
-static mote_status choose(const leg *l, mote_choices *choices)
-{
-    mote_status status = MOTE_OK;
-    for (size_t i = 0; i < 6 && l->methods[i] && status == MOTE_OK; ++i)
-        status = mote_choices_add(choices, l->methods[i], NULL);
-    for (size_t i = 0; i < 8 && l->optional[i] && status == MOTE_OK; ++i) {
-        char *name = mote_duplicate(l->optional[i]);
-        name[strcspn(name, ":")] = '\0';
-        if (mote_method_find(name))
-            status = mote_choices_add(choices, l->optional[i], NULL);
-        free(name);
-    }
-    return status;
-}
-
-static mote_status run_leg(const mote_study *study, const leg *l)
-{
-    mote_choices choices = {0};
-    mote_status status = choose(l, &choices);
-    static char name[] = "claims";
-    char *argv[] = {name, NULL};
-    const mote_run_options options = {.scenarios = &l->scenario,
-                                      .scenario_count = 1,
-                                      .choices = &choices,
-                                      .plan = {.replicates = study->quick ? 3 : 6,
-                                               .first = l->first,
-                                               .last = l->last,
-                                               .seed = 1,
-                                               .cache = l->cache},
-                                      .directory = study->run,
-                                      .timeout = 600,
-                                      .argc = 1,
-                                      .argv = argv};
-    mote_run_outcome outcome;
-    if (status == MOTE_OK)
-        status = mote_run(&options, &outcome);
-    if (status == MOTE_OK && outcome.failed > 0)
-        status = mote_fail(MOTE_EIO, "%zu cells of %s failed; see their reason in %s/cells",
-                           outcome.failed, l->scenario, study->run);
-    mote_choices_free(&choices);
-    return status;
-}
-
-/* Measures what is missing, then reads the whole run; done once. */
-static mote_status measure(mote_study *study, const mote_summary **summary)
-{
-    *summary = &study->summary;
-    if (study->summarised)
-        return MOTE_OK;
-    mote_status status = MOTE_OK;
-    for (size_t i = 0; i < sizeof legs / sizeof legs[0] && status == MOTE_OK; ++i)
-        status = run_leg(study, &legs[i]);
-    for (size_t i = 0; i < ENGINE_LEGS && status == MOTE_OK; ++i)
-        status = run_leg(study, &engine_legs[i]);
-    if (status == MOTE_OK)
-        status = mote_summary_make(study->run, &study->summary);
-    study->summarised = status == MOTE_OK;
-    return status;
-}
 
 /* Finds the row of a method, of the longest and earliest range of frames; MOTE_ENUMERIC if
  * there is none. */
@@ -150,8 +26,6 @@ static mote_status find_row(const mote_summary *summary, const char *scenario, m
     }
     return mote_fail(MOTE_ENUMERIC, "no result of %s on %s", label, scenario);
 }
-
-typedef double (*cell_value)(const mote_stored_cell *cell);
 
 static double active_mean(const mote_stored_cell *cell)
 {
@@ -185,69 +59,11 @@ static double refit_share(const mote_stored_cell *cell)
     return update / total;
 }
 
-static double mean_total(const mote_stored_cell *cell)
-{
-    return mote_statistics_mean(cell->total_ns, cell->frames);
-}
-
-static double quantile_total(const mote_stored_cell *cell, double share)
-{
-    double *work = mote_copy(cell->total_ns, cell->frames * sizeof *work);
-    mote_statistics_sort(work, cell->frames);
-    const double quantile = mote_statistics_quantile(work, cell->frames, share);
-    free(work);
-    return quantile;
-}
-
-static double median_total(const mote_stored_cell *cell)
-{
-    return quantile_total(cell, 0.5);
-}
-
-static double p95_total(const mote_stored_cell *cell)
-{
-    return quantile_total(cell, 0.95);
-}
-
-static double worst_total(const mote_stored_cell *cell)
-{
-    return quantile_total(cell, 1);
-}
-
 /* Heap held by the method, without tables and vertices of full deformation. */
 static double own_bytes(const mote_stored_cell *cell)
 {
     return mote_stored_number(cell, "heap_live_bytes") -
            mote_stored_number(cell, "deform_bytes");
-}
-
-/* Collects the values of a row's replicates that ran well. */
-static size_t values_of(const mote_summary_row *row, cell_value value, double *values)
-{
-    size_t count = 0;
-    for (size_t r = 0; r < row->replicates && count < MOTE_STUDY_SEEDS; ++r) {
-        if (row->cells[r].status == MOTE_CELL_OK)
-            values[count++] = value(&row->cells[r]);
-    }
-    return count;
-}
-
-static mote_estimate estimate_of(const mote_summary_row *row, cell_value value)
-{
-    double values[MOTE_STUDY_SEEDS] = {0};
-    return mote_estimate_ratio(values, values_of(row, value, values));
-}
-
-/* The mean over replicates of over's value / under's value. */
-static mote_estimate ratio_of(const mote_summary_row *over, const mote_summary_row *under,
-                              cell_value value)
-{
-    double a[MOTE_STUDY_SEEDS] = {0}, b[MOTE_STUDY_SEEDS] = {0};
-    const size_t first = values_of(over, value, a), second = values_of(under, value, b);
-    const size_t count = first < second ? first : second;
-    for (size_t r = 0; r < count; ++r)
-        a[r] /= b[r];
-    return mote_estimate_ratio(a, count);
 }
 
 /* A current machine runs one thread about this many times faster than the paper's Pentium 4 at
@@ -284,7 +100,7 @@ static mote_estimate slowest_frame(const mote_summary_row *row)
 static void add_time(const mote_summary_row *row, const char *scene, bool maximum,
                      double paper_ms, mote_claim *claim)
 {
-    const mote_estimate e = maximum ? slowest_frame(row) : estimate_of(row, active_mean);
+    const mote_estimate e = maximum ? slowest_frame(row) : mote_row_estimate(row, active_mean);
     const char *what = maximum ? "maximum" : "average";
     mote_claim_add(claim, e, "ms", "%s, %s (paper: %g ms, %.0f times as long)", scene, what,
                    paper_ms, paper_ms / e.value);
@@ -302,7 +118,7 @@ mote_status mote_claim_times(mote_study *study, mote_claim *claim)
         "time of a query, all deformation included, processes of their own; holds: at most a "
         "twentieth of the paper's time, which is about how much faster the machine is";
     const mote_summary *summary;
-    mote_status status = measure(study, &summary);
+    mote_status status = mote_claims_run(study, &summary);
     if (status != MOTE_OK)
         return status;
     const mote_summary_row *w, *t;
@@ -327,7 +143,7 @@ mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
                       "tables of deformation left out";
     static const char *const trees[] = {"fcl-aabb", "fcl-obbrss"};
     const mote_summary *summary;
-    mote_status status = measure(study, &summary);
+    mote_status status = mote_claims_run(study, &summary);
     if (status != MOTE_OK)
         return status;
     const mote_summary_row *particles = NULL, *tree;
@@ -336,13 +152,13 @@ mote_status mote_claim_hierarchy_memory(mote_study *study, mote_claim *claim)
         status = find_row(summary, "ww", MOTE_CACHE_HOT, trees[i], &tree);
         if (status != MOTE_OK)
             break;
-        mote_claim_add(claim, ratio_of(tree, particles, own_bytes), "x",
+        mote_claim_add(claim, mote_row_ratio(tree, particles, own_bytes), "x",
                        "%s / particles, n = 5, bytes", trees[i]);
         mote_claim_require(claim, MOTE_AT_LEAST, 10, 2);
-        mote_claim_add(claim, estimate_of(tree, own_bytes), "B", "%s", trees[i]);
+        mote_claim_add(claim, mote_row_estimate(tree, own_bytes), "B", "%s", trees[i]);
     }
     if (status == MOTE_OK)
-        mote_claim_add(claim, estimate_of(particles, own_bytes), "B", "particles, n = 5");
+        mote_claim_add(claim, mote_row_estimate(particles, own_bytes), "B", "particles, n = 5");
     return status;
 }
 
@@ -352,10 +168,10 @@ static mote_status add_update(const mote_summary *summary, const char *label, mo
     mote_status status = find_row(summary, "ww", MOTE_CACHE_HOT, label, &row);
     if (status != MOTE_OK)
         return status;
-    mote_claim_add(claim, estimate_of(row, update_share), "",
+    mote_claim_add(claim, mote_row_estimate(row, update_share), "",
                    "W-W, %s: share of a frame that is deformation and refit", label);
     mote_claim_require(claim, MOTE_AT_LEAST, 0.5, 0.25);
-    mote_claim_add(claim, estimate_of(row, refit_share), "",
+    mote_claim_add(claim, mote_row_estimate(row, refit_share), "",
                    "W-W, %s: share of refit, vertices given", label);
     return MOTE_OK;
 }
@@ -371,10 +187,10 @@ static mote_status add_rigid(const mote_summary *summary, mote_claim *claim)
         status = find_row(summary, "tt", MOTE_CACHE_HOT, "particle-paper:n=3", &particles);
     if (status != MOTE_OK)
         return status;
-    mote_claim_add(claim, ratio_of(refitted, rigid, median_total), "x",
+    mote_claim_add(claim, mote_row_ratio(refitted, rigid, mote_cell_median), "x",
                    "rigid T-T: fcl-aabb refitted / fcl-obbrss without refit, median");
     mote_claim_require(claim, MOTE_AT_LEAST, 2, 1.1);
-    mote_claim_add(claim, ratio_of(particles, rigid, median_total), "x",
+    mote_claim_add(claim, mote_row_ratio(particles, rigid, mote_cell_median), "x",
                    "rigid T-T: particles, n = 3 / fcl-obbrss without refit");
     return MOTE_OK;
 }
@@ -390,7 +206,7 @@ mote_status mote_claim_hierarchy_update(mote_study *study, mote_claim *claim)
     static const char *const deforming[] = {"fcl-aabb", "fcl-aabb:queue=64,seed=previous",
                                             "fcl-obbrss"};
     const mote_summary *summary;
-    mote_status status = measure(study, &summary);
+    mote_status status = mote_claims_run(study, &summary);
     if (status != MOTE_OK)
         return status;
     for (size_t i = 0; i < 3 && status == MOTE_OK; ++i)
@@ -437,7 +253,7 @@ static mote_status add_ratio(const mote_summary *summary, mote_cache cache, cons
                    "%s, caches %s, frame by frame", label, caches);
     if (least == least)
         mote_claim_require(claim, MOTE_AT_LEAST, least, least);
-    mote_claim_add(claim, ratio_of(theirs, ours, mean_total), "x",
+    mote_claim_add(claim, mote_row_ratio(theirs, ours, mote_cell_mean), "x",
                    "%s, caches %s, sum of all frames", label, caches);
     return MOTE_OK;
 }
@@ -452,7 +268,7 @@ mote_status mote_claim_faster_than_fcl(mote_study *study, mote_claim *claim)
     claim->measured =
         "FCL's time / particles', deformation and refit included, all frames, one run";
     const mote_summary *summary;
-    mote_status status = measure(study, &summary);
+    mote_status status = mote_claims_run(study, &summary);
     if (status != MOTE_OK)
         return status;
     static const struct {
@@ -464,118 +280,4 @@ mote_status mote_claim_faster_than_fcl(mote_study *study, mote_claim *claim)
     for (int c = 0; c < 2 && status == MOTE_OK; ++c)
         status = add_ratio(summary, MOTE_CACHE_EVICT, cases[c].label, MOTE_NONE, claim);
     return status;
-}
-
-/* The row of a leg's certified query: of its frames alone. */
-static mote_status find_certified(const mote_summary *summary, const leg *l,
-                                  const mote_summary_row **found)
-{
-    for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        if (row->status == MOTE_CELL_OK && strcmp(row->method, "certified") == 0 &&
-            strcmp(row->scenario, l->scenario) == 0 && row->frame_range[0] == l->first &&
-            row->frame_range[1] == l->last) {
-            *found = row;
-            return MOTE_OK;
-        }
-    }
-    return mote_fail(MOTE_ENUMERIC, "no result of certified on %s", l->scenario);
-}
-
-/* The row that competes with ours on the same frames and takes least by a value; NULL without
-   any. */
-static const mote_summary_row *least_of(const mote_summary *summary,
-                                        const mote_summary_row *ours, cell_value value,
-                                        bool (*competes)(const mote_summary_row *))
-{
-    const mote_summary_row *least = NULL;
-    double best = MOTE_NONE;
-    for (size_t i = 0; i < summary->count; ++i) {
-        const mote_summary_row *row = &summary->rows[i];
-        if (row->status != MOTE_CELL_OK || !mote_summary_same_block(row, ours) ||
-            mote_summary_by_frames(row, ours) != 0 || !mote_summary_is_right_engine(row) ||
-            (competes && !competes(row)))
-            continue;
-        const double time = estimate_of(row, value).value;
-        if (!(time >= best)) {
-            best = time;
-            least = row;
-        }
-    }
-    return least;
-}
-
-/* What an engine has to be slower by on a leg's frames, by the median and by the mean. */
-typedef struct rival_bounds {
-    double median, mean; /* MOTE_NONE: reported only */
-} rival_bounds;
-
-static mote_status add_engines(const mote_summary *summary, const leg *l, rival_bounds bounds,
-                               mote_claim *claim)
-{
-    const struct {
-        const char *name;
-        cell_value value;
-        double least;
-    } statistics[] = {{"median", median_total, bounds.median},
-                      {"mean", mean_total, bounds.mean},
-                      {"95th percentile", p95_total, MOTE_NONE},
-                      {"worst frame", worst_total, MOTE_NONE}};
-    const mote_summary_row *ours = NULL;
-    mote_status status = find_certified(summary, l, &ours);
-    for (size_t k = 0; k < 4 && status == MOTE_OK; ++k) {
-        const mote_summary_row *best = least_of(summary, ours, statistics[k].value, NULL);
-        if (!best)
-            return mote_fail(MOTE_ENUMERIC, "no result of an engine of others on %s",
-                             l->scenario);
-        mote_claim_add(claim, ratio_of(best, ours, statistics[k].value), "x", "%s, %s: %s",
-                       l->scenario, statistics[k].name, best->label);
-        if (statistics[k].least == statistics[k].least)
-            mote_claim_require(claim, MOTE_AT_LEAST, statistics[k].least, statistics[k].least);
-    }
-    if (status != MOTE_OK)
-        return status;
-    const mote_summary_row *fcl = least_of(summary, ours, median_total, mote_summary_is_fcl);
-    if (fcl)
-        mote_claim_add(claim, ratio_of(fcl, ours, median_total), "x",
-                       "%s, median: best FCL, %s", l->scenario, fcl->label);
-    return MOTE_OK;
-}
-
-/* The engine_legs first .. first + 2, which ask the same. */
-static mote_status add_question(mote_study *study, size_t first, const rival_bounds bounds[3],
-                                mote_claim *claim)
-{
-    const mote_summary *summary;
-    mote_status status = measure(study, &summary);
-    for (size_t i = 0; i < 3 && status == MOTE_OK; ++i)
-        status = add_engines(summary, &engine_legs[first + i], bounds[i], claim);
-    return status;
-}
-
-mote_status mote_claim_best_engine_distance(mote_study *study, mote_claim *claim)
-{
-    claim->id = "r6";
-    claim->section = "5";
-    claim->claim = "asked for distances, certified is faster than every engine of others: on "
-                   "W-W 40 times, on M-V 6 times, on rigid T-T 4 times, by median and mean";
-    claim->measured =
-        "the fastest engine's time / certified's, deformation and refit included; "
-        "200 frames near contact; the fastest by each statistic";
-    static const rival_bounds bounds[] = {{40, 40}, {6, 6}, {4, 4}};
-    return add_question(study, 0, bounds, claim);
-}
-
-mote_status mote_claim_best_engine_contact(mote_study *study, mote_claim *claim)
-{
-    claim->id = "r7";
-    claim->section = "5";
-    claim->claim =
-        "asked for contacts, certified is faster than every engine of others: on W-W "
-        "40 times, on M-V 6 times, by median and mean; on rigid T-T by the mean";
-    claim->measured =
-        "the fastest engine's time / certified's, deformation and refit included; "
-        "200 frames near contact; the fastest by each statistic";
-    static const rival_bounds bounds[] = {{40, 40}, {6, 6}, {MOTE_NONE, 1}};
-    return add_question(study, 3, bounds, claim);
 }
