@@ -9,6 +9,7 @@
 #   make report [OUT=DIR]                             write report.html and report.md again
 #   make record [OUT=DIR]                             keep a run's summary in results/records
 #   make engines [OUT=DIR]                           other engines and ours, asked the same
+#   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|full] [OUT=DIR]     contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
@@ -123,6 +124,12 @@ sweep: build
 .PHONY: engines
 engines: build
 	@harness/scripts/bench.sh $(MOTE) engines $(call out,engines)
+
+# FCL as Debian compiles it against FCL compiled here.
+.PHONY: fcl-flags
+fcl-flags: build deps-fcl
+	@FCL_DIR=$(call quoted,$(FCL_DIR)) FCL_FLAGS=$(call quoted,$(FCL_FLAGS)) \
+	    harness/scripts/fcl_flags.sh $(BUILD) $(call out,fcl-flags)
 
 # Contacts that each engine misses or invents, over every built-in scenario.
 .PHONY: verdicts
