@@ -62,6 +62,13 @@ static inline double mote_length_squared(mote_vec3 a)
     return mote_dot(a, a);
 }
 
+/* The largest of the coordinates' sizes. */
+static inline double mote_largest_coordinate(mote_vec3 v)
+{
+    const double a = fabs(v.x) > fabs(v.y) ? fabs(v.x) : fabs(v.y);
+    return a > fabs(v.z) ? a : fabs(v.z);
+}
+
 /* The nearest number of single precision. Where gcc 12 vectorises (double)(float)x, it drops
    both conversions; a volatile float prevents that. */
 static inline double mote_as_float(double x)

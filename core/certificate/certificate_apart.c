@@ -1,5 +1,6 @@
 /* A contact question about bodies that the last query showed to be apart: does a direction near
-   the last one still part them? This looks at the roots of both trees alone. */
+   the last one still part them? This looks at the boxes around rigid bodies, and at the roots
+   of both trees. */
 #include "core/certificate/certificate_state.h"
 
 /* Directions tried in a query of rigid bodies. On tt, whose letters are apart in 505 of 600
@@ -34,6 +35,36 @@ void mote_cert_remember_parting(mote_certificate *c, double lower)
     const bool apart = c->enough >= 0 && lower > c->enough;
     c->memory.parted =
         apart && keep(&c->memory, mote_sub(c->best.witness[1], c->best.witness[0]));
+}
+
+static bool rigid(const mote_certificate *c)
+{
+    return c->side[0].tree->body->field->count == 0 && c->side[1].tree->body->field->count == 0;
+}
+
+/* In double precision. A coordinate of a box is a sum of at most 12 terms, each below the size
+   that is added up for it; 2^-46 of the sizes covers their rounding and that of positions. */
+bool mote_cert_rest_apart(const mote_certificate *c, const mote_frame *frame, double *lower)
+{
+    if (!rigid(c))
+        return false;
+    const mote_vec3 u = kept(&c->memory);
+    mote_vec3 middle[2];
+    double reach = 0;
+    double size = 0;
+    for (int s = 0; s < 2; ++s) {
+        const mote_pose *pose = &frame->body[s].pose;
+        const mote_cert_tree *tree = c->side[s].tree;
+        const mote_mesh *mesh = tree->body->mesh;
+        const mote_vec3 half = mote_scale(mote_sub(mesh->high, mesh->low), 0.5);
+        const mote_vec3 local = mote_rotate_back(&pose->rotation, u);
+        middle[s] = mote_pose_apply(pose, tree->origin);
+        reach += fabs(local.x) * half.x + fabs(local.y) * half.y + fabs(local.z) * half.z;
+        size += mote_largest_coordinate(pose->translation) +
+                2 * mote_largest_coordinate(tree->origin) + 2 * mote_largest_coordinate(half);
+    }
+    *lower = mote_dot(u, mote_sub(middle[1], middle[0])) - reach - 0x1p-46 * size;
+    return *lower > c->enough;
 }
 
 /* A proven lower bound of the distance: the gap between the roots' boxes along a direction. The
@@ -83,9 +114,7 @@ static bool turn(mote_certificate *c)
 
 bool mote_cert_still_apart(mote_certificate *c, double *lower)
 {
-    const bool rigid =
-        c->side[0].tree->body->field->count == 0 && c->side[1].tree->body->field->count == 0;
-    const int tries = rigid ? TRIES_RIGID : 1;
+    const int tries = rigid(c) ? TRIES_RIGID : 1;
     *lower = gap_along(c, kept(&c->memory));
     for (int i = 1; i < tries && !(*lower > c->enough) && turn(c); ++i)
         *lower = gap_along(c, kept(&c->memory));

@@ -4,12 +4,6 @@
 
 #define WIDTH MOTE_CERT_WIDTH
 
-static double largest(mote_vec3 v)
-{
-    const double a = fabs(v.x) > fabs(v.y) ? fabs(v.x) : fabs(v.y);
-    return a > fabs(v.z) ? a : fabs(v.z);
-}
-
 void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mote_vec3 origin)
 {
     const mote_cert_tree *tree = side->tree;
@@ -26,7 +20,9 @@ void mote_cert_side_begin(mote_cert_side *side, const mote_body_state *state, mo
     side->translation[0] = (float)t.x;
     side->translation[1] = (float)t.y;
     side->translation[2] = (float)t.z;
-    side->world = (largest(pose->translation) + largest(moved)) * tree->scale;
+    side->world =
+        (mote_largest_coordinate(pose->translation) + mote_largest_coordinate(moved)) *
+        tree->scale;
     side->project = tree->bounds->project;
     side->node_count = 0;
     side->reached = NULL;

@@ -61,12 +61,6 @@ static const row *rows_of(const mote_cert_tree *tree, const mote_cert_block *blo
     return (const row *)(const void *)(tree->strips + block->first_strip);
 }
 
-static double largest(mote_vec3 v)
-{
-    const double a = fabs(v.x) > fabs(v.y) ? fabs(v.x) : fabs(v.y);
-    return a > fabs(v.z) ? a : fabs(v.z);
-}
-
 static float rounded_up(double x)
 {
     return (float)(x * (1 + 0x1p-22));
@@ -82,7 +76,8 @@ static void set_margins(mote_cert_side *side, mote_vec3 field)
 {
     const mote_cert_tree *tree = side->tree;
     const uint32_t functions = tree->body->field->most;
-    side->bound = largest(side->exact_translation) + tree->radius + largest(field);
+    side->bound = mote_largest_coordinate(side->exact_translation) + tree->radius +
+                  mote_largest_coordinate(field);
     side->noise = 0x1p-48 * side->bound * (functions > 256 ? functions / 256.0 : 1);
     side->exact = 0x1p-50 * (functions + 4) * (side->world + side->bound);
     side->margin_unit = rounded_up(2 * FLOAT_ROUNDING * side->bound);

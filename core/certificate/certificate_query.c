@@ -284,6 +284,10 @@ static double search_apart(mote_certificate *c, const mote_frame *frame)
 {
     double lower;
     memcpy(c->best.triangle, c->memory.last, sizeof c->best.triangle);
+    if (mote_cert_rest_apart(c, frame, &lower)) {
+        take_vertices(c, frame);
+        return lower;
+    }
     c->origin = between(c, frame);
     for (int s = 0; s < 2; ++s)
         mote_lazy_begin(&c->side[s].lazy, &frame->body[s], false);

@@ -88,11 +88,6 @@ static double min2(double x, double y)
     return x < y ? x : y;
 }
 
-static double largest_coordinate(mote_vec3 p)
-{
-    return max2(fabs(p.x), max2(fabs(p.y), fabs(p.z)));
-}
-
 static bool done(const search *s)
 {
     return s->best->squared <= s->enough_squared;
@@ -118,8 +113,8 @@ static void aim(search *s)
     s->toward[1] = mote_scale(u, -1);
     s->across[0] = perpendicular(u);
     s->across[1] = mote_cross(u, s->across[0]);
-    s->rounding =
-        ROUNDING * (largest_coordinate(s->origin[0]) + largest_coordinate(s->origin[1]));
+    s->rounding = ROUNDING * (mote_largest_coordinate(s->origin[0]) +
+                              mote_largest_coordinate(s->origin[1]));
     s->slack = MARGIN * s->distance - s->rounding;
 }
 
@@ -307,7 +302,7 @@ static void box_face(const search *s, listed_face *f)
     }
     for (int i = 0; i < 3; ++i) {
         const mote_vec3 p = mote_sub(f->corner[i], s->origin[0]);
-        far = max2(far, largest_coordinate(p));
+        far = max2(far, mote_largest_coordinate(p));
         for (int k = 0; k < 2; ++k) {
             const double x = mote_dot(p, s->across[k]);
             f->low[k] = min2(f->low[k], x);
@@ -441,8 +436,8 @@ static void descend_by_rounds(search *s)
 static void measure_far_faces(const search *s)
 {
     mote_refined *best = s->best;
-    const double far =
-        max2(largest_coordinate(best->witness[0]), largest_coordinate(best->witness[1]));
+    const double far = max2(mote_largest_coordinate(best->witness[0]),
+                            mote_largest_coordinate(best->witness[1]));
     const double small = far / FAR_FROM_ORIGIN, small_squared = small * small;
     if (best->squared >= small_squared)
         return;

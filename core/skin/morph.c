@@ -4,11 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static double largest(mote_vec3 v)
-{
-    return fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-}
-
 static mote_status check_target(const mote_mesh *mesh, const mote_morph_targets *targets,
                                 uint32_t k)
 {
@@ -23,7 +18,7 @@ static mote_status check_target(const mote_mesh *mesh, const mote_morph_targets 
                              "morph target %u moves vertex %u of %u, counted from 0", k, v,
                              mesh->vertex_count);
         const mote_vec3 d = targets->move[i];
-        if (!isfinite(d.x + d.y + d.z) || !isfinite(largest(d)))
+        if (!isfinite(d.x + d.y + d.z) || !isfinite(mote_largest_coordinate(d)))
             return mote_fail(MOTE_EINVAL,
                              "morph target %u moves vertex %u by (%g, %g, %g); it must be "
                              "finite",
@@ -50,7 +45,7 @@ static double size_of(const mote_morph_targets *targets, uint32_t k)
 {
     double most = 0;
     for (uint32_t i = targets->start[k]; i < targets->start[k + 1]; ++i)
-        most = fmax(most, largest(targets->move[i]));
+        most = fmax(most, mote_largest_coordinate(targets->move[i]));
     return most > 0 ? ldexp(1, ilogb(most)) : 1;
 }
 

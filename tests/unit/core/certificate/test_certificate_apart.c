@@ -8,7 +8,7 @@
 
 typedef struct tally {
     int apart, contacts;
-    int quick; /* answered from the roots: no box of an inner block, no leaf */
+    int quick; /* answered without any inner block or leaf */
 } tally;
 
 /* Turns body 1 a little about the z axis. */
@@ -40,7 +40,8 @@ static void walk(scene *s, mote_certificate *c, double enough, tally *sum)
         assert_int_equal(a.lower > enough * s->length, !contact);
         sum->apart += !contact;
         sum->contacts += contact;
-        sum->quick += a.counters.blocks == 2 && a.counters.triangle_tests == 0;
+        sum->quick += a.counters.blocks <= 2 && a.counters.positions == 2 &&
+                      a.counters.triangle_tests == 0;
     }
 }
 
