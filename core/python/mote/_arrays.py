@@ -13,7 +13,10 @@ import numpy as np
 ANY = -1
 
 #: A list or tuple of more numbers than this has to be an array.
-LISTED = 10_000_000
+LISTED = 1_000_000
+
+#: An array of more numbers than this that lie in less memory is not copied.
+REPEATED = 10_000_000
 
 DOUBLE = np.dtype(np.float64)
 SINGLE = np.dtype(np.float32)
@@ -24,14 +27,23 @@ def _listed(name: str, value: Sequence[Any], depth: int, room: int) -> int:
     contain themselves or others many times, so depth and number are limited."""
     if depth > 8:
         raise TypeError(f"{name}: lists are nested too deep")
-    if len(value) > room:
+    claimed, inner = len(value), value
+    while isinstance(inner, (list, tuple)) and inner and claimed <= room:
+        inner = inner[0]
+        claimed *= len(inner) if isinstance(inner, (list, tuple)) and inner else 1
+        if inner is value:
+            raise TypeError(f"{name}: a list contains itself")
+    if claimed > room:
         raise TypeError(f"{name}: more than {LISTED} numbers in lists; pass a numpy array")
     found = 0
-    for kind in set(map(type, value)):
+    kinds = set(map(type, value))
+    for kind in kinds:
         if issubclass(kind, (list, tuple, np.ndarray)):
             continue
         if issubclass(kind, bool) or not issubclass(kind, (int, float, np.number)):
             raise TypeError(f"{name}: a list holds {kind.__name__}, not numbers")
+    if not any(issubclass(kind, (list, tuple, np.ndarray)) for kind in kinds):
+        return len(value)
     for item in value:
         if isinstance(item, (list, tuple)):
             found += _listed(name, item, depth + 1, room - found)
@@ -85,7 +97,7 @@ def _refuse_repeated(name: str, array: np.ndarray) -> None:
     extent = array.itemsize
     for length, stride in zip(array.shape, array.strides):
         extent += (length - 1) * abs(stride)
-    if array.size > LISTED and array.size * array.itemsize > extent:
+    if array.size > REPEATED and array.size * array.itemsize > extent:
         raise ValueError(
             f"{name}: its strides repeat the same memory, and a copy would have {array.size} "
             "numbers; pass a contiguous array"

@@ -225,40 +225,51 @@ _ERRORS: dict[int, type[Exception]] = {
 }
 
 
-def raise_error(status: int) -> NoReturn:
-    """Raises what a status of this thread's last call means."""
-    raise _ERRORS.get(status, RuntimeError)(_error_text().decode("utf-8", "replace"))
+def raise_error(status: int, arguments: str = "") -> NoReturn:
+    """Raises what a status of this thread's last call means; arguments: what it was made from."""
+    text = _error_text().decode("utf-8", "replace")
+    raise _ERRORS.get(status, RuntimeError)(f"{arguments}: {text}" if arguments else text)
+
+
+def _free(cell: list[int], destroy: Callable[[int], None]) -> None:
+    destroy(cell.pop())
 
 
 class Memory:
     """Something that the library allocated, and everything in Python that it borrows from.
 
     It is freed once nothing refers to it any more, in whatever order that happens: the library's
-    destroy functions do not look at what was borrowed. The finalizer runs before any other object
-    that is collected with this one could use it. Nothing is freed at the end of the interpreter,
-    where a thread may still be in a call.
+    destroy functions do not look at what was borrowed. Of objects that are collected together, all
+    are freed before any method __del__ of theirs runs; the cell is empty then, and what such a
+    method calls raises ValueError. Nothing is freed at the end of the interpreter, where a thread
+    may still be in a call.
     """
 
-    __slots__ = ("__weakref__", "address", "borrowed", "_finalizer")
+    __slots__ = ("__weakref__", "cell", "borrowed", "_finalizer")
 
     def __init__(self, address: int, destroy: Callable[[int], None], *borrowed: object) -> None:
-        self.address = address
+        self.cell = [address]
         self.borrowed = borrowed
-        self._finalizer = weakref.finalize(self, destroy, address)
+        self._finalizer = weakref.finalize(self, _free, self.cell, destroy)
         self._finalizer.atexit = False
+
+    @property
+    def address(self) -> int:
+        return self.cell[0]
 
     def abandon(self) -> None:
         """Never frees it."""
         self._finalizer.detach()
 
 
-def create(function: Any, destroy: Callable[[int], None], borrowed: tuple[object, ...],
-           *arguments: Any) -> Memory:
-    """Calls a function whose last argument receives what it made."""
+def create(names: str, function: Any, destroy: Callable[[int], None],
+           borrowed: tuple[object, ...], *arguments: Any) -> Memory:
+    """Calls a function whose last argument receives what it made. names: of the arguments that
+    its errors are about."""
     made = c_void_p()
     status = function(*arguments, byref(made))
     if status:
-        raise_error(status)
+        raise_error(status, names)
     assert made.value is not None
     return Memory(made.value, destroy, *borrowed)
 
@@ -269,6 +280,8 @@ class Guarded:
     def __init__(self, memory: Memory) -> None:
         self._lock = threading.Lock()
         self._memory: Memory | None = memory
+        #: Empty when it is closed or freed.
+        self._cell = memory.cell
 
     def _enter(self) -> int:
         """Takes the object for this thread; returns its address."""
@@ -276,10 +289,10 @@ class Guarded:
             raise RuntimeError(
                 f"this {type(self).__name__} is in use; make one for each thread"
             )
-        if self._memory is None:
+        if not self._cell:
             self._lock.release()
             raise ValueError(f"this {type(self).__name__} is closed")
-        return self._memory.address
+        return self._cell[0]
 
     def close(self) -> None:
         """Frees the library's memory; further calls raise ValueError. Closing twice is allowed."""
@@ -288,13 +301,14 @@ class Guarded:
                 f"this {type(self).__name__} is in use; close it when the call has returned"
             )
         try:
+            self._cell = []
             self._memory = None
         finally:
             self._lock.release()
 
     @property
     def closed(self) -> bool:
-        return self._memory is None
+        return not self._cell
 
     def __enter__(self) -> Any:
         return self

@@ -28,7 +28,7 @@ class _Shared:
 
     def _need(self, name: str) -> lib.Memory:
         memory = self._memory
-        if memory is None:
+        if memory is None or not memory.cell:
             raise ValueError(f"{name}: this {type(self).__name__} is closed")
         return memory
 
@@ -67,7 +67,7 @@ class Mesh(_Shared):
         xyz = numbers("vertices", vertices, (ANY, 3))
         triangles = indices("faces", faces, (ANY, 3), max(len(xyz), 1), np.uint32)
         self._memory = lib.create(
-            lib.mesh_create, lib.mesh_destroy, (), address(xyz), len(xyz), address(triangles),
+            "vertices, faces", lib.mesh_create, lib.mesh_destroy, (), address(xyz), len(xyz), address(triangles),
             len(triangles),
         )
         data = lib.MeshData.from_address(self._memory.address)
@@ -170,7 +170,7 @@ class Field(_Shared):
         points = numbers("centres", centres, (ANY, 3))
         reach = real("support", support)
         memory = lib.create(
-            lib.field_csrbf, lib.field_destroy, (), address(points), len(points), reach
+            "centres, support", lib.field_csrbf, lib.field_destroy, (), address(points), len(points), reach
         )
         return cls._make("csrbf", memory, None, (len(points), 3), 0)
 
@@ -184,7 +184,7 @@ class Field(_Shared):
         owner = mesh_of("mesh", mesh)
         vectors = numbers("modes", modes, (ANY, owner.vertex_count, 3))
         memory = lib.create(
-            lib.field_modes, lib.field_destroy, (), address(vectors), len(vectors),
+            "modes", lib.field_modes, lib.field_destroy, (), address(vectors), len(vectors),
             owner.vertex_count,
         )
         return cls._make("modes", memory, owner.vertex_count, (len(vectors),), 0)
@@ -208,11 +208,13 @@ class Field(_Shared):
         held = owner._need("mesh")
         arrays = (count, address(start), address(bone), address(weight))
         if targets is None:
-            memory = lib.create(lib.field_skin, lib.field_destroy, (), held.address, *arrays)
+            memory = lib.create(
+                "weights", lib.field_skin, lib.field_destroy, (), held.address, *arrays
+            )
             return cls._make("skin", memory, owner.vertex_count, (count, 3, 4), 0)
         given = _targets(owner.vertex_count, targets)
         memory = lib.create(
-            lib.field_morphs, lib.field_destroy, (), held.address, *arrays,
+            "weights, targets", lib.field_morphs, lib.field_destroy, (), held.address, *arrays,
             ctypes.addressof(given.struct),
         )
         return cls._make("skin", memory, owner.vertex_count, (count, 3, 4), given.count)
@@ -227,7 +229,7 @@ class Field(_Shared):
         owner = mesh_of("mesh", mesh)
         given = _targets(owner.vertex_count, targets)
         memory = lib.create(
-            lib.field_morphs, lib.field_destroy, (), owner._need("mesh").address, 0, None, None,
+            "targets", lib.field_morphs, lib.field_destroy, (), owner._need("mesh").address, 0, None, None,
             None, ctypes.addressof(given.struct),
         )
         return cls._make("morph", memory, owner.vertex_count, None, given.count)

@@ -66,7 +66,7 @@ class Pair(lib.Guarded):
         held = tuple(mesh._need(name) for mesh, name in zip(meshes, "ab"))
         used = tuple(f._need("field") if f else None for f in fields)
         memory = lib.create(
-            lib.batch_create, lib.batch_destroy, held + used,
+            "a, b", lib.batch_create, lib.batch_destroy, held + used,
             (c_void_p * 2)(*(m.address for m in held)),
             (c_void_p * 2)(*(m.address if m else None for m in used)),
             ctypes.byref(options),
@@ -138,7 +138,7 @@ class Pair(lib.Guarded):
         if not self._acquire(False):
             self._enter()
         try:
-            if self._memory is None:
+            if not self._cell:
                 raise ValueError("this Pair is closed")
             if type(poses) is _ndarray and poses.dtype is DOUBLE and poses.shape == _POSES:
                 self._poses[...] = poses

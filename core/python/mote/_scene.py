@@ -61,7 +61,7 @@ class Scene(lib.Guarded):
         held = tuple(mesh._need("shapes") for mesh, _ in made)
         used = tuple(field._need("shapes") if field else None for _, field in made)
         memory = lib.create(
-            lib.crowd_create, lib.crowd_destroy, held + used,
+            "shapes, bodies", lib.crowd_create, lib.crowd_destroy, held + used,
             (c_void_p * len(held))(*(m.address for m in held)),
             (c_void_p * len(used))(*(m.address if m else None for m in used)),
             len(made), address(shape_of), len(shape_of), ctypes.byref(options),

@@ -83,7 +83,7 @@ class Stream(lib.Guarded):
         options = options_of(slack, budget)
         held = tuple(mesh._need(name) for mesh, name in zip(meshes, "ab"))
         memory = lib.create(
-            lib.stream_create, lib.stream_destroy, held,
+            "a, b", lib.stream_create, lib.stream_destroy, held,
             (ctypes.c_void_p * 2)(*(m.address for m in held)), ctypes.byref(options),
         )
         self._vertices = tuple(mesh.vertex_count for mesh in meshes)
@@ -122,9 +122,8 @@ class Stream(lib.Guarded):
                 )
             _fill(self._positions[k], given[k], 0)
         self._run.tolerance = tolerance
-        assert self._memory is not None
         status = lib.stream_query(
-            self._memory.address, ctypes.byref(self._positions), ctypes.byref(self._run)
+            self._cell[0], ctypes.byref(self._positions), ctypes.byref(self._run)
         )
         if status:
             lib.raise_error(status)
