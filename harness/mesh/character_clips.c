@@ -36,10 +36,11 @@ static mote_rig_track add_track(clip_reader *r, uint32_t count, uint32_t width, 
     return track;
 }
 
+/* A time that is not finite is kept, for mote_character_check_rig to name. */
 static double key_time(clip_reader *r, double ticks)
 {
     const double seconds = ticks * r->tick;
-    r->last = seconds > r->last ? seconds : r->last;
+    r->last = seconds > r->last && isfinite(seconds) ? seconds : r->last;
     return seconds;
 }
 
