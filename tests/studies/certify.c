@@ -1,36 +1,42 @@
 /* make certify: is a proven lower bound ever above the truth, and how far is the distance from
    it? Small deforming bodies move in many frames, by small steps and by leaps, near and far.
-   Each frame is answered by certified queries with and without memory, slack and budget, and by
-   all pairs of triangles. Usage: certify [--queries N] [--out FILE] [--checks FILE]. Exit
-   status 1 where a bound is above the truth, an answer below it, or where an unstopped query's
-   error or bracket exceeds its slack by more than 1e-12 L. */
+   Each frame is answered by certified queries with and without memory, slack and budget, by two
+   that ask for contact alone, and by all pairs of triangles. Usage: certify [--queries N]
+   [--out FILE] [--checks FILE]. Exit status 1 where a bound is above the truth, an answer below
+   it, where an unstopped query's error or bracket exceeds its slack by more than 1e-12 L, or
+   where contact is not decided rightly. */
 #include "core/certificate/certificate.h"
 #include "tests/support/shapes.h"
 #include "tests/support/variants.h"
 
 #define ROUNDING 1e-12 /* of L */
 
-enum { VARIANTS = 5, FRAMES_A_SCENE = 500 };
+enum { VARIANTS = 7, FRAMES_A_SCENE = 500 };
 
 typedef struct variant {
     mote_certificate_options options;
     mote_certificate *certificate;
     bool exact;
+    double enough; /* over L, of a contact question; negative: the distance is asked for */
     variant_counts found;
 } variant;
 
 static void set_variants(variant v[VARIANTS], double length)
 {
-    static const char *const names[VARIANTS] = {"witness", "none", "slack", "budget", "pair"};
+    static const char *const names[VARIANTS] = {"witness", "none",    "slack",   "budget",
+                                                "pair",    "contact", "nearness"};
     for (int i = 0; i < VARIANTS; ++i) {
         v[i].found.name = names[i];
         v[i].options = mote_default_certificate_options(length);
-        v[i].exact = i != 2 && i != 3;
+        v[i].exact = i != 2 && i != 3 && i < 5;
+        v[i].enough = -1;
     }
     v[1].options.seed = MOTE_CERT_SEED_NONE;
     v[2].options.slack = 1e-3;
     v[3].options.budget = 100;
     v[4].options.seed = MOTE_CERT_SEED_PAIR;
+    v[5].enough = 0;
+    v[6].enough = 0.1;
 }
 
 static bool create_all(variant v[VARIANTS], const scene *s)
@@ -45,7 +51,20 @@ static bool create_all(variant v[VARIANTS], const scene *s)
     return true;
 }
 
-static void check(variant *v, const scene *s, double truth)
+static void check_contact(variant *v, const scene *s, double truth)
+{
+    const double enough = v->enough * s->length;
+    mote_certificate_answer a;
+    mote_certificate_query(v->certificate, &s->frame, NULL, enough, &a);
+    variant_count(&v->found, truth, a.lower, a.stopped, s->length);
+    const bool contact = a.distance <= enough;
+    const bool decided = contact != (a.lower > enough);
+    const bool right = fabs(truth - enough) <= (enough > 0 ? ROUNDING * s->length : 0) ||
+                       contact == (truth <= enough);
+    v->found.wrong += decided && right && a.distance >= truth - ROUNDING * s->length ? 0 : 1;
+}
+
+static void check_distance(variant *v, const scene *s, double truth)
 {
     mote_certificate_answer a;
     mote_certificate_query(v->certificate, &s->frame, NULL, -1, &a);
@@ -75,7 +94,7 @@ static bool run_scene(variant v[VARIANTS], uint32_t index)
             scene_step(&s);
         const double truth = scene_distance(&s);
         for (int i = 0; i < VARIANTS; ++i)
-            check(&v[i], &s, truth);
+            (v[i].enough < 0 ? check_distance : check_contact)(&v[i], &s, truth);
     }
     for (int i = 0; i < VARIANTS; ++i) {
         mote_certificate_destroy(v[i].certificate);
