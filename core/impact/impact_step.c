@@ -56,6 +56,8 @@ double mote_impact_swept_until(mote_impact_search *s, double time)
     /* kinks and the rounding of times: see impact_query.c */
     const double spare =
         2 * chosen.noise + chosen.kink * chosen.length + 0x1p-48 * count * chosen.speed;
+    if (!(s->at.lower - q->tolerance > spare)) /* each gap is to be above 0 at the start */
+        return time;
     const double bend = 0.5 * chosen.acceleration * chosen.length * chosen.length;
     const double part = mote_sweep_query(&s->sweep, q->tolerance + spare, bend);
     s->found.counters.box_tests += s->sweep.box_tests;
