@@ -60,8 +60,8 @@ static mote_cert_node *new_node(mote_certificate *c, int s, const mote_cert_bloc
                                 mote_cert_node *node)
 {
     node->block = block;
-    node->boxes = false;
-    node->wide = 0;
+    node->boxes = node->spans = node->aligned = false;
+    node->wide = node->unmeasured = 0;
     for (size_t l = 0; l < WIDTH; ++l)
         node->child[l] = -1;
     ++c->counters.blocks;

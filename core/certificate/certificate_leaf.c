@@ -146,26 +146,41 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
     return NULL;
 }
 
-/* Margins. A vertex is within near->width of its evaluated position; where the box places it is
-   computed to 5 u B, and what tests of boxes round is at most 40 u B (certificate_fitted.c).
-   Twice leaf_margin is 64 u B. */
-bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
+/* The ends of some numbers. */
+MOTE_INLINE void ends_of(const float *restrict x, uint32_t groups, float *least, float *most)
 {
-    mote_cert_hull placed = {0};
-    node->wide &= ~(1u << lane);
-    const mote_cert_hull *near = mote_cert_leaf_near_hull(side, node, lane);
-    if (!near)
-        return false;
-    mote_cert_leaf_hull(side, node, lane, &placed);
+    float low[WIDTH], high[WIDTH];
+    memcpy(low, x, sizeof low);
+    memcpy(high, x, sizeof high);
+    for (uint32_t g = 1; g < groups; ++g) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            const float at = x[g * WIDTH + l];
+            low[l] = at < low[l] ? at : low[l];
+            high[l] = at > high[l] ? at : high[l];
+        }
+    }
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        low[l] = -low[l];
+    *least = -mote_cert_largest(low);
+    *most = mote_cert_largest(high);
+}
+
+/* Narrows a leaf's box to what its vertices by the field are off where it places them. Margins.
+   A vertex is within near->width of its evaluated position; where the box places it is computed
+   to 5 u B, and what tests of boxes round is at most 40 u B (certificate_fitted.c). Twice
+   leaf_margin is 64 u B. */
+MOTE_INLINE bool narrow_box(mote_cert_node *restrict node, size_t lane,
+                            const mote_cert_hull *restrict near,
+                            const mote_cert_hull *restrict placed)
+{
     bool narrowed = false;
     for (size_t r = 0; r < 3; ++r) {
-        float least = near->x[r][0] - placed.x[r][0];
-        float most = least;
-        for (size_t i = 1; i < near->groups * WIDTH; ++i) {
-            const float d = near->x[r][i] - placed.x[r][i];
-            least = d < least ? d : least;
-            most = d > most ? d : most;
-        }
+        float off[MOTE_CERT_LEAF_VERTICES], least, most;
+        for (size_t i = 0; i < near->groups * WIDTH; ++i)
+            off[i] = near->x[r][i] - placed->x[r][i];
+        ends_of(off, near->groups, &least, &most);
         const float width = 0.5F * (most - least) + near->width[r] + 2 * node->leaf_margin;
         if (width < node->width[r][lane]) {
             node->centre[r][lane] += 0.5F * (most + least);
@@ -176,13 +191,42 @@ bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
     return narrowed;
 }
 
+/* A hull's width covers the rounding of its ends and of what is done with them. */
+MOTE_CLONES
+bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
+{
+    mote_cert_hull placed;
+    const mote_cert_hull *hull = &placed;
+    bool narrowed = false;
+    mote_cert_leaf_hull(side, node, lane, &placed);
+    if (node->wide >> lane & 1) {
+        const mote_cert_hull *near = mote_cert_leaf_near_hull(side, node, lane);
+        narrowed = near && narrow_box(node, lane, near, &placed);
+        hull = near ? near : hull;
+    }
+    for (size_t r = 0; r < 3; ++r) {
+        float least, most;
+        ends_of(hull->x[r], hull->groups, &least, &most);
+        node->low[r][lane] = least - hull->width[r];
+        node->high[r][lane] = most + hull->width[r];
+    }
+    node->wide &= ~(1u << lane);
+    node->unmeasured &= ~(1u << lane);
+    return narrowed;
+}
+
 uint32_t mote_cert_narrow_row(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                               mote_cert_node *other, uint32_t undecided, float bound[WIDTH])
 {
-    bool narrowed = node->wide >> lane & 1 && mote_cert_narrow(&c->side[s], node, lane);
-    for (uint32_t left = undecided & other->wide; left; left &= left - 1)
+    uint32_t left = undecided & other->unmeasured;
+    const bool own = node->unmeasured >> lane & 1;
+    if (!own && !left)
+        return undecided;
+    bool narrowed = own && mote_cert_narrow(&c->side[s], node, lane);
+    for (; left; left &= left - 1)
         narrowed = mote_cert_narrow(&c->side[1 - s], other, mote_lowest_bit(left)) || narrowed;
-    if (!narrowed)
+    undecided = mote_cert_row_spans(node, lane, other, c->need, undecided, bound);
+    if (!undecided || !narrowed)
         return undecided;
     return mote_cert_row_boxes(node, lane, other, c->need, undecided, bound);
 }

@@ -90,3 +90,30 @@ uint32_t mote_cert_row_boxes(const mote_cert_node *restrict d, size_t lane,
     load_box(d, lane, &one);
     return undecided & along_centres(&one, e, need, bound);
 }
+
+/* The distance of boxes along the coordinates' axes is that of their gaps. A gap is rounded
+   once, which the margins of both ends cover. */
+MOTE_CLONES
+uint32_t mote_cert_row_spans(const mote_cert_node *restrict d, size_t lane,
+                             const mote_cert_node *restrict e, float need, uint32_t undecided,
+                             float bound[MOTE_CERT_WIDTH])
+{
+    float low[3], high[3], apart[WIDTH];
+    for (size_t r = 0; r < 3; ++r) {
+        low[r] = d->low[r][lane];
+        high[r] = d->high[r][lane];
+    }
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l) {
+        float squared = 0;
+        for (size_t r = 0; r < 3; ++r) {
+            const float above = e->low[r][l] - high[r];
+            const float below = low[r] - e->high[r][l];
+            const float gap = above > below ? above : below;
+            squared += gap > 0 ? gap * gap : 0;
+        }
+        apart[l] = sqrtf(squared) * (1 - 0x1p-21F);
+        bound[l] = apart[l] > bound[l] ? apart[l] : bound[l];
+    }
+    return undecided & bits_below(bound, need);
+}

@@ -140,8 +140,11 @@ static void visit_row(mote_certificate *c, row r, uint32_t depth)
     if (undecided) {
         mote_cert_make_boxes(c, r.s, r.node);
         mote_cert_make_boxes(c, 1 - r.s, r.other);
-        undecided = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, undecided, bound);
-        if (undecided && (r.node->wide | r.other->wide))
+        if (r.node->spans && r.other->spans)
+            undecided = mote_cert_row_spans(r.node, r.lane, r.other, c->need, undecided, bound);
+        if (undecided && !(r.node->aligned && r.other->aligned))
+            undecided = mote_cert_row_boxes(r.node, r.lane, r.other, c->need, undecided, bound);
+        if (undecided && (r.node->unmeasured | r.other->unmeasured))
             undecided = mote_cert_narrow_row(c, r.s, r.node, r.lane, r.other, undecided, bound);
     }
     ++c->counters.rows;

@@ -17,6 +17,8 @@ typedef struct mote_cert_node {
     float centre[3][MOTE_CERT_WIDTH];
     float axis[3][3][MOTE_CERT_WIDTH]; /* half axes [axis][coordinate][child] */
     float width[3][MOTE_CERT_WIDTH];   /* half widths of the box to be added, margin included */
+    float low[3][MOTE_CERT_WIDTH];     /* ends of the children along the coordinates' axes, */
+    float high[3][MOTE_CERT_WIDTH];    /* width included; only where `spans` says so */
     float size[MOTE_CERT_WIDTH];       /* squares of the two longest half axes, added up */
     float reach[MOTE_CERT_WIDTH];      /* the box's largest coordinate towards the other body */
     float extent[MOTE_CERT_WIDTH];     /* reach minus the smallest such coordinate */
@@ -28,7 +30,10 @@ typedef struct mote_cert_node {
     int32_t child[MOTE_CERT_WIDTH]; /* index of the deformed child; -1: not deformed yet */
     const mote_cert_block *block;
     bool boxes;          /* centre .. size have been computed */
+    bool spans;          /* low and high too */
+    bool aligned;        /* low and high are the boxes: they say all that there is to say */
     uint32_t wide;       /* bit l: leaf l's width is worth measuring (mote_cert_narrow) */
+    uint32_t unmeasured; /* bit l: low and high of leaf l are those of its box */
     uint32_t clear;      /* bit l: child l is wholly on its own side of the plane */
     uint32_t crossing;   /* bit l: child l crosses the plane by so little that it is worth
                             opening */

@@ -71,12 +71,14 @@ void mote_cert_leaf_hull(const mote_cert_side *side, const mote_cert_node *node,
 float mote_cert_leaf_reach(mote_cert_side *side, const mote_cert_node *node, size_t lane,
                            const float direction[3], uint32_t stamp);
 
-/* Measures how far the vertices of leaf `lane` are from where its box places them, and narrows
-   the box to that; false where nothing changed. For a bit of node->wide, which it clears. */
+/* Measures where the vertices of leaf `lane` are along the coordinates' axes, for a bit of
+   node->unmeasured, which it clears; where the leaf is wide, also how far they are from where
+   its box places them, and narrows the box to that. Returns whether the box has changed. */
 bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane);
 
-/* Narrows child `lane` of a node of side s, and the children `undecided` of one of the other
-   side, where these are wide leaves; then as mote_cert_row_boxes. */
+/* Measures child `lane` of a node of side s, and the children `undecided` of one of the other
+   side, where these are unmeasured leaves; then as mote_cert_row_spans, and mote_cert_row_boxes
+   where a box has changed. */
 uint32_t mote_cert_narrow_row(mote_certificate *c, int s, mote_cert_node *node, size_t lane,
                               mote_cert_node *other, uint32_t undecided,
                               float bound[MOTE_CERT_WIDTH]);
@@ -99,6 +101,10 @@ uint32_t mote_cert_row_plane(const mote_cert_node *d, size_t lane, const mote_ce
 
 /* The same for the lanes in `undecided`, by the boxes of both nodes; raises the bounds. */
 uint32_t mote_cert_row_boxes(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
+                             float need, uint32_t undecided, float bound[MOTE_CERT_WIDTH]);
+
+/* The same by low and high of both nodes, which costs less. */
+uint32_t mote_cert_row_spans(const mote_cert_node *d, size_t lane, const mote_cert_node *e,
                              float need, uint32_t undecided, float bound[MOTE_CERT_WIDTH]);
 
 /* certificate_pair.c */

@@ -4,10 +4,13 @@
    its targets, of which each rounds what it adds to once more, and 4 more in all where there
    are any.
    - Matrices are rounded to floats once, or twice along a direction. Above the leaves each term
-   of an end of an interval is rounded at most 9 times, and the end once more; the middle and
-   half size of the union once more each: at most 24 u S. The union of intervals within -S .. S
+   of an end of an interval is rounded at most 9 times. Where the radius, less than 1.74,
+   decides its size, the three terms under the root are wrong by 6 u of terms that add up to S,
+   which the root makes 1.74 * 6 u S at most, and what follows rounds 5 times: less than 17 u S.
+   2^-120 covers squares too small for a float. The end is rounded once more, the middle and
+   half size of the union once more each: at most 38 u S. The union of intervals within -S .. S
    is within it, so that all terms of the box are at most 2 S; what tests of boxes round is at
-   most 40 u of what these add up to (certificate_fitted.c): 24 sqrt(3) + 80 < 128 u S.
+   most 40 u of what these add up to (certificate_fitted.c): 38 sqrt(3) + 80 < 160 u S.
    - At leaves, with K (head.reach) the sum of the sizes of a child's entries, all terms add up
    to at most B = S (1 + 2 K): e and the d_k together are at most 2 S. Each is rounded at most
    13 times, and n times more where n bones are added up: sqrt(3) (n + 13) + 40 < 2 n + 64 u B.
@@ -23,7 +26,7 @@
 #define WIDTH MOTE_CERT_WIDTH
 
 /* A leaf whose width is more than this part of its axes is worth measuring. */
-#define WIDE 0.1F
+#define WIDE 0.3F
 
 static const mote_skin_head *head_of(const mote_cert_side *side, const mote_cert_block *block)
 {
@@ -143,9 +146,14 @@ MOTE_INLINE void convex_along(const mote_cert_side *restrict side,
                                            p[3] * row->middle[2][l]);
             /* of a child that the bone does not move, an interval that no other one ends beyond
              */
-            const float size = (fabsf(p[1]) * row->half[0][l] + fabsf(p[2]) * row->half[1][l] +
-                                fabsf(p[3]) * row->half[2][l]) +
-                               loose_image(box, x, y, z, l) + (row->present[l] - 1) * 0x1p110F;
+            const float a = fabsf(p[1]) * row->half[0][l];
+            const float b = fabsf(p[2]) * row->half[1][l];
+            const float c = fabsf(p[3]) * row->half[2][l];
+            const float round = row->radius[l] * sqrtf((a * a + b * b) + (c * c + 0x1p-120F));
+            const float flat = (a + b) + c;
+            const float absent = row->radius[l] > 0 ? 0 : -0x1p110F;
+            const float size =
+                ((round < flat ? round : flat) + loose_image(box, x, y, z, l)) + absent;
             low[l] = low[l] < at - size ? low[l] : at - size;
             high[l] = high[l] > at + size ? high[l] : at + size;
         }
@@ -162,7 +170,23 @@ MOTE_INLINE void convex_along(const mote_cert_side *restrict side,
 static float convex_margin(const mote_cert_side *side, const mote_cert_block *block)
 {
     const float more = morph_roundings(head_of(side, block)->morphs);
-    return side->margin_base + (128 + more) * side->margin_unit * (1 + 0x1p-20F);
+    return side->margin_base + (160 + more) * side->margin_unit * (1 + 0x1p-20F);
+}
+
+/* The ends of a node's boxes along the coordinates' axes. */
+MOTE_INLINE void spans_of(mote_cert_node *restrict node)
+{
+    for (size_t r = 0; r < 3; ++r) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < WIDTH; ++l) {
+            const float half = (fabsf(node->axis[0][r][l]) + fabsf(node->axis[1][r][l]) +
+                                fabsf(node->axis[2][r][l])) +
+                               node->width[r][l];
+            node->low[r][l] = node->centre[r][l] - half;
+            node->high[r][l] = node->centre[r][l] + half;
+        }
+    }
+    node->spans = true;
 }
 
 MOTE_INLINE void convex_boxes(const mote_cert_side *restrict side,
@@ -179,6 +203,8 @@ MOTE_INLINE void convex_boxes(const mote_cert_side *restrict side,
             node->width[r][l] = margin;
     }
     mote_cert_finish_boxes(node);
+    spans_of(node);
+    node->aligned = true;
 }
 
 MOTE_INLINE void convex_project(const mote_cert_side *restrict side,
@@ -306,8 +332,10 @@ MOTE_INLINE void leaf_boxes(const mote_cert_side *restrict side,
     uint32_t leaves = 0;
     for (size_t l = 0; l < WIDTH; ++l)
         leaves |= block->child[l] < 0 ? 1u << l : 0;
-    node->wide = wide_leaves(node, margin) & leaves & block->mask;
+    node->unmeasured = leaves & block->mask;
+    node->wide = wide_leaves(node, margin) & node->unmeasured;
     mote_cert_finish_boxes(node);
+    spans_of(node);
 }
 
 MOTE_INLINE void leaf_project(const mote_cert_side *restrict side,
@@ -401,38 +429,47 @@ static void place_morphed(const mote_cert_side *side, const mote_skin *skin, uin
     q[2] = (float)x.z + d[2];
 }
 
-/* A vertex in floats. */
-static void place(const mote_cert_side *side, const mote_skin *skin, uint32_t vertex,
-                  float p[3])
+/* A vertex in floats: its bones' matrices are blended, then the vertex is moved. */
+MOTE_INLINE void place(const mote_cert_side *restrict side, const mote_skin *restrict skin,
+                       const float *restrict columns, uint32_t vertex, float p[4])
 {
     const mote_vec3 x = mote_cert_tree_position(side->tree, vertex);
     float q[3] = {(float)x.x, (float)x.y, (float)x.z};
     if (skin->morph.targets > 0)
         place_morphed(side, skin, vertex, q);
-    p[0] = p[1] = p[2] = 0;
+    float m[MOTE_SKIN_COLUMNS] = {0};
     for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
-        for (size_t r = 0; r < 3; ++r) {
-            const float *m = mote_skin_frame_of(side)->row[r] + (size_t)4 * skin->bone[i];
-            p[r] += skin->weight[i] * ((m[0] * q[0] + m[1] * q[1]) + (m[2] * q[2] + m[3]));
-        }
+        const float *column = columns + (size_t)MOTE_SKIN_COLUMNS * skin->bone[i];
+        const float w = skin->weight[i];
+        MOTE_LANE_LOOP
+        for (size_t k = 0; k < MOTE_SKIN_COLUMNS; ++k)
+            m[k] += w * column[k];
     }
+    MOTE_LANE_LOOP
+    for (size_t r = 0; r < 4; ++r)
+        p[r] = (m[r] * q[0] + m[4 + r] * q[1]) + (m[8 + r] * q[2] + m[12 + r]);
 }
 
+MOTE_CLONES
 static bool skin_hull(const mote_cert_side *side, const mote_cert_node *node, size_t lane,
                       mote_cert_hull *hull)
 {
     const mote_skin *skin = mote_skin_of(side->tree->body->field);
+    const float *columns = mote_skin_frame_columns(side);
     const uint32_t count = hull->leaf->vertex_count;
     const uint32_t *vertices = side->tree->leaf_vertices + hull->leaf->first_vertex;
     (void)node, (void)lane;
-    for (uint32_t i = 0; i < hull->groups * WIDTH; ++i) {
-        float p[3];
-        place(side, skin, vertices[i < count ? i : count - 1], p);
+    for (uint32_t i = 0; i < count; ++i) {
+        float p[4];
+        place(side, skin, columns, vertices[i], p);
         for (size_t r = 0; r < 3; ++r)
             hull->x[r][i] = p[r];
     }
-    for (size_t r = 0; r < 3; ++r)
+    for (size_t r = 0; r < 3; ++r) {
+        for (uint32_t i = count; i < hull->groups * WIDTH; ++i)
+            hull->x[r][i] = hull->x[r][count - 1];
         hull->width[r] = mote_skin_frame_of(side)->hull_width;
+    }
     return true;
 }
 

@@ -11,8 +11,9 @@
    Above the leaves, convexity. Weights are not negative and add up to 1, so p lies between the
    M_b x of its bones: in a box around the images under M_b of those boxes, one a bone, that
    hold the vertices that b moves. These are boxes in z, with a middle and a half size along
-   each axis. A sum of the kind above would be wide here, where one bone moves little of what is
-   in the box.
+   each axis, and a radius: in units of the half sizes these vertices are within a ball too,
+   which cuts off the box's corners. A sum of the kind above would be wide here, where one bone
+   moves little of what is in the box.
 
    Both hold for any matrices: nothing is assumed of them.
 
@@ -53,7 +54,7 @@ typedef struct mote_skin_leaf_row {
 typedef struct mote_skin_convex_row {
     mote_cert_strip middle[3];
     mote_cert_strip half[3];
-    mote_cert_strip present; /* 1 where the bone moves any of the child's vertices, else 0 */
+    mote_cert_strip radius; /* in units of half; 0 where the bone moves none of the vertices */
 } mote_skin_convex_row;
 
 /* In the target's size. [coordinate], slopes [axis][coordinate]. */

@@ -122,6 +122,30 @@ static void list_bones(fitter *f, const mote_cert_part *part)
 /* --- above the leaves -----------------------------------------------------------------------
  */
 
+/* The largest distance of a bone's vertices from the middle of their box, whose half sizes
+   count as 1. */
+static void fit_radii(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
+{
+    const mote_skin *skin = f->skin;
+    for (size_t v = 0; v < part->count; ++v) {
+        const uint32_t vertex = part->vertices[v];
+        double z[3];
+        mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
+        for (uint32_t i = skin->start[vertex]; i < skin->start[vertex + 1]; ++i) {
+            mote_skin_convex_row *row = &f->rows[skin->bone[i]].row.convex;
+            double squared = 0;
+            for (int k = 0; k < 3; ++k) {
+                const double y = (z[k] - (double)row->middle[k][part->lane]) /
+                                 (double)row->half[k][part->lane];
+                squared += y * y;
+            }
+            const float radius = mote_rounded_up(sqrt(squared));
+            float *most = &row->radius[part->lane];
+            *most = radius > *most ? radius : *most;
+        }
+    }
+}
+
 static void fit_convex(fitter *f, const mote_cert_tree *tree, const mote_cert_part *part)
 {
     const mote_skin *skin = f->skin;
@@ -149,12 +173,13 @@ static void fit_convex(fitter *f, const mote_cert_tree *tree, const mote_cert_pa
     for (uint32_t i = 0; i < f->child_count; ++i) {
         bone_rows *own = &f->rows[f->of_child[i]];
         mote_skin_convex_row *row = &own->row.convex;
-        row->present[part->lane] = 1;
+        row->radius[part->lane] = 0x1p-20F; /* a bone that moves one point has one too */
         for (int k = 0; k < 3; ++k) {
             row->middle[k][part->lane] = 0.5F * (own->least[k] + own->most[k]);
             row->half[k][part->lane] = 0.5F * (own->most[k] - own->least[k]) + 0x1p-22F;
         }
     }
+    fit_radii(f, tree, part);
 }
 
 /* --- leaves ---------------------------------------------------------------------------------

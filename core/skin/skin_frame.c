@@ -20,10 +20,10 @@
    each is wrong by at most 2^-53 (4 n + 16) (world + V + S), `world` being the size of the
    pose's coordinates; 2^-48 (n + 4) is more, and covers the rounding of the matrices' entries
    in double precision too.
-   - Hulls: a vertex in floats, n targets and a matrix's entries, four products and their sums
-   are wrong by (n + 11) u S, the sum over n bones, whose weights are exact and add up to 1, by
-   (n + 1) u S, and what follows is rounded as in certificate_leaf.c: less than (64 + n) u S
-   with n the bones and the targets together. */
+   - Hulls: matrices are blended with weights that are exact and add up to 1. A vertex in
+   floats, n targets and a matrix's entries, four products and their sums are wrong by (n + 11)
+   u S, the sum over n bones by (n + 1) u S, and what follows is rounded as in
+   certificate_leaf.c: less than (64 + n) u S with n the bones and the targets together. */
 #include "core/skin/skin_frame.h"
 #include "core/base/clones.h"
 #include "core/skin/skin_data.h"
@@ -47,7 +47,9 @@ size_t mote_skin_frame_bytes(const mote_cert_tree *tree)
 {
     const mote_skin *skin = mote_skin_of(tree->body->field);
     return sizeof(mote_skin_frame) +
-           (4 * row_length(skin) + skin->morph.targets) * sizeof(float);
+           (4 * row_length(skin) + (size_t)MOTE_SKIN_COLUMNS * skin->bones +
+            skin->morph.targets) *
+               sizeof(float);
 }
 
 static mote_skin_frame *lay_out(mote_cert_side *side, const mote_skin *skin)
@@ -57,7 +59,9 @@ static mote_skin_frame *lay_out(mote_cert_side *side, const mote_skin *skin)
     for (size_t r = 0; r < 3; ++r)
         frame->row[r] = frame->numbers + r * length;
     frame->along = frame->numbers + 3 * length;
-    frame->amount = frame->numbers + 4 * length;
+    frame->column = frame->numbers + 4 * length;
+    frame->amount = frame->column + (size_t)MOTE_SKIN_COLUMNS * skin->bones;
+    frame->has_columns = false;
     return frame;
 }
 
@@ -192,4 +196,22 @@ void mote_skin_face(mote_cert_side *side)
 {
     const mote_vec3 n = side->facing;
     face_rows(side->frame, row_length(mote_skin_of(side->tree->body->field)), n.x, n.y, n.z);
+}
+
+const float *mote_skin_frame_columns(const mote_cert_side *side)
+{
+    mote_skin_frame *frame = side->frame;
+    if (frame->has_columns)
+        return frame->column;
+    const size_t bones = mote_skin_of(side->tree->body->field)->bones;
+    for (size_t b = 0; b < bones; ++b) {
+        float *column = frame->column + MOTE_SKIN_COLUMNS * b;
+        for (size_t k = 0; k < 4; ++k) {
+            for (size_t r = 0; r < 3; ++r)
+                column[4 * k + r] = frame->row[r][4 * b + k];
+            column[4 * k + 3] = 0;
+        }
+    }
+    frame->has_columns = true;
+    return frame->column;
 }

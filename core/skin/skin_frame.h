@@ -4,6 +4,9 @@
 
 #include "core/certificate/certificate_bounds.h"
 
+/* Numbers of a matrix by columns. */
+#define MOTE_SKIN_COLUMNS 16
+
 /* In the tree's units, relative to the query's origin. A bone's row has four numbers, those of
    all bones are side by side. */
 typedef struct mote_skin_frame {
@@ -11,6 +14,10 @@ typedef struct mote_skin_frame {
     float *row[3]; /* [4 bones] of the bones' matrices, by coordinate */
     float *along;  /* [4 bones] the same along the plane's normal */
     float *amount; /* [targets] of morph targets, for displacements in their size */
+    /* [bones][column][coordinate] the matrices again, for vertices; the fourth coordinate is 0.
+       Made when the first vertex is placed (mote_skin_frame_columns). */
+    float *column;
+    bool has_columns;
     float numbers[];
 } mote_skin_frame;
 
@@ -22,6 +29,9 @@ static inline const mote_skin_frame *mote_skin_frame_of(const mote_cert_side *si
 {
     return (const mote_skin_frame *)side->frame;
 }
+
+/* The columns of a side's frame. */
+const float *mote_skin_frame_columns(const mote_cert_side *side);
 
 /* mote_cert_bounds.frame_bytes, begin and face. Cost 2 ns a bone for begin, 1 for face. */
 size_t mote_skin_frame_bytes(const mote_cert_tree *tree);

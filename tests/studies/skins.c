@@ -36,7 +36,8 @@ static void check_vertex(scene *s, const mote_certificate *c, int b, const mote_
     const bool faced = node->generation == c->generation && c->upper > 0;
     ++n->vertices;
     if ((faced && !in_reach(s, c, b, node, l, vertex)) ||
-        (node->boxes && !in_box(s, c, b, node, l, vertex)))
+        (node->boxes &&
+         !(in_box(s, c, b, node, l, vertex) && in_ends(s, c, b, node, l, vertex))))
         ++n->outside;
 }
 

@@ -255,6 +255,19 @@ static inline bool in_reach(const scene *s, const mote_certificate *c, int b,
     return mote_dot(p, c->side[b].facing) <= (double)node->reach[l];
 }
 
+/* The node's ends along the coordinates' axes, where it has any. */
+static inline bool in_ends(const scene *s, const mote_certificate *c, int b,
+                           const mote_cert_node *node, size_t l, uint32_t vertex)
+{
+    const mote_vec3 p = certificate_point(c, s->world[b][vertex]);
+    const double at[3] = {p.x, p.y, p.z};
+    bool inside = true;
+    for (size_t r = 0; node->spans && r < 3; ++r)
+        inside =
+            inside && at[r] >= (double)node->low[r][l] && at[r] <= (double)node->high[r][l];
+    return inside;
+}
+
 /* Checks the box's extent along random directions. */
 static inline bool in_box(scene *s, const mote_certificate *c, int b,
                           const mote_cert_node *node, size_t l, uint32_t vertex)

@@ -54,6 +54,7 @@ static void check_vertex(scene *s, mote_certificate *c, int b, const mote_cert_n
 {
     assert_true(in_reach(s, c, b, node, l, vertex));
     assert_true(in_box(s, c, b, node, l, vertex));
+    assert_true(node->spans && in_ends(s, c, b, node, l, vertex));
 }
 
 /* Calls check_vertex for all vertices below a node's child. */
