@@ -1,4 +1,4 @@
-#include "harness/scene/scenario_path.h"
+#include "tests/support/scenario_path.h"
 
 #include "harness/base/memory.h"
 #include "harness/scene/motion.h"
