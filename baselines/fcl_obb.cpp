@@ -28,10 +28,10 @@ double edge_gap_squared(const BoxPair &p, const Matrix &size, double best)
             int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
             double apart =
                 std::abs(p.centre[i2] * p.rotation(i1, j) - p.centre[i1] * p.rotation(i2, j));
-            double reach = p.a[i1] * size(i2, j) + p.a[i2] * size(i1, j) +
-                           p.b[j1] * size(i, j2) + p.b[j2] * size(i, j1);
+            double half_widths = p.a[i1] * size(i2, j) + p.a[i2] * size(i1, j) +
+                                 p.b[j1] * size(i, j2) + p.b[j2] * size(i, j1);
             double axis_squared = 1 - size(i, j) * size(i, j);
-            double gap = apart - reach;
+            double gap = apart - half_widths;
             /* The product of nearly parallel edges consists of rounding errors. */
             if (gap > 0 && axis_squared > 1e-6 && gap * gap > best * axis_squared)
                 best = gap * gap / axis_squared;

@@ -256,8 +256,8 @@ mote_status pose_part(const mote_skin *skin, const mote_body_state &state, doubl
     const Vector middle = map * part.middle;
     part.pose.linear() = rotation_near(map.linear());
     part.pose.translation() = middle - part.pose.linear() * part.middle;
-    const Vector reach = part.pose.linear().cwiseAbs() * part.half;
-    part.box = {middle - reach, middle + reach};
+    const Vector extent = part.pose.linear().cwiseAbs() * part.half;
+    part.box = {middle - extent, middle + extent};
     return MOTE_OK;
 }
 

@@ -126,14 +126,14 @@ static void add_costs(const mote_sample_boxes *boxes, uint32_t pose, const keyed
 }
 
 /* What a search over directions has found. */
-typedef struct found {
+typedef struct best_split {
     mote_sample_split split;
     float cost;
-} found;
+} best_split;
 
 /* Judges the splits along one direction. Triangles are in `sorted`, in any order. */
 static void judge(const mote_sample_boxes *boxes, uint32_t pose, int axis, keyed *sorted,
-                  uint32_t count, uint32_t fixed, found *best)
+                  uint32_t count, uint32_t fixed, best_split *best)
 {
     float cost[JUDGED] = {0};
     for (uint32_t i = 0; i < count; ++i)
@@ -146,7 +146,7 @@ static void judge(const mote_sample_boxes *boxes, uint32_t pose, int axis, keyed
     const uint32_t last = fixed > 0 ? fixed : count - least;
     for (uint32_t i = first; i <= last; ++i) {
         if (sorted[i - 1].key < sorted[i].key && cost[i] < best->cost)
-            *best = (found){{pose, axis, sorted[i].key}, cost[i]};
+            *best = (best_split){{pose, axis, sorted[i].key}, cost[i]};
     }
 }
 
@@ -162,7 +162,7 @@ mote_sample_split mote_sample_split_best(const mote_sample_boxes *boxes,
     uint32_t fixed = (uint32_t)((uint64_t)left * judged / count);
     if (left > 0 && fixed == 0)
         fixed = 1;
-    found best = {{0, 0, -HUGE_VALF}, HUGE_VALF};
+    best_split best = {{0, 0, -HUGE_VALF}, HUGE_VALF};
     for (uint32_t pose = 0; pose < boxes->poses; ++pose) {
         for (int axis = 0; axis < 3; ++axis)
             judge(boxes, pose, axis, sorted, judged, fixed, &best);

@@ -377,7 +377,7 @@ static mote_vec3 node_position(const spread *s, uint32_t node)
     return s->mesh->positions[s->levels->vertex[node]];
 }
 
-static void take_node(spread *s, uint32_t node, bool measure)
+static void choose_node(spread *s, uint32_t node, bool measure)
 {
     const mote_vec3 p = node_position(s, node);
     for (uint32_t i = 0; measure && i < s->level_count; ++i)
@@ -429,7 +429,7 @@ static void spread_nodes(spread *s, uint32_t count, bool farthest, uint64_t seed
             nodes[i] = uncovered_node(s, nodes[i - 1]);
         else
             nodes[i] = farthest ? farthest_node(s) : random_node(s, &random);
-        take_node(s, nodes[i], measure);
+        choose_node(s, nodes[i], measure);
     }
 }
 

@@ -1,7 +1,7 @@
-/* Everything is measured along the line between the two current witnesses: the reach of a point
-   is how far it lies from its own body's witness towards the other's. A pair of faces can only
-   be nearer than the distance d of the witnesses if their reaches add up to more than 0, which
-   rejects nearly all faces before any of them is looked at closely. */
+/* Everything is measured along the line between the two current witnesses: the height of a
+   point is how far it lies beyond its own body's witness, towards the other's. A pair of faces
+   can only be nearer than the distance d of the witnesses if their heights add up to more than
+   0, which rejects nearly all faces before any of them is looked at closely. */
 #include "core/particle/refine.h"
 
 #include "core/body/triangle.h"
@@ -11,7 +11,7 @@
 /* A pair counts as nearer only if it is by more than this part of the distance. */
 #define MARGIN 1e-12
 
-/* A reach may be wrong by this part of the witnesses' coordinates: faces that touch are not
+/* A height may be wrong by this part of the witnesses' coordinates: faces that touch are not
    rejected by it. */
 #define ROUNDING 0x1p-50
 
@@ -40,10 +40,10 @@ typedef struct search {
     double distance;
     mote_vec3 origin[2], toward[2]; /* the witness of each side, the unit vector to the other */
     mote_vec3 across[2];            /* unit vectors at right angles to it and each other */
-    double rounding;                /* of a reach */
+    double rounding;                /* of a height */
     uint32_t checked[2]; /* vertices whose rings have been measured against each other with no
                             nearer pair; NONE: there are none */
-    double slack; /* faces with reaches that sum up to no more than this are not nearer */
+    double slack; /* faces with heights that sum up to no more than this are not nearer */
 } search;
 
 /* Walks over the faces around up to three vertices, each once. */
@@ -56,25 +56,25 @@ typedef struct face_cursor {
     bool carried;          /* corner 2 of the last face is corner 1 of this one */
     uint32_t vertex[3];
     mote_vec3 corner[3];
-    double reach[3];
+    double height[3];
 } face_cursor;
 
-/* A face with its reach and, once it was chosen, the box of its shadow: where it is across the
+/* A face with its height and, once it was chosen, the box of its shadow: where it is across the
    line of the witnesses. */
 typedef struct listed_face {
     mote_vec3 corner[3];
     uint32_t vertex[3];
-    double reach;
+    double height;
     bool measured; /* with those of the other side that are marked too */
     bool boxed;
     double low[2], high[2]; /* of its shadow along the line of the witnesses */
-    double blur;            /* how wrong they, and the reach, may be */
+    double blur;            /* how wrong they, and the height, may be */
 } listed_face;
 
 typedef struct face_list {
     listed_face face[LIST_MAX];
     uint32_t count;
-    double reach; /* the largest */
+    double height; /* the largest */
     uint32_t chosen[LIST_MAX], chosen_count;
 } face_list;
 
@@ -124,7 +124,7 @@ static void tighten(search *s, double squared)
     s->slack = s->distance - (1 - MARGIN) * sqrt(squared) - s->rounding;
 }
 
-static double reach_of(const search *s, int side, mote_vec3 p)
+static double height_of(const search *s, int side, mote_vec3 p)
 {
     return mote_dot(mote_sub(p, s->origin[side]), s->toward[side]);
 }
@@ -133,7 +133,7 @@ static void look_at(const search *s, int side, face_cursor *c, int i, uint32_t v
 {
     c->vertex[i] = vertex;
     c->corner[i] = mote_lazy_position(s->lazy[side], vertex);
-    c->reach[i] = reach_of(s, side, c->corner[i]);
+    c->height[i] = height_of(s, side, c->corner[i]);
 }
 
 static face_cursor cursor_at(const search *s, int side, const uint32_t *centres, uint32_t count)
@@ -170,7 +170,7 @@ static bool next_face(const search *s, int side, face_cursor *c)
             if (joined && c->carried) {
                 c->vertex[1] = c->vertex[2];
                 c->corner[1] = c->corner[2];
-                c->reach[1] = c->reach[2];
+                c->height[1] = c->height[2];
             } else if (joined) {
                 look_at(s, side, c, 1, entry);
             }
@@ -189,9 +189,9 @@ static bool next_face(const search *s, int side, face_cursor *c)
     return false;
 }
 
-static double face_reach(const face_cursor *c)
+static double face_height(const face_cursor *c)
 {
-    return max2(c->reach[0], max2(c->reach[1], c->reach[2]));
+    return max2(c->height[0], max2(c->height[1], c->height[2]));
 }
 
 static void keep_face(mote_refined *best, int side, const uint32_t vertex[3],
@@ -222,7 +222,7 @@ static void approach(search *s, int side)
     ++best->rings;
     face_cursor c = cursor_at(s, side, &centre, 1);
     while (next_face(s, side, &c)) {
-        if (face_reach(&c) <= s->slack)
+        if (face_height(&c) <= s->slack)
             continue;
         mote_vec3 closest;
         const double squared = mote_point_triangle(other, c.corner, &closest);
@@ -258,18 +258,18 @@ static void alternate(search *s)
     }
 }
 
-/* The largest reach of a vertex and its ring. */
+/* The largest height of a vertex and its ring. */
 static double ring_reach(search *s, int side, uint32_t centre)
 {
     const mote_mesh *mesh = s->lazy[side]->body->mesh;
     mote_lazy_fetch_rings(s->lazy[side], &centre, 1);
-    double reach = reach_of(s, side, mote_lazy_position(s->lazy[side], centre));
+    double height = height_of(s, side, mote_lazy_position(s->lazy[side], centre));
     for (uint32_t k = mesh->ring_start[centre]; k < mesh->ring_start[centre + 1]; ++k) {
         const uint32_t v = MOTE_RING_VERTEX(mesh->ring[k]);
-        reach = max2(reach, reach_of(s, side, mote_lazy_position(s->lazy[side], v)));
+        height = max2(height, height_of(s, side, mote_lazy_position(s->lazy[side], v)));
     }
     ++s->best->rings;
-    return reach;
+    return height;
 }
 
 /* Lists the next faces; false when there are none left. */
@@ -277,10 +277,10 @@ static bool fill_list(const search *s, int side, face_cursor *c, face_list *list
 {
     const uint32_t checked = s->checked[side];
     list->count = 0;
-    list->reach = -HUGE_VAL;
+    list->height = -HUGE_VAL;
     while (list->count < LIST_MAX && next_face(s, side, c)) {
         listed_face *f = &list->face[list->count++];
-        f->reach = face_reach(c);
+        f->height = face_height(c);
         f->boxed = false;
         f->measured =
             c->vertex[0] == checked || c->vertex[1] == checked || c->vertex[2] == checked;
@@ -288,7 +288,7 @@ static bool fill_list(const search *s, int side, face_cursor *c, face_list *list
             f->corner[i] = c->corner[i];
             f->vertex[i] = c->vertex[i];
         }
-        list->reach = max2(list->reach, f->reach);
+        list->height = max2(list->height, f->height);
     }
     return list->count > 0;
 }
@@ -313,12 +313,12 @@ static void box_face(const search *s, listed_face *f)
     f->boxed = true;
 }
 
-/* Chooses the faces that reach far enough for a partner of the given reach. */
+/* Chooses the faces that are high enough for a partner of the given height. */
 static void choose_faces(const search *s, face_list *list, double partner)
 {
     list->chosen_count = 0;
     for (uint32_t i = 0; i < list->count; ++i) {
-        if (list->face[i].reach + partner <= s->slack)
+        if (list->face[i].height + partner <= s->slack)
             continue;
         list->chosen[list->chosen_count++] = i;
         if (!list->face[i].boxed)
@@ -327,11 +327,11 @@ static void choose_faces(const search *s, face_list *list, double partner)
 }
 
 /* A lower bound of the squared distance of two faces: along the line of the witnesses by their
-   reaches, across it by their shadows. */
+   heights, across it by their shadows. */
 static double gap_squared(const search *s, const listed_face *a, const listed_face *b)
 {
     const double blur = a->blur + b->blur;
-    const double along = max2(0, s->distance - a->reach - b->reach - blur);
+    const double along = max2(0, s->distance - a->height - b->height - blur);
     double squared = along * along;
     for (int k = 0; k < 2; ++k) {
         const double gap = max2(a->low[k] - b->high[k], b->low[k] - a->high[k]) - blur;
@@ -344,7 +344,7 @@ static double gap_squared(const search *s, const listed_face *a, const listed_fa
 static void measure_pair(search *s, const listed_face *a, const listed_face *b)
 {
     mote_refined *best = s->best;
-    if (a->reach + b->reach <= s->slack || (a->measured && b->measured))
+    if (a->height + b->height <= s->slack || (a->measured && b->measured))
         return;
     const double bound = min2(best->squared, s->worth_squared) * (1 - MARGIN);
     if (gap_squared(s, a, b) >= bound)
@@ -364,10 +364,10 @@ static void measure_pair(search *s, const listed_face *a, const listed_face *b)
 
 static void measure_lists(search *s, face_list *a, face_list *b)
 {
-    if (a->reach + b->reach <= s->slack)
+    if (a->height + b->height <= s->slack)
         return;
-    choose_faces(s, a, b->reach);
-    choose_faces(s, b, a->reach);
+    choose_faces(s, a, b->height);
+    choose_faces(s, b, a->height);
     for (uint32_t i = 0; i < a->chosen_count; ++i) {
         for (uint32_t j = 0; j < b->chosen_count && !done(s); ++j)
             measure_pair(s, &a->face[a->chosen[i]], &b->face[b->chosen[j]]);

@@ -28,8 +28,8 @@ mote_status mote_curve_create(const uint32_t *frames, const double *values, uint
     for (uint32_t k = 1; k < count; ++k) {
         if (frames[k] <= frames[k - 1])
             return mote_fail(MOTE_EINVAL,
-                             "key %u is at frame %u and key %u at %u; let them rise", k - 1,
-                             frames[k - 1], k, frames[k]);
+                             "key %u is at frame %u and key %u at %u; give ascending frames",
+                             k - 1, frames[k - 1], k, frames[k]);
     }
     mote_curve *made = mote_allocate(1, sizeof *made);
     const size_t size = (size_t)count * width;

@@ -28,7 +28,7 @@
     X(distance, "A.obj B.obj", "asks the distance of two meshes as their files place them",    \
       mote_options_distance)                                                                   \
     X(approach, "SCENARIO --gaps FRAME:GAP,... -o FILE",                                       \
-      "writes the scenario with body 1 moved so that the gaps are as wished",                  \
+      "writes the scenario with body 1 moved so that the gaps are as asked",                   \
       mote_options_approach)                                                                   \
     X(run, "SCENARIO...|--pair A.obj B.obj",                                                   \
       "measures methods on scenarios, goes on where it stopped, writes DIR/summary.json",      \

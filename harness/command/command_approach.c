@@ -49,9 +49,10 @@ static mote_status read_gaps(const char *text, uint32_t frames, mote_curve **cur
     }
     for (uint32_t k = 1; k < count; ++k) {
         if (at[k] <= at[k - 1])
-            return mote_fail(MOTE_EINVAL,
-                             "--gaps: frame %u comes after frame %u; let the frames rise",
-                             at[k], at[k - 1]);
+            return mote_fail(
+                MOTE_EINVAL,
+                "--gaps: frame %u comes after frame %u; give them in ascending order", at[k],
+                at[k - 1]);
     }
     return mote_curve_create(at, gap, count, 1, curve);
 }
@@ -152,10 +153,10 @@ static mote_status approach(const request *wish, const mote_scenario *scenario)
 
 const mote_option mote_options_approach[] = {
     {"gaps", "FRAME:GAP,...",
-     "the distance wished at each frame, in L; below 0: how far body 1 is pushed on from "
+     "the distance at each frame, in L; below 0: how far body 1 is pushed on from "
      "contact; no default"},
     {"every", "FRAMES",
-     "a key pose each this many frames between the wished ones (default: 16)"},
+     "a key pose every so many frames between those of --gaps (default: 16)"},
     {"direction", "X,Y,Z", "where body 1 lies as seen from body 0 (default: 1,0,0)"},
     {"-o", "FILE",
      "the scenario file to write; meshes outside of its folder are copied beside it; no "

@@ -36,7 +36,7 @@ const mote_option mote_options_race[] = {
     {"timeout", "SECONDS", "that a program may take to answer (default: 120)"},
     {"seed", "S", "of orders and memory layouts (default: another one each time)"},
     {"allow-changes", NULL,
-     "answers that differ are told and not judged (default: the race fails)"},
+     "answers that differ are reported and not judged (default: the race fails)"},
     {"instructions", NULL,
      "count the instructions of rows that changed, by valgrind (default: not)"},
     {"labels", "A,B", "what A and B are, for the JSON (default: their paths)"},

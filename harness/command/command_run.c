@@ -27,7 +27,7 @@ const mote_option mote_options_run[] = {
     {"out", "DIR", "the directory of the run (default: results/run)"},
     {"shard", "I/N",
      "every N-th scenario, from the I-th on (default: 1/1, or the task of a Slurm array)"},
-    {"seed", "S", "of all that is drawn at random, below 2^62 (default: 0)"},
+    {"seed", "S", "of all random numbers, below 2^62 (default: 0)"},
     {"timeout", "SECONDS", "a cell that takes longer is ended and recorded (default: 1800)"},
     {"cache", "hot|evict", "whether 32 MB are walked between frames (default: hot)"},
     {"stride", "auto|K",
@@ -42,9 +42,8 @@ const mote_option mote_options_run[] = {
      "are added)"},
     {"budget", "SECONDS", "--until-ci stops after this time (default: 600)"},
     {"progress", "SECONDS",
-     "where stderr is no terminal, a line of progress after so long, and not one a cell "
-     "(default: "
-     "0, one a cell)"},
+     "if stderr is not a terminal: seconds between two lines of progress (default: 0, a line "
+     "after each cell)"},
     {"strict", NULL, "refuse edges of more than two faces (default: cut them apart)"},
     {"pairs", "all|contacts",
      "which near pairs of more than two bodies are kept in cells/ID.pairs.csv (default: all)"},

@@ -167,7 +167,7 @@ mote_status mote_figure_history(const mote_figure_run *run, const char *scenario
     }
     if (figure->data.size == 0)
         mote_text_add(&figure->missing,
-                      "particle-paper:refine=no or particle on %s, telling distances",
+                      "particle-paper:refine=no or particle on %s, reporting distances",
                       scenario);
     mote_text_add(
         &figure->caption,

@@ -129,7 +129,7 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
     add_family(&c, run->summary, scenario, NULL, &figure->data);
     free(c.room.taken);
     if (figure->data.size == 0)
-        mote_text_add(&figure->missing, "a method that tells a distance on %s", scenario);
+        mote_text_add(&figure->missing, "a method that reports a distance on %s", scenario);
     mote_text_add(
         &figure->caption,
         "Median time of a query, deformation and refitting included, against the 99th "

@@ -127,7 +127,7 @@ typedef struct share {
 
 #define SHARES_MAX 16
 
-static void take_share(const mote_summary_row *row, share *made)
+static void measure_share(const mote_summary_row *row, share *made)
 {
     static const mote_figure_part parts[3] = {MOTE_FIGURE_DEFORM, MOTE_FIGURE_UPDATE,
                                               MOTE_FIGURE_QUERY};
@@ -169,7 +169,7 @@ static size_t collect_shares(const mote_summary *summary, const char *scenario,
             !mote_figure_first(summary, row, scenario))
             continue;
         row = mote_figure_near(summary, scenario, family, usual_n(row));
-        take_share(row, &shares[count++]);
+        measure_share(row, &shares[count++]);
     }
     qsort(shares, count, sizeof *shares, by_total);
     return count;

@@ -78,7 +78,7 @@ static mote_status import_in_child(void *context, int output)
     if (status == MOTE_OK)
         status = mote_character_weld(context, &draft);
     if (status == MOTE_OK)
-        status = mote_character_put(output, &draft);
+        status = mote_character_send(output, &draft);
     mote_character_draft_free(&draft);
     return status;
 }
@@ -118,7 +118,7 @@ mote_status mote_character_import_file(const char *path, mote_character **charac
     mote_character_draft draft;
     mote_status status = mote_import_run_child(path, import_in_child, &output, &size);
     if (status == MOTE_OK)
-        status = mote_character_take(path, output, size, &draft);
+        status = mote_character_receive(path, output, size, &draft);
     free(output);
     if (status != MOTE_OK)
         return status;

@@ -90,7 +90,7 @@ static mote_status node_of_bone(const reader *r, const struct aiBone *bone, uint
     char said[MOTE_SAID_MAX];
     *node = mote_node_find(r->names, r->draft->made.rig.nodes_count, bone->mName.data);
     if (*node == MOTE_RIG_NONE)
-        return mote_fail(MOTE_EINVAL, "%s: bone %.60s is no node; give each bone a node",
+        return mote_fail(MOTE_EINVAL, "%s: bone %.60s is not a node; give each bone a node",
                          r->path, mote_assimp_line(bone->mName.data, said));
     return MOTE_OK;
 }

@@ -59,7 +59,7 @@ static mote_status check_track(const subject *s, const mote_rig_track *track, ui
         if (k > 0 && times[k] < times[k - 1])
             return blame(s, k, "is before the one before it; give times that ascend");
         if (width == 4 && !(squares > 1e-12 && squares < 1e12))
-            return blame(s, k, "is no rotation; give a quaternion of length 1");
+            return blame(s, k, "is not a rotation; give a quaternion of length 1");
     }
     return MOTE_OK;
 }

@@ -24,7 +24,7 @@ static mote_status put(mote_status status, int output, const void *data, size_t 
     return status == MOTE_OK && size > 0 ? mote_child_put(output, data, size) : status;
 }
 
-mote_status mote_character_put(int output, const mote_character_draft *draft)
+mote_status mote_character_send(int output, const mote_character_draft *draft)
 {
     const mote_soup *soup = &draft->soup;
     const mote_character *made = &draft->made;
@@ -58,7 +58,7 @@ typedef struct cursor {
 } cursor;
 
 /* A copy of the next elements; never NULL. */
-static void *take(cursor *from, uint64_t count, size_t size, size_t *taken)
+static void *copy_next(cursor *from, uint64_t count, size_t size, size_t *taken)
 {
     if (from->ended_early || count > from->left / size) {
         from->ended_early = true;
@@ -72,19 +72,19 @@ static void *take(cursor *from, uint64_t count, size_t size, size_t *taken)
     return copy;
 }
 
-static void take_arrays(cursor *from, const header *head, mote_character_draft *draft)
+static void copy_arrays(cursor *from, const header *head, mote_character_draft *draft)
 {
     mote_soup *soup = &draft->soup;
     mote_character *made = &draft->made;
     mote_rig *rig = &made->rig;
-    soup->xyz = take(from, head->vertices, 3 * sizeof *soup->xyz, &soup->vertex_count);
+    soup->xyz = copy_next(from, head->vertices, 3 * sizeof *soup->xyz, &soup->vertex_count);
     soup->indices =
-        take(from, head->triangles, 3 * sizeof *soup->indices, &soup->triangle_count);
+        copy_next(from, head->triangles, 3 * sizeof *soup->indices, &soup->triangle_count);
 #define TAKE_RIG(type, name)                                                                   \
-    rig->name = take(from, head->name, sizeof(type), &rig->name##_count);                      \
+    rig->name = copy_next(from, head->name, sizeof(type), &rig->name##_count);                 \
     rig->name##_capacity = rig->name##_count;
 #define TAKE_OWN(type, name)                                                                   \
-    made->name = take(from, head->name, sizeof(type), &made->name##_count);                    \
+    made->name = copy_next(from, head->name, sizeof(type), &made->name##_count);               \
     made->name##_capacity = made->name##_count;
     MOTE_RIG_ARRAYS(TAKE_RIG)
     MOTE_CHARACTER_ARRAYS(TAKE_OWN)
@@ -167,8 +167,8 @@ static bool is_rig_whole(const mote_rig *rig)
     return whole;
 }
 
-mote_status mote_character_take(const char *path, const char *data, size_t size,
-                                mote_character_draft *draft)
+mote_status mote_character_receive(const char *path, const char *data, size_t size,
+                                   mote_character_draft *draft)
 {
     header head;
     if (size < sizeof head)
@@ -177,7 +177,7 @@ mote_status mote_character_take(const char *path, const char *data, size_t size,
     mote_character_draft made = {.import = head.import};
     made.import.mesh.split.where[MOTE_SPLIT_TEXT - 1] = '\0';
     cursor from = {data + sizeof head, size - sizeof head, false};
-    take_arrays(&from, &head, &made);
+    copy_arrays(&from, &head, &made);
     if (from.ended_early || from.left > 0 || !is_rig_whole(&made.made.rig) ||
         !are_arrays_whole(&made)) {
         mote_character_draft_free(&made);

@@ -55,9 +55,9 @@ mote_status mote_character_weld(const char *path, mote_character_draft *draft);
 /* Sends a draft to the parent process, and reads it there. Received data is not trusted:
    MOTE_EIO if it is not a valid draft. No index in a draft that was read points outside its
    arrays. */
-mote_status mote_character_put(int output, const mote_character_draft *draft);
-mote_status mote_character_take(const char *path, const char *data, size_t size,
-                                mote_character_draft *draft);
+mote_status mote_character_send(int output, const mote_character_draft *draft);
+mote_status mote_character_receive(const char *path, const char *data, size_t size,
+                                   mote_character_draft *draft);
 
 /* Checks a draft's rig and makes its mesh. *character takes over everything but the soup, which
    the caller frees. Errors of mote_character_check_rig and mote_mesh_create. */

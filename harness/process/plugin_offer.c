@@ -75,8 +75,7 @@ static mote_status check_parameter(const char *name, const mote_parameter *p)
                          name, NAME_MOST);
     if (p->kind != MOTE_PARAMETER_INTEGER && p->kind != MOTE_PARAMETER_REAL &&
         p->kind != MOTE_PARAMETER_CHOICE)
-        return mote_fail(MOTE_EINVAL, "%s: parameter %s is of no kind that there is", name,
-                         p->key);
+        return mote_fail(MOTE_EINVAL, "%s: parameter %s is of an unknown kind", name, p->key);
     if (p->kind == MOTE_PARAMETER_CHOICE && !is_line(p->choices))
         return mote_fail(MOTE_EINVAL, "%s: parameter %s is a choice without choices", name,
                          p->key);

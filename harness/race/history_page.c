@@ -29,7 +29,7 @@ typedef struct page {
 /* The position of values on a chart: a logarithmic axis around 1. */
 typedef struct scale {
     size_t places; /* from left to right */
-    double reach;  /* the logarithm at the upper edge; its negative at the lower edge */
+    double top;    /* the logarithm at the upper edge; its negative at the lower edge */
 } scale;
 
 static double x_of(const scale *s, size_t place)
@@ -40,19 +40,19 @@ static double x_of(const scale *s, size_t place)
 
 static double y_of(const scale *s, double ratio)
 {
-    return 0.5 * HIGH - log(ratio) / s->reach * (0.5 * HIGH - EDGE);
+    return 0.5 * HIGH - log(ratio) / s->top * (0.5 * HIGH - EDGE);
 }
 
 /* At least 5 % in either direction, so that noise looks like noise. */
-static void reach_to(scale *s, double ratio)
+static void make_room_for(scale *s, double ratio)
 {
     if (ratio > 0 && isfinite(ratio))
-        s->reach = fmax(s->reach, 1.05 * fabs(log(ratio)));
+        s->top = fmax(s->top, 1.05 * fabs(log(ratio)));
 }
 
 static void begin_chart(mote_text *text, const scale *s)
 {
-    const double edge = expm1(s->reach / 1.05);
+    const double edge = expm1(s->top / 1.05);
     const double lines[] = {1, 1 + edge, 1 / (1 + edge)};
     mote_text_add(text, "<figure><svg viewBox=\"0 0 %g %g\" width=\"%g\" height=\"%g\">\n",
                   WIDE, HIGH, WIDE, HIGH);
@@ -73,12 +73,12 @@ static void end_chart(mote_text *text, const char *caption)
 /* The accepted references of a row; every point links to its line of the table. */
 static void add_references(page *p, const mote_history_point *start)
 {
-    scale s = {.places = p->history.references, .reach = log(1.05)};
+    scale s = {.places = p->history.references, .top = log(1.05)};
     mote_text *text = &p->text, path = {.data = NULL};
     for (size_t i = 0; i < p->history.count; ++i) {
         const mote_history_point *here = &p->history.points[i];
         if (mote_history_same_series(here, start))
-            reach_to(&s, here->relative_time);
+            make_room_for(&s, here->relative_time);
     }
     begin_chart(text, &s);
     for (size_t i = 0; i < p->history.count; ++i) {
@@ -114,13 +114,13 @@ static void add_references(page *p, const mote_history_point *start)
 /* The races of a row: time of B divided by that of A, with its interval. */
 static void add_races(page *p, const char *key)
 {
-    scale s = {.places = p->races.count, .reach = log(1.05)};
+    scale s = {.places = p->races.count, .top = log(1.05)};
     mote_text *text = &p->text;
     for (size_t i = 0; i < p->races.count; ++i) {
         const mote_race_point here = mote_race_files_point(&p->races, i, key);
-        reach_to(&s, here.ratio);
-        reach_to(&s, here.interval.low);
-        reach_to(&s, here.interval.high);
+        make_room_for(&s, here.ratio);
+        make_room_for(&s, here.interval.low);
+        make_room_for(&s, here.interval.high);
     }
     begin_chart(text, &s);
     for (size_t i = 0; i < p->races.count; ++i) {

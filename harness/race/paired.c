@@ -59,11 +59,11 @@ static size_t outside(size_t count, double alpha)
 {
     const size_t sums = count * (count + 1) / 2;
     double *share = mote_allocate(sums + 1, sizeof *share);
-    size_t reach = 0;
+    size_t largest_sum = 0;
     share[0] = 1;
     for (size_t rank = 1; rank <= count; ++rank) { /* each rank has either sign */
-        reach += rank;
-        for (size_t s = reach + 1; s-- > 0;)
+        largest_sum += rank;
+        for (size_t s = largest_sum + 1; s-- > 0;)
             share[s] = 0.5 * (share[s] + (s >= rank ? share[s - rank] : 0));
     }
     size_t k = 0;

@@ -87,7 +87,7 @@ static mote_status read_cell(char *fields[8], entrant *e)
     if (!mote_read_unsigned(fields[2], 1, UINT32_MAX, &first) ||
         !mote_read_unsigned(fields[3], 0, UINT32_MAX, &last) ||
         !mote_read_unsigned(fields[5], 0, MOTE_SEED_MAX, &seed))
-        return mote_fail(MOTE_EINVAL, "cell: frames or seed that are no numbers");
+        return mote_fail(MOTE_EINVAL, "cell: frames or seed are not numbers");
     const bool evict = strcmp(fields[4], mote_cache_names[MOTE_CACHE_EVICT]) == 0;
     e->cell = (mote_cell){.choice = &e->choice,
                           .replicate = 1,

@@ -90,10 +90,11 @@ static mote_status find_scenario(const mote_report *report, const mote_stored_ce
                 return MOTE_OK;
         }
     }
-    return mote_fail(MOTE_EUNSUPPORTED,
-                     "%s: no scenario with the fingerprint of its cells is found; it was moved "
-                     "or changed",
-                     cell->scenario);
+    return mote_fail(
+        MOTE_EUNSUPPORTED,
+        "%s: no scenario with the fingerprint of its cells was found; it was moved "
+        "or changed",
+        cell->scenario);
 }
 
 /* Whether the page can show the bodies, and whether the scenario has the frames of the cells,

@@ -45,7 +45,8 @@ static mote_status renew_active(json_t *root, const json_t *active,
         (void)json_object_set_new(root, "active",
                                   json_pack("[i,i]", (int)now.first, (int)now.last));
     if (now.first == 0)
-        (void)fprintf(stderr, "active %u-%u no longer holds, nor does another: left out\n",
+        (void)fprintf(stderr,
+                      "active %u-%u no longer holds, and no other interval does: left out\n",
                       old.first, old.last);
     else if (now.first != old.first || now.last != old.last)
         (void)fprintf(stderr, "active %u-%u no longer holds: %u-%u instead\n", old.first,

@@ -115,8 +115,9 @@ mote_status mote_pair_motion_find(const mote_scenario *scenario, mote_vec3 direc
                 return status;
         }
     }
-    return mote_fail(status,
-                     "no motion with contacts is found: %s; give another direction (--pair A B "
-                     "--direction X,Y,Z), or write a scenario with a motion of its own",
-                     mote_error_text());
+    return mote_fail(
+        status,
+        "no motion with contacts was found: %s; give another direction (--pair A B "
+        "--direction X,Y,Z), or write a scenario with a motion of its own",
+        mote_error_text());
 }

@@ -22,8 +22,7 @@ static mote_status folder_of(const char *file, char **folder)
     *folder = realpath(name, NULL);
     mote_status status = MOTE_OK;
     if (!*folder)
-        status =
-            mote_fail(MOTE_EIO, "%s: %s; name a folder that there is", name, strerror(errno));
+        status = mote_fail(MOTE_EIO, "%s: %s; name an existing folder", name, strerror(errno));
     else if (strcmp(*folder, "/") == 0)
         **folder = '\0';
     free(name);

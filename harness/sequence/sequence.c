@@ -75,7 +75,7 @@ static mote_status check_files(const mote_sequence *s)
     return MOTE_OK;
 }
 
-static void take_mesh(mote_sequence *s, const mote_mesh *mesh)
+static void note_mesh(mote_sequence *s, const mote_mesh *mesh)
 {
     const mote_vec3 low = mesh->low, high = mesh->high;
     s->vertex_count = mesh->vertex_count;
@@ -85,12 +85,12 @@ static void take_mesh(mote_sequence *s, const mote_mesh *mesh)
 }
 
 /* Takes over everything that was read except the mesh. */
-static void take_numbers(mote_sequence *s, mote_numbered_mesh *read)
+static void keep_numbers(mote_sequence *s, mote_numbered_mesh *read)
 {
     s->file_vertex = read->file_vertex;
     s->file_vertices = read->file_vertices;
     s->topology = read->topology;
-    take_mesh(s, read->mesh);
+    note_mesh(s, read->mesh);
 }
 
 static mote_sequence *begin(const char *path, mote_sequence_kind kind, uint32_t frames)
@@ -118,7 +118,7 @@ mote_status mote_sequence_open_files(const char *path, uint32_t frames,
         mote_sequence_destroy(made);
         return status;
     }
-    take_numbers(made, &first);
+    keep_numbers(made, &first);
     *mesh = first.mesh;
     *import = first.import;
     *sequence = made;
@@ -157,10 +157,10 @@ mote_status mote_sequence_open_cache(const char *path, const char *mesh_path, ui
     if (mesh_path) {
         status = mote_numbered_mesh_read(mesh_path, &beside);
         if (status == MOTE_OK)
-            take_numbers(made, &beside);
+            keep_numbers(made, &beside);
     } else {
         made->file_vertices = (*mesh)->vertex_count;
-        take_mesh(made, *mesh);
+        note_mesh(made, *mesh);
     }
     if (status == MOTE_OK)
         status = open_header(made, frames);

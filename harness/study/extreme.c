@@ -156,7 +156,7 @@ mote_status mote_extreme_set_gap(mote_extreme_recipe *recipe, uint32_t frame, do
     return status;
 }
 
-static mote_status take_letter(char letter, mote_extreme_recipe *r, int b)
+static mote_status use_letter(char letter, mote_extreme_recipe *r, int b)
 {
     mote_mesh *mesh = NULL;
     mote_status status = mote_letter_create(letter, MOTE_LETTER_MIN_TRIANGLES, &mesh);
@@ -182,9 +182,9 @@ mote_status mote_extreme_plain(mote_extreme_recipe *recipe)
     static const double gaps[MOTE_EXTREME_FRAMES] = {0.2, 0.02, 5e-4, -0.04};
     mote_extreme_recipe *r = recipe;
     *r = (mote_extreme_recipe){.controls = CONTROLS, .support = SUPPORT};
-    mote_status status = take_letter('T', r, 0);
+    mote_status status = use_letter('T', r, 0);
     if (status == MOTE_OK)
-        status = take_letter('V', r, 1);
+        status = use_letter('V', r, 1);
     for (uint32_t f = 0; f < MOTE_EXTREME_FRAMES; ++f) {
         r->turn[0][f] = mote_quaternion_about(mote_vec3_make(0.3, 1, 0.2), 40 + 3.0 * f);
         r->turn[1][f] = mote_quaternion_about(mote_vec3_make(1, 0.4, 0.6), -70 - 4.0 * f);

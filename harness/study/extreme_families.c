@@ -129,7 +129,7 @@ static mote_status change_gap(const mote_extreme_recipe *plain, int k,
 }
 
 /* A cube of twelve triangles, corners at 0 and 1. */
-static void take_cube(mote_extreme_recipe *r, int b)
+static void use_cube(mote_extreme_recipe *r, int b)
 {
     static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},
                                           {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7},
@@ -154,7 +154,7 @@ static void stand_still(mote_extreme_recipe *r, mote_vec3 second)
     }
 }
 
-static void take_triangle(mote_extreme_recipe *r, int b)
+static void use_triangle(mote_extreme_recipe *r, int b)
 {
     static const mote_vec3 corner[3] = {{-0.3, -0.2, 0}, {0.4, -0.1, 0}, {0, 0.3, 0}};
     r->vertex_count[b] = 3;
@@ -173,7 +173,7 @@ static void take_touching_triangles(mote_extreme_recipe *r, int which)
         {{{3, 3, 1}, {0, 1, 2}, {3, 2, 0}}, {{1, 2, 3}, {1, 1, 2}, {2, 2, 1}}},
         {{{1, 1, 2}, {2, 0, 0}, {2, 2, 2}}, {{1, 3, 3}, {2, 2, 1}, {3, 1, 2}}}};
     for (int b = 0; b < 2; ++b) {
-        take_triangle(r, b);
+        use_triangle(r, b);
         memcpy(r->position[b], corner[which][b], sizeof corner[which][b]);
     }
 }
@@ -189,8 +189,8 @@ static mote_status change_touch(const mote_extreme_recipe *plain, int k,
     static const mote_vec3 places[] = {{1, 1, 1}, {1, 1, 0}, {1, 0, 0}, {1, 0.5, 0.25},
                                        {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     *made = *plain;
-    take_cube(made, 0);
-    take_cube(made, 1);
+    use_cube(made, 0);
+    use_cube(made, 1);
     if (k >= 5)
         take_touching_triangles(made, k - 5);
     stand_still(made, places[k]);
@@ -300,9 +300,9 @@ static mote_status change_to_triangle(const mote_extreme_recipe *plain, int k,
 {
     *made = *plain;
     if (k != 1)
-        take_triangle(made, 0);
+        use_triangle(made, 0);
     if (k != 0)
-        take_triangle(made, 1);
+        use_triangle(made, 1);
     return set_gaps(made, usual_gaps);
 }
 

@@ -128,7 +128,7 @@ bool mote_table_note(const mote_summary_row *row, int i, char text[MOTE_ROW_NOTE
     else if (applies[i] && i == 3)
         (void)snprintf(text, MOTE_ROW_NOTE, "told the %s", row->told);
     else if (applies[i])
-        (void)snprintf(text, MOTE_ROW_NOTE, "%zu of %zu replicates ended badly", row->failed,
+        (void)snprintf(text, MOTE_ROW_NOTE, "%zu of %zu replicates failed", row->failed,
                        row->finished + row->failed);
     return applies[i];
 }

@@ -179,7 +179,7 @@ TEST(tables_of_odd_cells_say_what_is_odd)
     static const char *const wanted[] = {
         "crashed: it | fell",
         "unsupported: \n",
-        "1 of 2 replicates ended badly",
+        "1 of 2 replicates failed",
         "times not comparable: 2 cells at once",
         "every 2nd frame",
         ", on m2, four cores",
@@ -249,7 +249,7 @@ TEST(reports_of_odd_cells_say_what_is_odd)
         "\"notes\":[\"every 2nd frame\"]",
         "id=\"replay-data\"",
         "larger: its meshes have more than 65535 vertices",
-        "s: no scenario with the fingerprint of its cells is found",
+        "s: no scenario with the fingerprint of its cells was found",
         "mote run '' 'it'\\\\''s' ''",
         "0123456789, and changes that are in no commit",
         "[2,\"a2\",\"timeout\"]",

@@ -91,11 +91,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     mote_character_draft draft;
     mote_character *character;
     read_keys((const char *)data, size);
-    if (mote_character_take("any.glb", (const char *)data, size, &draft) != MOTE_OK)
+    if (mote_character_receive("any.glb", (const char *)data, size, &draft) != MOTE_OK)
         return 0;
     weld(&draft);
     mote_character_draft_free(&draft);
-    if (mote_character_take("any.glb", (const char *)data, size, &draft) != MOTE_OK)
+    if (mote_character_receive("any.glb", (const char *)data, size, &draft) != MOTE_OK)
         return 0;
     if (mote_character_check_rig("any.glb", &draft.made.rig) == MOTE_OK)
         pose(&draft.made.rig);

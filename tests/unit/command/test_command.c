@@ -159,7 +159,7 @@ static const command_line bad_lines[] = {
     {"approach s.json --gaps 2:1,1:2 -o x.json", 4, "--gaps: frame 1 comes after frame 2"},
     {"approach s.json --gaps 1:0.1 --direction 0,0,0 -o x.json", 2, "not all 0"},
     {"approach away.json --gaps 1:0.5 -o no/x.json", 4,
-     "no/: No such file or directory; name a "},
+     "no/: No such file or directory; name an existing folder"},
     {"letter W --triangles 400 -o no/W.obj", 4, "mote: no/W.obj: cannot be created"},
     {"letter W --triangles 400 -o /dev/full", 4, "mote: /dev/full: cannot be written"},
     {"run s.json --method particle:n=7 --out x", 4, "mote: particle:n=7 on s: n=7 is not "},

@@ -101,7 +101,7 @@ static const command_line bad_lines[] = {
     {"approach s.json --gaps 1:0.2x -o x.json", 4, "0.2x: not a gap"},
     {"approach s.json --gaps 1:-1 -o x.json", 4, "-1: not a gap"},
     {"approach s.json --gaps 1:1000 -o x.json", 4, "1000: not a gap"},
-    {"approach s.json --gaps 4:0.1,1:0.2 -o x.json", 4, "rise"},
+    {"approach s.json --gaps 4:0.1,1:0.2 -o x.json", 4, "ascending order"},
     {"approach s.json --gaps $(yes 1:0.1 | head -1025 | paste -sd,) -o x.json", 4,
      "write FRAME:GAP"},
     {"approach start.json --gaps 1:0.1 -o x.json", 4, "start and pace cannot be kept"},

@@ -181,7 +181,7 @@ TEST(mote_character_that_is_wrong_is_refused_with_what_and_where)
         part, "bad.x: the vertex at (2, 0.25, 0.25) has the weight inf for bone Upper; give");
     part = bar_default();
     part.upper = "Other";
-    check_refusal(part, "bad.x: bone Upper is no node; give each bone a node");
+    check_refusal(part, "bad.x: bone Upper is not a node; give each bone a node");
     part = bar_default();
     part.rotations = "10;4;1.0,0.0,0.0,0.0;;,0;4;0.7,0.0,0.0,-0.7;;;";
     check_refusal(part,
@@ -207,7 +207,7 @@ TEST(mote_character_check_rig_names_what_is_wrong)
         {&c->rig.values[upper->rotation.value + 4], NAN,
          "b.x: clip 1 (Bend): key 2 of the rotation of Upper is not finite; give finite"},
         {&c->rig.values[upper->rotation.value], 0,
-         "b.x: clip 1 (Bend): key 1 of the rotation of Upper is no rotation; give"},
+         "b.x: clip 1 (Bend): key 1 of the rotation of Upper is not a rotation; give"},
         {&c->rig.times[upper->position.time], -INFINITY,
          "b.x: clip 1 (Bend): key 1 of the position of Upper is not finite"},
         {&c->rig.values[upper->scale.value + 2], NAN, "key 1 of the scale of Upper is not"}};
@@ -315,25 +315,25 @@ TEST(mote_character_take_refuses_what_is_no_draft)
     assert_int_equal(mote_character_weld("bar.x", &draft), MOTE_OK);
     const int out = open("sent", O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     assert_true(out >= 0);
-    assert_int_equal(mote_character_put(out, &draft), MOTE_OK);
+    assert_int_equal(mote_character_send(out, &draft), MOTE_OK);
     const off_t size = lseek(out, 0, SEEK_CUR);
     (void)close(out);
     char *sent = malloc((size_t)size);
     FILE *in = fopen("sent", "rb");
     assert_true(sent && in && fread(sent, 1, (size_t)size, in) == (size_t)size);
     (void)fclose(in);
-    assert_int_equal(mote_character_take("bar.x", sent, (size_t)size, &taken), MOTE_OK);
+    assert_int_equal(mote_character_receive("bar.x", sent, (size_t)size, &taken), MOTE_OK);
     assert_int_equal(taken.soup.vertex_count, draft.soup.vertex_count);
     assert_int_equal(taken.made.rig.values_count, draft.made.rig.values_count);
     assert_memory_equal(taken.made.rig.names, draft.made.rig.names, draft.made.rig.names_count);
     mote_character_draft_free(&taken);
     for (size_t cut = 0; cut < (size_t)size; cut += 7)
-        assert_int_equal(mote_character_take("bar.x", sent, cut, &taken), MOTE_EIO);
+        assert_int_equal(mote_character_receive("bar.x", sent, cut, &taken), MOTE_EIO);
     for (size_t at = 0; at + 4 <= (size_t)size; at += 4) {
         char was[4];
         memcpy(was, sent + at, 4);
         memset(sent + at, 0x7f, 4);
-        if (mote_character_take("bar.x", sent, (size_t)size, &taken) == MOTE_OK) {
+        if (mote_character_receive("bar.x", sent, (size_t)size, &taken) == MOTE_OK) {
             (void)mote_character_check_rig("bar.x", &taken.made.rig);
             mote_character_draft_free(&taken);
         }

@@ -132,7 +132,7 @@ TEST(long_names_and_failures_keep_lines_short)
     write_cell((stored_cell){
         .id = "lost", .method = name, .parameters = much, .replicate = 3, .status = "timeout"});
     assert_int_equal(summarize_best(), 0);
-    IN_ORDER("\n* a-method-with", "\n    ", "50.0 ns", "\n    1 of 3 replicates ended badly\n",
+    IN_ORDER("\n* a-method-with", "\n    ", "50.0 ns", "\n    1 of 3 replicates failed\n",
              "\nbroken crashed: a reason", "\n  ");
     assert_true(longest_line(said) <= MOTE_SCREEN_WIDTH);
 }

@@ -438,7 +438,7 @@ TEST(report_begins_with_rows_that_pay_for_deformation)
 TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
 {
     static const char beside[] = "times not comparable: 2 cells at once",
-                      badly[] = "1 of 3 replicates ended badly";
+                      badly[] = "1 of 3 replicates failed";
     write_cell((stored_cell){.method = "certified", .more = ", \"jobs\": 2"}, 10, 0);
     write_cell((stored_cell){.replicate = 1}, 100, 0);
     write_cell((stored_cell){.replicate = 3}, 100, 0);
