@@ -63,21 +63,22 @@ static double functions_at(const mote_body *body)
     return body->field->kind->sparse ? body->field->most : body->field->padded;
 }
 
-/* Nanoseconds by counters, fitted to the built-in scenarios of two bodies below 100,000
-   triangles (AVX-512, hot caches): of stream's means 20 of 24 are met to 20 %, of certified's
-   to 45 %. */
+/* Nanoseconds by counters, fitted to the logarithm of the time of single frames of the built-in
+   scenarios of two bodies below 100,000 triangles (AVX-512, hot caches). Of 32 medians,
+   stream's are met to 25 % in 24 and certified's in 20. */
 static double certified_cost(const auto_state *s, const mote_counters *c)
 {
     const double functions =
         fmax(functions_at(s->setup.body[0]), functions_at(s->setup.body[1]));
-    return 500 + (170 + 5.5 * functions) * (double)c->blocks + 120.0 * (double)c->leaf_pairs +
-           220.0 * (double)c->triangle_tests + (10 + 3.5 * functions) * (double)c->positions;
+    return 100 + (25 + 4 * functions) * (double)c->blocks + 67.0 * (double)c->rows +
+           100.0 * (double)c->leaf_pairs + 230.0 * (double)c->triangle_tests +
+           (8 + functions) * (double)c->positions;
 }
 
 static double stream_cost(const mote_counters *c)
 {
-    return 530.0 * (double)c->blocks + 75.0 * (double)c->leaf_pairs +
-           750.0 * (double)c->triangle_tests + 0.65 * (double)c->positions;
+    return 100 + 350.0 * (double)c->blocks + 150.0 * (double)c->leaf_pairs +
+           700.0 * (double)c->triangle_tests + 0.56 * (double)c->positions;
 }
 
 /* The same of deforming a body: 0.6 ns a vertex, and 0.3 ns for each function there. */

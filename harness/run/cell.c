@@ -112,9 +112,7 @@ static json_t *active_json(const mote_cell *cell, const mote_subject_facts *fact
                                     : interval_json(0, 0);
 }
 
-/* What the method knows about the deformation. For more than two bodies, trees are given
-   positions, but fields decide which bodies need them, unless all are refitted. */
-static const char *told_of(const mote_cell *cell)
+bool mote_cell_told_positions(const mote_cell *cell)
 {
     const mote_method_choice *choice = cell->choice;
     const mote_traits traits = mote_method_traits(choice->method, choice->values);
@@ -124,7 +122,7 @@ static const char *told_of(const mote_cell *cell)
         field = field || (int)choice->scene[MOTE_SCENE_REFIT] != MOTE_REFIT_EVERY;
     for (uint32_t k = 0; k < setup.shape_count; ++k)
         field = field && !mote_body_is_given(setup.shapes[k]);
-    return field ? "field" : "positions";
+    return !field;
 }
 
 /* The facts known about a cell before it runs. */
@@ -152,7 +150,9 @@ static json_t *cell_json(const mote_cell *cell, mote_cell_status status, uint64_
         machine, "jobs", (int)(cell->jobs > 1 ? cell->jobs : 1), "fixed_seed",
         cell->fixed_seed);
     if (object)
-        (void)json_object_set_new(object, "told", json_string(told_of(cell)));
+        (void)json_object_set_new(
+            object, "told",
+            json_string(mote_cell_told_positions(cell) ? "positions" : "field"));
     if (object && of_scene) {
         (void)json_object_set_new(object, "bodies", json_integer(facts.bodies));
         (void)json_object_set_new(object, "shapes",
@@ -253,7 +253,7 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
         return status;
     json_t *object = cell_json(cell, MOTE_CELL_OK, program);
     json_t *more = json_pack(
-        "{s:I, s:I, s:I, s:f, s:o*, s:o*, s:o*, s:I, s:i, s:[f,f], s:[f,f], s:f}", "rows",
+        "{s:I, s:I, s:I, s:f, s:o*, s:o*, s:o*, s:I, s:i, s:[f,f], s:[f,f], s:f, s:f}", "rows",
         (json_int_t)result->row_count, "build_ns", (json_int_t)result->build_ns, "clock_ns",
         (json_int_t)result->clock_ns, "overhead_ns", result->overhead_ns, "heap_live_bytes",
         bytes_json(result->heap_counted, result->heap_live_bytes), "heap_peak_bytes",
@@ -261,7 +261,7 @@ mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *resu
         json_integer(result->deform_bytes), "rss_peak_bytes",
         (json_int_t)result->rss_peak_bytes, "core", result->core, "load", result->load[0],
         result->load[1], "clock_mhz", result->clock_mhz[0], result->clock_mhz[1],
-        "wall_seconds", result->wall_seconds);
+        "wall_seconds", result->wall_seconds, "read_ns", result->read_ns);
     if (cell->subject->bodies)
         (void)json_object_set_new(more, "frames_wall_ns",
                                   json_integer((json_int_t)result->frames_wall_ns));

@@ -122,9 +122,16 @@ typedef struct mote_cell_result {
     double load[2];      /* load average before and after */
     double clock_mhz[2]; /* of the core, before and after; 0: unknown */
     double wall_seconds; /* of the process */
+    double read_ns; /* reading the positions of all bodies once, after the last frame; 0 for a
+                       method that is told the field */
     uint64_t
         frames_wall_ns; /* more than two bodies: all frames, including motion and recording */
 } mote_cell_result;
+
+/* Whether the method is told where the vertices are, and not the field. For more than two
+   bodies, trees are given positions, but fields decide which bodies need them, unless all are
+   refitted. */
+bool mote_cell_told_positions(const mote_cell *cell);
 
 /* Writes both files of a completed cell, the CSV first. */
 mote_status mote_cell_record(const mote_cell *cell, const mote_cell_result *result,

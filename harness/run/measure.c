@@ -3,6 +3,7 @@
 #include "core/base/frame_queue.h"
 #include "harness/base/clock.h"
 #include "harness/base/memory.h"
+#include "harness/run/memory_pass.h"
 #include "harness/scene/sample_poses.h"
 
 #include <math.h>
@@ -10,9 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
-
-#define EVICT_BYTES ((size_t)32 << 20)
-#define CACHE_LINE 64
 
 /* The most frames by which the motion thread may run ahead of the queries. */
 #define AHEAD_MAX 64
@@ -68,7 +66,7 @@ static mote_status prepare(session *s)
     result->clock_ns = setup.clock_ns;
     result->overhead_ns = mote_engine_overhead_ns(setup.clock_ns);
     if (cell->cache == MOTE_CACHE_EVICT)
-        s->evict = mote_allocate(EVICT_BYTES, 1);
+        s->evict = mote_evict_create();
     for (uint32_t i = 0; i < (s->ahead ? s->ahead : 1); ++i)
         s->frames[i] = mote_subject_frame_create(cell->subject);
     return MOTE_OK;
@@ -82,13 +80,6 @@ static mote_status build(session *s)
     s->result->build_ns = mote_clock_ns() - start;
     s->result->deform_bytes = mote_engine_deform_bytes(s->engine);
     return status;
-}
-
-/* Evicts the method's data from the caches. */
-static void walk(volatile unsigned char *bytes)
-{
-    for (size_t i = 0; i < EVICT_BYTES; i += CACHE_LINE)
-        bytes[i] = (unsigned char)(bytes[i] + 1);
 }
 
 /* The frame of a row (from 0). */
@@ -154,7 +145,7 @@ static mote_status ask(session *s, uint32_t number, const mote_subject_frame *fr
     mote_engine_cost cost;
     mote_engine_show(s->engine, frame->states);
     if (s->evict)
-        walk(s->evict);
+        mote_evict(s->evict);
     const mote_status status = mote_engine_ask(s->engine, &cost);
     if (status != MOTE_OK) {
         char text[512];
@@ -301,6 +292,10 @@ mote_status mote_measure_cell_and_pairs(const mote_cell *cell, size_t frame_limi
     mote_status status = prepare(&s);
     if (status == MOTE_OK)
         status = build_and_run(&s);
+    if (status == MOTE_OK && mote_cell_told_positions(cell)) {
+        const mote_subject_facts facts = mote_subject_facts_of(cell->subject);
+        measured.read_ns = mote_read_pass_ns((size_t)facts.vertices_total, s.evict);
+    }
     close_session(&s);
     if (status == MOTE_OK)
         *result = measured;

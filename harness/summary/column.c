@@ -203,6 +203,12 @@ const mote_column mote_columns[] = {
     TIME(given_total, "given_total_ns", "given",
          "The total where nobody is charged for deforming all vertices", NULL, PLACE(0, 92),
          NOWHERE, NOWHERE, NOWHERE),
+    TIME(read_total, "read_total_ns", "reading",
+         "The second accounting: as given_total_ns, and each method that is told the positions "
+         "is charged for one pass that only reads those of all bodies, measured in its own "
+         "process by the same loop (`read_ns` of its cell), whatever it reads of them itself; "
+         "the field is told at no charge. Missing where an older cell has no such pass",
+         NULL, PLACE(17, 96), NOWHERE, NOWHERE, NOWHERE),
     RATIO(ratio, "ratio", "ratio", "ratio_ci_low", "ratio_ci_high", "fcl-aabb",
           "How many times slower FCL's AABB tree is (the row `to`), paired frame by frame; for "
           "positions=given, without deformation on both sides",

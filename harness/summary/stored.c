@@ -290,6 +290,7 @@ static mote_status read_fields(const char *name, mote_stored_cell *cell)
     cell->last = frame_number(json_array_get(shown[2], 1));
     cell->machine = mote_text_at(cell->json, "machine");
     cell->ask = mote_text_at(cell->json, "ask");
+    cell->read_ns = mote_stored_number(cell, "read_ns");
     const json_int_t bodies = json_integer_value(json_object_get(cell->json, "bodies"));
     cell->bodies = bodies > 0 && bodies <= MOTE_BODIES_MAX ? (uint32_t)bodies : 0;
     cell->group = group_name(cell);

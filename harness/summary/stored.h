@@ -40,6 +40,8 @@ typedef struct mote_stored_cell {
     uint32_t *frame; /* numbers, rising */
     double *deform_ns, *update_ns, *query_ns;
     double *total_ns; /* their sum */
+    double read_ns;   /* reading all positions once; 0 for a method that is told the field;
+                         MOTE_NONE if the cell does not store it */
     double *error;    /* signed, in L; MOTE_NONE without an answer */
     double *truth;
     signed char *contact; /* 1, 0, or -1 without an answer */

@@ -36,6 +36,7 @@ DEFINE_VALUE(deform_of, cell->deform_ns[frame])
 DEFINE_VALUE(update_of, cell->update_ns[frame])
 DEFINE_VALUE(query_of, cell->query_ns[frame])
 DEFINE_VALUE(given_of, cell->update_ns[frame] + cell->query_ns[frame])
+DEFINE_VALUE(read_of, cell->update_ns[frame] + cell->query_ns[frame] + cell->read_ns)
 DEFINE_VALUE(error_of, cell->error[frame])
 #undef DEFINE_VALUE
 
@@ -98,6 +99,7 @@ static void make_times(mote_summary_row *row)
     row->update = make_time(row, update_of, 0, UINT32_MAX);
     row->query = make_time(row, query_of, 0, UINT32_MAX);
     row->given_total = make_time(row, given_of, 0, UINT32_MAX);
+    row->read_total = make_time(row, read_of, 0, UINT32_MAX);
     /* active_last is 0 without an active interval: then there is no value */
     row->active_total =
         make_time(row, total_of, row->first->active_first, row->first->active_last);

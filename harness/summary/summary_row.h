@@ -91,6 +91,7 @@ struct mote_summary_row {
 
     mote_time total, deform, update, query, active_total;
     mote_time given_total;  /* without deformation */
+    mote_time read_total;   /* the same, with a pass over the positions if it is told them */
     mote_ratio ratio;       /* to fcl-aabb:seed=none,queue=2, or the first fcl-aabb, among those
                                measured on all of this row's frames */
     mote_ratio ratio_given; /* the same without deformation */

@@ -7,7 +7,7 @@
 # A slow machine tries fewer inputs but fails none: 120 s for one input are a hang anywhere.
 set -u
 build=$1 seconds=$2 jobs=$3 out=$4 seed=${5:-1}
-targets="scenario mesh character options cell summary"
+targets="scenario mesh character sequence options cell summary"
 mkdir -p "$out"
 rm -f "$out"/*.tsv "$out"/*.log "$out"/*.found
 

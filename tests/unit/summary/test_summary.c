@@ -434,6 +434,26 @@ TEST(report_begins_with_rows_that_pay_for_deformation)
     assert_non_null(strstr(apart, "| particle:positions"));
 }
 
+/* The second accounting: who is told the positions pays for a pass over them, who is told the
+   field pays nothing, and a cell without a measured pass has no such total. */
+TEST(total_with_reading_charges_who_is_told_the_positions)
+{
+    write_cell(
+        (stored_cell){.method = "certified", .more = ", \"told\": \"field\", \"read_ns\": 0.0"},
+        10, 0);
+    write_cell((stored_cell){.method = "stream",
+                             .more = ", \"told\": \"positions\", \"read_ns\": 4.5"},
+               20, 0);
+    write_cell((stored_cell){.more = ", \"told\": \"positions\""}, 100, 0);
+    make_summary();
+    const mote_summary_row *field = row_of("certified-1"), *stream = row_of("stream-1");
+    assert_true(fabs(field->read_total.median - 10) <= 0);
+    assert_true(fabs(stream->read_total.median - 24.5) <= 0);
+    assert_true(fabs(stream->given_total.median - 20) <= 0);
+    assert_true(isnan(row_of("fcl-aabb-1")->read_total.median));
+    assert_non_null(strstr(after("summarize .", NULL), "reading"));
+}
+
 /* Times of cells that ran at once, and rows that lack replicates, must be recognisable. */
 TEST(pages_and_tables_tell_which_times_and_rows_are_not_whole)
 {
