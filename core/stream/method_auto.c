@@ -22,7 +22,8 @@ static const mote_parameter parameters[] = {
 
 enum { CERTIFIED, STREAM };
 
-/* Frames over which the cost of a method is averaged. */
+/* Frames of which the median is the cost of a method: a leap costs both alike, but the mean of
+   a window would count it against the one that answered then. */
 #define WINDOW 8
 
 /* Stream is preferred where it takes less than this part of certified's time. */
@@ -33,8 +34,10 @@ enum { CERTIFIED, STREAM };
 #define PATIENCE 64
 #define BUILDING 48
 
-/* Frames after which the last measurement of the method that does not answer is too old. */
-#define MEMORY 256
+/* Frames after which the last measurement of the method that does not answer is too old. This
+   many at first, and twice as many each time that the method is tried in vain. */
+#define MEMORY 32
+#define LONGEST_MEMORY 1024
 
 typedef struct auto_state {
     mote_setup setup;
@@ -48,11 +51,12 @@ typedef struct auto_state {
     int current;     /* the method that answers */
     bool trial;      /* ... until its window is full */
     double known[2]; /* cost of each when it was last measured; of stream at first a floor */
-    double sum;      /* of the window's frames */
-    uint32_t frames; /* in the window; the first after a change is cold and not counted */
-    uint32_t wait;   /* frames until the next trial */
-    uint32_t age;    /* frames since the other method was measured */
-    uint64_t asked;  /* frames in all */
+    double cost[WINDOW]; /* of the window's frames, ascending */
+    uint32_t frames;     /* in the window; the first after a change is cold and not counted */
+    uint32_t wait;       /* frames until the next trial */
+    uint32_t age;        /* frames since the other method was measured */
+    uint32_t memory;     /* age at which that is too old */
+    uint64_t asked;      /* frames in all */
     mote_certificate_answer last; /* of the frame before */
     bool answered;                /* there is one */
 } auto_state;
@@ -160,6 +164,7 @@ static mote_status create(const mote_setup *setup, void **state)
     made->fixed = mote_body_is_given(setup->body[0]) || mote_body_is_given(setup->body[1]);
     made->current = made->fixed ? STREAM : CERTIFIED;
     made->wait = WINDOW;
+    made->memory = MEMORY;
     const mote_certificate_options options = mote_default_certificate_options(setup->length);
     mote_status status =
         made->fixed ? build_stream(made)
@@ -193,7 +198,6 @@ static void change(auto_state *s, bool trial)
     s->trial = trial;
     s->deformed = false;
     s->frames = 0;
-    s->sum = 0;
     s->wait = PATIENCE;
     s->age = 0;
 }
@@ -203,9 +207,12 @@ static mote_status decide(auto_state *s, double cost)
 {
     s->known[s->current] = cost;
     s->frames = 1;
-    s->sum = 0;
     const int better = s->known[STREAM] < PREFERRED * s->known[CERTIFIED] ? STREAM : CERTIFIED;
     if (s->trial || better == s->current) {
+        if (s->trial && better == s->current)
+            s->memory = MEMORY;
+        else if (s->trial && s->memory < LONGEST_MEMORY)
+            s->memory *= 2;
         if (better != s->current)
             change(s, false);
         s->trial = false;
@@ -219,21 +226,34 @@ static mote_status decide(auto_state *s, double cost)
     return status;
 }
 
+/* Adds a frame to the window. */
+static void add_cost(auto_state *s, double cost)
+{
+    uint32_t at = s->frames++ - 1;
+    for (; at > 0 && s->cost[at - 1] > cost; --at)
+        s->cost[at] = s->cost[at - 1];
+    s->cost[at] = cost;
+}
+
 static mote_status count_frame(auto_state *s, const mote_frame *frame,
                                const mote_counters *counters)
 {
     ++s->asked;
     s->wait -= s->wait > 0;
-    if (s->age++ >= MEMORY || !s->stream)
+    if (s->age++ >= s->memory || !s->stream)
         s->known[1 - s->current] = s->current == CERTIFIED ? floor_of(s, frame) : 500;
-    if (s->frames++ == 0)
+    if (s->frames == 0) {
+        s->frames = 1;
         return MOTE_OK;
-    s->sum += s->current == CERTIFIED ? certified_cost(s, counters) : stream_cost(counters);
+    }
+    double cost = s->current == CERTIFIED ? certified_cost(s, counters) : stream_cost(counters);
     for (int b = 0; b < 2 && s->current == STREAM; ++b) {
         if (s->deform[b] && has_changed(&frame->body[b]))
-            s->sum += deform_cost(s->setup.body[b]);
+            cost += deform_cost(s->setup.body[b]);
     }
-    return s->frames > WINDOW ? decide(s, s->sum / WINDOW) : MOTE_OK;
+    add_cost(s, cost);
+    return s->frames > WINDOW ? decide(s, 0.5 * (s->cost[WINDOW / 2 - 1] + s->cost[WINDOW / 2]))
+                              : MOTE_OK;
 }
 
 static mote_status ask(auto_state *s, const mote_frame *frame)
