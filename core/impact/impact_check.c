@@ -8,6 +8,13 @@
 /* Pieces may miss each other by this part of the body's size: rounding, nothing else. */
 #define JUMP 0x1p-42
 
+_Static_assert(sizeof(mote_vec3) == 3 * sizeof(double), "three numbers, no gaps");
+
+static const double *numbers_of(const mote_vec3 *v)
+{
+    return (const double *)(const void *)v;
+}
+
 /* 0 times a number that is not finite is NaN. */
 MOTE_CLONES
 static bool all_finite(const double *restrict x, size_t count)
@@ -61,7 +68,7 @@ static mote_status check_piece(const mote_impact_search *s, const mote_path *pat
 {
     const mote_path_piece *piece = &path->pieces[k];
     const size_t padded = s->body[body].field->padded;
-    if (!all_finite(&piece->centre[0].x, 12))
+    if (!all_finite(numbers_of(piece->centre), 12))
         return mote_fail(MOTE_EINVAL, "the centre in piece %u of body %d's path is not finite",
                          k, body);
     if (piece->weights && !all_finite(piece->weights, 12 * padded))
@@ -96,7 +103,7 @@ static mote_status check_join(const mote_impact_search *s, const mote_path *path
     const mote_path_piece *a = &path->pieces[k - 1], *b = &path->pieces[k];
     const mote_mat3 end = mote_path_rotation(a, 1), start = mote_path_rotation(b, 0);
     const double size =
-        largest(&b->centre[0].x, 12) + mote_length(path->pivot) + s->groups[body].size;
+        largest(numbers_of(b->centre), 12) + mote_length(path->pivot) + s->groups[body].size;
     const double spin = a->spins ? mote_length(a->spin) : 0;
     double turned = 0;
     for (int r = 0; r < 3; ++r) {
@@ -118,7 +125,7 @@ static mote_status check_path(const mote_impact_search *s, const mote_impact_que
     if (path->count < 1 || path->count > s->options.pieces)
         return mote_fail(MOTE_EINVAL, "body %d's path has %u pieces; this search takes 1 to %u",
                          body, path->count, s->options.pieces);
-    if (!all_finite(&path->pivot.x, 3))
+    if (!all_finite(numbers_of(&path->pivot), 3))
         return mote_fail(MOTE_EINVAL, "the pivot of body %d's path is not finite", body);
     const uint32_t first = mote_path_place(path, question->begin).piece;
     const uint32_t last = mote_path_place(path, question->end).piece;

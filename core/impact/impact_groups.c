@@ -133,7 +133,7 @@ mote_status mote_impact_groups_create(const mote_body *body, const mote_cert_tre
                          field->kind->name);
     const uint32_t room = TABLE_MOST / (field->count + 1);
     const uint32_t most = room < 1 ? 1 : room < MOTE_IMPACT_GROUPS ? room : MOTE_IMPACT_GROUPS;
-    int32_t parts[MOTE_IMPACT_GROUPS];
+    int32_t parts[MOTE_IMPACT_GROUPS] = {0};
     collection c = {.tree = tree, .body = body};
     groups->count = list_parts(tree, most, parts);
     groups->padded = (groups->count + MOTE_LANES - 1) / MOTE_LANES * MOTE_LANES;

@@ -148,9 +148,10 @@ static void print_row(FILE *out, const session *s, uint32_t step, counts *n)
            name, step, n->intervals, n->started, n->impacts, n->missed, n->wrong, n->undecided,
            n->samples_missed, n->widest, it[0], it[1], us[0], us[1]);
     if (out)
-        fprintf(out, "%s,%" PRIu32 ",%zu,%zu,%zu,%zu,%zu,%zu,%zu,%.3g,%.4g,%.4g,%.4g,%.4g\n",
-                name, step, n->intervals, n->started, n->impacts, n->missed, n->wrong,
-                n->undecided, n->samples_missed, n->widest, it[0], it[1], us[0], us[1]);
+        (void)fprintf(out,
+                      "%s,%" PRIu32 ",%zu,%zu,%zu,%zu,%zu,%zu,%zu,%.3g,%.4g,%.4g,%.4g,%.4g\n",
+                      name, step, n->intervals, n->started, n->impacts, n->missed, n->wrong,
+                      n->undecided, n->samples_missed, n->widest, it[0], it[1], us[0], us[1]);
 }
 
 static const char *const columns =
@@ -243,7 +244,8 @@ int main(int argc, char **argv)
             break;
     }
     if (i >= argc || strncmp(argv[i], "--", 2) == 0) {
-        fprintf(stderr, "usage: impact_steps [--intervals N] [--out FILE] SCENARIO ...\n");
+        (void)fprintf(stderr,
+                      "usage: impact_steps [--intervals N] [--out FILE] SCENARIO ...\n");
         return 2;
     }
     FILE *out = path ? fopen(path, "w") : NULL;

@@ -71,7 +71,8 @@ static inline mote_field *impact_skin(const mote_mesh *mesh)
     uint16_t *bone = malloc(2 * n * sizeof *bone);
     double *weight = malloc(2 * n * sizeof *weight);
     mote_field *field = NULL;
-    need(start && bone && weight);
+    if (!start || !bone || !weight)
+        abort();
     for (uint32_t v = 0; v < n; ++v) {
         const double along = (mesh->positions[v].x - mesh->low.x) /
                              (mesh->high.x - mesh->low.x) * (IMPACT_BONES - 1.001);
