@@ -135,8 +135,8 @@ typedef struct gathered {
 } gathered;
 
 /* Adds the gathered pairs that may be near to `near`, and empties the list. */
-static void test_gathered(const mote_cert_hulls *p, float need, bool normals, gathered *pairs,
-                          mote_cert_near *near)
+MOTE_INLINE void test_gathered(const mote_cert_hulls *p, float need, bool normals,
+                               gathered *pairs, mote_cert_near *near)
 {
     mote_cert_face_lanes lanes[2];
     if (pairs->count == 0)
@@ -156,8 +156,8 @@ static void test_gathered(const mote_cert_hulls *p, float need, bool normals, ga
 }
 
 /* Adds the pairs in `left` that may be near to `near`. */
-static void test_all_pairs(const mote_cert_hulls *p, float need, bool normals,
-                           const mote_cert_near *left, mote_cert_near *near)
+MOTE_INLINE void test_all_pairs(const mote_cert_hulls *p, float need, bool normals,
+                                const mote_cert_near *left, mote_cert_near *near)
 {
     gathered pairs;
     pairs.count = 0;
