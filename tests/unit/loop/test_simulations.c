@@ -95,7 +95,7 @@ TEST(mote_simulate_a_slurm_task_is_a_shard)
 /* The intervals that are printed are as narrow as asked for, unless the budget ends. */
 TEST(mote_simulate_until_ci_adds_replicates)
 {
-    mote_expect(0, "the widest interval is", BOTH " --out until --until-ci 90%% --budget 60");
+    mote_expect(0, "the widest interval is", BOTH " --out until --until-ci 90%% --budget 5");
     const bool ended = strstr(said, "the budget ends") != NULL;
     mote_simulations list = {0};
     assert_int_equal(mote_simulations_read("until", &list), MOTE_OK);
