@@ -29,7 +29,7 @@ sizes() {
 
 # engines REPLICATES: other engines and ours, asked for contacts and for distances on the same frames.
 engines() {
-    for scenario in ww-contact mv-contact tt-distance; do
+    for scenario in ww mv tt-distance ww-contact mv-contact tt; do
         measure $scenario --replicates "$1" --method $plain --method aabb-tree --method certified
     done
     for scenario in ww-contact mv-contact tt; do
