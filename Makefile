@@ -399,15 +399,16 @@ install: build
 
 # Packages of an older build would be taken for those of this one.
 .PHONY: deb test-deb
-deb: build page
+deb: build deps-deb page
+	@$(call configure,release)
 	@$(call compile,$(BUILD),mote_static mote_shared manual)
 	@rm -rf $(BUILD)/deb
 	@cd $(BUILD) && cpack > cpack.log 2>&1 || { cat cpack.log; exit 1; }
 	@rm -rf $(BUILD)/deb/_CPack_Packages
 	@ls $(BUILD)/deb/*.deb
 
-test-deb: deb deps-deb
-	@cmake/deps.sh cmake/packages-bare.txt
+test-deb: deb
+	@cmake/deps.sh cmake/packages-bare.txt cmake/packages-lintian.txt
 	@tests/scripts/deb.sh $(BUILD)/deb
 
 .PHONY: uninstall

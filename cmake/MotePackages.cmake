@@ -40,6 +40,21 @@ endif()
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/deb)
+# The module for Python: on what it imports. It is left out where that is not installed.
+set(python_needs NOTFOUND)
+execute_process(COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/cmake/python_files.py ${CMAKE_SOURCE_DIR}/core/python/mote
+                RESULT_VARIABLE status OUTPUT_VARIABLE python_files OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(status EQUAL 0)
+  string(REPLACE "\n" ";" python_files "${python_files}")
+  mote_packages_of(python_needs ${python_files})
+endif()
+
+set(CPACK_COMPONENTS_ALL program library development)
+if(python_needs)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+else()
+  message(STATUS "There will be no package python3-mote: what it imports is not installed")
+endif()
 set(CPACK_PACKAGE_NAME mote)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -71,6 +86,11 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package/trigg
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmote-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${static_needs}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-mote)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3:any, ${python_needs}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/debian/postinst ${CMAKE_SOURCE_DIR}/cmake/debian/prerm)
 
 include(CPack)
 set(about "mote measures how much accuracy a collision query by a few particles
@@ -81,3 +101,6 @@ cpack_add_component(program DESCRIPTION "${about}This package has the program mo
 cpack_add_component(library DESCRIPTION "${about}This package has the shared library.")
 cpack_add_component(development DEPENDS library DESCRIPTION "${about}This package has the headers, the static library, and what methods and
 fields of your own are compiled against.")
+if(python_needs)
+  cpack_add_component(python DEPENDS library DESCRIPTION "${about}This package has the module mote for Python.")
+endif()

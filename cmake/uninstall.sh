@@ -12,6 +12,14 @@ LC_ALL=C sort -r "$list" | while IFS= read -r path; do # what is in a folder bef
     case $path in
     /* | ../* | */../* | '') echo "uninstall: $list: '$path' is left alone" >&2 ;;
     */) rmdir "$target/$path" 2> /dev/null || true ;;
-    *) rm -f "$target/$path" ;;
+    *)
+        rm -f "$target/$path"
+        case $path in *.py) # what Python kept of it
+            cache=$target/$(dirname "$path")/__pycache__
+            rm -f "$cache/$(basename "$path" .py)".*.pyc
+            rmdir "$cache" 2> /dev/null || true
+            ;;
+        esac
+        ;;
     esac
 done

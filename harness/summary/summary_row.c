@@ -226,6 +226,10 @@ static char *value_text(const mote_method *method, const char *key, const json_t
         (void)mote_parameter_text(parameter, json_number_value(value), text, sizeof text);
     else if (parameter && json_is_string(value))
         (void)snprintf(text, sizeof text, "%s", json_string_value(value));
+    else if (json_is_string(value))
+        return mote_duplicate(json_string_value(value));
+    else if (json_is_real(value))
+        return mote_format("%.15g", json_real_value(value));
     else
         return json_dumps(value, JSON_ENCODE_ANY);
     (void)mote_parameter_text(parameter, fallback, usual_text, sizeof usual_text);

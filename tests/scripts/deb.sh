@@ -11,10 +11,10 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "deb.sh: $*" >&2; exit 1; }
 
 lintian --allow-root --fail-on error "$packages"/*.deb || fail "lintian finds errors"
-for package in mote libmote0 libmote-dev; do
+for package in mote libmote0 libmote-dev python3-mote; do
     ls "$packages/$package"_*.deb > "$work/found" || fail "no package $package"
     dpkg-deb -f "$packages/$package"_*.deb Depends > "$work/depends"
-    grep -qE 'lib[a-z]+[0-9.]* \((>=|=) ' "$work/depends" || fail "$package depends on no library"
+    grep -qE 'lib[a-z]+[-0-9.]* \((>=|=) ' "$work/depends" || fail "$package depends on no library"
 done
 
 # The container is made by the same lines: see the last stage of the Containerfile.

@@ -22,9 +22,15 @@ use)
     tail -25 bench.log
     man=$(zcat /usr/share/man/man1/mote.1.gz | grep -c '^\.B mote ')
     [ "$man" -ge 10 ] || fail "the manual names $man commands"
-    if [ -d /usr/lib/python3/dist-packages/mote ]; then
-        /usr/bin/python3 -c 'import mote; print("import mote:", mote.__file__)'
-    fi
+    # The module finds its library.
+    /usr/bin/python3 - <<'PYTHON'
+import mote
+import numpy
+corners = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+faces = numpy.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=numpy.uint32)
+mesh = mote.Mesh(corners, faces)
+print("import mote:", mote.__file__, mote.library_version())
+PYTHON
     ;;
 develop)
     apt-get install -y --no-install-recommends gcc libc6-dev pkg-config libode-dev > log
@@ -41,7 +47,7 @@ develop)
     for row in engine certified fcl-aabb; do grep -q "^$row  *-  *[0-9]" table || fail "no row $row"; done
     ;;
 remove)
-    apt-get purge -y mote 'libmote*' $(dpkg-query -W -f '${Package}\n' | grep '^python3-mote$' || true) > log
+    apt-get purge -y mote libmote0 libmote-dev python3-mote > log
     files > after || true
     diff before after || fail "removing the packages leaves something"
     echo "removed, and nothing is left"

@@ -35,6 +35,7 @@ done
 [ -x system/usr/bin/mote ] && (cd system/usr && grep -v '/$' share/mote/installed.txt | xargs ls -d) > log ||
     fail "the list of what is installed names what is not there"
 touch system/usr/share/mote/mine
+/usr/bin/python3 -m compileall -q system/usr/lib/python3/dist-packages/mote > log || fail "the module for Python: $(cat log)"
 uninstall_line=$(make_line uninstall prefix=/usr)
 DESTDIR=$work/system sh -e -c "$uninstall_line"
 [ -e system/usr/share/mote/mine ] || fail "make uninstall removed a file that it did not put there"

@@ -79,6 +79,29 @@ TEST(instructions_are_counted_with_every_library)
     json_decref(object);
 }
 
+/* What reads rows treats them as any others, with the library at hand or without. */
+TEST(tune_compare_and_the_page_have_methods_of_a_library)
+{
+    assert_int_equal(mote("run tt --frames 1-4 --replicates 2 --plugin %s --method certified "
+                          "--method 'plugin-points:share=0.5|1' --out kept",
+                          sound[0]),
+                     0);
+    mote_expect(0, "of 2, none of them right", "tune kept --plugin %s", sound[0]);
+    mote_expect(0, "plugin-points:does=answer,share=", "tune kept");
+    mote_expect(0, "tt/plugin-points:share=0.5/hot", "compare kept kept --plugin %s", sound[0]);
+    mote_expect(0, "tt/plugin-points:does=answer,share=0.5/hot", "compare kept kept");
+    mote_expect(0, "report.html", "report kept --plugin %s", sound[0]);
+    mote_expect(0, "index.html", "site kept -o site");
+    static const char *const files[] = {"kept/report.html", "kept/report.md", "site/index.html",
+                                        "site/results.csv"};
+    for (size_t k = 0; k < ROWS_OF(files); ++k) {
+        test_row("%s", files[k]);
+        char *text = file_text(files[k]);
+        assert_non_null(strstr(text, "plugin-points"));
+        free(text);
+    }
+}
+
 TEST(a_library_is_told_of_in_lists_and_in_the_manifest)
 {
     mote_expect(0, "plugin-points: the bodies are points", "list methods --plugin %s",
