@@ -379,6 +379,9 @@ test-cluster: build deps-cluster
 
 test-exports: build deps-exports
 	@/usr/bin/python3 tests/scripts/exports.py $(MOTE) results/schema
+	@$(call compile,$(BUILD),mote_shared)
+	@PYTHONPATH=$(CURDIR)/$(BUILD)/python MOTE_NEED_MATPLOTLIB=1 /usr/bin/python3 tests/python/test_examples.py \
+	    $(CURDIR)/tests/scripts/documented.sh $(CURDIR)/docs/python.md $(CURDIR)/$(MOTE)
 
 # What libmote promises, as the headers are now (docs/compatibility.md).
 .PHONY: interface-accept check-abi

@@ -29,25 +29,30 @@ size_t mote_controls_amounts(const mote_field *field)
     return skin ? skin->morph.targets : 0;
 }
 
+/* By how much a product of two rows differs from that of an orthonormal matrix. */
+static double product_error(const mote_mat3 *rotation, int i, int j)
+{
+    const double *a = rotation->m[i], *b = rotation->m[j];
+    return fabs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2] - (i == j));
+}
+
 static mote_status check_rotation(const mote_mat3 *rotation)
 {
-    double off = 0;
     for (int i = 0; i < 3; ++i) {
         for (int j = i; j < 3; ++j) {
-            const double *a = rotation->m[i], *b = rotation->m[j];
-            const double product = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            off = fmax(off, fabs(product - (i == j)));
+            const double off = product_error(rotation, i, j);
+            if (!(off <= ROTATION_ERROR))
+                return mote_fail(
+                    MOTE_EINVAL,
+                    "pose: its rotation is none: products of its rows differ by %g "
+                    "from those of an orthonormal matrix; at most %g is allowed",
+                    off, ROTATION_ERROR);
         }
     }
     const double(*m)[3] = rotation->m;
     const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
                                m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    if (!(off <= ROTATION_ERROR))
-        return mote_fail(MOTE_EINVAL,
-                         "pose: its rotation is none: products of its rows differ by %g from "
-                         "those of an orthonormal matrix; at most %g is allowed",
-                         off, ROTATION_ERROR);
     if (!(determinant > 0))
         return mote_fail(MOTE_EINVAL, "pose: its rotation is a reflection");
     return MOTE_OK;
@@ -125,6 +130,18 @@ static void turn_vectors(const mote_body *body, const double *weights,
     }
 }
 
+/* count is a multiple of MOTE_LANES. */
+static bool all_finite(const double *numbers, size_t count)
+{
+    double zero[MOTE_LANES] = {0};
+    for (size_t i = 0; i < count; i += MOTE_LANES) {
+        MOTE_LANE_LOOP
+        for (size_t l = 0; l < MOTE_LANES; ++l)
+            zero[l] += 0 * numbers[i + l];
+    }
+    return !isnan(mote_lane_sum(zero));
+}
+
 mote_status mote_controls_read(const mote_body *body, const mote_controls *controls,
                                size_t frame, double length, double *room,
                                mote_body_state *state)
@@ -157,10 +174,7 @@ mote_status mote_controls_read(const mote_body *body, const mote_controls *contr
         mote_morph_weights(field, matrices, amounts, &pose.rotation, x, y, z);
     else if (weights)
         turn_vectors(body, weights, &pose.rotation, x, y, z);
-    double zero = 0;
-    for (size_t i = 0; i < 3 * padded; ++i)
-        zero += 0 * room[i];
-    if (isnan(zero))
+    if (!all_finite(room, 3 * padded))
         return fail_changed("weights");
     *state = (mote_body_state){.pose = pose,
                                .weights = {x, y, z, field->count, field->padded},

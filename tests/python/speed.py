@@ -12,7 +12,7 @@ import mote
 from frames import Frames
 from mote import _library
 
-FRAMES, ROUNDS = 900, 15
+FRAMES, ROUNDS = 900, 40
 
 
 def there_and_back(frames):
