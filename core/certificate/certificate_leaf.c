@@ -225,7 +225,8 @@ uint32_t mote_cert_narrow_row(mote_certificate *c, int s, mote_cert_node *node, 
     bool narrowed = own && mote_cert_narrow(&c->side[s], node, lane);
     for (; left; left &= left - 1)
         narrowed = mote_cert_narrow(&c->side[1 - s], other, mote_lowest_bit(left)) || narrowed;
-    undecided = mote_cert_row_spans(node, lane, other, c->need, undecided, bound);
+    if (node->spans && other->spans) /* fields of other kinds have none */
+        undecided = mote_cert_row_spans(node, lane, other, c->need, undecided, bound);
     if (!undecided || !narrowed)
         return undecided;
     return mote_cert_row_boxes(node, lane, other, c->need, undecided, bound);
