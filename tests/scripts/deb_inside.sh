@@ -29,7 +29,7 @@ import numpy
 corners = numpy.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
 faces = numpy.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=numpy.uint32)
 mesh = mote.Mesh(corners, faces)
-print("import mote:", mote.__file__, mote.library_version())
+print("import mote:", mote.__file__, mote.library_version)
 PYTHON
     ;;
 develop)
