@@ -37,7 +37,7 @@
       "closed loop: bodies move freely and collide where the method says so",                  \
       mote_options_simulate)                                                                   \
     X(extremes, "", "tries every method where numbers are tiny, huge, equal or degenerate",    \
-      mote_options_study)                                                                      \
+      mote_options_extremes)                                                                   \
     X(dynamics, "",                                                                            \
       "measures how often n particles let a body pass through, in the closed loop",            \
       mote_options_dynamics)                                                                   \

@@ -1,16 +1,78 @@
-/* mote extremes [--out DIR] [--quick]: every method on tiny, huge or degenerate numbers. */
+/* mote extremes [--out DIR] [--quick] [--method NAME] [--family NAME]: methods on tiny, huge or
+   degenerate numbers. */
 #include "harness/command/command.h"
-#include "harness/base/options.h"
+#include "core/method/method.h"
+#include "harness/study/extreme.h"
 #include "harness/study/study_extremes.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { OPTION_OUT, OPTION_QUICK, OPTION_METHOD, OPTION_FAMILY };
+
+const mote_option mote_options_extremes[] = {
+    {"out", "DIR", "where the results go (default: results/extremes)"},
+    {"quick", NULL, "a smaller study (default: the whole one)"},
+    {"method", "NAME", "the only method to try, without parameters (default: every method)"},
+    {"family", "NAME", "the only kind of extreme, such as \"touch\" (default: every kind)"},
+    {NULL, NULL, NULL}};
+
+typedef struct request {
+    const char *directory;
+    mote_extremes_wish wish;
+} request;
+
+/* MOTE_EXIT_DONE, or an exit status after a line on stderr. */
+static int read_arguments(int argc, char **argv, request *q)
+{
+    mote_option_reader reader = mote_option_begin(mote_options_extremes, argc, argv);
+    const char *value;
+    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+        if (option == MOTE_OPTION_ERROR)
+            return MOTE_EXIT_USAGE;
+        if (option == MOTE_OPTION_PLAIN)
+            return mote_command_usage(
+                argv[0], "%s: takes no argument; write `mote extremes --out DIR`", value);
+        if (option == OPTION_OUT)
+            q->directory = value;
+        else if (option == OPTION_METHOD)
+            q->wish.method = value;
+        else if (option == OPTION_FAMILY)
+            q->wish.family = value;
+        else
+            q->wish.quick = true;
+    }
+    return MOTE_EXIT_DONE;
+}
+
+static mote_status check_names(const mote_extremes_wish *wish)
+{
+    if (wish->method && !mote_method_find(wish->method))
+        return mote_fail(MOTE_EINVAL, "unknown method %s; `mote list methods` names them",
+                         wish->method);
+    char known[512] = "";
+    for (size_t i = 0, used = 0; wish->family && i < mote_extreme_family_count; ++i) {
+        const char *name = mote_extreme_families[i].name;
+        if (strcmp(name, wish->family) == 0)
+            return MOTE_OK;
+        if (used < sizeof known)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "",
+                                     name);
+    }
+    return wish->family
+               ? mote_fail(MOTE_EINVAL, "unknown family %s; known are: %s", wish->family, known)
+               : MOTE_OK;
+}
 
 int mote_command_extremes(int argc, char **argv)
 {
-    const char *directory = "results/extremes";
-    bool quick = false, met = false;
-    const int understood = mote_study_read(argc, argv, &directory, &quick);
+    request q = {.directory = "results/extremes"};
+    const int understood = read_arguments(argc, argv, &q);
     if (understood != MOTE_EXIT_DONE)
         return understood;
-    if (mote_study_extremes(directory, quick, &met) != MOTE_OK)
+    bool met = false;
+    if (check_names(&q.wish) != MOTE_OK ||
+        mote_study_extremes(q.directory, &q.wish, &met) != MOTE_OK)
         return mote_command_fail();
     return mote_command_finish(met ? MOTE_EXIT_DONE : MOTE_EXIT_CHECK_FAILED);
 }

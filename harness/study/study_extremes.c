@@ -38,9 +38,12 @@ typedef struct study {
     size_t counts[METHODS_MAX][MOTE_EXTREME_VERDICTS];
 } study;
 
-static void list_methods(study *s)
+/* only: the name of the one method; NULL: every method. */
+static void list_methods(study *s, const char *only)
 {
     for (size_t m = 0; mote_method_at(m) && s->method_count < METHODS_MAX; ++m) {
+        if (only && strcmp(mote_method_at(m)->name, only) != 0)
+            continue;
         const size_t i = s->method_count++;
         s->method[i] = mote_method_at(m)->name;
         for (size_t k = 0; k < sizeof ours / sizeof ours[0]; ++k)
@@ -113,13 +116,16 @@ static mote_status measure_scene(study *s, const mote_extreme_recipe *plain,
     return status;
 }
 
-static mote_status measure_all(study *s)
+/* only: the name of the one family; NULL: every family. */
+static mote_status measure_all(study *s, const char *only)
 {
     static mote_extreme_recipe plain;
     mote_status status = mote_extreme_plain(&plain);
     for (size_t i = 0; i < mote_extreme_family_count && status == MOTE_OK; ++i) {
         const mote_extreme_family *family = &mote_extreme_families[i];
         const int step = s->quick ? family->quick : 1;
+        if (only && strcmp(family->name, only) != 0)
+            continue;
         for (int k = family->first; k <= family->last && status == MOTE_OK; k += step)
             status = measure_scene(s, &plain, family, k);
     }
@@ -364,14 +370,15 @@ static mote_status write_all(const study *s, bool met, const char *directory)
     return status == MOTE_OK ? write_figure(s, directory) : status;
 }
 
-mote_status mote_study_extremes(const char *directory, bool quick, bool *met)
+mote_status mote_study_extremes(const char *directory, const mote_extremes_wish *wish,
+                                bool *met)
 {
-    study s = {.quick = quick};
-    list_methods(&s);
+    study s = {.quick = wish->quick};
+    list_methods(&s, wish->method);
     mote_status status = mote_directory_make(directory);
     print_header(&s);
     if (status == MOTE_OK)
-        status = measure_all(&s);
+        status = measure_all(&s, wish->family);
     const bool fine = status == MOTE_OK && check(&s);
     if (status == MOTE_OK)
         status = write_all(&s, fine, directory);

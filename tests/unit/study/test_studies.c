@@ -206,10 +206,12 @@ static bool text_has(const char *name, const char *part)
     return has;
 }
 
+static const mote_extremes_wish quick_wish = {.quick = true};
+
 static bool extremes_met(void)
 {
     bool met = false;
-    if (mote_study_extremes(base, true, &met) != MOTE_OK)
+    if (mote_study_extremes(base, &quick_wish, &met) != MOTE_OK)
         fail_msg("%s", mote_error_text());
     return met;
 }
@@ -355,14 +357,15 @@ TEST(studies_hand_up_what_fails_beneath)
     for (int bodies = 0; bodies < 2; ++bodies) {
         bool met;
         plant_good();
-        assert_int_equal(bodies ? study_bodies(&met) : mote_study_extremes(base, true, &met),
+        assert_int_equal(bodies ? study_bodies(&met)
+                                : mote_study_extremes(base, &quick_wish, &met),
                          MOTE_OK);
         const long all = planted.calls;
         for (long n = 1; n <= all; n += n < 10 || n > all - 8 ? 1 : (all + 7) / 8) {
             planted.calls = 0;
             planted.failing = n;
             const mote_status status =
-                bodies ? study_bodies(&met) : mote_study_extremes(base, true, &met);
+                bodies ? study_bodies(&met) : mote_study_extremes(base, &quick_wish, &met);
             planted.failing = 0;
             if (status != MOTE_EIO || !strstr(mote_error_text(), "planted in "))
                 fail_msg("call %ld of %ld failed: %s", n, all, mote_error_text());
