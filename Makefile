@@ -12,6 +12,7 @@
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
 #   make verdicts [PROFILE=quick|full] [OUT=DIR]     contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
+#   make oracle METHOD=NAME [PLUGIN=FILE.so]          any method's answers on frames, against exact ones
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best
 #   make ingredients [PROFILE=quick|full] [OUT=DIR]  what each part of the tracked particles adds
 #   make ablation [PROFILE=quick|full] [OUT=DIR]     what each step of the certified query brings
@@ -136,11 +137,21 @@ fcl-flags: build deps-fcl
 verdicts: build
 	@harness/scripts/verdicts.sh $(MOTE) $(PROFILE) $(call out,verdicts)
 
-oracle: program-oracle program-oracle_cgal
+# With METHOD, only the frames, by these methods, also of the shared libraries in PLUGIN.
+PLUGIN ?=
+METHOD ?=
+oracle: program-oracle $(if $(METHOD),,program-oracle_cgal)
 	@mkdir -p $(OUT)
+ifeq ($(METHOD),)
 	@$(BUILD)/tests/oracle_cgal $(if $(filter quick,$(PROFILE)),--frames 100,--pairs 190000 --frames 1000)
 	@$(BUILD)/tests/oracle --out $(OUT)/oracle.json \
 	    $(if $(filter quick,$(PROFILE)),--pairs 190000 --stride 16,--pairs 11400000 --stride 1)
+else
+	@$(BUILD)/tests/oracle --out $(OUT)/oracle-methods.json \
+	    --stride $(if $(filter quick,$(PROFILE)),16,1) \
+	    $(foreach file,$(PLUGIN),--plugin $(call quoted,$(file))) \
+	    $(foreach method,$(METHOD),--method $(call quoted,$(method)))
+endif
 
 # On the models that assimp is tested with, or those in MODELS.
 MODELS ?= /usr/share/assimp/models

@@ -57,3 +57,11 @@ file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/program.list @ONLY CONTENT
     ${symbol_lines};
 };
 ")
+
+# A program that loads such libraries: it has all of core, since they may call any public function.
+function(mote_takes_plugins program)
+  target_sources(${program} PRIVATE $<TARGET_OBJECTS:mote_core>)
+  target_link_libraries(${program} PRIVATE ${CMAKE_DL_LIBS})
+  target_link_options(${program} PRIVATE -Wl,--dynamic-list=${CMAKE_BINARY_DIR}/program.list)
+  set_property(TARGET ${program} PROPERTY LINK_DEPENDS ${CMAKE_BINARY_DIR}/program.list)
+endfunction()

@@ -3,19 +3,24 @@
    bits.
 
        oracle [--pairs N] [--seed S] [--stride K] [--agreement A] [--out FILE.json]
+              [--method NAME[:key=value,...]]... [--plugin FILE]... [--timeout SECONDS]
+              [--scenario NAME]...
 
    With a stride, it also checks whether two methods agree to A L (1e-12) on every K-th frame of
-   the built-in scenarios.
+   scenarios of two bodies (ww, tt and mv). Any other method, also one of a shared library, is
+   compared with these distances, in a process of its own; with --method, the stride is 1 and no
+   pairs are judged unless they are asked for.
 
    Prints tables; exit status 1 when a requirement is not met: our kernel has no wrong contact
    in the strict band and no error above 1e-15 of the pair's extent, and aabb-tree is right in
    every frame. Verdicts are counted in three bands: strict (apart, or overlapping, by more than
    1e-15 of the extent), touching (overlapping by less), near (apart by less). The pairs do not
-   depend on the number of threads. */
+   depend on the number of threads. A method that was asked for is right in every frame, too. */
 #include "tests/support/peers/ccd_triangle.h"
 #include "tests/support/peers/fcl_triangle.h"
 #include "core/body/triangle.h"
 #include "harness/base/json_print.h"
+#include "harness/process/plugin.h"
 #include "tests/studies/oracle_exact.h"
 #include "tests/studies/oracle_frames.h"
 #include "tests/support/triangle_pairs.h"
@@ -399,10 +404,16 @@ static int store(const json_t *study, const char *path)
     return status == MOTE_OK ? 0 : 4;
 }
 
+#define SCENARIOS_MAX 16
+
 typedef struct options {
     uint64_t pairs, seed, stride; /* stride 0: no frames */
     double agreement;             /* over L */
     const char *out;              /* NULL: not stored */
+    oracle_methods methods;
+    const char *names[ORACLE_METHODS_MAX]; /* of the methods, as given */
+    const char *scenarios[SCENARIOS_MAX];
+    size_t scenario_count;
 } options;
 
 static bool read_real(const char *text, double *value)
@@ -412,51 +423,95 @@ static bool read_real(const char *text, double *value)
     return end != text && *end == 0 && *value >= 0 && isfinite(*value);
 }
 
-/* Reads the options; false with a line on stderr for anything else. */
-static bool read_options(int argc, char **argv, options *o)
+static bool read_number(const char *option, const char *text, options *o)
 {
-    for (int i = 1; i < argc; i += 2) {
-        char *end = NULL;
-        errno = 0;
-        uint64_t number = i + 1 < argc ? strtoull(argv[i + 1], &end, 10) : 0;
-        bool whole =
-            end && end != argv[i + 1] && *end == 0 && errno == 0 && argv[i + 1][0] != '-';
-        if (i + 1 < argc && strcmp(argv[i], "--out") == 0) {
-            o->out = argv[i + 1];
-        } else if (i + 1 < argc && strcmp(argv[i], "--agreement") == 0 &&
-                   read_real(argv[i + 1], &o->agreement)) {
-            continue;
-        } else if (whole && strcmp(argv[i], "--pairs") == 0 && number > 0 &&
-                   number >> 40 == 0) {
-            o->pairs = number;
-        } else if (whole && strcmp(argv[i], "--stride") == 0 && number > 0 &&
-                   number >> 30 == 0) {
-            o->stride = number;
-        } else if (whole && strcmp(argv[i], "--seed") == 0) {
-            o->seed = number;
-        } else {
-            fprintf(stderr,
-                    "oracle: bad option %s; usage: oracle [--pairs N] [--seed S] [--stride K] "
-                    "[--agreement A] [--out FILE.json]\n",
-                    argv[i]);
-            return false;
-        }
-    }
+    char *end = NULL;
+    errno = 0;
+    const uint64_t number = strtoull(text, &end, 10);
+    if (end == text || *end != 0 || errno != 0 || text[0] == '-')
+        return false;
+    if (strcmp(option, "--pairs") == 0 && number > 0 && number >> 40 == 0)
+        o->pairs = number;
+    else if (strcmp(option, "--stride") == 0 && number > 0 && number >> 30 == 0)
+        o->stride = number;
+    else if (strcmp(option, "--seed") == 0)
+        o->seed = number;
+    else
+        return false;
     return true;
 }
 
-/* Adds the frames of all scenarios to the study and prints a line for each. */
-static mote_status add_frames(json_t *study, const options *o, bool *right)
+/* Reads an option with its value, except --plugin. */
+static bool read_option(const char *option, const char *value, options *o)
 {
-    static const char *const scenarios[] = {"ww", "tt", "mv"};
+    oracle_methods *methods = &o->methods;
+    if (strcmp(option, "--out") == 0) {
+        o->out = value;
+        return true;
+    }
+    if (strcmp(option, "--method") == 0 && methods->count < ORACLE_METHODS_MAX) {
+        o->names[methods->count++] = value;
+        return true;
+    }
+    if (strcmp(option, "--scenario") == 0 && o->scenario_count < SCENARIOS_MAX) {
+        o->scenarios[o->scenario_count++] = value;
+        return true;
+    }
+    if (strcmp(option, "--agreement") == 0)
+        return read_real(value, &o->agreement);
+    if (strcmp(option, "--timeout") == 0)
+        return read_real(value, &methods->seconds) && methods->seconds > 0;
+    return read_number(option, value, o);
+}
+
+static int fail(void)
+{
+    fprintf(stderr, "oracle: %s\n", mote_error_text());
+    return 4;
+}
+
+/* Reads the options; an exit status after a line on stderr, 0 if all are good. */
+static int read_options(int argc, char **argv, options *o)
+{
+    for (int i = 1; i < argc; i += 2) {
+        const char *value = argv[i + 1]; /* NULL after the last */
+        if (value && strcmp(argv[i], "--plugin") == 0) {
+            if (mote_plugin_open(value) != MOTE_OK)
+                return fail();
+        } else if (!value || !read_option(argv[i], value, o)) {
+            fprintf(stderr,
+                    "oracle: bad option %s; usage: oracle [--pairs N] [--seed S] [--stride K] "
+                    "[--agreement A] [--out FILE.json] [--method NAME]... [--plugin FILE]... "
+                    "[--timeout SECONDS] [--scenario NAME]...\n",
+                    argv[i]);
+            return 2;
+        }
+    }
+    for (size_t m = 0; m < o->methods.count; m++)
+        if (mote_method_choice_read(o->names[m], &o->methods.choice[m]) != MOTE_OK)
+            return fail();
+    const bool about_frames = o->methods.count + o->scenario_count > 0;
+    if (about_frames && o->stride == 0)
+        o->stride = 1;
+    if (!about_frames && o->pairs == 0)
+        o->pairs = 100000;
+    return 0;
+}
+
+/* Adds the frames of the scenarios to the study and prints a line for each. */
+static mote_status add_frames(json_t *study, const options *o, bool *right, bool *method_right)
+{
+    static const char *const usual[] = {"ww", "tt", "mv"};
+    const char *const *scenarios = o->scenario_count > 0 ? o->scenarios : usual;
+    const size_t count = o->scenario_count > 0 ? o->scenario_count : 3;
     json_t *list = json_array();
     json_object_set_new(study, "frames", list);
     *right = true;
-    for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++) {
+    for (size_t i = 0; i < count; i++) {
         json_t *row;
         bool here;
-        mote_status status =
-            oracle_frames(scenarios[i], (uint32_t)o->stride, o->agreement, &row, &here);
+        mote_status status = oracle_frames(scenarios[i], (uint32_t)o->stride, o->agreement,
+                                           &o->methods, &row, &here, method_right);
         if (status != MOTE_OK)
             return status;
         printf("%s: %" JSON_INTEGER_FORMAT
@@ -465,6 +520,7 @@ static mote_status add_frames(json_t *study, const options *o, bool *right)
                scenarios[i], json_integer_value(json_object_get(row, "frames")),
                json_number_value(json_object_get(row, "difference_max")),
                json_array_size(json_object_get(row, "disputed")));
+        oracle_methods_print(scenarios[i], json_object_get(row, "methods"));
         json_array_append_new(list, row);
         *right = *right && here;
     }
@@ -486,30 +542,47 @@ static bool report(json_t *study, const requirement *list, int count)
     return all;
 }
 
+/* Judges the pairs and prints their table; list: the requirements. NULL: no memory. */
+static json_t *judge_pairs(const options *o, requirement list[REQUIREMENTS])
+{
+    static tally total;
+    if (!run(o->pairs, o->seed, &total))
+        return NULL;
+    json_t *study = to_json(&total, o->pairs, o->seed);
+    print_table(study);
+    check(&total, list);
+    return study;
+}
+
 int main(int argc, char **argv)
 {
-    options o = {.pairs = 100000, .seed = 1, .agreement = 1e-12};
-    if (!read_options(argc, argv, &o))
-        return 2;
-    static tally total;
-    if (!run(o.pairs, o.seed, &total)) {
+    static options o = {.seed = 1, .agreement = 1e-12, .methods.seconds = 3600};
+    static char method_texts[ORACLE_METHODS_MAX][300];
+    requirement list[REQUIREMENTS + 1 + ORACLE_METHODS_MAX];
+    bool right, method_right[ORACLE_METHODS_MAX];
+    int code = read_options(argc, argv, &o);
+    if (code != 0)
+        return code;
+    int count = o.pairs > 0 ? REQUIREMENTS : 0;
+    json_t *study = o.pairs > 0 ? judge_pairs(&o, list) : json_pack("{s:i}", "schema", 1);
+    if (!study) {
         fprintf(stderr, "oracle: no memory\n");
         return 5;
     }
-    json_t *study = to_json(&total, o.pairs, o.seed);
-    print_table(study);
-    requirement list[REQUIREMENTS + 1];
-    int count = REQUIREMENTS;
-    check(&total, list);
-    bool right;
-    if (o.stride > 0 && add_frames(study, &o, &right) != MOTE_OK) {
+    memset(method_right, true, sizeof method_right);
+    if (o.stride > 0 && add_frames(study, &o, &right, method_right) != MOTE_OK) {
         fprintf(stderr, "oracle: %s\n", mote_error_text());
         json_decref(study);
         return 5;
     }
     if (o.stride > 0)
         list[count++] = (requirement){"aabb-tree: right in every frame", right};
-    int code = report(study, list, count) ? 0 : 1;
+    for (size_t m = 0; m < o.methods.count; m++) {
+        (void)snprintf(method_texts[m], sizeof method_texts[m], "%s: right in every frame",
+                       o.methods.choice[m].text);
+        list[count++] = (requirement){method_texts[m], method_right[m]};
+    }
+    code = report(study, list, count) ? 0 : 1;
     if (o.out && store(study, o.out) != 0)
         code = 4;
     json_decref(study);

@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 
 static const char *const sound[] = {MOTE_PLUGINS "/libplugin_sound.so",
                                     MOTE_PLUGINS "/libplugin_sound_cpp.so"};
@@ -100,6 +101,81 @@ TEST(tune_compare_and_the_page_have_methods_of_a_library)
         assert_non_null(strstr(text, "plugin-points"));
         free(text);
     }
+}
+
+TEST(extremes_try_a_method_of_a_library)
+{
+    mote_expect(
+        0, "| plugin-points | 3 | 4 | 0 | 0 | 0 | 0 | 0 |",
+        "extremes --quick --family touch --method plugin-points --plugin %s --out tried",
+        sound[0]);
+    assert_null(strstr(said, "certified"));
+    char *text = file_text("tried/extremes.csv");
+    /* Bodies in one place: the points that the method sees are as well. */
+    assert_non_null(strstr(text, "\"one place\",plugin-points,right,0,"));
+    assert_non_null(strstr(text, "\"face\",plugin-points,inexact,"));
+    free(text);
+}
+
+/* Runs the program of `make oracle` on tt's first frames; the rows of the methods. */
+static json_t *oracle(int status, const char *methods)
+{
+    file_put("four.json", "{\"purpose\": \"tt's first frames\", \"like\": \"tt\", "
+                          "\"frames\": 4, \"warmup\": [1, 1], \"active\": [1, 4]}\n");
+    char *line =
+        mote_format(MOTE_ORACLE " --scenario ./four.json --plugin %s --out oracle.json "
+                                "--timeout 2 %s > oracle.txt",
+                    sound[0], methods);
+    const int code = system(line);
+    free(line);
+    assert_true(WIFEXITED(code));
+    assert_int_equal(WEXITSTATUS(code), status);
+    json_t *object = NULL;
+    assert_int_equal(mote_record_read_json(".", "oracle.json", &object), MOTE_OK);
+    json_t *rows = json_incref(
+        json_object_get(json_array_get(json_object_get(object, "frames"), 0), "methods"));
+    json_decref(object);
+    return rows;
+}
+
+static json_int_t count_in(const json_t *row, const char *key)
+{
+    return json_integer_value(json_object_get(row, key));
+}
+
+/* In tt's first frames the letters are apart, and so are the points that the method sees. */
+TEST(oracle_judges_a_method_of_a_library)
+{
+    json_t *rows = oracle(0, "--method certified");
+    const json_t *row = row_of(rows, "certified");
+    assert_int_equal(count_in(row, "frames"), 4);
+    assert_int_equal(count_in(row, "distances_wrong"), 0);
+    json_decref(rows);
+    rows = oracle(1, "--method plugin-points --method plugin-points:share=0 --method certified "
+                     "--method plugin-moody");
+    row = row_of(rows, "plugin-points");
+    assert_int_equal(count_in(row, "distances_wrong"), 4);
+    assert_int_equal(count_in(row, "contacts_missed") + count_in(row, "contacts_invented"), 0);
+    row = row_of(rows, "plugin-points:share=0");
+    assert_int_equal(count_in(row, "contacts_invented"), 4);
+    assert_int_equal(count_in(row_of(rows, "certified"), "distances_wrong"), 0);
+    const json_t *failure = json_object_get(row_of(rows, "plugin-moody"), "failure");
+    assert_non_null(strstr(json_string_value(failure), "today is not a good day"));
+    json_decref(rows);
+}
+
+TEST(oracle_outlives_a_method_that_crashes_hangs_or_leaves)
+{
+    static const char *const ends[][2] = {
+        {"crash", "ended by signal"}, {"hang", "took too long"}, {"leave", "ended with"}};
+    json_t *rows = oracle(1, "--method plugin-points:does=crash --method "
+                             "plugin-points:does=hang --method plugin-points:does=leave");
+    for (size_t k = 0; k < ROWS_OF(ends); ++k) {
+        test_row("%s", ends[k][0]);
+        const json_t *failure = json_object_get(json_array_get(rows, k), "failure");
+        assert_non_null(strstr(json_string_value(failure), ends[k][1]));
+    }
+    json_decref(rows);
 }
 
 TEST(a_library_is_told_of_in_lists_and_in_the_manifest)
