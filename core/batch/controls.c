@@ -169,7 +169,7 @@ mote_status mote_controls_read(const mote_body *body, const mote_controls *contr
     if (padded > 0)
         memset(room, 0, 3 * padded * sizeof *room);
     const double(*matrices)[3][4];
-    memcpy(&matrices, &weights, sizeof matrices); /* a cast is said to discard the const */
+    memcpy(&matrices, &weights, sizeof weights); /* a cast is said to discard the const */
     if (skin)
         mote_morph_weights(field, matrices, amounts, &pose.rotation, x, y, z);
     else if (weights)

@@ -13,8 +13,6 @@
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"
 
-#include <string.h>
-
 #define WIDTH MOTE_CERT_WIDTH
 
 static inline const mote_cert_leaf *leaf_of(const mote_cert_tree *tree,
@@ -146,16 +144,19 @@ const mote_cert_hull *mote_cert_leaf_near_hull(mote_cert_side *side, const mote_
     return NULL;
 }
 
-/* The ends of some numbers. */
-MOTE_INLINE void ends_of(const float *restrict x, uint32_t groups, float *least, float *most)
+/* The least and the most of x, or of x less y where y is not NULL. */
+MOTE_INLINE void ends_of(const float *restrict x, const float *restrict y, uint32_t groups,
+                         float *least, float *most)
 {
     float low[WIDTH], high[WIDTH];
-    memcpy(low, x, sizeof low);
-    memcpy(high, x, sizeof high);
+    MOTE_LANE_LOOP
+    for (size_t l = 0; l < WIDTH; ++l)
+        low[l] = high[l] = y ? x[l] - y[l] : x[l];
     for (uint32_t g = 1; g < groups; ++g) {
         MOTE_LANE_LOOP
         for (size_t l = 0; l < WIDTH; ++l) {
-            const float at = x[g * WIDTH + l];
+            const size_t i = g * WIDTH + l;
+            const float at = y ? x[i] - y[i] : x[i];
             low[l] = at < low[l] ? at : low[l];
             high[l] = at > high[l] ? at : high[l];
         }
@@ -177,10 +178,8 @@ MOTE_INLINE bool narrow_box(mote_cert_node *restrict node, size_t lane,
 {
     bool narrowed = false;
     for (size_t r = 0; r < 3; ++r) {
-        float off[MOTE_CERT_LEAF_VERTICES], least, most;
-        for (size_t i = 0; i < near->groups * WIDTH; ++i)
-            off[i] = near->x[r][i] - placed->x[r][i];
-        ends_of(off, near->groups, &least, &most);
+        float least, most;
+        ends_of(near->x[r], placed->x[r], near->groups, &least, &most);
         const float width = 0.5F * (most - least) + near->width[r] + 2 * node->leaf_margin;
         if (width < node->width[r][lane]) {
             node->centre[r][lane] += 0.5F * (most + least);
@@ -206,7 +205,7 @@ bool mote_cert_narrow(mote_cert_side *side, mote_cert_node *node, size_t lane)
     }
     for (size_t r = 0; r < 3; ++r) {
         float least, most;
-        ends_of(hull->x[r], hull->groups, &least, &most);
+        ends_of(hull->x[r], NULL, hull->groups, &least, &most);
         node->low[r][lane] = least - hull->width[r];
         node->high[r][lane] = most + hull->width[r];
     }

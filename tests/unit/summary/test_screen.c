@@ -106,7 +106,7 @@ TEST(rows_with_positions_given_stand_apart)
                  0, 0);
     assert_int_equal(summarize_best(), 0);
     IN_ORDER("\n* ours  ", "\n  fcl-aabb ", "\npositions=given", "method",
-             "\n* ours:positions=\"given\" ");
+             "\n* ours:positions=given ");
 }
 
 /* With one replicate each, no row is certainly faster than another. */

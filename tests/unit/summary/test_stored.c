@@ -321,7 +321,7 @@ TEST(summary_label_names_what_is_not_default)
     mote_summary summary;
     assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
     about(find_row(&summary, "particle-paper:n=5,new=true")->n, 5);
-    assert_true(isnan(find_row(&summary, "bygone:n=\"few\",speed=[1]")->n));
+    assert_true(isnan(find_row(&summary, "bygone:n=few,speed=[1]")->n));
     mote_summary_free(&summary);
 }
 
