@@ -124,7 +124,7 @@ static json_t *oracle(int status, const char *methods)
                           "\"frames\": 4, \"warmup\": [1, 1], \"active\": [1, 4]}\n");
     char *line =
         mote_format(MOTE_ORACLE " --scenario ./four.json --plugin %s --out oracle.json "
-                                "--timeout 2 %s > oracle.txt",
+                                "%s > oracle.txt",
                     sound[0], methods);
     const int code = system(line);
     free(line);
@@ -168,7 +168,7 @@ TEST(oracle_outlives_a_method_that_crashes_hangs_or_leaves)
 {
     static const char *const ends[][2] = {
         {"crash", "ended by signal"}, {"hang", "took too long"}, {"leave", "ended with"}};
-    json_t *rows = oracle(1, "--method plugin-points:does=crash --method "
+    json_t *rows = oracle(1, "--timeout 2 --method plugin-points:does=crash --method "
                              "plugin-points:does=hang --method plugin-points:does=leave");
     for (size_t k = 0; k < ROWS_OF(ends); ++k) {
         test_row("%s", ends[k][0]);
