@@ -1,7 +1,7 @@
-/* What a splitter of FCL's or Coal's trees needs to split by sample poses
-   (core/body/sample_split.h). Both libraries ask for a rule, then, triangle by triangle, on
-   which side of it a centre is. A rule on centres at rest cannot tell what is apart in another
-   pose, so sides are chosen for all triangles when the rule is asked for, and told one by one.
+/* What a splitter of FCL's trees needs to split by sample poses (core/body/sample_split.h);
+   Coal's splitter cannot be replaced. FCL asks for a rule, then, triangle by triangle, on which
+   side of it a centre is. A rule on centres at rest cannot tell what is apart in another pose,
+   so sides are chosen for all triangles when the rule is asked for, and told one by one.
  */
 #ifndef MOTE_BASELINES_SAMPLE_SPLITTER_HPP
 #define MOTE_BASELINES_SAMPLE_SPLITTER_HPP

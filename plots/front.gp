@@ -25,11 +25,11 @@ set rmargin at screen 0.97
 set bmargin at screen 0.37
 set tmargin at screen 0.93
 set bars 0.4
-set key at screen 0.5,0.155 center center vertical maxrows 6 samplen 1 font ",11"
+set key at screen 0.5,0.155 center center vertical maxrows 7 samplen 1 font ",11"
 
-array colour[12] = [orange, blue, "#5aa9a0", dark, "#8a2f1c", grey, "#a8a035", "#b58ac4", "#444444", \
-    "#c05030", "#2f6f3a", "#aaaaaa"]
-array shape[12] = [7, 5, 9, 13, 3, 6, 4, 8, 12, 11, 10, 1]
+array colour[13] = [orange, blue, "#5aa9a0", dark, "#8a2f1c", grey, "#a8a035", "#b58ac4", "#444444", \
+    "#c05030", "#2f6f3a", "#7a4fb0", "#aaaaaa"]
+array shape[13] = [7, 5, 9, 13, 3, 6, 4, 8, 12, 11, 10, 2, 1]
 
 plot for [i=0:blocks-1] data index i using 2:(shown($5)):3:4:(shown($6)):(shown($7)) with xyerrorbars \
          pt 0 lw 0.6 lc rgb colour[i+1] notitle, \

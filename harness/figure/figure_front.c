@@ -22,7 +22,8 @@ typedef struct canvas {
     mote_room room;
 } canvas;
 
-/* The families named in a front; the others are points without a name. */
+/* The families named in a front beside the best engine's; the others are points without a
+   name. */
 static const char *const front_families[] = {"particle-paper:refine=no",
                                              "particle-paper",
                                              "particle-paper:refine=always",
@@ -36,13 +37,14 @@ static const char *const front_families[] = {"particle-paper:refine=no",
                                              "hybrid-fcl"};
 enum { FRONT_FAMILIES = sizeof front_families / sizeof front_families[0] };
 
-static bool is_named(const char *family)
+/* Whether a family is named: `engine` is that of the best engine of others, or "". */
+static bool is_named(const char *family, const char *engine)
 {
     for (int i = 0; i < FRONT_FAMILIES; ++i) {
         if (strcmp(front_families[i], family) == 0)
             return true;
     }
-    return false;
+    return strcmp(engine, family) == 0;
 }
 
 static mote_place place_of(const canvas *c, const mote_summary_row *row)
@@ -97,17 +99,30 @@ static void add_point(canvas *c, const mote_summary_row *row, bool named, mote_t
                   LOWEST_Y * pow(10, at.y / c->per_y));
 }
 
+/* The fastest engine of others without a wrong answer among the points; NULL: none. */
+static const mote_summary_row *best_engine(const mote_summary *summary, const char *scenario)
+{
+    const mote_summary_row *best = NULL;
+    for (size_t i = 0; i < summary->count; ++i) {
+        const mote_summary_row *row = &summary->rows[i];
+        if (is_point(summary, row, scenario) && mote_summary_is_right_engine(row) &&
+            (!best || row->total.median < best->total.median))
+            best = row;
+    }
+    return best;
+}
+
 /* Adds the block of a family, or, if family is NULL, of all families without a name, which are
    not joined by lines. */
 static void add_family(canvas *c, const mote_summary *summary, const char *scenario,
-                       const char *family, mote_text *text)
+                       const char *family, const char *engine, mote_text *text)
 {
     bool begun = false;
     for (size_t i = 0; i < summary->count; ++i) {
         const mote_summary_row *row = &summary->rows[i];
         char title[MOTE_FIGURE_FAMILY];
         mote_front_title(row, title, sizeof title);
-        const bool wanted = family ? strcmp(family, title) == 0 : !is_named(title);
+        const bool wanted = family ? strcmp(family, title) == 0 : !is_named(title, engine);
         if (!wanted || !is_point(summary, row, scenario))
             continue;
         if (!begun)
@@ -124,9 +139,15 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
 {
     canvas c;
     open_canvas(run->summary, scenario, &c);
+    const mote_summary_row *best = best_engine(run->summary, scenario);
+    char engine[MOTE_FIGURE_FAMILY] = "";
+    if (best)
+        mote_front_title(best, engine, sizeof engine);
     for (int i = 0; i < FRONT_FAMILIES; ++i)
-        add_family(&c, run->summary, scenario, front_families[i], &figure->data);
-    add_family(&c, run->summary, scenario, NULL, &figure->data);
+        add_family(&c, run->summary, scenario, front_families[i], engine, &figure->data);
+    if (best && !is_named(engine, ""))
+        add_family(&c, run->summary, scenario, engine, engine, &figure->data);
+    add_family(&c, run->summary, scenario, NULL, engine, &figure->data);
     free(c.room.taken);
     if (figure->data.size == 0)
         mote_text_add(&figure->missing, "a method that reports a distance on %s", scenario);
@@ -138,5 +159,8 @@ mote_status mote_figure_front(const mote_figure_run *run, const char *scenario,
         "stands beside a point where there is room. Errors of at most %g L are drawn on the "
         "lowest line.",
         FLOOR);
+    if (best)
+        mote_text_add(&figure->caption, " %s is the fastest engine of others in this run.",
+                      best->label);
     return MOTE_OK;
 }

@@ -79,10 +79,11 @@ double mote_front_time(const double *times, const double *errors, size_t count, 
 /* Data for computing fronts. */
 typedef struct workshop {
     const mote_summary *summary;
-    size_t processes;       /* replicates of the run */
-    double *total, *given;  /* [rows][processes] medians, with and without deformation;
-                               MOTE_NONE if a row has none */
-    size_t *rows, *others;  /* of a family, and of FCL */
+    size_t processes;      /* replicates of the run */
+    double *total, *given; /* [rows][processes] medians, with and without deformation;
+                              MOTE_NONE if a row has none */
+    size_t *rows;          /* of a family */
+    size_t *rivals[MOTE_RIVALS];
     double *times, *errors; /* [rows] */
     double *drawn;          /* [processes] */
 } workshop;
@@ -95,7 +96,7 @@ typedef struct side {
     double time; /* from the rows' times over all processes, or MOTE_NONE */
 } side;
 
-/* A comparison of one family with FCL at one level. */
+/* A comparison of one family with one kind of rivals at one level. */
 typedef struct comparison {
     const workshop *shop;
     bool given; /* times exclude deformation */
@@ -135,7 +136,7 @@ static double drawn_time(const comparison *c, const side *s, const size_t *drawn
     return time_between(at, towards, s->way.share);
 }
 
-/* The speedup over FCL in the drawn processes. All processes together decide which
+/* The speedup over the rival in the drawn processes. All processes together decide which
    configurations reach the error, and this is not resampled: otherwise a process in which fewer
    particles happen to suffice would estimate a different quantity. */
 static double drawn_speed(void *context, const size_t *drawn, size_t count)
@@ -191,10 +192,11 @@ static void make_workshop(const mote_summary *summary, workshop *w)
     }
     const size_t rows = summary->count, times = rows * w->processes;
     w->total = mote_allocate(2 * times, sizeof *w->total);
-    w->rows = mote_allocate(2 * rows, sizeof *w->rows);
+    w->rows = mote_allocate((1 + MOTE_RIVALS) * rows, sizeof *w->rows);
     w->times = mote_allocate(2 * rows + w->processes, sizeof *w->times);
     w->given = w->total + times;
-    w->others = w->rows + rows;
+    for (size_t k = 0; k < MOTE_RIVALS; ++k)
+        w->rivals[k] = w->rows + (1 + k) * rows;
     w->errors = w->times + rows;
     w->drawn = w->errors + rows;
     fill_rows(w);
@@ -202,7 +204,7 @@ static void make_workshop(const mote_summary *summary, workshop *w)
 
 /* The interval of the speedup: the spread of the processes around their own centre, shifted to
    the estimate, which uses the frames of all of them. */
-static void find_interval(const comparison *c, mote_front_speed *speed)
+static void find_interval(const comparison *c, mote_front_ratio *ratio)
 {
     const size_t processes = c->shop->processes;
     comparison context = *c;
@@ -216,8 +218,8 @@ static void find_interval(const comparison *c, mote_front_speed *speed)
         centre = drawn_speed(&context, all, processes);
         free(all);
     }
-    speed->interval.low = speed->faster * (spread.low / centre);
-    speed->interval.high = speed->faster * (spread.high / centre);
+    ratio->interval.low = ratio->faster * (spread.low / centre);
+    ratio->interval.high = ratio->faster * (spread.high / centre);
 }
 
 /* Whether both sides are the same rows, so that the ratio is 1 whatever was measured. */
@@ -227,35 +229,50 @@ static bool same_side(const side *a, const side *b)
            a->rows[a->way.towards] == b->rows[b->way.towards];
 }
 
-/* Fills in one family; its rows are w->rows, those of FCL w->others. */
-static void make_front(const workshop *w, size_t row_count, size_t other_count,
-                       mote_front *front)
+/* How many rows of each sort there are in the workshop. */
+typedef struct census {
+    size_t rows, rivals[MOTE_RIVALS];
+} census;
+
+static mote_front_ratio find_ratio(const comparison *c)
+{
+    mote_front_ratio ratio = {.faster = c->theirs.time / c->mine.time,
+                              .interval = {MOTE_NONE, MOTE_NONE},
+                              .rival = SIZE_MAX};
+    if (c->theirs.time == c->theirs.time)
+        ratio.rival = c->theirs.rows[c->theirs.way.at];
+    if (ratio.faster == ratio.faster && !same_side(&c->mine, &c->theirs))
+        find_interval(c, &ratio);
+    return ratio;
+}
+
+/* Fills in one family; its rows are w->rows, those of rivals w->rivals. */
+static void make_front(const workshop *w, const census *count, mote_front *front)
 {
     const bool given = w->summary->rows[front->first].given;
     for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
         mote_front_speed *speed = &front->speed[k];
-        comparison c = {.shop = w,
-                        .given = given,
-                        .mine = {.rows = w->rows, .count = row_count},
-                        .theirs = {.rows = w->others, .count = other_count}};
+        comparison c = {
+            .shop = w, .given = given, .mine = {.rows = w->rows, .count = count->rows}};
         find_side(w, given, mote_front_levels[k], &c.mine);
-        find_side(w, given, mote_front_levels[k], &c.theirs);
-        const mote_confidence none = {MOTE_NONE, MOTE_NONE};
         speed->time_ns = c.mine.time;
-        speed->faster = c.theirs.time / c.mine.time;
-        speed->interval = none;
-        if (speed->faster == speed->faster && !same_side(&c.mine, &c.theirs))
-            find_interval(&c, speed);
+        for (size_t r = 0; r < MOTE_RIVALS; ++r) {
+            c.theirs = (side){.rows = w->rivals[r], .count = count->rivals[r]};
+            find_side(w, given, mote_front_levels[k], &c.theirs);
+            speed->to[r] = find_ratio(&c);
+        }
     }
 }
 
-/* Collects the rows of one family, and FCL's rows in the same block with the same accounting:
+/* Collects the rows of one family, and its rivals in the same block with the same accounting:
    without deformation if positions are given. False if a row before first is of that family. */
-static bool collect(const workshop *w, size_t first, const char *title, size_t *row_count,
-                    size_t *other_count)
+static bool collect(const workshop *w, size_t first, const char *title, census *count)
 {
+    static bool (*const is_rival[MOTE_RIVALS])(const mote_summary_row *) = {
+        [MOTE_RIVAL_FCL] = mote_summary_is_fcl,
+        [MOTE_RIVAL_ENGINE] = mote_summary_is_right_engine};
     const mote_summary_row *of = &w->summary->rows[first];
-    *row_count = *other_count = 0;
+    memset(count, 0, sizeof *count);
     for (size_t i = 0; i < w->summary->count; ++i) {
         const mote_summary_row *row = &w->summary->rows[i];
         char name[MOTE_FRONT_TITLE];
@@ -266,9 +283,11 @@ static bool collect(const workshop *w, size_t first, const char *title, size_t *
         if (member && i < first)
             return false;
         if (member)
-            w->rows[(*row_count)++] = i;
-        if (mote_summary_is_fcl(row) && (of->given || !row->given))
-            w->others[(*other_count)++] = i;
+            w->rows[count->rows++] = i;
+        for (size_t r = 0; r < MOTE_RIVALS; ++r) {
+            if (is_rival[r](row) && (of->given || !row->given))
+                w->rivals[r][count->rivals[r]++] = i;
+        }
     }
     return true;
 }
@@ -279,12 +298,12 @@ static void make_families(const workshop *w, mote_fronts *fronts)
         if (!mote_front_has(&w->summary->rows[i]))
             continue;
         mote_front *front = &fronts->items[fronts->count];
-        size_t rows, others;
+        census count;
         front->first = i;
         mote_front_title(&w->summary->rows[i], front->title, sizeof front->title);
-        if (!collect(w, i, front->title, &rows, &others))
+        if (!collect(w, i, front->title, &count))
             continue;
-        make_front(w, rows, others, front);
+        make_front(w, &count, front);
         ++fronts->count;
     }
 }

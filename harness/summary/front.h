@@ -7,7 +7,7 @@
    a configuration counts as exact only if its largest error does. The time is the median total
    over all frames of all replicates, as in the rows of the summary. Families with
    positions=given are compared with FCL's time without deformation, others with all of FCL's
-   time. */
+   time, and so it is with the other engines'. */
 #ifndef MOTE_HARNESS_FRONT_H
 #define MOTE_HARNESS_FRONT_H
 
@@ -20,14 +20,25 @@
 #define MOTE_FRONT_TITLE 256
 extern const double mote_front_levels[MOTE_FRONT_LEVELS]; /* ascending; the first: exact */
 
-/* A family at one level, compared with the best of all FCL configurations at that level. */
-typedef struct mote_front_speed {
-    double time_ns;           /* MOTE_NONE: no configuration is as accurate */
-    double faster;            /* FCL's time divided by this; MOTE_NONE without FCL in the run */
+/* Whom families are compared with: the best of all configurations of FCL, and that of all
+   engines of others without a wrong answer, FCL's among them. */
+typedef enum mote_rival { MOTE_RIVAL_FCL, MOTE_RIVAL_ENGINE, MOTE_RIVALS } mote_rival;
+
+/* A family against the best of one kind of rivals at one level. */
+typedef struct mote_front_ratio {
+    double faster;            /* the rival's time divided by this; MOTE_NONE without one */
     mote_confidence interval; /* of faster: spread of the processes (resampled from ten on,
                                  otherwise Student's t), centred on it, given the configurations
                                  that reach the error over all processes together; MOTE_NONE for
-                                 the best FCL itself */
+                                 the rival itself */
+    size_t rival;             /* its row, the most accurate one where it lies between two;
+                                 SIZE_MAX without one */
+} mote_front_ratio;
+
+/* A family at one level. */
+typedef struct mote_front_speed {
+    double time_ns; /* MOTE_NONE: no configuration is as accurate */
+    mote_front_ratio to[MOTE_RIVALS];
 } mote_front_speed;
 
 typedef struct mote_front {
@@ -60,7 +71,8 @@ void mote_front_title(const mote_summary_row *row, char *title, size_t size);
 void mote_fronts_print(const mote_fronts *fronts, FILE *out);
 
 /* [{"scenario", "fingerprint", "cache", "accounting", "family", "speed": [{"error", "total_ns",
-   "faster", "ci_low", "ci_high"}]}] */
+   "faster", "ci_low", "ci_high", "engine", "engine_faster", "engine_ci_low",
+   "engine_ci_high"}]}]; the first three against the best FCL. */
 json_t *mote_fronts_json(const mote_fronts *fronts);
 
 /* Writes directory/fronts.csv, a line per row of the summary with whether it is on the front or

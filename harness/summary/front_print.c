@@ -13,14 +13,14 @@ static const mote_summary_row *row_of(const mote_fronts *fronts, size_t family)
     return &fronts->summary->rows[fronts->items[family].first];
 }
 
-static void print_speed(const mote_front_speed *speed, FILE *out)
+static void print_ratio(const mote_front_ratio *ratio, FILE *out)
 {
     char text[64] = "-";
-    if (speed->interval.low == speed->interval.low)
-        (void)snprintf(text, sizeof text, "%.3g [%.3g, %.3g]", speed->faster,
-                       speed->interval.low, speed->interval.high);
-    else if (speed->faster == speed->faster)
-        (void)snprintf(text, sizeof text, "%.3g", speed->faster);
+    if (ratio->interval.low == ratio->interval.low)
+        (void)snprintf(text, sizeof text, "%.3g [%.3g, %.3g]", ratio->faster,
+                       ratio->interval.low, ratio->interval.high);
+    else if (ratio->faster == ratio->faster)
+        (void)snprintf(text, sizeof text, "%.3g", ratio->faster);
     (void)fprintf(out, " %22s", text);
 }
 
@@ -37,26 +37,72 @@ static void print_apart(const mote_summary *summary, const mote_summary_row *row
         (void)fprintf(out, ", on %s", row->machine);
 }
 
-static void print_place(const mote_fronts *fronts, size_t first, int width, FILE *out)
+/* Whether a rival of a kind stands in the block of a family. */
+static bool has_rival(const mote_fronts *fronts, size_t first, mote_rival rival)
 {
+    for (size_t i = first;
+         i < fronts->count && mote_summary_same_block(row_of(fronts, first), row_of(fronts, i));
+         ++i) {
+        if (fronts->items[i].speed[MOTE_FRONT_LEVELS - 1].to[rival].rival != SIZE_MAX)
+            return true;
+    }
+    return false;
+}
+
+/* Whether the best engine is an FCL for every family of a block, at every level. */
+static bool same_rivals(const mote_fronts *fronts, size_t first)
+{
+    for (size_t i = first;
+         i < fronts->count && mote_summary_same_block(row_of(fronts, first), row_of(fronts, i));
+         ++i) {
+        for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
+            const mote_front_ratio *to = fronts->items[i].speed[k].to;
+            if (to[MOTE_RIVAL_FCL].rival != to[MOTE_RIVAL_ENGINE].rival)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* The line that names the rivals of a family. */
+static void print_rivals(const mote_fronts *fronts, size_t family, mote_rival rival, int width,
+                         FILE *out)
+{
+    (void)fprintf(out, "%-*s", width, "than");
+    for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
+        const size_t row = fronts->items[family].speed[k].to[rival].rival;
+        (void)fprintf(out, " %22s", row == SIZE_MAX ? "-" : fronts->summary->rows[row].label);
+    }
+    (void)fprintf(out, "\n");
+}
+
+static void print_place(const mote_fronts *fronts, size_t first, mote_rival rival, int width,
+                        FILE *out)
+{
+    static const char *const names[MOTE_RIVALS] = {
+        [MOTE_RIVAL_FCL] = "best FCL", [MOTE_RIVAL_ENGINE] = "best engine of others"};
     const mote_summary_row *place = row_of(fronts, first);
     (void)fprintf(out, "\n%s, caches %s", place->scene, place->cache);
     print_apart(fronts->summary, place, out);
-    (void)fprintf(
-        out,
-        ": how many times faster than the best FCL at an error (99th percentile) of at "
-        "most\n%-*s %22s",
-        width, "", "exact");
+    (void)fprintf(out,
+                  ": how many times faster than the %s at an error (99th percentile) of at "
+                  "most\n%-*s %22s",
+                  names[rival], width, "", "exact");
     for (size_t k = 1; k < MOTE_FRONT_LEVELS; ++k)
         (void)fprintf(out, " %20g L", mote_front_levels[k]);
     (void)fprintf(out, "\n");
+    size_t named = first;
     for (size_t i = first;
          i < fronts->count && mote_summary_same_block(place, row_of(fronts, i)); ++i) {
+        if (row_of(fronts, named)->given && !row_of(fronts, i)->given)
+            named = i;
         (void)fprintf(out, "%-*s", width, fronts->items[i].title);
         for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
-            print_speed(&fronts->items[i].speed[k], out);
+            print_ratio(&fronts->items[i].speed[k].to[rival], out);
         (void)fprintf(out, "\n");
     }
+    /* With positions given, rivals may be others; those are in speed.csv. */
+    print_rivals(fronts, named, rival, width, out);
 }
 
 static int by_time(const void *a, const void *b)
@@ -99,30 +145,39 @@ void mote_fronts_print(const mote_fronts *fronts, FILE *out)
     for (size_t i = 0; i < fronts->count; ++i) {
         if (i > 0 && mote_summary_same_block(row_of(fronts, i - 1), row_of(fronts, i)))
             continue;
-        bool has_fcl = false;
-        for (size_t k = i;
-             k < fronts->count && mote_summary_same_block(row_of(fronts, i), row_of(fronts, k));
-             ++k)
-            has_fcl = has_fcl || fronts->items[k].speed[MOTE_FRONT_LEVELS - 1].faster ==
-                                     fronts->items[k].speed[MOTE_FRONT_LEVELS - 1].faster;
-        if (has_fcl)
-            print_place(fronts, i, width, out);
+        const bool engine = has_rival(fronts, i, MOTE_RIVAL_ENGINE);
+        if (engine)
+            print_place(fronts, i, MOTE_RIVAL_ENGINE, width, out);
+        if (has_rival(fronts, i, MOTE_RIVAL_FCL) && !(engine && same_rivals(fronts, i)))
+            print_place(fronts, i, MOTE_RIVAL_FCL, width, out);
         print_members(fronts, row_of(fronts, i), false, out);
         print_members(fronts, row_of(fronts, i), true, out);
     }
 }
 
-static json_t *speeds_json(const mote_front *front)
+/* The label of a ratio's rival, or "". */
+static const char *rival_label(const mote_fronts *fronts, const mote_front_ratio *ratio)
+{
+    return ratio->rival == SIZE_MAX ? "" : fronts->summary->rows[ratio->rival].label;
+}
+
+static json_t *speeds_json(const mote_fronts *fronts, const mote_front *front)
 {
     json_t *list = json_array();
     for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
         const mote_front_speed *speed = &front->speed[k];
+        const mote_front_ratio *fcl = &speed->to[MOTE_RIVAL_FCL];
+        const mote_front_ratio *engine = &speed->to[MOTE_RIVAL_ENGINE];
         (void)json_array_append_new(
-            list, json_pack("{s:f, s:o, s:o, s:o, s:o}", "error", mote_front_levels[k],
-                            "total_ns", mote_json_number(speed->time_ns), "faster",
-                            mote_json_number(speed->faster), "ci_low",
-                            mote_json_number(speed->interval.low), "ci_high",
-                            mote_json_number(speed->interval.high)));
+            list, json_pack("{s:f, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:o}", "error",
+                            mote_front_levels[k], "total_ns", mote_json_number(speed->time_ns),
+                            "faster", mote_json_number(fcl->faster), "ci_low",
+                            mote_json_number(fcl->interval.low), "ci_high",
+                            mote_json_number(fcl->interval.high), "engine",
+                            rival_label(fronts, engine), "engine_faster",
+                            mote_json_number(engine->faster), "engine_ci_low",
+                            mote_json_number(engine->interval.low), "engine_ci_high",
+                            mote_json_number(engine->interval.high)));
     }
     return list;
 }
@@ -135,7 +190,7 @@ json_t *mote_fronts_json(const mote_fronts *fronts)
         json_t *front = json_pack(
             "{s:s, s:s, s:s, s:s, s:s, s:o}", "scenario", row->scenario, "fingerprint",
             row->fingerprint, "cache", row->cache, "accounting", row->accounting, "family",
-            fronts->items[i].title, "speed", speeds_json(&fronts->items[i]));
+            fronts->items[i].title, "speed", speeds_json(fronts, &fronts->items[i]));
         (void)json_array_append_new(list, front);
     }
     return list;
@@ -192,12 +247,18 @@ static void add_speed(const mote_fronts *fronts, size_t index, size_t level, mot
 {
     const mote_summary_row *row = row_of(fronts, index);
     const mote_front_speed *speed = &fronts->items[index].speed[level];
-    const double numbers[] = {speed->time_ns, speed->faster, speed->interval.low,
-                              speed->interval.high};
+    const mote_front_ratio *fcl = &speed->to[MOTE_RIVAL_FCL];
+    const mote_front_ratio *engine = &speed->to[MOTE_RIVAL_ENGINE];
+    const double numbers[] = {speed->time_ns, fcl->faster, fcl->interval.low,
+                              fcl->interval.high};
+    const double others[] = {engine->faster, engine->interval.low, engine->interval.high};
     add_family(row, fronts->items[index].title, text);
     mote_text_add(text, ",%g", mote_front_levels[level]);
     add_numbers(numbers, sizeof numbers / sizeof numbers[0], text);
-    mote_text_add(text, ",%s\n", row->fingerprint);
+    mote_text_add(text, ",%s,", row->fingerprint);
+    mote_escape_csv(text, rival_label(fronts, engine), true);
+    add_numbers(others, sizeof others / sizeof others[0], text);
+    mote_text_add(text, "\n");
 }
 
 mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
@@ -210,7 +271,7 @@ mote_status mote_fronts_write(const mote_fronts *fronts, const char *directory)
     for (size_t i = 0; i < fronts->summary->count; ++i)
         add_row(&fronts->summary->rows[i], &rows);
     mote_text_add(&speeds, "scenario,cache,family,error,total_ns,faster,ci_low,ci_high,"
-                           "fingerprint\n");
+                           "fingerprint,engine,engine_faster,engine_ci_low,engine_ci_high\n");
     for (size_t i = 0; i < fronts->count; ++i) {
         for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k)
             add_speed(fronts, i, k, &speeds);

@@ -76,6 +76,55 @@ double mote_fcl_obb_sum_outside(double degrees)
     return most;
 }
 
+double mote_fcl_fit_without_area(void)
+{
+    Vector corners_on_a_line[3] = {Vector(1, 2, 3), Vector(3, 2, 3), Vector(2, 2, 3)};
+    fcl::OBB<double> box;
+    fcl::fit(corners_on_a_line, 3, box);
+    return (box.center() - corners_on_a_line[2]).norm();
+}
+
+int mote_fcl_contacts_without_area(void)
+{
+    /* Two points and two parallel segments, far apart. */
+    const Vector triangles[4][3] = {{Vector(0, 0, 0), Vector(0, 0, 0), Vector(0, 0, 0)},
+                                    {Vector(20, 0, 0), Vector(20, 0, 0), Vector(20, 0, 0)},
+                                    {Vector(0, 20, 0), Vector(2, 20, 0), Vector(1, 20, 0)},
+                                    {Vector(0, 0, 40), Vector(3, 0, 40), Vector(1, 0, 40)}};
+    int touching = 0;
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < i; ++k)
+            touching += fcl::detail::Intersect<double>::intersect_Triangle(
+                triangles[i][0], triangles[i][1], triangles[i][2], triangles[k][0],
+                triangles[k][1], triangles[k][2]);
+    }
+    return touching;
+}
+
+bool mote_fcl_far_models_collide(bool bottom_up)
+{
+    const Vector up(0, 0, 100);
+    std::vector<Vector> low = corners, high;
+    low.insert(low.end(), 3, Vector(5, 5, 0));
+    for (const Vector &v : low)
+        high.push_back(v + up);
+    fcl::BVHModel<fcl::OBB<double>> models[2];
+    for (int i = 0; i < 2; ++i) {
+        const std::vector<Vector> &vertices = i ? high : low;
+        models[i].beginModel(2, 6);
+        models[i].addSubModel(vertices, {fcl::Triangle(0, 1, 2), fcl::Triangle(3, 4, 5)});
+        models[i].endModel();
+        models[i].beginReplaceModel();
+        models[i].replaceSubModel(vertices);
+        models[i].endReplaceModel(true, bottom_up);
+    }
+    fcl::CollisionRequest<double> request;
+    fcl::CollisionResult<double> result;
+    fcl::collide(&models[0], Transform::Identity(), &models[1], Transform::Identity(), request,
+                 result);
+    return result.isCollision();
+}
+
 double mote_fcl_obb_distance(void)
 {
     Silence silence;

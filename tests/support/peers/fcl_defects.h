@@ -17,6 +17,18 @@ double mote_fcl_rss_sum_cosine(void);
    as an oriented box, with a cube 1 above it along z. Should be 0. */
 double mote_fcl_obb_sum_outside(double degrees);
 
+/* How far from a triangle without area, (1, 2, 3) (3, 2, 3) (2, 2, 3), the centre of the
+   oriented box lies that is fitted to it. Should be 0. */
+double mote_fcl_fit_without_area(void);
+
+/* Of the six pairs of two points and two parallel segments, as triangles, 19 and more apart:
+   how many does FCL's test of triangles take for touching? Should be 0. */
+int mote_fcl_contacts_without_area(void);
+
+/* Whether two models that are 100 apart, each of a triangle and one without area, collide
+   after a bottom-up refit, by oriented boxes. */
+bool mote_fcl_far_models_collide(bool bottom_up);
+
 /* fcl::distance of two triangles, one above the other at distance 1, as models of oriented
    boxes; the right answer is 1. The warning that FCL writes to its error stream is discarded.
  */

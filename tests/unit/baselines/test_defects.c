@@ -4,7 +4,10 @@
 #include "tests/support/peers/ccd_triangle.h"
 #include "tests/support/peers/fcl_defects.h"
 #include "tests/support/peers/fcl_triangle.h"
+#include "tests/support/peers/hacd_defects.h"
 #include "baselines/wide_triangle.h"
+#include "core/body/deform.h"
+#include "harness/scene/scenario.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test.h"
 
@@ -128,6 +131,76 @@ TEST(fcl_sum_of_oriented_boxes_does_not_contain_them)
         fail_msg(MENDED);
 }
 
+/* Whether a method says that a scenario's bodies touch in frame 101. */
+static bool touches_in_frame_101(const mote_scenario *scenario, const char *name,
+                                 const char *options)
+{
+    const mote_method *m = mote_method_find(name);
+    assert_non_null(m);
+    double values[MOTE_PARAMETERS_MAX];
+    mote_parameters_default(m->parameters, m->parameter_count, values);
+    assert_int_equal(mote_parameters_parse(m->parameters, m->parameter_count, options, values),
+                     MOTE_OK);
+    const mote_setup setup = {.body = {&scenario->body[0], &scenario->body[1]},
+                              .length = scenario->length,
+                              .ask = MOTE_ASK_CONTACT,
+                              .values = values};
+    void *state = NULL;
+    assert_int_equal(m->create(&setup, &state), MOTE_OK);
+    mote_frame_buffer *buffer = mote_frame_buffer_create(scenario);
+    mote_frame frame = *mote_scenario_frame(scenario, buffer, 101, 0);
+    mote_vec3 *vertices[2];
+    for (int b = 0; b < 2; ++b) {
+        mote_deform *deform = NULL;
+        assert_int_equal(mote_deform_create(&scenario->body[b], &deform), MOTE_OK);
+        vertices[b] = calloc(scenario->body[b].mesh->vertex_count, sizeof *vertices[b]);
+        assert_non_null(vertices[b]);
+        mote_deform_all(deform, &frame.body[b], vertices[b]);
+        frame.body[b].vertices = vertices[b];
+        mote_deform_destroy(deform);
+    }
+    const bool touches = answer(name, state, &frame).contact;
+    m->destroy(state);
+    mote_frame_buffer_destroy(buffer);
+    free(vertices[0]);
+    free(vertices[1]);
+    return touches;
+}
+
+TEST(fcl_fit_of_a_triangle_without_area_is_elsewhere)
+{
+    const double off = mote_fcl_fit_without_area();
+    print_message("centre of the box around a triangle without area: %.3f away\n", off);
+    if (off < 1e-9)
+        fail_msg(MENDED);
+}
+
+TEST(fcl_triangles_without_area_touch_far_away)
+{
+    const int touching = mote_fcl_contacts_without_area();
+    print_message("far pairs without area that touch by FCL: %d of 6\n", touching);
+    if (touching == 0)
+        fail_msg(MENDED);
+}
+
+/* The two together, and on the scenario that has such faces, in a frame in which the bodies
+   are apart. */
+TEST(fcl_refit_bottom_up_of_faces_without_area_invents_contacts)
+{
+    static const char *const volumes[] = {"fcl-obb", "fcl-rss", "fcl-obbrss", "fcl-kios"};
+    assert_false(mote_fcl_far_models_collide(false));
+    if (!mote_fcl_far_models_collide(true))
+        fail_msg(MENDED);
+    mote_scenario *scenario = NULL;
+    assert_int_equal(mote_scenario_load("spider", &scenario), MOTE_OK);
+    for (size_t i = 0; i < ROWS_OF(volumes); ++i) {
+        assert_false(touches_in_frame_101(scenario, volumes[i], "update=refit-top-down"));
+        if (!touches_in_frame_101(scenario, volumes[i], "update=refit-bottom-up"))
+            fail_msg(MENDED);
+    }
+    mote_scenario_destroy(scenario);
+}
+
 TEST(fcl_distance_of_small_triangles_is_zero)
 {
     int large[2], small[2];
@@ -220,6 +293,24 @@ static ccd_t ccd_settings(void)
     ccd.center1 = ccd.center2 = centre;
     ccd.max_iterations = 100;
     return ccd;
+}
+
+/* Whether a heap says so depends on the heap: after enough of them, glibc's and ASan's do. */
+TEST(hacd_hull_frees_a_vertex_twice)
+{
+    pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        (void)signal(SIGABRT, SIG_DFL);
+        (void)signal(SIGSEGV, SIG_DFL);
+        (void)close(STDERR_FILENO);
+        mote_hacd_hulls(1000);
+        _exit(0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        fail_msg(MENDED);
 }
 
 TEST(ccd_mpr_loops_for_ever)

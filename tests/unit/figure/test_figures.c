@@ -297,6 +297,28 @@ TEST(ratios_of_processes_without_a_pair_are_missing)
     mote_summary_free(&summary);
 }
 
+/* The best engine of others has a name in the front, though it is none of the fixed families;
+   what is slower than it, does not. */
+TEST(front_names_the_best_engine)
+{
+    mote_summary summary;
+    mote_figure figure = {0};
+    write_replicate("engines", "certified", 1, 1, 100);
+    write_replicate("engines", "fcl-rss", 1, 1, 4000);
+    write_replicate("engines", "coal-aabb", 1, 1, 1000);
+    assert_int_equal(mote_summary_make("engines", &summary), MOTE_OK);
+    const mote_figure_run run = {"engines", &summary, NULL};
+    assert_int_equal(mote_figure_front(&run, "s", &figure), MOTE_OK);
+    assert_non_null(strstr(figure.data.data, "coal-aabb"));
+    assert_null(strstr(figure.data.data, "fcl-rss"));
+    assert_non_null(strstr(figure.data.data, "others"));
+    assert_non_null(
+        strstr(figure.caption.data, "coal-aabb is the fastest engine of others in this run"));
+    free(figure.data.data);
+    free(figure.caption.data);
+    mote_summary_free(&summary);
+}
+
 /* Two blocks: ours and the best FCL, each against the engine that is faster than FCL. */
 TEST(ratios_are_to_the_best_engine_with_the_best_fcl_beside)
 {

@@ -140,7 +140,8 @@ TEST(speed_at_exact_is_of_rows_exact_in_every_frame)
     assert_int_equal(fronts.count, 3);
     for (size_t i = 0; i < fronts.count; ++i) {
         const mote_front *front = &fronts.items[i];
-        const double exact = front->speed[0].faster, next = front->speed[1].faster;
+        const double exact = front->speed[0].to[MOTE_RIVAL_FCL].faster,
+                     next = front->speed[1].to[MOTE_RIVAL_FCL].faster;
         if (strcmp(front->title, "almost") == 0)
             assert_true(isnan(exact) && fabs(next - 100) < 1e-9);
         else if (strcmp(front->title, "certified") == 0)
@@ -168,7 +169,7 @@ TEST(rows_with_positions_given_are_compared_without_deformation)
     mote_fronts fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < fronts.count; ++i) {
         if (&summary.rows[fronts.items[i].first] == ours)
-            assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
+            assert_true(fabs(fronts.items[i].speed[0].to[MOTE_RIVAL_FCL].faster - 10) < 1e-9);
     }
     mote_fronts_free(&fronts);
     mote_summary_free(&summary);
@@ -221,7 +222,7 @@ TEST(interval_of_a_speed_lies_on_both_sides_of_it)
         }
         make_summary();
         mote_fronts fronts = mote_fronts_make(&summary);
-        const mote_front_speed *speed = &fronts.items[1].speed[0];
+        const mote_front_ratio *speed = &fronts.items[1].speed[0].to[MOTE_RIVAL_FCL];
         if (!(speed->interval.low < speed->faster && speed->interval.high > speed->faster &&
               speed->interval.low > 19 && speed->interval.high < 21))
             fail_msg("%d processes: %g [%g, %g]", processes[i], speed->faster,
@@ -249,7 +250,7 @@ TEST(intervals_lie_around_their_figures_and_a_ratio_to_itself_has_none)
     assert_true(best->total.low < best->total.median && best->total.median < best->total.high);
     mote_fronts fronts = mote_fronts_make(&summary);
     for (size_t i = 0; i < fronts.count; ++i) {
-        const mote_front_speed *speed = &fronts.items[i].speed[0];
+        const mote_front_ratio *speed = &fronts.items[i].speed[0].to[MOTE_RIVAL_FCL];
         if (&summary.rows[fronts.items[i].first] == best)
             assert_true(speed->faster == 1 && isnan(speed->interval.low));
         else

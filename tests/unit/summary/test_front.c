@@ -100,6 +100,7 @@ TEST(process_interval_of_many_processes_is_near_the_normal_one)
 }
 
 static const char *scenario = "s";
+static int wrong_contacts; /* 1: bodies that are apart are said to touch */
 
 /* Writes a cell of 20 frames that all take `ns` and are off by `error`. */
 static void write_cell(const char *method, const char *label, double n, int replicate,
@@ -121,8 +122,8 @@ static void write_cell(const char *method, const char *label, double n, int repl
     mote_text_add(&text,
                   "frame,deform_ns,update_ns,query_ns,truth,error,contact,contact_truth\n");
     for (int k = 1; k <= 20; ++k)
-        mote_text_add(&text, "%d,0,0,%.0f,1,%.17g,0,0\n", k, ns * (1 + 0.01 * replicate),
-                      error);
+        mote_text_add(&text, "%d,0,0,%.0f,1,%.17g,%d,0\n", k, ns * (1 + 0.01 * replicate),
+                      error, wrong_contacts);
     (void)snprintf(name, sizeof name, "cells/%s.csv", id);
     assert_int_equal(mote_record_text(".", name, &text), MOTE_OK);
     (void)snprintf(name, sizeof name, "cells/%s.json", id);
@@ -163,19 +164,68 @@ TEST(fronts_of_a_run_say_how_much_faster_at_each_error)
     fronts = mote_fronts_make(&summary);
     assert_int_equal(fronts.count, 4);
     const mote_front *ours = find_front(&fronts, "ours");
-    assert_true(isnan(ours->speed[0].faster)); /* never exact */
+    assert_true(isnan(ours->speed[0].to[MOTE_RIVAL_FCL].faster)); /* never exact */
     /* At 1e-4 and 1e-3 on the line from 10 times at 0.9e-4 to 100 times at 0.9e-2. */
-    near(ours->speed[1].faster, 10 * pow(1 / 0.9, 0.5), 1e-3);
-    near(ours->speed[2].faster, 10 * pow(10 / 0.9, 0.5), 1e-3);
-    near(ours->speed[3].faster, 100, 1e-3);
-    near(ours->speed[4].faster, 100, 1e-3);
-    assert_true(ours->speed[3].interval.low <= 100.1 && ours->speed[3].interval.high >= 99.9);
+    near(ours->speed[1].to[MOTE_RIVAL_FCL].faster, 10 * pow(1 / 0.9, 0.5), 1e-3);
+    near(ours->speed[2].to[MOTE_RIVAL_FCL].faster, 10 * pow(10 / 0.9, 0.5), 1e-3);
+    near(ours->speed[3].to[MOTE_RIVAL_FCL].faster, 100, 1e-3);
+    near(ours->speed[4].to[MOTE_RIVAL_FCL].faster, 100, 1e-3);
+    assert_true(ours->speed[3].to[MOTE_RIVAL_FCL].interval.low <= 100.1 &&
+                ours->speed[3].to[MOTE_RIVAL_FCL].interval.high >= 99.9);
     /* FCL's best is FCL AABB; OBB has half the speed. */
-    near(find_front(&fronts, "fcl-aabb")->speed[0].faster, 1, 1e-9);
-    near(find_front(&fronts, "fcl-obb")->speed[0].faster, 0.5, 1e-3);
-    assert_true(isnan(find_front(&fronts, "other")->speed[3].faster));
+    near(find_front(&fronts, "fcl-aabb")->speed[0].to[MOTE_RIVAL_FCL].faster, 1, 1e-9);
+    near(find_front(&fronts, "fcl-obb")->speed[0].to[MOTE_RIVAL_FCL].faster, 0.5, 1e-3);
+    assert_true(isnan(find_front(&fronts, "other")->speed[3].to[MOTE_RIVAL_FCL].faster));
     mote_fronts_free(&fronts);
     mote_summary_free(&summary);
+}
+
+static json_t *first_speed(const json_t *fronts, const char *family)
+{
+    size_t i;
+    json_t *front;
+    json_array_foreach(fronts, i, front)
+    {
+        if (strcmp(json_string_value(json_object_get(front, "family")), family) == 0)
+            return json_array_get(json_object_get(front, "speed"), 0);
+    }
+    fail_msg("no family %s", family);
+    return NULL;
+}
+
+/* Coal is the best engine; ode, which invents contacts, is not,
+   and neither is ours. The best FCL stays beside it. */
+TEST(fronts_of_a_run_name_the_best_engine_beside_the_best_fcl)
+{
+    scenario = "engines";
+    for (int r = 1; r <= 5; ++r) {
+        write_cell("fcl-aabb", "ea", 0, r, 1e6, 0);
+        write_cell("coal-aabb", "eb", 0, r, 5e5, 0);
+        write_cell("aabb-tree", "ec", 0, r, 1e5, 0);
+        wrong_contacts = 1;
+        write_cell("ode", "ed", 0, r, 1e3, 0);
+        wrong_contacts = 0;
+    }
+    scenario = "s";
+    mote_summary summary;
+    assert_int_equal(mote_summary_make(".", &summary), MOTE_OK);
+    mote_fronts fronts = mote_fronts_make(&summary);
+    const mote_front_speed *ours = &find_front(&fronts, "aabb-tree")->speed[0];
+    near(ours->to[MOTE_RIVAL_FCL].faster, 10, 1e-3);
+    near(ours->to[MOTE_RIVAL_ENGINE].faster, 5, 1e-3);
+    assert_string_equal(summary.rows[ours->to[MOTE_RIVAL_ENGINE].rival].method, "coal-aabb");
+    assert_string_equal(summary.rows[ours->to[MOTE_RIVAL_FCL].rival].method, "fcl-aabb");
+    const mote_front_speed *itself = &find_front(&fronts, "coal-aabb")->speed[0];
+    assert_true(itself->to[MOTE_RIVAL_ENGINE].faster == 1 &&
+                isnan(itself->to[MOTE_RIVAL_ENGINE].interval.low));
+    json_t *list = mote_fronts_json(&fronts);
+    const json_t *speed = first_speed(list, "aabb-tree");
+    assert_string_equal(json_string_value(json_object_get(speed, "engine")), "coal-aabb");
+    near(json_number_value(json_object_get(speed, "engine_faster")), 5, 1e-3);
+    json_decref(list);
+    mote_fronts_free(&fronts);
+    mote_summary_free(&summary);
+    assert_int_equal(system("rm cells/e[a-d]-*"), 0);
 }
 
 TEST(fronts_of_a_run_say_who_dominates_whom)

@@ -101,7 +101,8 @@ TEST(fronts_of_several_machines_and_scenes_are_kept_apart)
     assert_int_equal(fronts.count, 6);
     for (size_t i = 0; i < fronts.count; ++i) {
         const bool ours = strcmp(fronts.items[i].title, "certified") == 0;
-        assert_true(fabs(fronts.items[i].speed[0].faster - (ours ? 2 : 1)) < 1e-9);
+        assert_true(fabs(fronts.items[i].speed[0].to[MOTE_RIVAL_FCL].faster - (ours ? 2 : 1)) <
+                    1e-9);
     }
     for (size_t i = 0; i < summary.count; ++i) {
         const char *id = summary.rows[i].first->id;
@@ -186,7 +187,7 @@ TEST(summary_ratios_are_of_rows_on_the_same_frames)
     for (size_t i = 0; i < fronts.count; ++i) {
         const char *id = summary.rows[fronts.items[i].first].first->id;
         if (id[0] == 'd')
-            assert_true(fabs(fronts.items[i].speed[0].faster - 10) < 1e-9);
+            assert_true(fabs(fronts.items[i].speed[0].to[MOTE_RIVAL_FCL].faster - 10) < 1e-9);
     }
     mote_fronts_free(&fronts);
 }
@@ -215,9 +216,10 @@ TEST(fronts_are_of_the_figures_of_the_rows)
     for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
         const mote_front_speed *speed = &ours->speed[k];
         const double times = k + 1 < MOTE_FRONT_LEVELS ? 2 : 10;
-        assert_true(fabs(speed->faster - times) < 1e-9);
+        const mote_front_ratio *ratio = &speed->to[MOTE_RIVAL_FCL];
+        assert_true(fabs(ratio->faster - times) < 1e-9);
         assert_true(fabs(speed->time_ns - 100 / times) < 1e-9);
-        assert_true(speed->interval.low <= times && speed->interval.high >= times);
+        assert_true(ratio->interval.low <= times && ratio->interval.high >= times);
     }
     mote_fronts_free(&fronts);
 }
