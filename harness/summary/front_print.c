@@ -64,14 +64,19 @@ static bool same_rivals(const mote_fronts *fronts, size_t first)
     return true;
 }
 
-/* The line that names the rivals of a family. */
-static void print_rivals(const mote_fronts *fronts, size_t family, mote_rival rival, int width,
-                         FILE *out)
+/* The line that names the rivals of a family, once if they are the same at every level. */
+static void print_rivals(const mote_fronts *fronts, size_t family, mote_rival rival, FILE *out)
 {
-    (void)fprintf(out, "%-*s", width, "than");
-    for (size_t k = 0; k < MOTE_FRONT_LEVELS; ++k) {
-        const size_t row = fronts->items[family].speed[k].to[rival].rival;
-        (void)fprintf(out, " %22s", row == SIZE_MAX ? "-" : fronts->summary->rows[row].label);
+    const mote_front_speed *speed = fronts->items[family].speed;
+    size_t last = 0;
+    for (size_t k = 1; k < MOTE_FRONT_LEVELS; ++k)
+        last =
+            speed[k].to[rival].rival == speed[0].to[rival].rival ? last : MOTE_FRONT_LEVELS - 1;
+    (void)fprintf(out, "than%s:", last > 0 ? ", level by level" : "");
+    for (size_t k = 0; k <= last; ++k) {
+        const size_t row = speed[k].to[rival].rival;
+        (void)fprintf(out, "%s %s", k ? "," : "",
+                      row == SIZE_MAX ? "-" : fronts->summary->rows[row].label);
     }
     (void)fprintf(out, "\n");
 }
@@ -102,7 +107,7 @@ static void print_place(const mote_fronts *fronts, size_t first, mote_rival riva
         (void)fprintf(out, "\n");
     }
     /* With positions given, rivals may be others; those are in speed.csv. */
-    print_rivals(fronts, named, rival, width, out);
+    print_rivals(fronts, named, rival, out);
 }
 
 static int by_time(const void *a, const void *b)
