@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import struct
 from ctypes import c_void_p
-from typing import Any, Optional, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from ._results import Contact, Contacts, Distance, Distances
 
 _ndarray = np.ndarray
 _POSES = (2, 3, 4)
-_numbers = struct.Struct("2d").unpack_from
+_numbers: Callable[[Any], tuple[Any, ...]] = struct.Struct("2d").unpack_from
 _batch_query = lib.batch_query
 _make = tuple.__new__
 
@@ -88,7 +88,7 @@ class Pair(lib.Guarded):
     def _prepare(self, memory: lib.Memory) -> None:
         """Memory for the numbers of one frame, and the library's structs that point to it."""
         sizes = [(body.rest.size, body.amounts) for body in self._bodies]
-        self._buffer = np.zeros(24 + sum(map(sum, sizes)))
+        self._buffer = np.zeros(24 + sum(rest + amounts for rest, amounts in sizes))
         self._poses = self._buffer[:24].reshape(_POSES)
         self._parts: list[tuple[np.ndarray, np.ndarray]] = []
         self._controls = (lib.Controls * 2)()

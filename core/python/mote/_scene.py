@@ -160,7 +160,7 @@ class Scene(lib.Guarded):
             weights = [weights]
         if not isinstance(weights, (list, tuple)) or len(weights) != shapes:
             raise TypeError(f"weights: expected a list of {shapes}, one for each shape")
-        result = []
+        result: list[tuple[Optional[Framed], ...]] = []
         for k, value in enumerate(weights):
             name = f"weights[{k}]"
             given = self._weights[k].framed(name, value)

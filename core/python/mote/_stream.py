@@ -50,7 +50,7 @@ def _given(name: str, value: object, vertices: int) -> _Given:
         raise wrong_shape(name, array, (vertices, 3), (ANY, vertices, 3))
     if not _lies_right(array):
         single = array.dtype.kind == "f" and array.itemsize == 4
-        array = contiguous(name, array, SINGLE if single else DOUBLE)
+        array = contiguous(name, array, SINGLE) if single else contiguous(name, array, DOUBLE)
     return _Given(array, len(array) if array.ndim == 3 else None)
 
 
