@@ -2,7 +2,6 @@
 #include <mote/field_maker.h>
 #include <mote/method.h>
 
-#include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -26,7 +25,7 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
 {
     const mote_setup *setup = (const mote_setup *)state;
     if (frame->number == 3 && setup->values[DOES] == 1)
-        (void)raise(SIGSEGV);
+        abort(); /* a signal that no sanitizer takes for itself */
     while (frame->number == 3 && setup->values[DOES] == 2)
         (void)pause();
     if (frame->number == 3 && setup->values[DOES] == 3)
