@@ -102,8 +102,13 @@ static mote_status add_element(ply *p, const char *name, const char *count)
     e->count = number;
     e->is_vertex = strcmp(name, "vertex") == 0;
     e->is_face = strcmp(name, "face") == 0;
-    if (e->is_vertex)
-        p->vertices = number;
+    if (!e->is_vertex)
+        return MOTE_OK;
+    for (size_t i = 0; i + 1 < p->elements; ++i) {
+        if (p->element[i].is_vertex)
+            return fail(p, "a second vertex element; give one");
+    }
+    p->vertices = number;
     return MOTE_OK;
 }
 
@@ -325,7 +330,7 @@ static mote_status read_entry(ply *p, const element *e, uint64_t number)
 static mote_status check_header(const ply *p)
 {
     unsigned coordinates = 0, known = 0;
-    bool corners = false;
+    bool corners = false, early = false;
     for (size_t i = 0; i < p->elements; ++i) {
         const element *e = &p->element[i];
         for (size_t k = 0; k < e->properties; ++k) {
@@ -333,13 +338,15 @@ static mote_status check_header(const ply *p)
             const bool coordinate = part == X || part == Y || part == Z;
             coordinates += coordinate;
             known |= coordinate ? 1u << part : 0;
-            corners = corners || (part == CORNERS && coordinates == 3);
+            early = early || (part == CORNERS && coordinates < 3);
+            corners = corners || part == CORNERS;
         }
     }
     if (coordinates != 3 || known != (1u << X | 1u << Y | 1u << Z))
         return fail(p, "no vertex element with x, y and z once each; add it");
-    return corners ? MOTE_OK
-                   : fail(p, "no face element with vertex_indices after the vertices; add it");
+    if (early)
+        return fail(p, "faces before the vertices; give the vertex element first");
+    return corners ? MOTE_OK : fail(p, "no face element with vertex_indices; add it");
 }
 
 static mote_status read_all(ply *p)

@@ -95,6 +95,10 @@ TEST(sequence_names_the_frame_and_what_is_wrong_with_it)
         {"ply", "vertex 25", "vertex 99999", "declares 99999 elements"},
         {"ply", "format ascii", "format odd", "an unknown format"},
         {"ply", "end_header", "end_heads", "end_header"},
+        {"ply", "element vertex",
+         "element face 1\nproperty list uchar int vertex_indices\nelement vertex",
+         "faces before the vertices"},
+        {"ply", "end_header", "element vertex 30\nend_header", "a second vertex element"},
     };
     for (size_t i = 0; i < ROWS_OF(rows); ++i) {
         char name[16], first[16];
