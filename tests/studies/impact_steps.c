@@ -8,7 +8,7 @@
 #include "harness/base/memory.h"
 #include "harness/base/options.h"
 #include "harness/base/statistics.h"
-#include "tests/support/scenario_path.h"
+#include "harness/scene/scenario_path.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Paths of scenarios against the scenarios' own frames. */
-#include "tests/support/scenario_path.h"
+#include "harness/scene/scenario_path.h"
 
 #include "harness/scene/motion.h"
 #include "tests/support/test.h"

@@ -1,4 +1,4 @@
-#include "tests/support/scenario_path.h"
+#include "harness/scene/scenario_path.h"
 
 #include "harness/base/memory.h"
 #include "harness/scene/motion.h"

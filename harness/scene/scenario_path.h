@@ -4,8 +4,8 @@
    through both frames whose derivatives are those of the parabolas through each frame and its
    neighbours, as a scenario's own curves do between keys (Catmull and Rom). So a path needs
    nothing but the frames, is once continuously differentiable, and agrees with every frame. */
-#ifndef MOTE_TESTS_SCENARIO_PATH_H
-#define MOTE_TESTS_SCENARIO_PATH_H
+#ifndef MOTE_HARNESS_SCENARIO_PATH_H
+#define MOTE_HARNESS_SCENARIO_PATH_H
 
 #include "core/body/path.h"
 #include "harness/scene/scenario.h"
