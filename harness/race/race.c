@@ -45,6 +45,12 @@ mote_verdict mote_race_verdict(double ratio, mote_confidence interval, double re
                                                                     : MOTE_VERDICT_UNDECIDED;
 }
 
+size_t mote_race_next_look(size_t pairs)
+{
+    const size_t next = pairs + pairs / 2;
+    return next < MOTE_PAIRED_MAX ? next : MOTE_PAIRED_MAX;
+}
+
 static void shuffle(size_t *items, size_t count, mote_random *random)
 {
     for (size_t i = 0; i < count; ++i)
@@ -181,7 +187,7 @@ static void look(event *e, bool last)
             fmax(row->interval.high / row->ratio, row->ratio / row->interval.low) - 1;
         e->done[i] = last || reach <= o->until;
     }
-    e->next_look += MOTE_RACE_STEP;
+    e->next_look = mote_race_next_look(e->next_look);
 }
 
 static bool all_done(const event *e)
@@ -208,7 +214,8 @@ static mote_status run_pairs(event *e)
             break;
         const bool late = is_late(e);
         if (late || e->race->pairs == e->next_look)
-            look(e, late || e->looks + 1 == MOTE_RACE_LOOKS);
+            look(e,
+                 late || e->looks + 1 == MOTE_RACE_LOOKS || e->race->pairs == MOTE_PAIRED_MAX);
     }
     return status;
 }

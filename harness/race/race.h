@@ -19,10 +19,7 @@
 
 /* The probability that a race of two equal programs calls any row faster or slower. */
 #define MOTE_RACE_ALPHA 0.01
-#define MOTE_RACE_LOOKS 4
-/* Pairs of processes between two looks; the first look comes as soon as there is an
-   interval. */
-#define MOTE_RACE_STEP 8
+#define MOTE_RACE_LOOKS 6
 /* Answers are equal up to this share of L, as everywhere (an exact answer). */
 #define MOTE_RACE_EXACT 1e-9
 #define MOTE_RACE_BUILDS 64
@@ -91,6 +88,10 @@ typedef struct mote_race {
     double seconds;
     bool worse, undecided; /* slower, other answers, or missing; undecided or out of time */
 } mote_race;
+
+/* The pairs of processes at the look after one at so many: half as many again, MOTE_PAIRED_MAX
+   at most. The first look comes as soon as there is an interval. */
+size_t mote_race_next_look(size_t pairs);
 
 /* Runs a race. MOTE_EIO and MOTE_EINVAL if a program cannot race at all (see mote_racer_start),
    if no cell can be measured, and if a signal asked to stop; all processes have then ended. The

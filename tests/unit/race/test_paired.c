@@ -125,18 +125,18 @@ TEST(a_frame_counts_with_its_share_of_the_total)
     assert_true(fabs(mote_bout_log_ratio(&times, NULL) - log(13.5 / 10)) < 1e-12);
 }
 
-/* Plays a race of one row as harness/race/race.c does, with up to four looks. Returns the
-   verdict of the last look. spread: of pairs of processes. */
+/* Plays a race of one row as harness/race/race.c does. Returns the verdict of the last look.
+   spread: of pairs of processes. */
 static mote_verdict simulate(mote_random *random, double change, double spread)
 {
     const double alpha = MOTE_RACE_ALPHA / MOTE_RACE_LOOKS;
-    const size_t least = mote_paired_least(alpha);
+    size_t count = 0, next = mote_paired_least(alpha);
     double values[MOTE_PAIRED_MAX];
-    size_t count = 0;
     mote_verdict verdict = MOTE_VERDICT_UNDECIDED;
     for (size_t look = 0; look < MOTE_RACE_LOOKS; ++look) {
-        while (count < least + look * MOTE_RACE_STEP)
+        while (count < next)
             values[count++] = log1p(change) + spread * heavy(random);
+        next = mote_race_next_look(count);
         const mote_confidence logs = mote_paired_interval(values, count, alpha);
         const double ratio = exp(mote_paired_centre(values, count));
         const mote_confidence interval = {exp(logs.low), exp(logs.high)};
@@ -170,6 +170,17 @@ TEST(two_per_cent_are_found_where_processes_differ_by_half_a_per_cent)
     for (int i = 0; i < 400; ++i)
         found += simulate(&random, 0.02, 0.003) == MOTE_VERDICT_SLOWER;
     assert_true(found >= 360);
+}
+
+/* The later looks are far enough apart to decide a row whose processes differ widely. */
+TEST(equal_programs_are_the_same_where_processes_differ_by_two_per_cent)
+{
+    mote_random random = {17};
+    size_t same = 0;
+    for (int i = 0; i < 400; ++i)
+        same += simulate(&random, 0, 0.02) == MOTE_VERDICT_SAME;
+    test_row("%zu of 400", same);
+    assert_true(same >= 390);
 }
 
 TEST(verdicts)
