@@ -26,7 +26,7 @@
 #define MOTE_INLINE static inline
 #endif
 
-/* restrict in C, and the same where a compiler of C++ has it. */
+/* restrict, which compilers of C++ know under another name. */
 #ifdef __cplusplus
 #define MOTE_RESTRICT __restrict
 #else

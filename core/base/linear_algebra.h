@@ -1,5 +1,5 @@
-/* Dense linear algebra of symmetric matrices; the only place that uses GSL's. GSL's error
-   handler is switched off during a call, for all threads. */
+/* Dense linear algebra of symmetric matrices; the only user of GSL's linear algebra. GSL's
+   error handler is switched off during a call, for all threads. */
 #ifndef MOTE_CORE_LINEAR_ALGEBRA_H
 #define MOTE_CORE_LINEAR_ALGEBRA_H
 
@@ -22,9 +22,8 @@ mote_status mote_cholesky_create(uint32_t size, const double *matrix, mote_chole
                                  double *reciprocal_condition);
 void mote_cholesky_destroy(mote_cholesky *cholesky); /* NULL is allowed */
 
-/* Solves matrix * x = values, both with every third number used (one coordinate of vectors):
-   x[3 i] from values[3 i], i < size; they may be the same. Threads may share a factor. Cost
-   O(size^2). */
+/* Solves matrix * x = values for one coordinate of arrays of vectors: x[3 i] from values[3 i],
+   i < size. The arrays may be the same. Threads may share a factor. Cost O(size^2). */
 void mote_cholesky_solve_coordinate(const mote_cholesky *cholesky, const double *values,
                                     double *x);
 

@@ -1,5 +1,5 @@
-/* What a shared library leaves behind for mote to find its methods and fields by. Users need
-   MOTE_METHOD (core/method/method.h) and MOTE_FIELD (core/body/field_maker.h) only. */
+/* How a shared library tells mote which methods and fields it has. Users need only MOTE_METHOD
+   (core/method/method.h) and MOTE_FIELD (core/body/field_maker.h). */
 #ifndef MOTE_CORE_PLUGIN_H
 #define MOTE_CORE_PLUGIN_H
 
@@ -21,12 +21,13 @@ enum {
 typedef struct mote_plugin_item {
     uint32_t contract; /* MOTE_CONTRACT of the headers that it was compiled with */
     uint32_t kind;
-    uint32_t size; /* of the structs that both sides use: a version that was not raised when it
-                      should have been is seen all the same */
+    uint32_t size; /* of the structs that both sides use, in bytes: shows a change of layout for
+                      which nobody raised the version */
     const void *item;
 } mote_plugin_item;
 
-/* The type of mote_plugin_items, which each such library exports: its items. */
+/* The type of mote_plugin_items, which each such library exports. It returns the library's
+   items. */
 typedef const mote_plugin_item *const *(*mote_plugin_items_type)(size_t *count);
 
 #ifdef __cplusplus

@@ -24,7 +24,7 @@ struct mote_pool {
     mote_pool_work work;
     void *context;
     size_t count, grain;
-    atomic_size_t next; /* the first item that nobody took */
+    atomic_size_t next; /* the first item that no thread has taken */
 };
 
 static void take_part(mote_pool *pool, uint32_t worker)

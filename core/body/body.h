@@ -10,19 +10,20 @@ extern "C" {
 #endif
 #pragma GCC visibility push(default)
 
-/* Zero-initialise it: what is left out has no samples. */
+/* Zero-initialise it, so that a body without samples has a sample_count of 0. */
 typedef struct mote_body {
     const mote_mesh *mesh;   /* borrowed */
     const mote_field *field; /* borrowed; never NULL: static when nothing deforms */
     /* Weights of some poses that the body is likely to take, for an identity rotation (as if in
        the body's axes); borrowed, may be NULL when sample_count is 0. A tree is split where
-       triangles are far apart at rest or in one of these: a rest pose puts limbs side by side
-       that part later. They change times only, never an answer. Eight are plenty. */
+       triangles are far apart at rest or in one of these poses, since limbs that lie side by
+       side at rest may part later. Samples change times only, never an answer. Eight are
+       enough. */
     const mote_weights *samples; /* [sample_count] */
     uint32_t sample_count;
 } mote_body;
 
-/* Whether all that is known of the body is where its vertices are in each frame
+/* Whether the body has no known field, only the positions of its vertices in each frame
    (mote_field_create_given). */
 static inline bool mote_body_is_given(const mote_body *body)
 {
@@ -36,8 +37,9 @@ static inline bool mote_body_is_rigid(const mote_body *body)
 }
 
 /* World vertex i = rotation * x_i + translation + sum_j phi_j(x_i) w_j. Of a body whose
-   positions are given it is vertices[i], and the pose only says how the body's axes turn with
-   it: methods may use it to tell a turn from a deformation, and answer right whatever it is. */
+   positions are given it is vertices[i]. The pose then only says how the body's axes turn:
+   methods may use it to tell a rotation from a deformation, but their answers are right
+   whatever it is. */
 typedef struct mote_body_state {
     mote_pose pose;
     mote_weights weights;      /* in world axes, field->padded long; see mote_weights */
@@ -52,7 +54,7 @@ typedef struct mote_frame {
     mote_body_state body[2];
 } mote_frame;
 
-/* A vertex in pose 0, at rest, or in pose 1 .. sample_count, in a sample pose. */
+/* The position of a vertex at rest (pose 0) or in a sample pose (1 .. sample_count). */
 mote_vec3 mote_body_sample(const mote_body *body, uint32_t pose, uint32_t vertex);
 
 /* World position of one vertex, evaluated from the field; read from state->vertices only where

@@ -44,7 +44,7 @@ static double weights_motion(mote_stance *stance, const mote_body_state *state)
     return sqrt(most);
 }
 
-/* The longest way that a probe has moved, in the body's axes. */
+/* The farthest that any probe has moved, in the body's axes. */
 static double probes_motion(mote_stance *stance, const mote_body_state *state)
 {
     double most = 0;

@@ -46,8 +46,8 @@ typedef struct mote_weights_single {
 #define MOTE_FIELD_MAX 65528
 #define MOTE_FIELD_MAX_BOUNDED (1u << 20)
 
-/* What is summed over basis() or sparse() for a kind that does not sum by itself has at most
-   this many functions at a vertex, since the values are kept on the stack. */
+/* A kind that leaves its displacements to the sum over basis() or sparse() has at most this
+   many functions at a vertex, since their values are kept on the stack. */
 #define MOTE_FIELD_SUMMED 256
 
 typedef struct mote_field mote_field;
@@ -63,8 +63,8 @@ typedef struct mote_field_kind {
 
     /* Of a kind whose functions are 0 at most vertices: the functions that may not be 0 at a
        vertex. Writes their numbers, ascending, and their values, both as long as field->most;
-       returns how many there are. The values equal those of basis() bit for bit. NULL: any
-       function may be anything but 0 everywhere. */
+       returns how many there are. The values equal those of basis() bit for bit. NULL: each
+       function may differ from 0 at every vertex. */
     uint32_t (*sparse)(const mote_field *field, const mote_mesh *mesh, uint32_t vertex,
                        uint32_t *functions, double *phi);
 
@@ -127,8 +127,8 @@ struct mote_field {
  */
 mote_status mote_field_create_static(mote_field **field);
 
-/* The field of a body whose deformation is not known: cloth, finite elements, what was
-   captured. mote_body_state.vertices then holds its world positions in every frame, and is
+/* The field of a body whose deformation is not known: cloth, finite elements, captured
+   sequences. mote_body_state.vertices then holds its world positions in every frame, and is
    never NULL. MOTE_ENOMEM. */
 mote_status mote_field_create_given(mote_field **field);
 

@@ -27,7 +27,7 @@ typedef struct mote_field_maker {
     mote_status (*create)(const mote_mesh *mesh, const double *values, mote_field **field);
 } mote_field_maker;
 
-/* Of what a field and its caller share, for plugin.h. */
+/* The sizes of the structs that a field and its caller share, which plugin.h compares. */
 #define MOTE_FIELD_SIZES                                                                       \
     (sizeof(mote_field_maker) + sizeof(mote_mesh) + sizeof(mote_field) +                       \
      sizeof(mote_field_kind))
@@ -40,11 +40,12 @@ typedef struct mote_field_maker {
 /* The kinds that are built in, ended by NULL; written by the build. */
 extern const mote_field_maker *const mote_field_makers[];
 
-/* Makes a further kind known to the two functions below; borrowed until the program ends.
-   Before any other thread uses them. MOTE_EINVAL where its name is taken, or after 64. */
+/* Makes one more kind known to the two functions below. It is borrowed until the program ends.
+   To be called before another thread uses them. MOTE_EINVAL: its name is taken, or 64 have been
+   added. */
 mote_status mote_field_maker_add(const mote_field_maker *maker);
 
-/* The kinds that are built in and then those added, by number; NULL behind the last. */
+/* Kind number index: first those built in, then those added. NULL past the last. */
 const mote_field_maker *mote_field_maker_at(size_t index);
 
 /* The one of that name, or NULL. */

@@ -11,8 +11,8 @@
 #define MOTE_LEAF_ORDER_WIDTH 8
 
 /* Writes order[triangle_count]: leaf i has the triangles order[i * leaf] .. order[i * leaf +
-   leaf - 1], the last one fewer. Eight leaves in a row are a node of the level above, from the
-   first leaf on, and so on up; each level is full but for its last node. leaf >= 1.
+   leaf - 1], fewer in the last leaf. From the first leaf on, eight leaves in a row are a node
+   of the level above, and so on up; each level is full but for its last node. leaf >= 1.
    MOTE_ENOMEM. Cost O(t log t). */
 mote_status mote_leaf_order(const mote_body *body, uint32_t leaf, uint32_t *order);
 

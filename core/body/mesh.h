@@ -19,12 +19,12 @@ extern "C" {
 #define MOTE_RING_END 0x80000000u
 #define MOTE_RING_VERTEX(entry) ((entry) & ~MOTE_RING_END)
 
-/* Vertices are fewer than 2^31. The ring of vertex v are the entries
-   ring[ring_start[v]] .. ring[ring_start[v + 1] - 1], each neighbour of v once per fan, in
-   order around v. Two consecutive entries k, k + 1 and v form a triangle unless entry k has
-   MOTE_RING_END; the last entry is followed by the first when the vertex has one closed fan (no
-   entry has MOTE_RING_END then). At a boundary each fan ends with MOTE_RING_END; a closed fan
-   at a vertex with several fans repeats its first neighbour at its end. */
+/* There are fewer than 2^31 vertices. The ring of vertex v is the entries ring[ring_start[v]]
+   .. ring[ring_start[v + 1] - 1], each neighbour of v once per fan, in order around v. Two
+   consecutive entries k, k + 1 and v form a triangle unless entry k has MOTE_RING_END; the last
+   entry is followed by the first when the vertex has one closed fan (no entry has MOTE_RING_END
+   then). At a boundary each fan ends with MOTE_RING_END; a closed fan at a vertex with several
+   fans repeats its first neighbour at its end. */
 typedef struct mote_mesh {
     uint32_t vertex_count;
     uint32_t triangle_count;

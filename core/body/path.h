@@ -30,7 +30,7 @@ typedef struct mote_path_piece {
     bool spins;              /* true: constant angular velocity; false: cubic quaternions */
     mote_quaternion turn[4]; /* control points of the rotation, not 0 anywhere between them; of
                                 a piece that spins the first is its rotation at the start, of
-                                length 1, and the others are not looked at */
+                                length 1, and the others are not read */
     mote_vec3 spin;          /* of a piece that spins: the whole turn, in radians, as a vector
                                 along its axis in the world, right-handed */
     const double *weights;   /* [4][3][padded] control points, coordinate by coordinate, in the

@@ -60,7 +60,7 @@ static mote_quaternion add_quaternion(mote_quaternion a, double s, mote_quaterni
     return (mote_quaternion){a.w + s * b.w, a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
 }
 
-/* Of a piece that does not spin, of any length. */
+/* The rotation in a piece that does not spin, as a quaternion of any length. */
 static mote_quaternion quaternion_at(const mote_path_piece *piece, double u)
 {
     const double v = 1 - u;

@@ -13,11 +13,10 @@ mote_status mote_method_create(const mote_method *method, const mote_setup *setu
     const mote_traits traits = mote_method_traits(method, setup->values);
     for (int b = 0; b < 2 && traits.needs_field; ++b) {
         if (mote_body_is_given(setup->body[b]))
-            return mote_fail(
-                MOTE_EUNSUPPORTED,
-                "%s needs a field, and of body %d only positions are given; take a "
-                "method on positions, as stream or aabb-tree",
-                method->name, b);
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "%s needs a field, and of body %d only positions are known; use a "
+                             "method that works on positions, such as stream or aabb-tree",
+                             method->name, b);
     }
     if (method->create)
         return method->create(setup, state);

@@ -2,9 +2,9 @@
 
    A method is one constant descriptor in one file, defined as
        MOTE_METHOD(particle_paper) = {.name = "particle-paper", ...};
-   at the start of a line. In mote's own tree the build finds it by that line
-   (cmake/MoteRegistry.cmake); outside of it, the file is compiled into a shared library, which
-   mote loads (--plugin) and finds the method in by what this line leaves there. */
+   at the start of a line. In mote's own sources the build finds that line
+   (cmake/MoteRegistry.cmake). Elsewhere the file is compiled into a shared library, which mote
+   loads (--plugin); the macro lists the method in it (core/base/plugin.h). */
 #ifndef MOTE_CORE_METHOD_H
 #define MOTE_CORE_METHOD_H
 
@@ -73,16 +73,16 @@ typedef struct mote_answer {
 
 /* What a parameterised method needs and keeps. */
 typedef struct mote_traits {
-    bool needs_field; /* computes with the field itself: no body may be one whose positions are
-                         all that is known */
-    bool uses_field;  /* computes with it where there is one, whatever vertices it wants besides
-                       */
+    bool needs_field; /* computes with the field itself: refuses bodies of which only positions
+                         are known */
+    bool uses_field;  /* computes with the field where there is one, even if it wants vertices
+                         too */
     bool needs_vertices; /* wants every vertex of the frame in mote_body_state.vertices */
     bool given_vertices; /* wants them too, but nobody is charged for them (positions=given) */
     bool keeps_state;    /* answers may depend on earlier queries (coherence): never strided */
     bool exact;          /* claims the exact distance (checked to 1e-12 L) */
     bool hulls;          /* answers for the hulls of convex parts, not for the surfaces */
-    bool samples;        /* builds by the bodies' sample poses; see mote_body */
+    bool samples;        /* builds its trees from the bodies' sample poses too; see mote_body */
 } mote_traits;
 
 typedef struct mote_method {
@@ -91,7 +91,7 @@ typedef struct mote_method {
     const mote_parameter *parameters;
     size_t parameter_count;
 
-    /* Borrowed values; never fails. NULL: none of them. */
+    /* The traits with these parameter values (borrowed). Never fails. NULL: none is set. */
     mote_traits (*traits)(const double *values);
 
     /* Builds the state for a pair of bodies. MOTE_EUNSUPPORTED with a reason when the method
@@ -111,12 +111,12 @@ typedef struct mote_method {
     mote_status (*query)(void *state, const mote_frame *frame, mote_answer *answer);
 
     /* For pictures: the world positions of the particles of body 0 or 1 after the last query,
-       the frame of which is still there.
-       Returns how many there are and writes at most capacity of them. NULL: it has none. */
+       whose frame must still be valid. Returns how many there are, and writes at most capacity
+       of them. NULL: the method has no particles. */
     size_t (*particles)(const void *state, int body, mote_vec3 *positions, size_t capacity);
 } mote_method;
 
-/* Of what a method and its caller share, for plugin.h. */
+/* The sizes of the structs that a method and its caller share, which plugin.h compares. */
 #define MOTE_METHOD_SIZES                                                                      \
     (sizeof(mote_method) + sizeof(mote_setup) + sizeof(mote_frame) + sizeof(mote_answer) +     \
      sizeof(mote_body) + sizeof(mote_mesh) + sizeof(mote_field) + sizeof(mote_field_kind))
@@ -138,11 +138,12 @@ mote_status mote_method_create(const mote_method *method, const mote_setup *setu
                                void **state);
 void mote_method_destroy(const mote_method *method, void *state);
 
-/* Makes a further method known to the two functions below; borrowed until the program ends.
-   Before any other thread uses them. MOTE_EINVAL where its name is taken, or after 64. */
+/* Makes one more method known to the two functions below. It is borrowed until the program
+   ends. To be called before another thread uses them. MOTE_EINVAL: its name is taken, or 64
+   have been added. */
 mote_status mote_method_add(const mote_method *method);
 
-/* The methods that are built in and then those added, by number; NULL behind the last. */
+/* Method number index: first those built in, then those added. NULL past the last. */
 const mote_method *mote_method_at(size_t index);
 
 /* The method of that name, or NULL. */

@@ -1,4 +1,4 @@
-/* The response of two rigid bodies that collide in one point (paper section 4): effective mass,
+/* The response of two rigid bodies that collide at one point (paper section 4): effective mass,
    effective impulse, impulses after the collision, changes of velocity and angular velocity.
    "Impulse" is the paper's "pulse".
 
@@ -46,11 +46,11 @@ typedef struct mote_impact {
     double energy; /* kinetic energy lost by restitution below 1, >= 0 */
 } mote_impact;
 
-/* Lets bodies 0 and 1 collide in a point (world), if they approach there. normal: from body 0
-   to body 1, any length > 0. restitution e: 0 (none of the closing speed comes back) .. 1
-   (all); the impulse is (1 + e) / 2 of the elastic one. MOTE_EINVAL for a normal without
-   direction, or numbers that are not finite or not in range; the states are left as they were.
- */
+/* Lets bodies 0 and 1 collide at a point (world) if they approach each other there. normal:
+   from body 0 to body 1, any length > 0. restitution e: from 0 (none of the closing speed comes
+   back) to 1 (all of it); the impulse is (1 + e) / 2 of the elastic one. MOTE_EINVAL: a normal
+   of length 0, or a number that is not finite or out of range; the states are then unchanged.
+   No allocation. */
 mote_status mote_respond(const mote_mass *const mass[2], mote_vec3 point, mote_vec3 normal,
                          double restitution, mote_rigid_state *const state[2],
                          mote_impact *impact);

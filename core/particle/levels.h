@@ -46,7 +46,7 @@ size_t mote_levels_bytes(const mote_levels *levels);
 /* Chooses count different nodes of a level, the first at random from seed: with farthest, each
    the farthest (at rest) from those before, else at random. Each component gets its first node
    before any gets a second. count is 1 .. the level's count. Cost O(count * level's count) with
-   farthest, but linear in the level for as many as there are components. */
+   farthest; the first nodes of all components together cost O(level's count). */
 mote_status mote_levels_spread(const mote_levels *levels, const mote_mesh *mesh, uint32_t level,
                                uint32_t count, bool farthest, uint64_t seed, uint32_t *nodes);
 

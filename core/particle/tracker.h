@@ -16,8 +16,8 @@ extern "C" {
 #define MOTE_TRACK_MAX 64 /* MOTE_PAIRS_MAX */
 
 typedef struct mote_tracker_options {
-    uint32_t count; /* n, seeds on each body, raised to one a connected component; 0: none, only
-                       the last query's closest pair is followed */
+    uint32_t count;  /* n, seeds on each body, raised to one for each connected component; 0:
+                        none, only the last query's closest pair is followed */
     uint32_t launch; /* seeds of each body that a warm query descends from, besides n in every
                         0.2 L of motion; a cold query: n */
     uint32_t track;  /* minima followed from query to query, 0 .. MOTE_TRACK_MAX */
