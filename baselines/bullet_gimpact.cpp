@@ -4,10 +4,10 @@
    frame.
 
    GImpact collects every contact and cannot be asked for one. stop=yes ends it at the first by
-   an exception thrown out of its callback: faster where bodies touch, and not how anyone uses
-   it, so that it is a choice of its own. Bullet's public contactPairTest and its closest-point
-   algorithms find no contact between two GImpact meshes: the algorithm for contact points is
-   asked for. */
+   an exception thrown out of its callback. This is faster where bodies touch, but not how
+   Bullet is normally used, so it is not the default. Bullet's public contactPairTest and its
+   closest-point algorithms find no contact between two GImpact meshes, so the algorithm for
+   contact points is called. */
 #include "baselines/engine.h"
 
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
@@ -35,7 +35,7 @@ const mote_parameter parameters[PARAMETER_COUNT] = {
 struct FirstContact {
 };
 
-/* Hears of contacts, and keeps only whether there was one. */
+/* Receives contacts, and keeps only whether there was one. */
 class Listener : public btManifoldResult
 {
   public:

@@ -2,10 +2,9 @@
    traversal of the same kinds of trees. Built only where CMake finds Coal, of which Debian has
    no package (docs/peers.md says how it is built).
 
-   What stands in its release is bound=coal. bound=full is that release with one bound mended:
-   the distance of two axis-aligned boxes from all three axes. AABB and RSS are refitted
-   bottom-up; the others top-down, since Coal's sum of oriented boxes leaves triangles outside
-   (datasets/defects.md). */
+   bound=coal is Coal as released. bound=full mends one bound: the distance of two axis-aligned
+   boxes is taken from all three axes. AABB and RSS are refitted bottom-up; the others top-down,
+   since Coal's sum of oriented boxes leaves triangles outside (datasets/defects.md). */
 #include "baselines/coal_pair.hpp"
 
 #include <exception>

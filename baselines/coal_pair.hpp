@@ -43,7 +43,8 @@ struct Options {
     bool given;    /* deforming the vertices is not charged */
 };
 
-/* Of a volume: whether Coal moves it in place, whether it has a mesh distance that is right. */
+/* What Coal can do with a volume: apply a transform in place (oriented), and measure the
+   distance of two meshes correctly (has_distance). */
 template <class BV> struct Kind {
     static constexpr bool oriented = true;
     static constexpr bool has_distance = true;

@@ -1,15 +1,15 @@
 /* posed-parts: rigid parts, as engines collide with characters that they do not want to refit.
    A control: not exact.
 
-   Each triangle goes to the bone that has most of the weight of its corners, and in a frame is
-   moved as that bone is, so nothing is deformed or refitted. Wrong by as much as blending bends
-   a part: triangles between bones, and morph targets. A body whose triangles follow one bone
-   each is exact.
+   Each triangle is given to the bone that has most of the weight of its corners, and moves with
+   that bone, so nothing is deformed or refitted. The error is what blending would bend:
+   triangles between bones, and morph targets. A body whose triangles follow one bone each is
+   exact.
 
    search=fcl: a tree of FCL for each part, built once over the rest pose and posed by its bone,
    which FCL can only turn and move: the nearest rotation stands for a bone that scales or
    shears. search=certified: the certified query on a skin in which every vertex follows one
-   bone, which tells what blending costs it. */
+   bone, which shows what blending costs that query. */
 #include "baselines/fcl_adapter.hpp"
 #include "core/certificate/certificate.h"
 #include "core/skin/skin.h"
@@ -22,7 +22,7 @@ namespace
 using mote_fcl::Transform;
 using mote_fcl::Vector;
 using Matrix = fcl::Matrix3<double>;
-/* As fast on characters as OBBRSS (1.0 to 1.1 times on bison-15k and jumper-20k), in 3/5 of its
+/* On characters 1.0 to 1.1 times as fast as OBBRSS (bison-15k and jumper-20k), in 3/5 of its
    memory. */
 using Model = fcl::BVHModel<fcl::RSS<double>>;
 using Node = fcl::detail::MeshDistanceTraversalNodeRSS<double>;

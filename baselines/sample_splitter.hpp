@@ -1,8 +1,8 @@
 /* What a splitter of FCL's trees needs to split by sample poses (core/body/sample_split.h);
-   Coal's splitter cannot be replaced. FCL asks for a rule, then, triangle by triangle, on which
-   side of it a centre is. A rule on centres at rest cannot tell what is apart in another pose,
-   so sides are chosen for all triangles when the rule is asked for, and told one by one.
- */
+   Coal's splitter cannot be replaced. FCL asks for a rule, and then for each triangle on which
+   side of it the centre lies. A rule about centres at rest cannot separate what is apart only
+   in another pose. So the sides of all triangles are chosen when the rule is asked for, and
+   handed out one by one. */
 #ifndef MOTE_BASELINES_SAMPLE_SPLITTER_HPP
 #define MOTE_BASELINES_SAMPLE_SPLITTER_HPP
 

@@ -1,13 +1,13 @@
 /* A square cloth that falls over a letter and onto the floor around it.
 
    Position-based dynamics (Mueller et al., 2007) on a grid: distances along the edges, across
-   the squares, and, weakly, to the next but one vertex, which resists bending. The letter is
-   met as an implicit surface, with friction. The cloth does not meet itself, and the letter
-   does not move.
+   the squares, and, weakly, to the next but one vertex, which resists bending. The cloth
+   collides with the letter, an implicit surface that does not move, with friction. It does not
+   collide with itself.
 
-   The grid that is simulated has at most GRID squares an edge: a finer one would need as many
-   more iterations to be as stiff. Larger cloths are refined from it by cubic curves (Catmull
-   and Rom) in both directions, and their vertices then kept off the letter one by one. */
+   The grid that is simulated has at most GRID squares an edge: a finer one would need more
+   iterations to be as stiff. Larger cloths are refined from it by cubic curves (Catmull and
+   Rom) in both directions, and their vertices then kept off the letter one by one. */
 #include "datasets/glyph.h"
 #include "datasets/simulated.h"
 
@@ -56,7 +56,7 @@ static inline void hold(mote_vec3 *a, mote_vec3 *b, double length, double share)
     *b = mote_add_scaled(*b, -way, d);
 }
 
-/* A pair that only resists being pushed together is what a fold is: bending. */
+/* Only resists being pushed together, as the two sides of a fold do: bending. */
 static inline void hold_apart(mote_vec3 *a, mote_vec3 *b, double length, double share)
 {
     if (mote_distance_squared(*a, *b) < length * length)
@@ -123,7 +123,7 @@ static void substep(cloth *c)
         mote_vec3 normal = {0, 0, 0};
         if (!push_out(&c->letter, &c->now[k], &normal))
             continue;
-        /* What it has moved along the surface is partly undone. */
+        /* Friction takes back a part of the motion along the surface. */
         const mote_vec3 way = mote_sub(c->now[k], c->before[k]);
         const mote_vec3 along = mote_add_scaled(way, -mote_dot(way, normal), normal);
         c->now[k] = mote_add_scaled(c->now[k], -FRICTION, along);

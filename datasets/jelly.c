@@ -1,10 +1,10 @@
 /* A letter of jelly that falls onto a letter, bounces and wobbles.
 
    Finite elements: a lattice of cubes that covers the letter, trilinear, with two Gauss points
-   an edge, of a stable neo-Hookean material (Smith, de Goes and Kim, 2018), moved on
-   explicitly. The letter's surface is embedded in the cubes. It meets the other letter, an
-   implicit surface, at the vertices of a coarse mesh of its own, which are pushed out as by
-   springs; the sizes of the shown mesh do not change the motion. */
+   an edge, of a stable neo-Hookean material (Smith, de Goes and Kim, 2018), integrated
+   explicitly in time. The letter's surface is embedded in the cubes. It collides with the other
+   letter, an implicit surface, at the vertices of a coarse mesh of its own, which springs push
+   out. So the size of the mesh that is shown does not change the motion. */
 #include "datasets/glyph.h"
 #include "datasets/letter.h"
 #include "datasets/simulated.h"
@@ -24,7 +24,7 @@
 #define CONTACTS 1200  /* triangles of the coarse mesh */
 #define STIFFNESS 2e-3 /* of its springs */
 #define ROUGHNESS 1e-4 /* force for a speed along the surface */
-#define MARGIN 0.009   /* where they begin */
+#define MARGIN 0.009   /* distance at which the springs begin */
 #define FLOOR (-0.25)  /* height */
 
 typedef struct cube {
@@ -50,10 +50,11 @@ typedef struct jelly {
     double slope[8][8][3]; /* of corner c's function at Gauss point g, over CELL */
 } jelly;
 
-/* The field of a sample of a cube that is in the letter, at most: every point of the surface
-   has a sample in its own cube that is at most sqrt(3) / 8 of an edge away. */
+/* A cube is kept if the letter's field is below FIELD_MAX at one of its SAMPLES^3 samples. That
+ * keeps all cubes that the surface passes: each of its points has a sample in the same cube at
+ * most sqrt(3) / 8 of an edge away. */
 #define SAMPLES 4
-#define REACH (0.22 * CELL)
+#define FIELD_MAX (0.22 * CELL)
 
 static bool touches_letter(const jelly *s, int x, int y, int z)
 {
@@ -63,7 +64,7 @@ static bool touches_letter(const jelly *s, int x, int y, int z)
                               z + (l + 0.5) / SAMPLES};
         const mote_vec3 p = mote_add_scaled(s->low, CELL, mote_vec3_make(at[0], at[1], at[2]));
         mote_vec3 gradient;
-        if (mote_glyph_field(&s->own, p, &gradient) < REACH)
+        if (mote_glyph_field(&s->own, p, &gradient) < FIELD_MAX)
             return true;
     }
     return false;

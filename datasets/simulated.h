@@ -1,7 +1,6 @@
-/* Bodies that a small simulation of ours deforms, frame by frame: what comes of it is known to
-   a method as positions only, not as a field. The letter that they fall on lies flat about the
-   origin (its strokes in the xy-plane); gravity pulls along -z. Lengths are in L of that
-   letter. */
+/* Bodies that a small simulation of ours deforms, frame by frame. A method is told their
+   positions only, and no field. The letter that they fall on lies flat about the origin (its
+   strokes in the xy-plane); gravity pulls along -z. Lengths are in L of that letter. */
 #ifndef MOTE_DATASETS_SIMULATED_H
 #define MOTE_DATASETS_SIMULATED_H
 
