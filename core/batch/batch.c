@@ -19,11 +19,11 @@ struct mote_batch {
     mote_weights *samples[2];
     double *sample_numbers[2];
     mote_certificate_options options;
-    mote_cert_tree *trees[2]; /* the same twice where both bodies are of one shape */
+    mote_cert_tree *trees[2]; /* both the same where the bodies have one shape */
     worker *workers;          /* [worker_count]; the first one's memory is the batch's own */
     size_t worker_count;
     mote_cert_memory memory;       /* of queries that go on from the last one */
-    const mote_controls *controls; /* of the call that goes on */
+    const mote_controls *controls; /* of the call in progress */
 };
 
 static double *allocate_room(const mote_field *field, size_t frames)

@@ -2,9 +2,8 @@
    for other languages, which need none of the structs of a frame, and for recorded motion.
 
    Frames are cut into stretches. The first query of a stretch starts from nothing, and each
-   other one from the answer before it. Stretches are shared among threads, so that answers
-   depend on the frames and on where they are cut alone: they are the same bits for any number
-   of threads. */
+   other one from the answer before it. Threads share the stretches. So answers depend only on
+   the frames and on where they are cut, and are the same bits for any number of threads. */
 #ifndef MOTE_CORE_BATCH_H
 #define MOTE_CORE_BATCH_H
 
@@ -17,28 +16,28 @@ extern "C" {
 
 typedef struct mote_batch mote_batch;
 
-/* For two bodies whose fields are known (certificate.h). meshes and fields are borrowed; the
-   same ones may be given twice, and have one tree then. L is the larger of the two rest L.
-   Samples are copied. A NULL field never deforms. MOTE_EINVAL: slack or a sample out of range,
-   a field that has positions given, a skin of another mesh; MOTE_ENOMEM. Modes are taken to be
-   of this mesh. Cost as mote_certificate_create. The caller destroys *batch; one thread at a
-   time may use it. */
+/* For two bodies whose fields are known (certificate.h). meshes and fields are borrowed; two
+   bodies of the same mesh and field share a tree. L is the larger of the two rest L. Samples
+   are copied. A body whose field is NULL never deforms. MOTE_EINVAL: slack or a sample out of
+   range, a field whose positions are given, a skin of another mesh; MOTE_ENOMEM. Whether linear
+   modes belong to the mesh is not checked. Cost as mote_certificate_create. The caller destroys
+   *batch; one thread at a time may use it. */
 mote_status mote_batch_create(const mote_mesh *const meshes[2],
                               const mote_field *const fields[2],
                               const mote_batch_options *options, mote_batch **batch);
 
-/* NULL is allowed. Does not look at the meshes and fields, which may be gone. */
+/* NULL is allowed. The meshes and fields need not exist any more. */
 void mote_batch_destroy(mote_batch *batch);
 
 /* Bytes of heap held now: trees, and what queries of as many threads as were ever asked for
    need. */
 size_t mote_batch_bytes(const mote_batch *batch);
 
-/* Answers for all frames. The answers of mote_certificate_query, bit for bit, where `stretch`
-   is 0. MOTE_EINVAL, naming the first bad frame, counted from 0, and the body: as
-   mote_controls_read; threads out of range, a tolerance that is NaN. The frames' answers are
-   not to be used then. MOTE_ENOMEM. Allocates where there are more threads than ever before,
-   and for threads. Beside the queries about 0.1 us a frame. */
+/* Answers for all frames. Where `stretch` is 0 they are those of mote_certificate_query, bit
+   for bit. MOTE_EINVAL, naming the first bad frame, counted from 0, and the body: as
+   mote_controls_read; threads out of range, a tolerance that is NaN. No frame's answer is valid
+   then. MOTE_ENOMEM. Allocates to start threads, and where there are more of them than ever
+   before. Cost: the queries, and about 0.1 us a frame. */
 mote_status mote_batch_query(mote_batch *batch, const mote_controls controls[2],
                              const mote_batch_run *run);
 

@@ -12,8 +12,8 @@ extern "C" {
 /* What is asked of which frames, and where the answers go. Every member is 8 bytes long. */
 typedef struct mote_batch_run {
     size_t frames; /* 0: nothing happens */
-    /* Frames of a stretch; 0: all frames are one stretch that goes on from the last query of
-       the kind, as single queries one after the other do, by the calling thread. */
+    /* Frames of a stretch; 0: all frames are one stretch, which goes on from the last query of
+       this kind, as single queries do one after the other; the calling thread answers it. */
     size_t stretch;
     size_t threads;   /* 1 .. 256; they are started and joined in the call */
     double tolerance; /* of a contact question, absolute; negative: the distance is asked */
@@ -22,8 +22,9 @@ typedef struct mote_batch_run {
                          known contact */
     double *lower;    /* [frames], proven: 0 <= lower <= distance */
     double *witness;  /* [frames][2][3], world points on the two surfaces */
-    int8_t *contact; /* [frames]: 1 distance <= tolerance, 0 not, -1 not decided within slack or
-                        budget; of a distance question as for the tolerance 0 */
+    int8_t *contact;  /* [frames]: 1: distance <= tolerance, 0: not so, -1: not decided within
+                         slack or budget; where distances are asked for, contact is at the
+                         tolerance 0 */
 } mote_batch_run;
 
 /* How both kinds of batches are made. Every member is 8 bytes long. */

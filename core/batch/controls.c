@@ -29,7 +29,7 @@ size_t mote_controls_amounts(const mote_field *field)
     return skin ? skin->morph.targets : 0;
 }
 
-/* By how much a product of two rows differs from that of an orthonormal matrix. */
+/* By how much the dot product of two rows differs from that of an orthonormal matrix. */
 static double product_error(const mote_mat3 *rotation, int i, int j)
 {
     const double *a = rotation->m[i], *b = rotation->m[j];
@@ -42,11 +42,10 @@ static mote_status check_rotation(const mote_mat3 *rotation)
         for (int j = i; j < 3; ++j) {
             const double off = product_error(rotation, i, j);
             if (!(off <= ROTATION_ERROR))
-                return mote_fail(
-                    MOTE_EINVAL,
-                    "pose: its rotation is none: products of its rows differ by %g "
-                    "from those of an orthonormal matrix; at most %g is allowed",
-                    off, ROTATION_ERROR);
+                return mote_fail(MOTE_EINVAL,
+                                 "pose: not a rotation: products of its rows differ by %g "
+                                 "from those of an orthonormal matrix; at most %g is allowed",
+                                 off, ROTATION_ERROR);
         }
     }
     const double(*m)[3] = rotation->m;
@@ -54,7 +53,7 @@ static mote_status check_rotation(const mote_mat3 *rotation)
                                m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     if (!(determinant > 0))
-        return mote_fail(MOTE_EINVAL, "pose: its rotation is a reflection");
+        return mote_fail(MOTE_EINVAL, "pose: a reflection, not a rotation");
     return MOTE_OK;
 }
 

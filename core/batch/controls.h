@@ -14,7 +14,7 @@ extern "C" {
    how many numbers further those of the next frame are, and 0 where all frames have the same.
    Every member is 8 bytes long. */
 typedef struct mote_controls {
-    /* Rows of (rotation | translation), 4 numbers each; NULL: neither turned nor moved. */
+    /* Rows of (rotation | translation), 4 numbers each; NULL: the body is where its mesh is. */
     const double *pose;
     /* In the body's axes, so that they turn with it; NULL: at rest. Of linear modes one number
        a mode; of skins a matrix of 3 rows of 4 numbers a bone, as mote_skin_weights takes them;
@@ -25,19 +25,18 @@ typedef struct mote_controls {
     size_t pose_rows; /* 3, or 4 where the last row is 0 0 0 1 */
 } mote_controls;
 
-/* How many numbers the weights of one frame are; 0 for a field that takes none. */
+/* The number of weights in one frame; 0 for a field without weights. */
 size_t mote_controls_weights(const mote_field *field);
 
 /* How many morph targets a field has; 0 for a field that is no skin. */
 size_t mote_controls_amounts(const mote_field *field);
 
-/* Makes a body's state in a frame, counted from 0. length > 0: L of the pair or scene. room
-   [3 * field->padded] is for the state's weights, which are borrowed from it; padding is
-   written too. MOTE_EINVAL, saying which of pose, weights and amounts is wrong: a number that
-   is not finite, a rotation that is none (its rows are orthonormal to 1e-6, its determinant is
-   positive), a last row other than 0 0 0 1, or a translation, weight or amount beyond 2^50 L
-   (2^50 for matrices of bones), where double precision has lost the shape. No allocation. Cost
-   O(weights). */
+/* Makes a body's state in a frame, counted from 0. length > 0: L of the pair or scene. room [3
+   * field->padded] is for the state's weights, which are borrowed from it; padding is written
+   too. MOTE_EINVAL, saying which of pose, weights and amounts is wrong: a number that is not
+   finite, a matrix that is no rotation (rows orthonormal to 1e-6, determinant positive), a last
+   row other than 0 0 0 1, or a translation, weight or amount beyond 2^50 L (2^50 for matrices
+   of bones), where double precision has lost the shape. No allocation. Cost O(weights). */
 mote_status mote_controls_read(const mote_body *body, const mote_controls *controls,
                                size_t frame, double length, double *room,
                                mote_body_state *state);

@@ -18,17 +18,17 @@ typedef struct mote_crowd_options {
 
 typedef struct mote_crowd mote_crowd;
 
-/* Makes bodies[body_count], each of the shape shape_of[i] < shape_count, which is
-   meshes[shape] with fields[shape] (NULL: it never deforms); these are borrowed, the rest is
-   copied. options NULL: tolerance 0, distances, one thread. MOTE_EINVAL: no shape or body, a
-   shape that does not exist, a skin of another mesh, a field that has positions given, options
-   out of range; MOTE_ENOMEM. Cost as mote_scene_create. The caller destroys *crowd; one thread
-   at a time may use it. Its own threads do not survive fork. */
+/* Makes bodies[body_count], each of the shape shape_of[i] < shape_count, which is meshes[shape]
+   with fields[shape] (NULL: it never deforms); these are borrowed, the rest is copied. options
+   NULL: tolerance 0, distances, one thread. MOTE_EINVAL: no shape or body, a shape that does
+   not exist, a skin of another mesh, a field whose positions are given, options out of range;
+   MOTE_ENOMEM. Cost as mote_scene_create. The caller destroys *crowd; one thread at a time may
+   use it. A child process made by fork must not use it: its threads are not there. */
 mote_status mote_crowd_create(const mote_mesh *const *meshes, const mote_field *const *fields,
                               size_t shape_count, const uint32_t *shape_of, size_t body_count,
                               const mote_crowd_options *options, mote_crowd **crowd);
 
-/* NULL is allowed. Does not look at the meshes and fields, which may be gone. */
+/* NULL is allowed. The meshes and fields need not exist any more. */
 void mote_crowd_destroy(mote_crowd *crowd);
 
 /* L: the largest rest L of the shapes. */
@@ -36,10 +36,10 @@ double mote_crowd_length(const mote_crowd *crowd);
 
 /* One step: finds the pairs of bodies whose boxes are at most `within` >= 0 apart (infinity:
    all pairs), and answers for each; *count says how many. Every pair of bodies at most `within`
-   apart is among them. The steps of controls[body_count] are not looked at: each has the
-   numbers of this step. Pairs that were also in the last step continue from their state.
-   MOTE_EINVAL, naming the body: as mote_controls_read; within is negative or NaN. MOTE_ENOMEM.
-   Cost: 0.2 us a body, the queries, and a sort and sweep along one axis. */
+   apart is among them. The steps in controls[body_count] are not read: each has the numbers of
+   this step. Pairs that were also in the last step continue from their state. MOTE_EINVAL,
+   naming the body: as mote_controls_read; within is negative or NaN. MOTE_ENOMEM. Cost: 0.2 us
+   a body, the queries, and a sort and sweep along one axis. */
 mote_status mote_crowd_step(mote_crowd *crowd, const mote_controls *controls, double within,
                             size_t *count);
 

@@ -10,8 +10,8 @@ struct mote_stream_batch {
     mote_stream *steady;   /* of queries that go on from the last one */
     size_t count;
     double slack;
-    const mote_batch_positions *positions; /* of the call that goes on */
-    bool one_stretch;                      /* so does the call */
+    const mote_batch_positions *positions; /* of the call in progress */
+    bool one_stretch;                      /* of the call in progress, too */
 };
 
 static mote_status ensure_streams(mote_stream_batch *batch, size_t count)
@@ -84,7 +84,8 @@ static mote_status answer_frame(void *context, uint32_t number, size_t frame, bo
         now.positions[b] =
             (mote_positions){(const char *)positions->data + frame * positions->frame_step,
                              positions->stride, positions->single != 0};
-        /* Whether the first frame of a call is the last one's again is not known. */
+        /* Whether the first frame of a call is the same as the last frame of the call before is
+           not known. */
         now.unchanged[b] = positions->frame_step == 0 && !fresh && frame > 0;
     }
     if (fresh)

@@ -20,22 +20,22 @@ typedef struct mote_batch_positions {
 
 typedef struct mote_stream_batch mote_stream_batch;
 
-/* For two bodies of which only positions are known. The meshes are borrowed. Of the options,
-   samples are not looked at. MOTE_EINVAL: slack out of range; MOTE_ENOMEM. Cost as
+/* For two bodies of which only positions are known. The meshes are borrowed. Samples in the
+   options are not read. MOTE_EINVAL: slack out of range; MOTE_ENOMEM. Cost as
    mote_stream_create. The caller destroys *batch; one thread at a time may use it. */
 mote_status mote_stream_batch_create(const mote_mesh *const meshes[2],
                                      const mote_batch_options *options,
                                      mote_stream_batch **batch);
 
-/* NULL is allowed. Does not look at the meshes, which may be gone. */
+/* NULL is allowed. The meshes need not exist any more. */
 void mote_stream_batch_destroy(mote_stream_batch *batch);
 
 /* Bytes of heap held now. */
 size_t mote_stream_batch_bytes(const mote_stream_batch *batch);
 
-/* Answers for all frames. The answers of mote_stream_query, bit for bit, where `stretch` is 0.
-   MOTE_EINVAL, naming the first bad frame, counted from 0: as mote_stream_query; threads out of
-   range, a tolerance that is NaN. The frames' answers are not to be used then. MOTE_ENOMEM. */
+/* Answers for all frames. Where `stretch` is 0 they are those of mote_stream_query, bit for
+   bit. MOTE_EINVAL, naming the first bad frame, counted from 0: as mote_stream_query; threads
+   out of range, a tolerance that is NaN. No frame's answer is valid then. MOTE_ENOMEM. */
 mote_status mote_stream_batch_query(mote_stream_batch *batch,
                                     const mote_batch_positions positions[2],
                                     const mote_batch_run *run);

@@ -4,7 +4,7 @@
 
 #include <stdatomic.h>
 
-/* A run while it goes on. */
+/* A run in progress. */
 typedef struct progress {
     const mote_batch_run *run;
     bool exact;
@@ -37,7 +37,7 @@ uint32_t mote_stretches_threads(const mote_batch_run *run)
     return threads > 1 ? (uint32_t)threads : 1;
 }
 
-/* Whether a question of a method is answered, and how. */
+/* The contact that a bracket shows: 1, 0, or -1 where it is not decided. */
 static int8_t decide(const mote_certificate_answer *found, double tolerance, bool exact)
 {
     const bool asked = tolerance >= 0;

@@ -33,10 +33,10 @@ typedef struct mote_cert_part {
 typedef struct mote_cert_bounds {
     const char *name;
 
-    /* Sets tree->fixed (one block of fixed_bytes that the tree frees) if the kind keeps
-       anything of the tree as a whole, and makes what fit needs. linear_fits is
-       mote_cert_tree_options's. MOTE_EINVAL where the field is not one of the body's mesh;
-       MOTE_ENOMEM. stop follows on success only. */
+    /* Sets tree->fixed (one block of fixed_bytes, which the tree frees) if the kind keeps
+       anything for the tree as a whole, and makes what fit needs. linear_fits: as in
+       mote_cert_tree_options. MOTE_EINVAL where the field was made for another mesh than the
+       body's; MOTE_ENOMEM. stop is called only after success. */
     mote_status (*start)(mote_cert_tree *tree, bool linear_fits, void **fitter);
 
     /* Bounds one child of the block that is being built. */

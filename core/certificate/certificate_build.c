@@ -467,8 +467,9 @@ mote_status mote_cert_tree_create(const mote_body *body, const mote_cert_tree_op
 {
     if (mote_body_is_given(body))
         return mote_fail(MOTE_EUNSUPPORTED,
-                         "the certified query needs a field, and of a body only positions are "
-                         "given; take a method on positions, as stream or aabb-tree");
+                         "the certified query needs a field, but of a body only positions are "
+                         "known; use a method that works on positions, such as stream or "
+                         "aabb-tree");
     const mote_mesh *mesh = body->mesh;
     builder *b = calloc(1, sizeof *b);
     mote_cert_tree *made = calloc(1, sizeof *made);

@@ -1,4 +1,4 @@
-/* Blocks deformed on demand: what of it is the same for all kinds of bounds. */
+/* Deforming blocks on demand: the part that is the same for all kinds of bounds. */
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"
 

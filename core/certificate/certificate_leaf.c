@@ -1,14 +1,13 @@
 /* Positions of a leaf's vertices: by their coordinates in its deformed box, which costs a few
    operations a vertex; by the field in single precision; exactly.
 
-   Margins. A vertex's coordinate z in its box is rounded to a float, so that a sum over k of
-   z_k a_k is wrong by at most u sum |a_k|, which is at most u B in a coordinate (see
-   certificate_deform.c). The sums themselves have five roundings of terms whose absolute values
-   add up to B in a coordinate or sqrt(3) B along a direction: 9 u B. A projection on a
-   direction of length <= 1
-   + 6 u, of such sums or of what is added up, a difference of two of them, and the rounding of
-   the direction and of a threshold add 14 u B, sums along it of the widths no more. leaf_margin
-   is 32 u B. */
+   Margins, with u and B as in certificate_fitted.c. A vertex's coordinate z in its box is
+   rounded to a float, so that a sum over k of z_k a_k is wrong by at most u sum |a_k|, which is
+   at most u B in a coordinate. The sums themselves have five roundings of terms whose absolute
+   values add up to B in a coordinate or sqrt(3) B along a direction: 9 u B. A projection on a
+   direction of length <= 1 + 6 u, of such sums or of what is added up, a difference of two of
+   them, and the rounding of the direction and of a threshold add 14 u B, sums along it of the
+   widths no more. leaf_margin is 32 u B. */
 #include "core/base/clones.h"
 #include "core/certificate/certificate_bounds.h"
 #include "core/certificate/certificate_state.h"

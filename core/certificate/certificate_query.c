@@ -212,7 +212,8 @@ static void begin(mote_certificate *c, double enough)
     c->unvisited = DBL_MAX;
 }
 
-/* An upper bound where no pair was measured: a vertex of each body's last face. */
+/* An upper bound where no pair was measured: the distance of a vertex of each body's last
+   face. */
 static void take_vertices(mote_certificate *c, const mote_frame *frame)
 {
     for (int s = 0; s < 2; ++s)

@@ -18,7 +18,7 @@ void mote_cert_workspace_query(mote_certificate *workspace, mote_cert_tree *cons
 }
 
 /* The margin of a box covers the rounding of its half width and of world coordinates too
-   (certificate_deform.c); the sums here are in double precision. */
+   (certificate_fitted.c); the sums here are in double precision. */
 void mote_cert_workspace_bounds(mote_certificate *workspace, mote_cert_tree *tree,
                                 const mote_body_state *state, mote_vec3 *low, mote_vec3 *high)
 {

@@ -1,9 +1,9 @@
 /* Certified queries over trees that many bodies share: one workspace for all pairs, what a pair
    keeps between its queries, and the bounds of a deformed body from the root of its tree.
 
-   A workspace holds what a single query needs, and nothing that must survive it: a pair keeps
-   48 bytes between its queries, a body nothing. Answers do not depend on which workspace gave
-   them, nor on what it was used for before. */
+   A workspace holds what a single query needs, and nothing that must survive it: between
+   queries a pair keeps a mote_cert_memory (64 bytes), a body nothing. Answers do not depend on
+   which workspace gave them, nor on what it was used for before. */
 #ifndef MOTE_CORE_CERTIFICATE_SHARED_H
 #define MOTE_CORE_CERTIFICATE_SHARED_H
 

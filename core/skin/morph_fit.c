@@ -141,7 +141,7 @@ static void fit_slopes(mote_morph_fitter *f, const mote_cert_tree *tree,
     }
 }
 
-/* What is left of the displacements at all vertices. */
+/* The residuals of the displacements at all vertices. */
 static void measure_rest(mote_morph_fitter *f, const mote_cert_tree *tree,
                          const mote_cert_part *part)
 {

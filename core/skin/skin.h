@@ -13,9 +13,9 @@
        p_i = sum over b of w_ib M_b (x_i + sum over k of m_k d_ik),
 
    with a displacement d_ik for each vertex that a target moves, and an amount m_k, any finite
-   number, for each target in each frame. Such a field is not linear in all of its weights; it
-   is their displacement() that says what they do. Its weight vectors are those of the bones,
-   three for the rotation of the body's pose, and one a target.
+   number, for each target in each frame. Such a field is not linear in all of its weights; its
+   displacement() defines what they do. Its weight vectors are those of the bones, three for the
+   rotation of the body's pose, and one a target.
 
    A skin without targets is a sparse field. Both bring bounds of their own to the certified
    query (skin_bounds.h). */

@@ -133,7 +133,7 @@ static void destroy(void *state)
     free(s);
 }
 
-/* What a body's vertices need that are not given. */
+/* What a body needs whose vertices are not given: memory for them, and their deformation. */
 static mote_status build_vertices(auto_state *s, int b)
 {
     const mote_body *body = s->setup.body[b];

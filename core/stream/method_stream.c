@@ -29,7 +29,7 @@ typedef struct stream_state {
     mote_ask ask;
     double tolerance;
     bool exact;    /* no slack */
-    bool answered; /* the positions of the frame before were taken */
+    bool answered; /* the frame before was answered */
 } stream_state;
 
 static mote_traits traits(const double *values)

@@ -1,5 +1,5 @@
-/* The exact distance of two bodies of which nothing is known but where their vertices are in
-   each frame: cloth, finite elements, captured sequences (docs/architecture.md, "The streamed
+/* The exact distance of two bodies of which only the vertices' positions in each frame are
+   known: cloth, finite elements, captured sequences (docs/architecture.md, "The streamed
    query").
 
    A query starts from the last frame's nearest faces, slid downhill, which gives an upper bound
@@ -33,8 +33,8 @@ typedef struct mote_stream_options {
 /* No slack, no limit of box tests, a start from the last faces, one thread. */
 mote_stream_options mote_default_stream_options(double length);
 
-/* Builds a tree for each of two meshes: O(t log t), about 0.5 s a million triangles. Of the
-   bodies, meshes and samples are looked at, and borrowed; the fields are not, and may be NULL.
+/* Builds a tree for each of two meshes: O(t log t), about 0.5 s a million triangles. The
+   bodies' meshes and samples are borrowed; their fields are not used and may be NULL.
    MOTE_EINVAL: threads out of range; MOTE_ENOMEM. The caller destroys *stream; one thread at a
    time may use it. */
 mote_status mote_stream_create(const mote_body *const body[2],

@@ -4,7 +4,7 @@
 
 #include "core/stream/stream.h"
 
-/* Another one like owner, with its options, on its trees, which must outlive it. MOTE_ENOMEM;
+/* Makes a stream with the options and the trees of `owner`, which must outlive it. MOTE_ENOMEM;
    MOTE_EINVAL where threads cannot be started. The caller destroys *stream. */
 mote_status mote_stream_create_beside(const mote_stream *owner, mote_stream **stream);
 

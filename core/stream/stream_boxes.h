@@ -37,8 +37,8 @@ size_t mote_stream_body_bytes(const mote_stream_body *body);
 /* Whether positions can be read: MOTE_EINVAL, naming body `number`. */
 mote_status mote_stream_check(const mote_positions *positions, int number);
 
-/* Looks at every position, once a frame: MOTE_EINVAL, naming the first vertex that is not
- * finite. */
+/* Checks every position, once a frame: MOTE_EINVAL, naming the first vertex that is not
+   finite. */
 mote_status mote_stream_finite(mote_stream_body *body, int number);
 
 /* Makes the boxes, by the threads of a pool (NULL: by this one) where the body is large:

@@ -34,7 +34,7 @@ void mote_stream_destroy(mote_stream *stream)
     free(stream);
 }
 
-/* The trees are there; makes the rest. */
+/* Makes everything but the trees. */
 static mote_status build_on_trees(mote_stream *stream, const mote_stream_options *options)
 {
     const mote_body *body[2];
@@ -110,7 +110,7 @@ size_t mote_stream_bytes(const mote_stream *stream)
     return bytes;
 }
 
-/* Takes a frame's positions; boxes of other positions are void. */
+/* Sets a frame's positions; boxes that were made for other positions are then invalid. */
 static mote_status take_positions(mote_stream *stream, const mote_stream_frame *frame)
 {
     for (int b = 0; b < 2; ++b) {
@@ -127,7 +127,7 @@ static mote_status take_positions(mote_stream *stream, const mote_stream_frame *
     return MOTE_OK;
 }
 
-/* Looks at every position that no pass will look at. */
+/* Checks the positions that no pass will read. */
 static mote_status check_positions(mote_stream *stream)
 {
     for (int b = 0; b < 2; ++b) {

@@ -142,7 +142,7 @@ static mote_scene_box box_around(const mote_stream_body *body)
     return (mote_scene_box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
-/* A body that fails has no boxes afterwards; why is found out by the caller's thread. */
+/* A body that fails has no boxes afterwards; the calling thread then finds out why. */
 static void bound_range(void *context, uint32_t worker, size_t first, size_t end)
 {
     mote_stream_scene *s = context;

@@ -19,9 +19,9 @@ extern "C" {
 
 typedef struct mote_stream_scene mote_stream_scene;
 
-/* Builds a tree for each of shape_count shapes; of these, meshes and samples are borrowed, the
-   fields are not looked at. shape_of[body_count]: the shape of each body, copied. MOTE_EINVAL:
-   no shape or body, a shape that does not exist, options out of range; MOTE_ENOMEM. The caller
+/* Builds a tree for each of shape_count shapes; their meshes and samples are borrowed, their
+   fields are not used. shape_of[body_count]: the shape of each body, copied. MOTE_EINVAL: no
+   shape or body, a shape that does not exist, options out of range; MOTE_ENOMEM. The caller
    destroys *scene; one thread at a time may use it. Cost: about 0.5 s a million triangles of
    shapes. */
 mote_status mote_stream_scene_create(const mote_body *const *shapes, uint32_t shape_count,

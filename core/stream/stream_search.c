@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the last faces have moved apart by more than this part of L, others are looked for by
-   the boxes. Measured on jump: of 0.01 to 0.1, 0.03 takes least time. */
+/* Where the last faces have moved apart by more than this part of L, nearer ones are looked for
+   in the boxes. Measured on jump: of values from 0.01 to 0.1, 0.03 takes the least time. */
 #define LEAP 0.03
 
 /* Coordinates of a query are below this. */
 #define FARTHEST 0x1p60
 
-/* 32 u, and the least B that is reckoned with: see stream_state.h. */
+/* 32 u, and the least B that is used: see stream_state.h. */
 #define MARGIN 0x1p-19
 #define LEAST_BOUND 0x1p-6
 

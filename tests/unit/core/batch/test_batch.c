@@ -339,7 +339,7 @@ TEST(the_first_bad_frame_and_its_body_are_named)
     } bad[] = {{0, 0, NAN, "body 1: pose: row 0, column 0 is"},
                {2, 3, -INFINITY, "body 1: pose: row 2, column 3 is -inf; it must be finite"},
                {1, 3, 1e300, "body 1: pose: the translation 1e+300 is above 2^50 L"},
-               {1, 1, 9, "body 1: pose: its rotation is none"},
+               {1, 1, 9, "body 1: pose: not a rotation"},
                {3, 2, 1, "body 1: weights: number 2 is nan"},
                {3, 3, 1e290, "body 1: weights: number 3 is 1e+290"}};
     for (size_t k = 0; k < ROWS_OF(bad); ++k) {
