@@ -292,8 +292,17 @@ figures: build
 report: build page
 	@$(MOTE) report $(OUT)
 
+# With OUT, keeps that run; without, runs all studies that are stale (STALE=1 says so; LIST=1 runs none).
+STALE ?=
+LIST ?=
+BUSY ?=
 record:
+ifeq ($(origin OUT),command line)
 	@harness/scripts/record.sh $(call quoted,$(OUT)) results/records
+else
+	@ONLY=$(call quoted,$(ONLY)) HOURS=$(call quoted,$(if $(filter file,$(origin HOURS)),,$(HOURS))) BUSY=$(BUSY) JOBS=$(JOBS) \
+	    harness/scripts/studies.sh harness/scripts/studies.tsv results/records results/record $(if $(LIST),list)
+endif
 
 # The replay of reports: bundled where npm is, left out where it is not.
 .PHONY: page test-page

@@ -42,6 +42,14 @@ MODULES = {
         ["test_certificate_bounds", "answers", "test_certificate_limits", "test_allocations",
          "test_certificate", "test_scene"],
     ),
+    "stream": (
+        "core/stream/*.c",
+        ["test_stream", "test_stream_scene", "test_method_auto", "answers"],
+    ),
+    "skin": (
+        "core/skin/*.c",
+        ["test_skin", "test_skin_create", "answers"],
+    ),
 }
 # They replace libc's allocation functions by their own, and so cannot look for leaks.
 COUNTS_HEAP = {"test_certificate_limits", "test_allocations", "test_scene"}

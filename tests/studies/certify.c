@@ -116,7 +116,8 @@ int main(int argc, char **argv)
         v[i].found.least_margin = HUGE_VAL;
         found[i] = &v[i].found;
     }
-    for (uint32_t index = 0; variants_queries(found, VARIANTS) < options.queries; ++index) {
+    for (uint32_t index = (uint32_t)options.first;
+         variants_queries(found, VARIANTS) < options.queries; ++index) {
         if (!run_scene(v, index))
             return 1;
     }

@@ -233,7 +233,7 @@ int main(int argc, char **argv)
         return 2;
     static counts all[FAMILIES];
     uint64_t left = options.queries;
-    for (uint64_t index = 0; left > 0; ++index) {
+    for (uint64_t index = options.first; left > 0; ++index) {
         if (!run_scene(index, all, &left))
             return 1;
     }

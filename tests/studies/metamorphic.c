@@ -204,9 +204,9 @@ static bool write_json(const char *path, const relation *relations, size_t count
     return fclose(file) == 0;
 }
 
-static bool run_relation(relation *r, uint64_t wanted)
+static bool run_relation(relation *r, const checks_options *options)
 {
-    for (uint32_t index = 0; r->tried < wanted; ++index) {
+    for (uint32_t index = (uint32_t)options->first; r->tried < options->queries; ++index) {
         if (!run_pair(r, index))
             return false;
     }
@@ -238,7 +238,7 @@ int main(int argc, char **argv)
     const size_t count = sizeof relations / sizeof *relations;
     uint64_t failed = 0;
     for (size_t i = 0; i < count; ++i) {
-        if (!run_relation(&relations[i], options.queries))
+        if (!run_relation(&relations[i], &options))
             return 1;
         failed += relations[i].failed;
         char name[64];

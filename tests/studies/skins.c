@@ -173,7 +173,7 @@ int main(int argc, char **argv)
     if (!checks_read(argc, argv, "skins", &options))
         return 2;
     counts n = {.queries = 0};
-    for (uint64_t index = 0; n.queries < options.queries; ++index) {
+    for (uint64_t index = options.first; n.queries < options.queries; ++index) {
         if (!run_scene(index, &n, options.queries))
             return 1;
     }

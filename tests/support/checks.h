@@ -14,12 +14,13 @@
 
 typedef struct checks_options {
     uint64_t queries;   /* to try; from 1 */
+    uint64_t first;     /* number of the first random scene; others give other scenes */
     const char *out;    /* a JSON file of all figures; NULL: none */
     const char *checks; /* the file of checks; NULL: none */
 } checks_options;
 
-/* Reads [--queries N] [--out FILE] [--checks FILE]; for anything else returns false, after a
-   line on stderr. options hold the defaults on entry and borrow from argv. */
+/* Reads [--queries N] [--first SCENE] [--out FILE] [--checks FILE]; for anything else returns
+   false, after a line on stderr. options hold the defaults on entry and borrow from argv. */
 static inline bool checks_read(int argc, char **argv, const char *program,
                                checks_options *options)
 {
@@ -28,6 +29,8 @@ static inline bool checks_read(int argc, char **argv, const char *program,
         bool known = value != NULL;
         if (known && strcmp(argv[i], "--queries") == 0)
             known = mote_read_unsigned(value, 1, UINT64_MAX, &options->queries);
+        else if (known && strcmp(argv[i], "--first") == 0)
+            known = mote_read_unsigned(value, 0, UINT32_MAX, &options->first);
         else if (known && strcmp(argv[i], "--out") == 0)
             options->out = value;
         else if (known && strcmp(argv[i], "--checks") == 0)
@@ -35,7 +38,9 @@ static inline bool checks_read(int argc, char **argv, const char *program,
         else
             known = false;
         if (!known) {
-            fprintf(stderr, "usage: %s [--queries N] [--out FILE] [--checks FILE]\n", program);
+            fprintf(stderr,
+                    "usage: %s [--queries N] [--first SCENE] [--out FILE] [--checks FILE]\n",
+                    program);
             return false;
         }
     }

@@ -1,0 +1,144 @@
+#!/bin/bash
+# studies.sh STUDIES: does harness/scripts/studies.sh (STUDIES) run what is stale, and only that? In a
+# repository of two studies of its own: fresh, stale, interrupted, failed, cut short, and bad tables.
+set -euo pipefail
+studies=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export JOBS=1
+step=start
+fail() { echo "studies.sh: $step: $*" >&2; cat "$work/out" "$work/err" >&2; exit 1; }
+cd "$work"
+git init -q repository
+cd repository
+git config user.email a@b.c
+git config user.name somebody
+mkdir core plots
+echo 1 >core/a.c
+echo 1 >core/b.c
+echo 1 >plots/c.gp
+row() { # NAME PLACE MINUTES PARTS SOURCES FILES COMMAND
+    local IFS=$'\t'
+    echo "$*"
+}
+{
+    echo "# a comment"
+    row sums beside 30 3 core 'sum.csv log*' "\"$work/run\" sums"
+    row pictures beside 60 1 plots '*.svg' "\"$work/run\" pictures"
+} >table.tsv
+printf 'work/\nrecords/\n' >.gitignore
+git add . && git commit -qm first
+# Each run is noted in calls; the file fail makes a study fail, and kill ends it as a signal does.
+cat >"$work/run" <<'RUN'
+#!/bin/sh
+echo "$1 $PART" >>"$(dirname "$0")/calls"
+[ ! -e "$(dirname "$0")/kill" ] || [ "$PART" != 2 ] || kill -9 $$
+[ ! -e "$(dirname "$0")/fail" ] || exit 1
+printf 'a, b\t10\t0\nc\t%s\t1\n' "$PART" >"$OUT/checks.tsv"
+echo "$1 \"$PART\"" >"$OUT/sum.csv"
+mkdir -p "$OUT/figures"
+echo svg >"$OUT/figures/one.svg"
+RUN
+chmod +x "$work/run"
+: >"$work/calls"
+run() { # STATUS [ARGUMENT]
+    local wanted=$1 status=0
+    shift
+    "$studies" table.tsv records work "$@" >"$work/out" 2>"$work/err" || status=$?
+    [ "$status" = "$wanted" ] || fail "status $status, not $wanted"
+}
+says() { grep -qF -- "$1" "$work/out" || fail "does not print: $1"; }
+tells() { grep -qF -- "$1" "$work/err" || fail "does not tell: $1"; }
+calls() { [ "$(sort "$work/calls" | tr '\n' ,)" = "$1" ] || fail "calls: $(tr '\n' , <"$work/calls")"; : >"$work/calls"; }
+
+step="everything is stale at first"
+run 1 list
+says "sums              1.5 h  beside  never recorded"
+says "2 stale, 2.5 h"
+calls ""
+
+step="a killed part ends the run, and what passed is not run again"
+touch "$work/kill"
+run 4
+tells "sums was ended"
+calls "sums 1,sums 2,"
+rm "$work/kill"
+run 0
+calls "pictures 1,sums 2,sums 3,"
+says "nothing is stale"
+head=$(git rev-parse --short=10 HEAD)
+[ "$(cat "records/$head/sums/checks.tsv")" = "$(printf 'a, b\t30\t0\nc\t6\t3')" ] || fail "sums of checks"
+[ -f "records/$head/sums/log.txt" ] || fail "the log is not kept"
+[ -f "records/$head/pictures/one.svg" ] || fail "a file of a folder is not kept"
+[ ! -e "records/$head/pictures/sum.csv" ] || fail "keeps a file that the table does not name"
+python3 -c 'import json, sys; s = json.load(open(sys.argv[1])); assert s["parts_done"] == 3 and s["failed"] == 0 and s["study"] == "sums"' \
+    "records/$head/sums/study.json" || fail "study.json"
+
+step="nothing is run again while the sources stay"
+run 0
+calls ""
+
+step="only what exercises a changed file is stale"
+echo 2 >core/b.c
+run 1 list
+says "core/b.c changed since $head"
+run 4
+tells "not committed"
+git commit -qam second
+run 1 list
+says "1 stale"
+touch "$work/fail"
+run 1
+calls "sums 1,sums 2,sums 3,"
+says "failed at"
+rm "$work/fail"
+run 0
+calls "sums 1,sums 2,sums 3,"
+
+step="a part that would end too late is not begun"
+echo 2 >plots/c.gp
+git commit -qam third
+HOURS=0.5 run 1
+tells "not finished within 0.5 h: pictures"
+HOURS=1.5 run 0
+calls "pictures 1,"
+
+step="parts at the same time, and stopped together"
+echo 3 >core/b.c
+git commit -qam fourth
+cp "$work/run" "$work/kept"
+: >"$work/pids"
+cat >"$work/run" <<'RUN'
+#!/bin/sh
+echo $$ >>"$(dirname "$0")/pids"
+exec sleep 37
+RUN
+JOBS=3 setsid "$studies" table.tsv records work >"$work/out" 2>"$work/err" &
+for _ in $(seq 100); do
+    [ "$(wc -l <"$work/pids")" = 3 ] && break
+    sleep 0.1
+done
+[ "$(wc -l <"$work/pids")" = 3 ] || fail "three parts do not run"
+kill -TERM $!
+wait $! || true
+sleep 0.5
+while read -r pid; do
+    ! grep -q sleep "/proc/$pid/cmdline" 2>/dev/null || fail "a part goes on"
+done <"$work/pids"
+cp "$work/kept" "$work/run"
+JOBS=3 run 0
+calls "sums 1,sums 2,sums 3,"
+
+step="bad input"
+ONLY=sum run 2 list
+tells "no study sum; there are: sums pictures"
+HOURS=soon run 2 list
+tells "give a number of hours"
+row bad always 1 1 core - true >>table.tsv
+run 4 list
+tells "write NAME, alone or beside"
+sed -i '$d' table.tsv
+row bad alone 1 1 cores - true >>table.tsv
+run 4 list
+tells "there is no file in cores"
+echo "studies.sh: all steps passed"
