@@ -10,12 +10,17 @@
    by any number of turns, or is that of a cubic quaternion. Cubics are given by their four
    control points b (Bezier, Bernstein): (1-u)^3 b_0 + 3 u (1-u)^2 b_1 + 3 u^2 (1-u) b_2 + u^3
    b_3. Its derivative then lies within the hull of 3 (b_{i+1} - b_i), from which speeds are
-   bounded. */
+   bounded.
+
+   Of a body of which only positions are known (mote_body_is_given), the path is made of where
+   its vertices are at the times 0, 1 / n, .. 1: in piece k every vertex goes straight, at
+   constant speed, from where it is in frame k to where it is in frame k + 1. */
 #ifndef MOTE_CORE_PATH_H
 #define MOTE_CORE_PATH_H
 
 #include "core/base/quaternion.h"
 #include "core/body/body.h"
+#include "core/body/positions.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,6 +46,9 @@ typedef struct mote_path {
     mote_vec3 pivot;               /* a rest point */
     const mote_path_piece *pieces; /* [count], each beginning where the one before ends */
     uint32_t count;                /* >= 1 */
+    /* [count + 1], of a body of which only positions are known: of all of its vertices, in the
+       world. Pivot and pieces are then not looked at. Else NULL. */
+    const mote_positions *positions;
 } mote_path;
 
 /* Control points of a straight line from a to b at constant speed, in numbers of any kind. */
@@ -53,7 +61,7 @@ void mote_path_hermite(mote_vec3 a, mote_vec3 da, mote_vec3 b, mote_vec3 db,
 
 /* Pose and weights at a time in [0, 1]. weights[3 * field->padded] holds what state->weights
    then refers to; NULL where padded is 0. All of the state is set; its positions are NULL, and
-   everything counts as changed. No allocation. Cost O(J). */
+   everything counts as changed. Not of a path of positions. No allocation. Cost O(J). */
 void mote_path_state(const mote_path *path, const mote_body *body, double time, double *weights,
                      mote_body_state *state);
 

@@ -32,9 +32,10 @@ typedef struct mote_impact_options {
  * the pair. */
 mote_impact_options mote_default_impact_options(double length);
 
-/* Makes what queries about two bodies need: trees of both and all memory. The bodies are
-   borrowed. MOTE_EUNSUPPORTED for a body of which only positions are given, and for a field
-   that is not linear in its weights (morph targets); MOTE_EINVAL for options out of range, and
+/* Makes what queries about two bodies need: trees of both and all memory. Either may be a body
+   of which only positions are given; its rest mesh decides how well its tree fits. The bodies
+   are borrowed. MOTE_EUNSUPPORTED for a field that is not linear in its weights (morph
+   targets); MOTE_EINVAL for options out of range, and
    as mote_certificate_create; MOTE_ENOMEM. Cost: as mote_certificate_create, and every function
    of the fields once at every vertex. The caller destroys *search; one thread at a time may use
    it. */
@@ -49,7 +50,8 @@ size_t mote_impact_bytes(const mote_impact_search *search);
 
 /* What is asked: does the distance become at most the tolerance in [begin, end]? */
 typedef struct mote_impact_question {
-    const mote_path *path[2]; /* with the same number of pieces */
+    const mote_path *path[2]; /* with the same number of pieces; of positions where only those
+                                 are known of the body */
     double begin, end;        /* 0 <= begin <= end <= 1 */
     double tolerance;         /* >= 0, absolute */
 } mote_impact_question;
@@ -80,8 +82,10 @@ typedef struct mote_impact_found {
    MOTE_EINVAL, naming the body and the piece: an interval that is not within 0 .. 1 or that is
    reversed, a tolerance below 0 or not finite, paths without pieces, with more than the options
    say, or of different numbers; a number that is not finite; a piece that begins elsewhere than
-   the one before ends; quaternions that may pass near 0; a spin above MOTE_PATH_SPIN_MAX. No
-   allocation. */
+   the one before ends; quaternions that may pass near 0; a spin above MOTE_PATH_SPIN_MAX;
+   positions where the body has a field, or none where it has not; positions that cannot be
+   read, or that are 10^18 L from the origin. No allocation. Of a path of positions every vertex
+   is looked at in each frame, and boxes are made of the frames that the search comes to. */
 mote_status mote_impact_query(mote_impact_search *search, const mote_impact_question *question,
                               mote_impact_found *found);
 

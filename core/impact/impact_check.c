@@ -1,6 +1,5 @@
 /* What is wrong with a question about an impact. */
 #include "core/impact/impact_state.h"
-#include "core/body/path_place.h"
 
 /* Quaternions of a piece that come nearer to 0 than this part of the longest are refused. */
 #define LEAST_TURN 1e-3
@@ -118,6 +117,23 @@ static mote_status check_join(const mote_impact_search *s, const mote_path *path
     return MOTE_OK;
 }
 
+static mote_status check_lines(const mote_impact_search *s,
+                               const mote_impact_question *question, int body)
+{
+    const mote_path *path = question->path[body];
+    if (!path->positions)
+        return mote_fail(MOTE_EINVAL,
+                         "of body %d only positions are known; give those at both ends of each "
+                         "piece of its path",
+                         body);
+    const uint32_t first = mote_path_place(path, question->begin).piece;
+    const uint32_t last = mote_path_place(path, question->end).piece;
+    mote_status status = MOTE_OK;
+    for (uint32_t k = first; k <= last + 1 && status == MOTE_OK; ++k)
+        status = mote_lines_check(s->lines[body], &path->positions[k], body, k);
+    return status;
+}
+
 static mote_status check_path(const mote_impact_search *s, const mote_impact_question *question,
                               int body)
 {
@@ -125,6 +141,12 @@ static mote_status check_path(const mote_impact_search *s, const mote_impact_que
     if (path->count < 1 || path->count > s->options.pieces)
         return mote_fail(MOTE_EINVAL, "body %d's path has %u pieces; this search takes 1 to %u",
                          body, path->count, s->options.pieces);
+    if (s->lines[body])
+        return check_lines(s, question, body);
+    if (path->positions)
+        return mote_fail(MOTE_EINVAL,
+                         "body %d has a field, but its path is one of positions; give pieces",
+                         body);
     if (!all_finite(numbers_of(&path->pivot), 3))
         return mote_fail(MOTE_EINVAL, "the pivot of body %d's path is not finite", body);
     const uint32_t first = mote_path_place(path, question->begin).piece;

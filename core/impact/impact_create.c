@@ -56,6 +56,49 @@ static mote_status allocate(mote_impact_search *s)
     return MOTE_OK;
 }
 
+/* The body that the certificate is to know: of a body of which only positions are given, one
+   with a field of them. */
+static mote_status take_body(mote_impact_search *s, int i, const mote_body *body)
+{
+    s->body[i] = *body;
+    if (!mote_body_is_given(body))
+        return MOTE_OK;
+    const mote_status status = mote_lines_create(&s->own_field[i]);
+    if (status != MOTE_OK)
+        return status;
+    s->lines[i] = mote_lines_of(s->own_field[i]);
+    s->body[i] = (mote_body){.mesh = body->mesh, .field = s->own_field[i]};
+    s->bytes += s->own_field[i]->bytes + sizeof *s->lines[i];
+    return MOTE_OK;
+}
+
+static mote_status prepare_body(mote_impact_search *s, int i)
+{
+    const mote_cert_tree *tree = s->certificate->side[i].tree;
+    return s->lines[i] ? mote_lines_use(s->lines[i], tree, &s->bytes)
+                       : mote_impact_groups_create(&s->body[i], tree, &s->groups[i], &s->bytes);
+}
+
+void mote_impact_state(mote_impact_search *s, int i, double time, double *weights,
+                       mote_body_state *state)
+{
+    const mote_path *path = s->question->path[i];
+    if (s->lines[i])
+        mote_lines_state(s->lines[i], path, time, weights, state);
+    else
+        mote_path_state(path, &s->body[i], time, weights, state);
+}
+
+void mote_impact_velocity(mote_impact_search *s, int i, mote_place at, double factor,
+                          double *weights, mote_body_state *state)
+{
+    const mote_path *path = s->question->path[i];
+    if (s->lines[i])
+        mote_lines_velocity(s->lines[i], path, at.piece, factor, weights, state);
+    else
+        mote_path_velocity(path, &s->body[i], at, factor, weights, state);
+}
+
 mote_status mote_impact_create(const mote_body *const body[2],
                                const mote_impact_options *options, mote_impact_search **search)
 {
@@ -67,14 +110,15 @@ mote_status mote_impact_create(const mote_body *const body[2],
         return mote_fail(MOTE_ENOMEM, "no memory for a search for impacts");
     made->bytes = sizeof *made;
     made->options = *options;
-    made->body[0] = *body[0];
-    made->body[1] = *body[1];
+    for (int i = 0; i < 2 && status == MOTE_OK; ++i)
+        status = take_body(made, i, body[i]);
+    const mote_body *const own[2] = {&made->body[0], &made->body[1]};
     const mote_certificate_options certified =
         mote_default_certificate_options(options->length);
-    status = mote_certificate_create(body, &certified, &made->certificate);
+    if (status == MOTE_OK)
+        status = mote_certificate_create(own, &certified, &made->certificate);
     for (int i = 0; i < 2 && status == MOTE_OK; ++i)
-        status = mote_impact_groups_create(body[i], made->certificate->side[i].tree,
-                                           &made->groups[i], &made->bytes);
+        status = prepare_body(made, i);
     if (status == MOTE_OK)
         status = allocate(made);
     if (status == MOTE_OK)
@@ -97,6 +141,7 @@ void mote_impact_destroy(mote_impact_search *search)
         mote_impact_groups_destroy(&search->groups[i]);
         free(search->weights[i]);
         free(search->speeds[i]);
+        mote_field_destroy(search->own_field[i]);
     }
     free(search->amounts);
     free(search->sums);

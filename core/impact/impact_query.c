@@ -7,7 +7,6 @@
    the tolerance too. Times are rounded by at most 2^-52, in which a point covers 2^-52 times
    the number of pieces times its speed in one: 2^-48 of that is left out. */
 #include "core/impact/impact_state.h"
-#include "core/body/path_place.h"
 
 #include <string.h>
 
@@ -17,7 +16,7 @@ static bool touch_at(mote_impact_search *s, double time)
 {
     const mote_impact_question *q = s->question;
     for (int i = 0; i < 2; ++i)
-        mote_path_state(q->path[i], &s->body[i], time, s->weights[i], &s->frame.body[i]);
+        mote_impact_state(s, i, time, s->weights[i], &s->frame.body[i]);
     ++s->frame.number;
     mote_certificate_query(s->certificate, &s->frame, NULL, -1, &s->at);
     ++s->found.iterations;
@@ -187,6 +186,10 @@ mote_status mote_impact_query(mote_impact_search *search, const mote_impact_ques
     memset(&search->found, 0, sizeof search->found);
     for (uint32_t k = 0; k < question->path[0]->count; ++k)
         search->rates[k].known = false;
+    for (int i = 0; i < 2; ++i) {
+        if (search->lines[i])
+            mote_lines_begin(search->lines[i]);
+    }
     search_for_impact(search);
     *found = search->found;
     return MOTE_OK;

@@ -32,7 +32,6 @@
    are multiples of `size`, the sum of the sizes of all parts. 2^-41 (1 + J / 1024) size is more
    than that, and holds what pieces may miss each other by (impact_check.c), 2^-42 size, too. */
 #include "core/impact/impact_state.h"
-#include "core/body/path_place.h"
 
 #include <string.h>
 
@@ -181,6 +180,16 @@ static mote_impact_motion motion_of(mote_impact_search *s, int i, uint32_t k)
     return m;
 }
 
+/* The same of a path of positions; centre: of its mean motion. What vertices do beyond that is
+   their speed; positions are rounded by a few 2^-53 of their sizes. */
+static mote_impact_motion motion_of_lines(const mote_impact_search *s, int i, uint32_t k,
+                                          mote_vec3 centre[4])
+{
+    const mote_lines_motion lines = mote_lines_motion_of(s->lines[i], s->question->path[i], k);
+    mote_path_line(mote_vec3_make(0, 0, 0), lines.mean, centre);
+    return (mote_impact_motion){.speed = lines.stray, .noise = lines.size * 0x1p-45};
+}
+
 static double weights_kink(const mote_impact_search *s, int i, const mote_path_piece *before,
                            const mote_path_piece *after)
 {
@@ -202,9 +211,11 @@ static double weights_kink(const mote_impact_search *s, int i, const mote_path_p
 }
 
 /* A bound on how much the velocity of any vertex changes at once where piece k of body i's path
-   begins. Infinite between two kinds of rotation. */
+   begins. Infinite between two kinds of rotation, and of a path of positions. */
 static double kink_of(const mote_impact_search *s, int i, uint32_t k)
 {
+    if (s->lines[i])
+        return HUGE_VAL;
     const mote_path *path = s->question->path[i];
     const mote_path_piece *a = &path->pieces[k - 1], *b = &path->pieces[k];
     if (a->spins != b->spins)
@@ -236,12 +247,19 @@ const mote_impact_rate *mote_impact_rate_of(mote_impact_search *s, uint32_t k)
     mote_impact_rate *rate = &s->rates[k];
     if (rate->known)
         return rate;
-    const mote_impact_motion a = motion_of(s, 0, k), b = motion_of(s, 1, k);
-    const mote_vec3 *c[2] = {s->question->path[0]->pieces[k].centre,
-                             s->question->path[1]->pieces[k].centre};
-    mote_vec3 between[4];
+    mote_impact_motion own[2];
+    mote_vec3 centre[2][4], between[4];
+    for (int i = 0; i < 2; ++i) {
+        if (s->lines[i]) {
+            own[i] = motion_of_lines(s, i, k, centre[i]);
+            continue;
+        }
+        own[i] = motion_of(s, i, k);
+        memcpy(centre[i], s->question->path[i]->pieces[k].centre, sizeof centre[i]);
+    }
+    const mote_impact_motion a = own[0], b = own[1];
     for (int i = 0; i < 4; ++i)
-        between[i] = mote_sub(c[1][i], c[0][i]);
+        between[i] = mote_sub(centre[1][i], centre[0][i]);
     const cubic_bounds pivots = bounds_of(between);
     /* Control points far from the origin lose digits in the difference: the noise has more. */
     rate->noise = a.noise + b.noise;

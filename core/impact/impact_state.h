@@ -2,9 +2,11 @@
 #ifndef MOTE_CORE_IMPACT_STATE_H
 #define MOTE_CORE_IMPACT_STATE_H
 
+#include "core/body/path_place.h"
 #include "core/certificate/certificate.h"
 #include "core/certificate/certificate_tree.h"
 #include "core/impact/impact.h"
+#include "core/impact/impact_lines.h"
 #include "core/impact/impact_sweep.h"
 
 /* The parts of a body for which speeds are bounded, at most. */
@@ -41,6 +43,8 @@ typedef struct mote_impact_rate {
 struct mote_impact_search {
     mote_impact_options options;
     mote_body body[2];
+    mote_field *own_field[2]; /* of a body of which only positions are given, else NULL */
+    mote_lines *lines[2];     /* the same */
     mote_certificate *certificate;
     mote_impact_groups groups[2];
     double *weights[2];      /* [3 * padded] of the frame */
@@ -74,6 +78,14 @@ const mote_impact_rate *mote_impact_rate_of(mote_impact_search *search, uint32_t
 /* The time up to which a sweep shows the bodies to be apart after the last answer, of `time`;
    at most end. */
 double mote_impact_swept_until(mote_impact_search *search, double time);
+
+/* impact_create.c */
+
+/* Where body i is on its path, and its velocity times factor. */
+void mote_impact_state(mote_impact_search *search, int i, double time, double *weights,
+                       mote_body_state *state);
+void mote_impact_velocity(mote_impact_search *search, int i, mote_place at, double factor,
+                          double *weights, mote_body_state *state);
 
 /* impact_check.c */
 

@@ -1,6 +1,5 @@
 /* The step of a sweep: as long as it may be of use. Where a bend alone would close the gap no
    direction helps, and turns by more than a radian are left to the next step. */
-#include "core/body/path_place.h"
 #include "core/impact/impact_state.h"
 
 #include <math.h>
@@ -51,8 +50,7 @@ double mote_impact_swept_until(mote_impact_search *s, double time)
     if (!(chosen.length > 0))
         return time;
     for (int i = 0; i < 2; ++i)
-        mote_path_velocity(q->path[i], &s->body[i], at, chosen.length, s->speeds[i],
-                           &s->sweep.side[i].state);
+        mote_impact_velocity(s, i, at, chosen.length, s->speeds[i], &s->sweep.side[i].state);
     /* kinks and the rounding of times: see impact_query.c */
     const double spare =
         2 * chosen.noise + chosen.kink * chosen.length + 0x1p-48 * count * chosen.speed;

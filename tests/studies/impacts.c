@@ -1,10 +1,12 @@
 /* make impacts: asks for the time of impact of two small bodies on random paths, and compares
    with 1,000 samples of the path by the certified distance, the first crossing bisected, and
-   with all pairs of triangles at the bracket's end. The bodies are rigid, or deform by radial
-   functions, modes or bones; they cross slowly and fast, turn a little or many times, graze
-   each other at the sampled least distance, touch at the start, stand still, or swing past with
-   a long arm. Usage: impacts [--queries N] [--out FILE] [--checks FILE]. Exit status 1 where an
-   impact is missed or false, or found after another, or a bracket is too wide. */
+   with all pairs of triangles at the bracket's end. The bodies are rigid, deform by radial
+   functions, modes or bones, or are arrays of positions with straight paths (samples of these
+   are streamed queries), against their like or a body of another kind; they cross slowly and
+   fast, turn a little or many times, graze each other at the sampled least distance, touch at
+   the start, stand still, or swing past with a long arm. Usage: impacts [--queries N] [--out
+   FILE] [--checks FILE]. Exit status 1 where an impact is missed or false, or found after
+   another, or a bracket is too wide. */
 #include "core/certificate/certificate.h"
 #include "tests/support/checks.h"
 #include "tests/support/impact_scene.h"
@@ -32,9 +34,10 @@ typedef struct counts {
     uint64_t queries, found, missed, early, wrong, wide, grazing, undecided, iterations;
 } counts;
 
-/* Samples of a path's distances, by a certificate of their own. */
+/* Samples of a path's distances, by a certificate of their own, or by a streamed query. */
 typedef struct samples {
     mote_certificate *certificate;
+    mote_stream *stream; /* or NULL */
     double distance[SAMPLES + 1];
     double least;
 } samples;
@@ -43,6 +46,15 @@ static double distance_at(impact_scene *s, samples *sampled, double time)
 {
     static mote_frame frame;
     mote_certificate_answer a;
+    if (sampled->stream) {
+        mote_stream_frame placed = {.unchanged = {false, false}};
+        for (int i = 0; i < 2; ++i) {
+            impact_place(&s->of[i], time);
+            placed.positions[i] = mote_positions_of(s->of[i].world);
+        }
+        need(mote_stream_query(sampled->stream, &placed, -1, &a) == MOTE_OK);
+        return a.distance;
+    }
     impact_frame(s, time, &frame);
     mote_certificate_query(sampled->certificate, &frame, NULL, -1, &a);
     return a.distance;
@@ -150,25 +162,46 @@ static mote_mesh *random_mesh(mote_random *r, family f, double size)
     }
 }
 
+/* The kinds of both bodies of a scene. */
+static void choose_kinds(uint64_t index, family f, mote_random *r, impact_kind kinds[2])
+{
+    kinds[0] = kinds[1] = IMPACT_RIGID;
+    if (f == DEFORMING)
+        kinds[0] = kinds[1] = 1 + (impact_kind)(index / FAMILIES % (IMPACT_KINDS - 1));
+    else if (index % 3 == 0)
+        kinds[0] = kinds[1] = (impact_kind)mote_random_below(r, IMPACT_KINDS);
+    else if (index % 3 == 1)
+        kinds[mote_random_below(r, 2)] = (impact_kind)mote_random_below(r, IMPACT_KINDS);
+}
+
+static mote_status open_samples(const impact_scene *s, samples *sampled)
+{
+    const mote_body *const bodies[2] = {&s->of[0].body, &s->of[1].body};
+    *sampled = (samples){.least = 0};
+    if (mote_body_is_given(bodies[0]) || mote_body_is_given(bodies[1])) {
+        const mote_stream_options streamed = mote_default_stream_options(s->length);
+        return mote_stream_create(bodies, &streamed, &sampled->stream);
+    }
+    mote_certificate_options options = mote_default_certificate_options(s->length);
+    options.directions = false; /* another way to the same distance */
+    return mote_certificate_create(bodies, &options, &sampled->certificate);
+}
+
 static bool run_scene(uint64_t index, counts all[FAMILIES], uint64_t *left)
 {
     static const double sizes[] = {1, 1e-6, 1e5, 1, 3};
     mote_random r = {index + 1};
     const family f = (family)(index % FAMILIES);
-    const impact_kind kind = f == DEFORMING   ? 1 + (impact_kind)(index / FAMILIES % 3)
-                             : index % 3 == 0 ? (impact_kind)mote_random_below(&r, IMPACT_KINDS)
-                                              : IMPACT_RIGID;
+    impact_kind kinds[2];
+    choose_kinds(index, f, &r, kinds);
     const double size = sizes[mote_random_below(&r, 5)];
     impact_scene s;
     samples sampled;
     mote_mesh *const first = random_mesh(&r, f, size);
     static const uint32_t patiences[] = {10, 0, 3}; /* 0: sweeps in every step */
-    impact_scene_init_patient(&s, first, random_mesh(&r, f, size * impact_between(&r, 0.3, 1)),
-                              kind, index, patiences[index / FAMILIES % 3]);
-    const mote_body *const bodies[2] = {&s.of[0].body, &s.of[1].body};
-    mote_certificate_options options = mote_default_certificate_options(s.length);
-    options.directions = false; /* another way to the same distance */
-    bool good = mote_certificate_create(bodies, &options, &sampled.certificate) == MOTE_OK;
+    impact_scene_init_kinds(&s, first, random_mesh(&r, f, size * impact_between(&r, 0.3, 1)),
+                            kinds, index, patiences[index / FAMILIES % 3]);
+    bool good = open_samples(&s, &sampled) == MOTE_OK;
     for (int k = 0; good && k<QUERIES_A_SCENE && * left> 0; ++k, --*left) {
         const double tolerance = set_paths(&s, f, &sampled);
         const mote_impact_question question = impact_question(&s, tolerance);
@@ -180,6 +213,7 @@ static bool run_scene(uint64_t index, counts all[FAMILIES], uint64_t *left)
     if (!good)
         fprintf(stderr, "impacts: %s\n", mote_error_text());
     mote_certificate_destroy(sampled.certificate);
+    mote_stream_destroy(sampled.stream);
     impact_scene_free(&s);
     return good;
 }

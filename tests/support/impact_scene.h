@@ -6,6 +6,7 @@
 #include "core/body/triangle.h"
 #include "core/impact/impact.h"
 #include "core/skin/skin.h"
+#include "core/stream/stream.h"
 #include "tests/support/shapes.h"
 
 enum { IMPACT_PIECES = 6, IMPACT_BONES = 5 };
@@ -19,6 +20,8 @@ typedef struct impact_body {
     double *control[IMPACT_PIECES]; /* [4][3][padded] */
     double *weights;                /* of a state */
     mote_vec3 *world;
+    mote_vec3 *frame[IMPACT_PIECES + 1]; /* of positions, else NULL */
+    mote_positions positions[IMPACT_PIECES + 1];
 } impact_body;
 
 typedef struct impact_scene {
@@ -33,6 +36,7 @@ typedef enum impact_kind {
     IMPACT_CSRBF,
     IMPACT_MODES,
     IMPACT_SKIN,
+    IMPACT_ARRAYS,
     IMPACT_KINDS
 } impact_kind;
 
@@ -111,6 +115,8 @@ static inline mote_field *impact_field(const mote_mesh *mesh, impact_kind kind,
         free(modes);
     } else if (kind == IMPACT_SKIN) {
         field = impact_skin(mesh);
+    } else if (kind == IMPACT_ARRAYS) {
+        need(mote_field_create_given(&field) == MOTE_OK);
     } else {
         need(mote_field_create_static(&field) == MOTE_OK);
     }
@@ -137,12 +143,24 @@ static inline void impact_body_init(impact_body *b, mote_mesh *mesh, impact_kind
     }
     b->path.pieces = b->piece;
     b->path.count = 1;
+    if (kind != IMPACT_ARRAYS)
+        return;
+    for (int k = 0; k <= IMPACT_PIECES; ++k) {
+        b->frame[k] = malloc(mesh->vertex_count * sizeof *b->frame[k]);
+        need(b->frame[k]);
+        memcpy(b->frame[k], mesh->positions, mesh->vertex_count * sizeof *b->frame[k]);
+        b->positions[k] = mote_positions_of(b->frame[k]);
+    }
+    b->path.pieces = NULL;
+    b->path.positions = b->positions;
 }
 
 static inline void impact_body_free(impact_body *b)
 {
     for (int k = 0; k < IMPACT_PIECES; ++k)
         free(b->control[k]);
+    for (int k = 0; k <= IMPACT_PIECES; ++k)
+        free(b->frame[k]);
     free(b->weights);
     free(b->world);
     mote_field_destroy(b->field);
@@ -150,17 +168,24 @@ static inline void impact_body_free(impact_body *b)
 }
 
 /* Takes ownership of the meshes. patience: see mote_impact_options. */
-static inline void impact_scene_init_patient(impact_scene *s, mote_mesh *a, mote_mesh *b,
-                                             impact_kind kind, uint64_t seed, uint32_t patience)
+static inline void impact_scene_init_kinds(impact_scene *s, mote_mesh *a, mote_mesh *b,
+                                           const impact_kind kinds[2], uint64_t seed,
+                                           uint32_t patience)
 {
     *s = (impact_scene){.random = {seed}};
     s->length = fmax(a->diagonal, b->diagonal);
-    impact_body_init(&s->of[0], a, kind, &s->random);
-    impact_body_init(&s->of[1], b, kind, &s->random);
+    impact_body_init(&s->of[0], a, kinds[0], &s->random);
+    impact_body_init(&s->of[1], b, kinds[1], &s->random);
     const mote_body *const bodies[2] = {&s->of[0].body, &s->of[1].body};
     mote_impact_options options = mote_default_impact_options(s->length);
     options.patience = patience;
     need(mote_impact_create(bodies, &options, &s->search) == MOTE_OK);
+}
+
+static inline void impact_scene_init_patient(impact_scene *s, mote_mesh *a, mote_mesh *b,
+                                             impact_kind kind, uint64_t seed, uint32_t patience)
+{
+    impact_scene_init_kinds(s, a, b, (const impact_kind[2]){kind, kind}, seed, patience);
 }
 
 static inline void impact_scene_init(impact_scene *s, mote_mesh *a, mote_mesh *b,
@@ -229,11 +254,37 @@ static inline void impact_piece_random(impact_body *b, uint32_t k, const impact_
     }
 }
 
+/* Positions of a turned, moved and crumpled body in each frame. */
+static inline void impact_frames_random(impact_body *b, const impact_wild *w,
+                                        mote_quaternion turned, mote_random *random)
+{
+    for (uint32_t k = 0; k <= w->pieces; ++k) {
+        const mote_mat3 rotation = mote_quaternion_matrix(turned);
+        const mote_vec3 at =
+            mote_add(mote_add_scaled(w->from, (double)k / w->pieces, mote_sub(w->to, w->from)),
+                     impact_vector(random, w->stray));
+        for (uint32_t v = 0; v < b->mesh->vertex_count; ++v) {
+            const mote_vec3 arm = mote_sub(b->mesh->positions[v], b->path.pivot);
+            b->frame[k][v] = mote_add(mote_add(at, mote_rotate(&rotation, arm)),
+                                      impact_vector(random, w->weights));
+        }
+        turned = impact_spun(impact_vector(random, w->turn), turned);
+    }
+    for (uint32_t k = 1; k <= w->pieces && !(w->turn > 0); ++k) /* still: no other crumples */
+        for (uint32_t v = 0; v < b->mesh->vertex_count && !(w->weights > 0); ++v)
+            b->frame[k][v] = mote_add(
+                b->frame[0][v], mote_scale(mote_sub(w->to, w->from), (double)k / w->pieces));
+}
+
 static inline void impact_path_random(impact_body *b, const impact_wild *w, mote_random *random)
 {
     mote_quaternion turned =
         impact_spun(impact_vector(random, 3), (mote_quaternion){1, 0, 0, 0});
     b->path.count = w->pieces;
+    if (b->path.positions) {
+        impact_frames_random(b, w, turned, random);
+        return;
+    }
     for (uint32_t k = 0; k < w->pieces; ++k)
         impact_piece_random(b, k, w, &turned, random);
 }
@@ -253,15 +304,29 @@ static inline void impact_frame(impact_scene *s, double time, mote_frame *frame)
     ++frame->number;
 }
 
+/* All vertices of a body at a time. */
+static inline void impact_place(impact_body *b, double time)
+{
+    if (b->path.positions) {
+        const uint32_t count = b->path.count;
+        const uint32_t k = time < 1 ? (uint32_t)(time * count) : count - 1;
+        const double u = time * count - k;
+        for (uint32_t v = 0; v < b->mesh->vertex_count; ++v)
+            b->world[v] =
+                mote_add(mote_scale(b->frame[k][v], 1 - u), mote_scale(b->frame[k + 1][v], u));
+        return;
+    }
+    mote_body_state state;
+    mote_path_state(&b->path, &b->body, time, b->weights, &state);
+    for (uint32_t v = 0; v < b->mesh->vertex_count; ++v)
+        b->world[v] = mote_body_position(&b->body, &state, v);
+}
+
 /* The distance at a time, by all pairs of triangles. */
 static inline double impact_distance(impact_scene *s, double time)
 {
-    mote_frame frame = {.number = 0};
-    impact_frame(s, time, &frame);
-    for (int i = 0; i < 2; ++i) {
-        for (uint32_t v = 0; v < s->of[i].mesh->vertex_count; ++v)
-            s->of[i].world[v] = mote_body_position(&s->of[i].body, &frame.body[i], v);
-    }
+    impact_place(&s->of[0], time);
+    impact_place(&s->of[1], time);
     double best = HUGE_VAL;
     for (uint32_t a = 0; a < s->of[0].mesh->triangle_count; ++a) {
         for (uint32_t b = 0; b < s->of[1].mesh->triangle_count; ++b) {

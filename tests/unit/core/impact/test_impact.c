@@ -301,13 +301,7 @@ TEST(mote_impact_create_refuses_what_it_cannot_answer)
     bad[4].iterations = 0;
     for (int i = 0; i < 5; ++i)
         assert_int_equal(mote_impact_create(bodies, &bad[i], &made), MOTE_EINVAL);
-    mote_field *given = NULL;
-    assert_int_equal(mote_field_create_given(&given), MOTE_OK);
-    const mote_body cloth = {.mesh = s.of[0].mesh, .field = given};
-    const mote_body *const unknown[2] = {&cloth, bodies[1]};
     const mote_impact_options options = mote_default_impact_options(s.length);
-    assert_int_equal(mote_impact_create(unknown, &options, &made), MOTE_EUNSUPPORTED);
-    mote_field_destroy(given);
     const uint32_t start[] = {0, 1}, vertex[] = {0};
     const mote_vec3 move[] = {{0.1, 0, 0}};
     const mote_morph_targets targets = {1, start, vertex, move};
