@@ -8,7 +8,7 @@
    Bullet is normally used, so it is not the default. Bullet's public contactPairTest and its
    closest-point algorithms find no contact between two GImpact meshes, so the algorithm for
    contact points is called. */
-#include "baselines/engine.h"
+#include "baselines/physics_engine.h"
 
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/Gimpact/btGImpactShape.h>
@@ -73,7 +73,7 @@ struct Body {
 class Pair
 {
   public:
-    Pair(const mote_engine &engine_, bool stop_) : engine(engine_), stop(stop_)
+    Pair(const mote_physics &engine_, bool stop_) : engine(engine_), stop(stop_)
     {
         btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher);
         for (int b = 0; b < 2; ++b)
@@ -88,7 +88,7 @@ class Pair
     void write_vertex(int b, uint32_t i, mote_vec3 p);
     void place(int b);
 
-    mote_engine engine;
+    mote_physics engine;
     bool stop;
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
@@ -109,7 +109,7 @@ void Pair::build(int b)
     Body &made = body[b];
     made.vertices.resize(3 * static_cast<size_t>(mesh->vertex_count));
     for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(b, i, mote_engine_rest(&engine, b, i));
+        write_vertex(b, i, mote_physics_rest(&engine, b, i));
     made.triangles.reserve(3 * static_cast<size_t>(mesh->triangle_count));
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         for (int k = 0; k < 3; ++k)
@@ -127,7 +127,7 @@ void Pair::build(int b)
 
 void Pair::place(int b)
 {
-    const mote_engine_body &state = engine.body[b];
+    const mote_physics_body &state = engine.body[b];
     btMatrix3x3 rotation;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j)
@@ -141,11 +141,11 @@ void Pair::place(int b)
 
 mote_status Pair::update(const mote_frame *frame)
 {
-    mote_status status = mote_engine_frame(&engine, frame);
+    mote_status status = mote_physics_frame(&engine, frame);
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
         if (engine.body[b].refit) {
             for (uint32_t i = 0; i < engine.body[b].mesh->vertex_count; ++i)
-                write_vertex(b, i, mote_engine_vertex(&engine, b, i));
+                write_vertex(b, i, mote_physics_vertex(&engine, b, i));
             body[b].shape->postUpdate();  /* its parts no longer fit, */
             body[b].shape->updateBound(); /* which refits them */
         }
@@ -177,15 +177,15 @@ void Pair::query(mote_answer *answer)
 
 mote_traits traits(const double *values)
 {
-    return mote_engine_traits(static_cast<mote_engine_update>(values[UPDATE]),
-                              values[POSITIONS] > 0);
+    return mote_physics_traits(static_cast<mote_physics_update>(values[UPDATE]),
+                               values[POSITIONS] > 0);
 }
 
 mote_status create(const mote_setup *setup, void **state)
 {
-    mote_engine engine;
-    const mote_engine_update mode = static_cast<mote_engine_update>(setup->values[UPDATE]);
-    const mote_status status = mote_engine_begin(&engine, setup, mode, "Bullet's GImpact");
+    mote_physics engine;
+    const mote_physics_update mode = static_cast<mote_physics_update>(setup->values[UPDATE]);
+    const mote_status status = mote_physics_begin(&engine, setup, mode, "Bullet's GImpact");
     if (status != MOTE_OK)
         return status;
     try {

@@ -2,7 +2,7 @@
    Built only where ODE is installed. Its trees are built over the rest pose and refitted in
    place (dGeomTriMeshDataUpdate); one contact is asked for, without details. OPCODE's boxes are
    floats; triangles are tested in double precision. */
-#include "baselines/engine.h"
+#include "baselines/physics_engine.h"
 
 #include <ode/ode.h>
 
@@ -30,7 +30,7 @@ typedef struct ode_body {
 } ode_body;
 
 typedef struct ode_state {
-    mote_engine engine;
+    mote_physics engine;
     ode_body body[2];
     bool rebuild;
 } ode_state;
@@ -44,7 +44,7 @@ static void begin_ode(void)
 
 static mote_traits traits(const double *values)
 {
-    return mote_engine_traits((mote_engine_update)values[UPDATE], values[POSITIONS] > 0);
+    return mote_physics_traits((mote_physics_update)values[UPDATE], values[POSITIONS] > 0);
 }
 
 static void destroy(void *state)
@@ -100,7 +100,7 @@ static mote_status create_body(ode_state *s, int b, bool single)
     if ((!body->floats && !body->doubles) || !body->triangles)
         return mote_fail(MOTE_ENOMEM, "no memory for body %d in ODE", b);
     for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(body, i, mote_engine_rest(&s->engine, b, i));
+        write_vertex(body, i, mote_physics_rest(&s->engine, b, i));
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         for (int k = 0; k < 3; ++k)
             body->triangles[i][k] = mesh->triangles[i][k];
@@ -116,9 +116,9 @@ static mote_status create(const mote_setup *setup, void **state)
     ode_state *s = calloc(1, sizeof *s);
     if (!s)
         return mote_fail(MOTE_ENOMEM, "no memory for ode");
-    const mote_engine_update mode = (mote_engine_update)setup->values[UPDATE];
-    s->rebuild = mode == MOTE_ENGINE_REBUILD;
-    mote_status status = mote_engine_begin(&s->engine, setup, mode, "ODE");
+    const mote_physics_update mode = (mote_physics_update)setup->values[UPDATE];
+    s->rebuild = mode == MOTE_PHYSICS_REBUILD;
+    mote_status status = mote_physics_begin(&s->engine, setup, mode, "ODE");
     if (status == MOTE_OK) {
         (void)pthread_once(&begun, begin_ode);
         if (!dAllocateODEDataForThread(dAllocateFlagCollisionData))
@@ -138,7 +138,7 @@ static void refit(ode_state *s, int b)
     const mote_mesh *mesh = s->engine.body[b].mesh;
     ode_body *body = &s->body[b];
     for (uint32_t i = 0; i < mesh->vertex_count; ++i)
-        write_vertex(body, i, mote_engine_vertex(&s->engine, b, i));
+        write_vertex(body, i, mote_physics_vertex(&s->engine, b, i));
     if (s->rebuild)
         build_tree(mesh, body);
     else
@@ -149,11 +149,11 @@ static void refit(ode_state *s, int b)
 static mote_status update(void *state, const mote_frame *frame)
 {
     ode_state *s = state;
-    mote_status status = mote_engine_frame(&s->engine, frame);
+    mote_status status = mote_physics_frame(&s->engine, frame);
     if (status != MOTE_OK)
         return status;
     for (int b = 0; b < 2; ++b) {
-        const mote_engine_body *body = &s->engine.body[b];
+        const mote_physics_body *body = &s->engine.body[b];
         if (body->refit)
             refit(s, b);
         dMatrix3 rotation = {0};

@@ -259,6 +259,6 @@ static mote_status create(size_t triangle_count, mote_mesh **mesh, void **state)
     return status;
 }
 
-const mote_simulated mote_simulated_cloth = {
+const mote_simulated_body mote_simulated_cloth = {
     "cloth", "a square cloth that falls over a letter and onto the floor (position-based)",
     create, destroy, step};

@@ -283,7 +283,7 @@ double mote_glyph_field(const mote_glyph *glyph, mote_vec3 p, mote_vec3 *gradien
     return up - r;
 }
 
-double mote_glyph_reach(const mote_glyph *glyph, double x, double y)
+double mote_glyph_half_height(const mote_glyph *glyph, double x, double y)
 {
     double g[2];
     const double d = plane_distance(glyph, x, y, g);

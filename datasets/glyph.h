@@ -50,7 +50,7 @@ mote_status mote_glyph_make(char letter, mote_glyph *glyph);
 double mote_glyph_field(const mote_glyph *glyph, mote_vec3 p, mote_vec3 *gradient);
 
 /* Half of the extent along z of the letter's column at (x, y); 0 outside the letter. */
-double mote_glyph_reach(const mote_glyph *glyph, double x, double y);
+double mote_glyph_half_height(const mote_glyph *glyph, double x, double y);
 
 /* A point of the surface near p, by `steps` (>= 1) of Newton's method along the gradient, which
    is returned as it was before the last step. p should be within the rounding radius of the

@@ -378,6 +378,6 @@ static mote_status create(size_t triangle_count, mote_mesh **mesh, void **state)
     return MOTE_OK;
 }
 
-const mote_simulated mote_simulated_jelly = {
+const mote_simulated_body mote_simulated_jelly = {
     "jelly", "a letter of jelly that falls onto a letter and bounces (finite elements)", create,
     destroy, step};

@@ -82,7 +82,7 @@ static mote_status grid_sample(grid *g, double cell)
             const double x = g->x0 + (double)i * cell;
             const double y = g->y0 + (double)j * cell;
             g->half_height[j * g->nx + i] =
-                (int32_t)(mote_glyph_reach(glyph, x, y) / cell + 0.5);
+                (int32_t)(mote_glyph_half_height(glyph, x, y) / cell + 0.5);
         }
     }
     while (fill_diagonals(g))

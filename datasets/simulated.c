@@ -2,10 +2,10 @@
 
 #include <string.h>
 
-const mote_simulated *const mote_simulated_list[] = {&mote_simulated_cloth,
-                                                     &mote_simulated_jelly, NULL};
+const mote_simulated_body *const mote_simulated_list[] = {&mote_simulated_cloth,
+                                                          &mote_simulated_jelly, NULL};
 
-const mote_simulated *mote_simulated_find(const char *name)
+const mote_simulated_body *mote_simulated_find(const char *name)
 {
     for (size_t i = 0; mote_simulated_list[i]; ++i) {
         if (strcmp(mote_simulated_list[i]->name, name) == 0)
@@ -14,7 +14,7 @@ const mote_simulated *mote_simulated_find(const char *name)
     return NULL;
 }
 
-mote_status mote_simulated_check(const mote_simulated *kind, size_t triangle_count)
+mote_status mote_simulated_check(const mote_simulated_body *kind, size_t triangle_count)
 {
     if (triangle_count >= MOTE_SIMULATED_MIN_TRIANGLES &&
         triangle_count <= MOTE_SIMULATED_MAX_TRIANGLES)

@@ -20,7 +20,7 @@ extern "C" {
 
 /* The same bits on every machine and compiler: no operation but + - * / and square roots, in a
    fixed order, in one thread. */
-typedef struct mote_simulated {
+typedef struct mote_simulated_body {
     const char *name;    /* as on the command line */
     const char *summary; /* one line */
 
@@ -32,16 +32,16 @@ typedef struct mote_simulated {
 
     /* Moves on by one frame, and writes positions[vertex_count]. No allocation. */
     void (*step)(void *state, mote_vec3 *positions);
-} mote_simulated;
+} mote_simulated_body;
 
-extern const mote_simulated mote_simulated_cloth, mote_simulated_jelly;
+extern const mote_simulated_body mote_simulated_cloth, mote_simulated_jelly;
 
 /* All of them, ended by NULL; the one of that name, or NULL. */
-extern const mote_simulated *const mote_simulated_list[];
-const mote_simulated *mote_simulated_find(const char *name);
+extern const mote_simulated_body *const mote_simulated_list[];
+const mote_simulated_body *mote_simulated_find(const char *name);
 
 /* MOTE_EINVAL where the number of triangles is out of range. */
-mote_status mote_simulated_check(const mote_simulated *kind, size_t triangle_count);
+mote_status mote_simulated_check(const mote_simulated_body *kind, size_t triangle_count);
 
 #ifdef __cplusplus
 }

@@ -27,7 +27,7 @@ struct mote_pool {
     atomic_size_t next; /* the first item that no thread has taken */
 };
 
-static void take_part(mote_pool *pool, uint32_t worker)
+static void run_share(mote_pool *pool, uint32_t worker)
 {
     for (;;) {
         const size_t first =
@@ -53,7 +53,7 @@ static void *serve(void *argument)
             break;
         seen = pool->loop;
         (void)pthread_mutex_unlock(&pool->lock);
-        take_part(pool, self->worker);
+        run_share(pool, self->worker);
         (void)pthread_mutex_lock(&pool->lock);
         if (--pool->busy == 0)
             (void)pthread_cond_signal(&pool->end);
@@ -137,7 +137,7 @@ void mote_pool_run(mote_pool *pool, mote_pool_work work, void *context, size_t c
         (void)pthread_cond_broadcast(&pool->begin);
         (void)pthread_mutex_unlock(&pool->lock);
     }
-    take_part(pool, 0);
+    run_share(pool, 0);
     if (alone)
         return;
     (void)pthread_mutex_lock(&pool->lock);

@@ -31,7 +31,7 @@ static double *allocate_room(const mote_field *field, size_t frames)
     return malloc((3 * frames * field->padded + 1) * sizeof(double));
 }
 
-static mote_status take_samples(mote_batch *batch, int b, const mote_batch_options *options)
+static mote_status copy_samples(mote_batch *batch, int b, const mote_batch_options *options)
 {
     const size_t count = options->sample_count[b];
     mote_body *body = &batch->body[b];
@@ -60,9 +60,9 @@ static mote_status take_samples(mote_batch *batch, int b, const mote_batch_optio
     return MOTE_OK;
 }
 
-static mote_status take_bodies(mote_batch *batch, const mote_mesh *const meshes[2],
-                               const mote_field *const fields[2],
-                               const mote_batch_options *options)
+static mote_status set_bodies(mote_batch *batch, const mote_mesh *const meshes[2],
+                              const mote_field *const fields[2],
+                              const mote_batch_options *options)
 {
     mote_status status = MOTE_OK;
     for (int b = 0; b < 2 && status == MOTE_OK; ++b) {
@@ -77,7 +77,7 @@ static mote_status take_bodies(mote_batch *batch, const mote_mesh *const meshes[
                                "takes bodies whose positions are given",
                                b);
         if (status == MOTE_OK)
-            status = take_samples(batch, b, options);
+            status = copy_samples(batch, b, options);
     }
     return status;
 }
@@ -150,7 +150,7 @@ mote_status mote_batch_create(const mote_mesh *const meshes[2],
     made->options.budget = options->budget;
     const bool one_shape = meshes[0] == meshes[1] && fields[0] == fields[1] &&
                            options->sample_count[0] + options->sample_count[1] == 0;
-    mote_status status = take_bodies(made, meshes, fields, options);
+    mote_status status = set_bodies(made, meshes, fields, options);
     if (status == MOTE_OK)
         status = build_trees(made, one_shape);
     if (status == MOTE_OK)

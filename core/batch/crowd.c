@@ -63,8 +63,8 @@ static mote_status check_counts(size_t shape_count, const uint32_t *shape_of, si
     return MOTE_OK;
 }
 
-static mote_status take_shapes(mote_crowd *crowd, const mote_mesh *const *meshes,
-                               const mote_field *const *fields, size_t shape_count)
+static mote_status set_shapes(mote_crowd *crowd, const mote_mesh *const *meshes,
+                              const mote_field *const *fields, size_t shape_count)
 {
     mote_status status = mote_field_create_static(&crowd->still);
     for (size_t i = 0; i < shape_count && status == MOTE_OK; ++i) {
@@ -135,7 +135,7 @@ mote_status mote_crowd_create(const mote_mesh *const *meshes, const mote_field *
         return mote_fail(MOTE_ENOMEM, "no memory for a scene");
     }
     made->body_count = (uint32_t)body_count;
-    status = take_shapes(made, meshes, fields, shape_count);
+    status = set_shapes(made, meshes, fields, shape_count);
     if (status == MOTE_OK)
         status = allocate_bodies(made, shape_of);
     if (status == MOTE_OK)
@@ -235,7 +235,7 @@ static mote_status find_pairs(mote_crowd *crowd, double within)
 {
     const uint32_t count = crowd->body_count;
     const mote_scene_box *bounds = crowd->bounds;
-    const double reach = within * (1 + 1e-12);
+    const double limit = within * (1 + 1e-12);
     const int axis = widest_axis(bounds, count);
     for (uint32_t i = 0; i < count; ++i)
         crowd->sweep[i] = (sweep_entry){along(bounds[i].low, axis), i};
@@ -244,9 +244,9 @@ static mote_status find_pairs(mote_crowd *crowd, double within)
     for (uint32_t k = 0; k < count; ++k) {
         const uint32_t a = crowd->sweep[k].body;
         const double end = along(bounds[a].high, axis);
-        for (uint32_t l = k + 1; l < count && crowd->sweep[l].low - end <= reach; ++l) {
+        for (uint32_t l = k + 1; l < count && crowd->sweep[l].low - end <= limit; ++l) {
             const uint32_t b = crowd->sweep[l].body;
-            if (gap(&bounds[a], &bounds[b]) <= reach && add_pair(crowd, a, b) != MOTE_OK)
+            if (gap(&bounds[a], &bounds[b]) <= limit && add_pair(crowd, a, b) != MOTE_OK)
                 return MOTE_ENOMEM;
         }
     }

@@ -38,31 +38,32 @@ uint32_t mote_stretches_threads(const mote_batch_run *run)
 }
 
 /* The contact that a bracket shows: 1, 0, or -1 where it is not decided. */
-static int8_t decide(const mote_certificate_answer *found, double tolerance, bool exact)
+static int8_t decide(const mote_certificate_answer *bracket, double tolerance, bool exact)
 {
     const bool asked = tolerance >= 0;
     mote_answer answer = {.has_distance = false};
-    mote_certificate_report(found, asked ? MOTE_ASK_CONTACT : MOTE_ASK_DISTANCE,
+    mote_certificate_report(bracket, asked ? MOTE_ASK_CONTACT : MOTE_ASK_DISTANCE,
                             asked ? tolerance : 0, exact, &answer);
     return answer.has_contact ? answer.contact : -1;
 }
 
-static void write_answer(const progress *p, size_t frame, const mote_certificate_answer *found)
+static void write_answer(const progress *p, size_t frame,
+                         const mote_certificate_answer *bracket)
 {
     const mote_batch_run *run = p->run;
     if (run->distance)
-        run->distance[frame] = found->distance;
+        run->distance[frame] = bracket->distance;
     if (run->lower)
-        run->lower[frame] = found->lower;
+        run->lower[frame] = bracket->lower;
     if (run->contact)
-        run->contact[frame] = decide(found, run->tolerance, p->exact);
+        run->contact[frame] = decide(bracket, run->tolerance, p->exact);
     if (!run->witness)
         return;
     for (size_t b = 0; b < 2; ++b) {
         double *to = run->witness + 6 * frame + 3 * b;
-        to[0] = found->witness[b].x;
-        to[1] = found->witness[b].y;
-        to[2] = found->witness[b].z;
+        to[0] = bracket->witness[b].x;
+        to[1] = bracket->witness[b].y;
+        to[2] = bracket->witness[b].z;
     }
 }
 
@@ -80,10 +81,10 @@ static void answer_stretch(progress *p, uint32_t worker, size_t stretch)
     const size_t length = run->stretch > 0 ? run->stretch : run->frames;
     const size_t end = length < run->frames - first ? first + length : run->frames;
     for (size_t frame = first; frame < end && frame < atomic_load(&p->failed); ++frame) {
-        mote_certificate_answer found;
+        mote_certificate_answer bracket;
         const bool fresh = run->stretch > 0 && frame == first;
-        if (p->answer(p->batch, worker, frame, fresh, run->tolerance, &found) == MOTE_OK)
-            write_answer(p, frame, &found);
+        if (p->answer(p->batch, worker, frame, fresh, run->tolerance, &bracket) == MOTE_OK)
+            write_answer(p, frame, &bracket);
         else
             note_failure(p, frame);
     }
@@ -98,9 +99,9 @@ static void answer_stretches(void *context, uint32_t worker, size_t first, size_
 /* Why a frame failed, which another thread may have found. */
 static mote_status explain(const progress *p, size_t frame)
 {
-    mote_certificate_answer found;
+    mote_certificate_answer bracket;
     const mote_status status =
-        p->answer(p->batch, 0, frame, p->run->stretch > 0, p->run->tolerance, &found);
+        p->answer(p->batch, 0, frame, p->run->stretch > 0, p->run->tolerance, &bracket);
     if (status == MOTE_OK)
         return mote_fail(MOTE_EINVAL, "frame %zu: its numbers changed while they were read",
                          frame);

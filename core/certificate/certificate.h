@@ -79,7 +79,7 @@ void mote_certificate_query(mote_certificate *certificate, const mote_frame *fra
 /* Writes what a proven bracket says about the question of a setup to a method's answer, and
    adds its counters. decides: no slack was allowed, so that an answer that the budget did not
    stop decides contact. */
-void mote_certificate_report(const mote_certificate_answer *found, mote_ask ask,
+void mote_certificate_report(const mote_certificate_answer *bracket, mote_ask ask,
                              double tolerance, bool decides, mote_answer *answer);
 
 #pragma GCC visibility pop

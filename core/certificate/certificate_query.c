@@ -214,7 +214,7 @@ static void begin(mote_certificate *c, double enough)
 
 /* An upper bound where no pair was measured: the distance of a vertex of each body's last
    face. */
-static void take_vertices(mote_certificate *c, const mote_frame *frame)
+static void bound_by_vertices(mote_certificate *c, const mote_frame *frame)
 {
     for (int s = 0; s < 2; ++s)
         c->best.witness[s] =
@@ -286,7 +286,7 @@ static double search_apart(mote_certificate *c, const mote_frame *frame)
     double lower;
     memcpy(c->best.triangle, c->memory.last, sizeof c->best.triangle);
     if (mote_cert_rest_apart(c, frame, &lower)) {
-        take_vertices(c, frame);
+        bound_by_vertices(c, frame);
         return lower;
     }
     c->origin = between(c, frame);
@@ -303,7 +303,7 @@ static double search_apart(mote_certificate *c, const mote_frame *frame)
         mote_cert_remember_parting(c, lower);
     } else {
         c->memory.parted = lower > c->enough;
-        take_vertices(c, frame);
+        bound_by_vertices(c, frame);
     }
     return lower;
 }
@@ -319,24 +319,24 @@ void mote_certificate_query(mote_certificate *c, const mote_frame *frame,
     write_answer(c, evaluated, lower, answer);
 }
 
-void mote_certificate_report(const mote_certificate_answer *found, mote_ask ask,
+void mote_certificate_report(const mote_certificate_answer *bracket, mote_ask ask,
                              double tolerance, bool decides, mote_answer *answer)
 {
     const bool contact_only = ask == MOTE_ASK_CONTACT;
-    answer->distance = found->distance;
-    answer->lower = found->lower;
-    answer->witness[0] = found->witness[0];
-    answer->witness[1] = found->witness[1];
-    answer->contact = found->distance <= tolerance;
+    answer->distance = bracket->distance;
+    answer->lower = bracket->lower;
+    answer->witness[0] = bracket->witness[0];
+    answer->witness[1] = bracket->witness[1];
+    answer->contact = bracket->distance <= tolerance;
     /* A contact question ends before the distance is known. */
     answer->has_distance = !contact_only;
     answer->has_witness = !contact_only || answer->contact;
     answer->has_lower = true;
     /* Where the tolerance lies between the bounds, contact is not decided. */
     answer->has_contact =
-        answer->contact || found->lower > tolerance || (decides && !found->stopped);
+        answer->contact || bracket->lower > tolerance || (decides && !bracket->stopped);
     mote_counters *sum = &answer->counters;
-#define ADD(name) sum->name += found->counters.name;
+#define ADD(name) sum->name += bracket->counters.name;
     MOTE_COUNTERS(ADD)
     MOTE_COUNTERS_MORE(ADD)
 #undef ADD

@@ -100,8 +100,8 @@ static void carry_over(const mote_pair_list *last, const uint32_t (*pairs)[2], s
     }
 }
 
-mote_status mote_pair_list_take(mote_pair_list *now, mote_pair_list *before,
-                                const uint32_t (*pairs)[2], size_t count, uint32_t bodies)
+mote_status mote_pair_list_renew(mote_pair_list *now, mote_pair_list *before,
+                                 const uint32_t (*pairs)[2], size_t count, uint32_t bodies)
 {
     mote_status status = check(pairs, count, bodies);
     if (status == MOTE_OK)

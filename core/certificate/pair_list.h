@@ -26,7 +26,7 @@ size_t mote_pair_list_bytes(const mote_pair_list *list);
    MOTE_EINVAL, naming the pair, unless i < j < bodies in each, ascending by i, then j, each
    once; MOTE_ENOMEM. Then both lists are as they were. Allocates only when there are more pairs
    than ever before. */
-mote_status mote_pair_list_take(mote_pair_list *now, mote_pair_list *before,
-                                const uint32_t (*pairs)[2], size_t count, uint32_t bodies);
+mote_status mote_pair_list_renew(mote_pair_list *now, mote_pair_list *before,
+                                 const uint32_t (*pairs)[2], size_t count, uint32_t bodies);
 
 #endif

@@ -188,7 +188,7 @@ mote_status mote_scene_query(mote_scene *scene, const mote_body_state *states,
                              const uint32_t (*pairs)[2], size_t count)
 {
     mote_status status =
-        mote_pair_list_take(&scene->now, &scene->before, pairs, count, scene->body_count);
+        mote_pair_list_renew(&scene->now, &scene->before, pairs, count, scene->body_count);
     if (status != MOTE_OK)
         return status;
     scene->states = states;

@@ -17,15 +17,15 @@ mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels)
                          .rotation = given ? NULL : &lazy->state->pose.rotation};
 }
 
-mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node)
+mote_walker mote_walker_at(const mote_ground *ground, int level, uint32_t node)
 {
     const uint32_t vertex = level == MOTE_MESH_LEVEL ? node : ground->levels->vertex[node];
-    return (mote_place){node, vertex, mote_lazy_position(ground->lazy, vertex)};
+    return (mote_walker){node, vertex, mote_lazy_position(ground->lazy, vertex)};
 }
 
 /* The target in the coordinates of the rest shape, as if the body around the place had moved
    rigidly. */
-static mote_vec3 carry_back(const mote_ground *ground, const mote_place *at, mote_vec3 target)
+static mote_vec3 carry_back(const mote_ground *ground, const mote_walker *at, mote_vec3 target)
 {
     if (!ground->rotation)
         return target;
@@ -72,7 +72,7 @@ static uint32_t nearest_vertex(const mote_ground *ground, uint32_t node, mote_ve
 
 /* Moves one place towards the target, as far as steps chosen in the rest shape lead; false if
    it does not come nearer. */
-static bool move_by_shape(const mote_ground *ground, int level, mote_place *at,
+static bool move_by_shape(const mote_ground *ground, int level, mote_walker *at,
                           mote_vec3 target, double *squared)
 {
     const mote_vec3 goal = carry_back(ground, at, target);
@@ -88,7 +88,7 @@ static bool move_by_shape(const mote_ground *ground, int level, mote_place *at,
     }
     if (node == at->node)
         return false;
-    const mote_place there = mote_place_at(ground, level, node);
+    const mote_walker there = mote_walker_at(ground, level, node);
     const double reached = mote_distance_squared(there.world, target);
     if (!(reached < *squared))
         return false;
@@ -99,15 +99,15 @@ static bool move_by_shape(const mote_ground *ground, int level, mote_place *at,
 
 /* Moves a place on the mesh to the neighbour whose position in the frame is nearest to the
    target; false if none comes nearer. */
-static bool move_by_frame(const mote_ground *ground, mote_place *at, mote_vec3 target,
+static bool move_by_frame(const mote_ground *ground, mote_walker *at, mote_vec3 target,
                           double *squared)
 {
     const mote_mesh *mesh = ground->lazy->body->mesh;
     const uint32_t centre = at->vertex;
     mote_lazy_fetch_rings(ground->lazy, &centre, 1);
     for (uint32_t k = mesh->ring_start[centre]; k < mesh->ring_start[centre + 1]; ++k) {
-        const mote_place there =
-            mote_place_at(ground, MOTE_MESH_LEVEL, MOTE_RING_VERTEX(mesh->ring[k]));
+        const mote_walker there =
+            mote_walker_at(ground, MOTE_MESH_LEVEL, MOTE_RING_VERTEX(mesh->ring[k]));
         const double reached = mote_distance_squared(there.world, target);
         if (reached < *squared) {
             *squared = reached;
@@ -119,7 +119,7 @@ static bool move_by_frame(const mote_ground *ground, mote_place *at, mote_vec3 t
 
 /* Moves one place towards the target, on the mesh to where no neighbour is nearer in the frame;
    false if it does not come nearer. */
-static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3 target,
+static bool move(const mote_ground *ground, int level, mote_walker *at, mote_vec3 target,
                  double *squared)
 {
     bool moved = move_by_shape(ground, level, at, target, squared);
@@ -132,7 +132,7 @@ static bool move(const mote_ground *ground, int level, mote_place *at, mote_vec3
     return moved;
 }
 
-double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
+double mote_walk(const mote_ground ground[2], const int level[2], mote_walker at[2],
                  uint64_t *moves)
 {
     double squared = mote_distance_squared(at[0].world, at[1].world);
@@ -171,7 +171,7 @@ static bool within_two_rings(const mote_mesh *mesh, uint32_t v, uint32_t w)
     return false;
 }
 
-double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
+double mote_descend(const mote_ground ground[2], const int level[2], mote_walker at[2],
                     double worth, const uint32_t *known, double *least, uint64_t *moves)
 {
     int on[2] = {level[0], level[1]};

@@ -26,23 +26,23 @@ typedef struct mote_ground {
 } mote_ground;
 
 /* Where a walk is on one body. */
-typedef struct mote_place {
+typedef struct mote_walker {
     uint32_t node; /* on the level walked; on MOTE_MESH_LEVEL the vertex */
     uint32_t vertex;
     mote_vec3 world;
-} mote_place;
+} mote_walker;
 
 /* A body whose lazy positions have begun a frame. levels may be NULL when only MOTE_MESH_LEVEL
    is walked. */
 mote_ground mote_ground_of(mote_lazy *lazy, const mote_levels *levels);
 
 /* The place of a node of a level, or of a vertex of the mesh. */
-mote_place mote_place_at(const mote_ground *ground, int level, uint32_t node);
+mote_walker mote_walker_at(const mote_ground *ground, int level, uint32_t node);
 
 /* Walks both places in turn, each to neighbours nearer to the other, until neither has one (on
    levels of the graph as far as shape tells). level: of each body's walk. Returns the squared
    distance; *moves grows by the moves made. Ends, since each move comes nearer. */
-double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[2],
+double mote_walk(const mote_ground ground[2], const int level[2], mote_walker at[2],
                  uint64_t *moves);
 
 /* Moves both places once on the levels given and on each finer one, then walks on the mesh; a
@@ -51,7 +51,7 @@ double mote_walk(const mote_ground ground[2], const int level[2], mote_place at[
    `worth` (may be infinite: never gives up), and on the mesh where both places are within two
    edges of the vertices known[2] of a minimum (NULL: none), since most descents end at the
    nearest one. *least: an estimate of the distance that it could still have reached. */
-double mote_descend(const mote_ground ground[2], const int level[2], mote_place at[2],
+double mote_descend(const mote_ground ground[2], const int level[2], mote_walker at[2],
                     double worth, const uint32_t *known, double *least, uint64_t *moves);
 
 #ifdef __cplusplus

@@ -30,7 +30,7 @@ static mote_pair make_candidate(const mote_request *r, const uint32_t vertex[2],
     return c;
 }
 
-static void keep_places(mote_request *r, const mote_place at[2], double squared)
+static void keep_places(mote_request *r, const mote_walker at[2], double squared)
 {
     const uint32_t vertex[2] = {at[0].vertex, at[1].vertex};
     r->nearest_squared = fmin(r->nearest_squared, squared);
@@ -116,9 +116,9 @@ static void follow_pairs(mote_request *r)
             mote_pairs_keep(&r->tracker->pairs, &c);
             continue;
         }
-        mote_place at[2];
+        mote_walker at[2];
         for (int b = 0; b < 2; ++b)
-            at[b] = mote_place_at(&r->ground[b], MOTE_MESH_LEVEL, c.vertex[b]);
+            at[b] = mote_walker_at(&r->ground[b], MOTE_MESH_LEVEL, c.vertex[b]);
         keep_places(r, at, mote_walk(r->ground, level, at, &r->counters->moves));
     }
 }
@@ -149,10 +149,10 @@ static void look_at_seeds(mote_request *r, int b)
         mote_lazy_fetch(r->lazy[b], vertex, count);
     }
     for (uint32_t i = 0; i < body->count; ++i)
-        body->place[i] = mote_place_at(&r->ground[b], body->seed_level, body->seed[i]);
+        body->place[i] = mote_walker_at(&r->ground[b], body->seed_level, body->seed[i]);
 }
 
-static mote_place nearest_place(const mote_tracked_body *body, mote_vec3 p)
+static mote_walker nearest_place(const mote_tracked_body *body, mote_vec3 p)
 {
     uint32_t best = 0;
     double least = HUGE_VAL;
@@ -168,7 +168,7 @@ static mote_place nearest_place(const mote_tracked_body *body, mote_vec3 p)
 
 /* The node of the seeds' level that is nearest to a point of the world, by the rest shape in
    its pose: only that node's position is evaluated. */
-static mote_place nearest_by_shape(const mote_request *r, int b, mote_vec3 world)
+static mote_walker nearest_by_shape(const mote_request *r, int b, mote_vec3 world)
 {
     const mote_tracked_body *body = &r->tracker->body[b];
     const mote_ground *ground = &r->ground[b];
@@ -188,12 +188,12 @@ static mote_place nearest_by_shape(const mote_request *r, int b, mote_vec3 world
             best = node;
         }
     }
-    return mote_place_at(ground, body->seed_level, best);
+    return mote_walker_at(ground, body->seed_level, best);
 }
 
 /* Where a launch from a place of body b starts on the other body: at the nearest seed where
    seeds move or are not descended from, otherwise at the nearest node of the seeds' level. */
-static mote_place opposite(mote_request *r, int b, mote_vec3 world)
+static mote_walker opposite(mote_request *r, int b, mote_vec3 world)
 {
     const mote_tracker *t = r->tracker;
     if (t->options.descend && t->options.reseed && !t->particles)
@@ -212,8 +212,8 @@ static void launch(mote_request *r, int b, uint32_t i)
 {
     mote_tracker *t = r->tracker;
     const int level[2] = {t->body[0].seed_level, t->body[1].seed_level};
-    mote_place at[2];
-    at[b] = mote_place_at(&r->ground[b], level[b], t->body[b].seed[i]);
+    mote_walker at[2];
+    at[b] = mote_walker_at(&r->ground[b], level[b], t->body[b].seed[i]);
     at[1 - b] = opposite(r, b, at[b].world);
     ++r->counters->launches;
     if (!t->options.descend) {
@@ -292,12 +292,12 @@ static void leap(mote_request *r, int b, const uint32_t vertex[2])
         list_near(body, vertex[b]);
     body->near_turn = body->near_turn + 1 < body->near_count ? body->near_turn + 1 : 0;
     int level[2];
-    mote_place at[2];
+    mote_walker at[2];
     double least;
     level[b] = body->seed_level;
     level[1 - b] = MOTE_MESH_LEVEL;
-    at[b] = mote_place_at(&r->ground[b], level[b], body->near[body->near_turn]);
-    at[1 - b] = mote_place_at(&r->ground[1 - b], MOTE_MESH_LEVEL, vertex[1 - b]);
+    at[b] = mote_walker_at(&r->ground[b], level[b], body->near[body->near_turn]);
+    at[1 - b] = mote_walker_at(&r->ground[1 - b], MOTE_MESH_LEVEL, vertex[1 - b]);
     ++r->counters->launches;
     const double squared = mote_descend(r->ground, level, at, distance_to_beat(r),
                                         nearest_known(r), &least, &r->counters->moves);
@@ -328,10 +328,10 @@ static void launch_first(mote_request *r)
     const mote_tracker *t = r->tracker;
     int level[2];
     double least;
-    mote_place at[2];
+    mote_walker at[2];
     for (int b = 0; b < 2; ++b) {
         level[b] = (int)t->body[b].levels->depth - 1;
-        at[b] = mote_place_at(&r->ground[b], level[b], 0);
+        at[b] = mote_walker_at(&r->ground[b], level[b], 0);
     }
     keep_places(
         r, at, mote_descend(r->ground, level, at, HUGE_VAL, NULL, &least, &r->counters->moves));

@@ -29,7 +29,7 @@ typedef struct mote_tracked_body {
     uint32_t count;        /* n, at least one a component */
     uint32_t seed_count;   /* >= count: cold queries launch the first, warm ones all in turn */
     uint32_t *seed;        /* [seed_count], nodes of seed_level, where launches start */
-    mote_place *place;     /* [count], of this frame */
+    mote_walker *place;    /* [count], of this frame */
     mote_outcome *outcome; /* [seed_count], of the last launches */
     uint32_t turn;         /* the seed that is launched next */
     double due;            /* launches that motion calls for, not yet made */

@@ -1,6 +1,6 @@
 #include "core/skin/morph_fit.h"
 
-#include "core/skin/interval.h"
+#include "core/skin/range.h"
 #include "core/skin/skin_data.h"
 #include "core/skin/skin_frame.h"
 
@@ -12,7 +12,7 @@ typedef struct target_fit {
     mote_skin_morph_row row;
     /* over the child at hand: */
     double right[3][4]; /* by coordinate: of the normal equations; then the solution */
-    mote_interval rest[3];
+    mote_range residual[3];
     uint32_t last; /* vertex of the part, plus 1, whose displacement is in `move` */
     double move[3];
 } target_fit;
@@ -89,7 +89,7 @@ static void list_targets(mote_morph_fitter *f, const mote_cert_part *part)
             memset(f->fits[k].right, 0, sizeof f->fits[k].right);
             f->fits[k].last = 0;
             for (int c = 0; c < 3; ++c)
-                f->fits[k].rest[c] = (mote_interval)MOTE_INTERVAL_EMPTY;
+                f->fits[k].residual[c] = (mote_range)MOTE_RANGE_EMPTY;
             if (f->block_stamp[k] == f->block)
                 continue;
             f->block_stamp[k] = f->block;
@@ -105,8 +105,8 @@ static void coordinates(const mote_cert_tree *tree, const mote_cert_part *part, 
     mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, part->vertices[v]), z);
 }
 
-/* Least squares over the child's vertices. Slopes only decide how wide the rest is: beyond 4
-   times a target's size they would cost more in margins than they save. */
+/* Least squares over the child's vertices. Slopes only decide how wide the residuals are:
+   beyond 4 times a target's size they would cost more in margins than they save. */
 static void fit_slopes(mote_morph_fitter *f, const mote_cert_tree *tree,
                        const mote_cert_part *part)
 {
@@ -142,8 +142,8 @@ static void fit_slopes(mote_morph_fitter *f, const mote_cert_tree *tree,
 }
 
 /* The residuals of the displacements at all vertices. */
-static void measure_rest(mote_morph_fitter *f, const mote_cert_tree *tree,
-                         const mote_cert_part *part)
+static void measure_residuals(mote_morph_fitter *f, const mote_cert_tree *tree,
+                              const mote_cert_part *part)
 {
     const mote_morph *morph = f->morph;
     for (size_t v = 0; v < part->count; ++v) {
@@ -161,8 +161,8 @@ static void measure_rest(mote_morph_fitter *f, const mote_cert_tree *tree,
             const bool moved = own->last == v + 1;
             for (int c = 0; c < 3; ++c) {
                 const double *g = own->right[c] + 1;
-                mote_interval_widen(&own->rest[c], (moved ? own->move[c] : 0) - g[0] * z[0] -
-                                                       g[1] * z[1] - g[2] * z[2]);
+                mote_range_widen(&own->residual[c], (moved ? own->move[c] : 0) - g[0] * z[0] -
+                                                        g[1] * z[1] - g[2] * z[2]);
             }
         }
     }
@@ -175,8 +175,8 @@ static void write_lane(target_fit *own, size_t lane, mote_skin_morph_bound *boun
     mote_vec3 f, m;
     double sum = 0;
     for (int c = 0; c < 3; ++c) {
-        (void)mote_interval_settle(&own->rest[c], &row->offset[c][lane],
-                                   &row->residual[c][lane]);
+        (void)mote_range_settle(&own->residual[c], &row->offset[c][lane],
+                                &row->residual[c][lane]);
         for (int k = 0; k < 3; ++k)
             row->slope[k][c][lane] = (float)own->right[c][k + 1];
     }
@@ -200,7 +200,7 @@ void mote_morph_fit(mote_morph_fitter *f, mote_cert_tree *tree, const mote_cert_
         return;
     if (linear)
         fit_slopes(f, tree, part);
-    measure_rest(f, tree, part);
+    measure_residuals(f, tree, part);
     for (uint32_t i = 0; i < f->child_count; ++i) {
         const uint16_t k = f->of_child[i];
         write_lane(&f->fits[k], part->lane, &bounds[k]);

@@ -1,5 +1,5 @@
 /* Bounds of a skin, while a tree is built. */
-#include "core/skin/interval.h"
+#include "core/skin/range.h"
 #include "core/skin/morph_fit.h"
 #include "core/skin/skin_bounds.h"
 #include "core/skin/skin_data.h"
@@ -233,27 +233,26 @@ static double write_lane(const fitter *f, const mote_cert_tree *tree,
         row->slope[k][lane] = (float)g[k];
         reach += fabs(g[k]);
     }
-    mote_interval rest = MOTE_INTERVAL_EMPTY;
+    mote_range rest = MOTE_RANGE_EMPTY;
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
         double z[3];
         mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
-        mote_interval_widen(&rest, weight_of(f->skin, vertex, bone) - g[0] * z[0] -
-                                       g[1] * z[1] - g[2] * z[2]);
+        mote_range_widen(&rest, weight_of(f->skin, vertex, bone) - g[0] * z[0] - g[1] * z[1] -
+                                    g[2] * z[2]);
     }
-    reach += mote_interval_settle(&rest, &row->offset[lane], &row->rest[lane]);
+    reach += mote_range_settle(&rest, &row->offset[lane], &row->rest[lane]);
     const double offset = (double)row->offset[lane];
-    mote_interval product[3] = {MOTE_INTERVAL_EMPTY, MOTE_INTERVAL_EMPTY, MOTE_INTERVAL_EMPTY};
+    mote_range product[3] = {MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY, MOTE_RANGE_EMPTY};
     for (size_t v = 0; v < part->count; ++v) {
         const uint32_t vertex = part->vertices[v];
         double z[3];
         mote_cert_box_coordinates(part->box, mote_cert_tree_position(tree, vertex), z);
         for (int k = 0; k < 3; ++k)
-            mote_interval_widen(&product[k],
-                                (weight_of(f->skin, vertex, bone) - offset) * z[k]);
+            mote_range_widen(&product[k], (weight_of(f->skin, vertex, bone) - offset) * z[k]);
     }
     for (int k = 0; k < 3; ++k)
-        reach += mote_interval_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
+        reach += mote_range_settle(&product[k], &row->shift[k][lane], &row->spread[k][lane]);
     return reach;
 }
 

@@ -82,12 +82,12 @@ static mote_status query(void *state, const mote_frame *frame, mote_answer *answ
         now.positions[b] = mote_positions_of(body->vertices);
         now.unchanged[b] = s->answered && !body->shape_changed && !body->pose_changed;
     }
-    mote_certificate_answer found;
+    mote_certificate_answer bracket;
     mote_status status =
-        mote_stream_query(s->stream, &now, contact_only ? s->tolerance : -1, &found);
+        mote_stream_query(s->stream, &now, contact_only ? s->tolerance : -1, &bracket);
     s->answered = status == MOTE_OK;
     if (status == MOTE_OK)
-        mote_certificate_report(&found, s->ask, s->tolerance, s->exact, answer);
+        mote_certificate_report(&bracket, s->ask, s->tolerance, s->exact, answer);
     return status;
 }
 

@@ -118,7 +118,7 @@ static bool box_range(const mote_stream_body *body, size_t first, size_t end)
                                            : box_strided_double(body, first, end);
 }
 
-static void take_range(void *context, uint32_t worker, size_t first, size_t end)
+static void box_shared_range(void *context, uint32_t worker, size_t first, size_t end)
 {
     (void)worker;
     shared_pass *pass = context;
@@ -178,7 +178,7 @@ mote_status mote_stream_pass(mote_stream_body *body, mote_vec3 origin, double sc
     bool finite;
     if (pool && tree->mesh->triangle_count >= WORTH_THREADS) {
         shared_pass pass = {.body = body};
-        mote_pool_run(pool, take_range, &pass, blocks, GRAIN);
+        mote_pool_run(pool, box_shared_range, &pass, blocks, GRAIN);
         finite = !atomic_load_explicit(&pass.doubtful, memory_order_relaxed);
     } else {
         finite = box_range(body, 0, blocks);

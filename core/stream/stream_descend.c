@@ -102,20 +102,20 @@ void mote_stream_find_anew(mote_stream_search *s)
     (void)nearest_face(a, group[0], on_b, &on_a);
     const uint32_t *second = nearest_face(b, group[1], on_a, &on_b);
     const uint32_t *first = nearest_face(a, group[0], on_b, &on_a);
-    mote_refined found = {.squared = 0};
+    mote_refined slid = {.squared = 0};
     mote_vec3 corner[2][3];
-    memcpy(found.triangle[0], first, sizeof found.triangle[0]);
-    memcpy(found.triangle[1], second, sizeof found.triangle[1]);
+    memcpy(slid.triangle[0], first, sizeof slid.triangle[0]);
+    memcpy(slid.triangle[1], second, sizeof slid.triangle[1]);
     for (int k = 0; k < 3; ++k) {
         corner[0][k] = mote_position_at(&a->positions, first[k]);
         corner[1][k] = mote_position_at(&b->positions, second[k]);
     }
-    found.squared =
-        mote_triangle_triangle(corner[0], corner[1], &found.witness[0], &found.witness[1]);
+    slid.squared =
+        mote_triangle_triangle(corner[0], corner[1], &slid.witness[0], &slid.witness[1]);
     mote_lazy *const lazy[2] = {&s->side[0].lazy, &s->side[1].lazy};
-    mote_refine_slide(lazy, s->enough > 0 ? s->enough * s->enough : 0, &found);
-    s->counters.triangle_tests += 1 + found.triangle_tests;
+    mote_refine_slide(lazy, s->enough > 0 ? s->enough * s->enough : 0, &slid);
+    s->counters.triangle_tests += 1 + slid.triangle_tests;
     ++s->counters.refined;
-    if (found.squared < s->best.squared)
-        s->best = found;
+    if (slid.squared < s->best.squared)
+        s->best = slid;
 }

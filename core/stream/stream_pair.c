@@ -107,7 +107,7 @@ static bool apart(mote_stream_search *s, mote_stream_slot *const slot[2],
    less time on a cloth at rest, and 3 to 5 % more on ww, fast-100 and a jelly. */
 static bool searches_pay(const mote_stream_search *s)
 {
-    return 5 * s->found >= 2 * s->searches;
+    return 5 * s->separated >= 2 * s->searches;
 }
 
 /* Whether a direction is found that separates two leaves. */
@@ -116,10 +116,10 @@ static bool separated_first(mote_stream_search *s, mote_stream_slot *const slot[
 {
     if (apart(s, slot, hulls))
         return true;
-    const bool found = separate(s, hulls);
+    const bool separated = separate(s, hulls);
     ++s->searches;
-    s->found += found;
-    return found;
+    s->separated += separated;
+    return separated;
 }
 
 void mote_stream_leaf_pair(mote_stream_search *s, const uint32_t leaf[2])

@@ -111,7 +111,7 @@ size_t mote_stream_bytes(const mote_stream *stream)
 }
 
 /* Sets a frame's positions; boxes that were made for other positions are then invalid. */
-static mote_status take_positions(mote_stream *stream, const mote_stream_frame *frame)
+static mote_status set_positions(mote_stream *stream, const mote_stream_frame *frame)
 {
     for (int b = 0; b < 2; ++b) {
         mote_status status = mote_stream_check(&frame->positions[b], b);
@@ -160,7 +160,7 @@ mote_status mote_stream_query(mote_stream *stream, const mote_stream_frame *fram
 {
     mote_stream_search *s = &stream->search;
     mote_stream_body *const body[2] = {&stream->body[0], &stream->body[1]};
-    mote_status status = take_positions(stream, frame);
+    mote_status status = set_positions(stream, frame);
     if (status != MOTE_OK)
         return status;
     const bool near = mote_stream_seed(s, body, &stream->memory, enough);

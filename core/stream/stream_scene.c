@@ -220,7 +220,7 @@ mote_status mote_stream_scene_query(mote_stream_scene *scene, const uint32_t (*p
                              i);
     }
     mote_status status =
-        mote_pair_list_take(&scene->now, &scene->before, pairs, count, scene->body_count);
+        mote_pair_list_renew(&scene->now, &scene->before, pairs, count, scene->body_count);
     if (status != MOTE_OK)
         return status;
     mote_pool_run(scene->pool, answer_range, scene, count, GRAIN_PAIRS);

@@ -99,7 +99,7 @@ static void begin(mote_stream_search *s, mote_stream_body *const body[2], double
     s->done = s->stopped = s->has_direction = false;
     s->unvisited = DBL_MAX;
     s->limit = 0;
-    s->searches = s->found = 0;
+    s->searches = s->separated = 0;
     for (int k = 0; k < 2; ++k) {
         s->side[k].body = body[k];
         s->side[k].lazy.body = &body[k]->tree->body;

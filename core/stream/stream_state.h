@@ -97,7 +97,7 @@ typedef struct mote_stream_search {
     bool has_direction;
     float direction[3]; /* the last that separated two leaves, in the gap's axes */
     uint32_t searches;  /* for such a direction, before the faces were boxed */
-    uint32_t found;     /* ... with success */
+    uint32_t separated; /* ... with success */
     bool done;          /* the answer is known: contact, or near enough */
     bool stopped;       /* the budget is spent */
     double unvisited;   /* smallest bound of the pairs left then */

@@ -18,7 +18,7 @@
 #define FRAMES_MAX 100000
 
 typedef struct request {
-    const mote_simulated *kind;
+    const mote_simulated_body *kind;
     const char *directory;
     uint64_t triangles, frames;
 } request;

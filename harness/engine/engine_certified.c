@@ -5,7 +5,7 @@
 void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_t count)
 {
     const bool distance = e->setup.ask == MOTE_ASK_DISTANCE;
-    mote_pair_list_make_room(&e->now, count);
+    mote_engine_pair_list_make_room(&e->now, count);
     e->now.count = count;
     for (size_t k = 0; k < count; ++k) {
         const mote_scene_pair *p = &from[k];

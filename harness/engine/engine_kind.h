@@ -22,11 +22,11 @@ typedef struct mote_pair_memory {
     void *state; /* of a contract method */
 } mote_pair_memory;
 
-typedef struct mote_pair_list {
+typedef struct mote_engine_pair_list {
     mote_near_pair *pairs; /* [room] */
     mote_pair_memory *memories;
     size_t count, room;
-} mote_pair_list;
+} mote_engine_pair_list;
 
 /* The pairs to ask about, ascending. */
 typedef struct mote_pairs_wanted {
@@ -63,7 +63,7 @@ struct mote_engine {
     mote_traits traits;
     const mote_engine_kind *kind;
     const mote_body_state *states; /* of the current frame */
-    mote_pair_list now, before;
+    mote_engine_pair_list now, before;
     mote_deform *deform[MOTE_ENGINE_SHAPES_MAX]; /* NULL: not needed, or positions are given */
 
     /* Two bodies: */
@@ -103,8 +103,8 @@ void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_
 
 /* Makes e->now the list of these pairs, each with its memory if it has one; frees the states of
    other pairs. */
-void mote_engine_take_over(mote_engine *e, mote_pairs_wanted wanted);
+void mote_engine_carry_over(mote_engine *e, mote_pairs_wanted wanted);
 /* Makes room for pairs; when the list grows, its old content is lost. */
-void mote_pair_list_make_room(mote_pair_list *list, size_t count);
+void mote_engine_pair_list_make_room(mote_engine_pair_list *list, size_t count);
 
 #endif

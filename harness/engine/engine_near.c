@@ -44,17 +44,17 @@ mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
     return status;
 }
 
-void mote_pair_list_make_room(mote_pair_list *list, size_t count)
+void mote_engine_pair_list_make_room(mote_engine_pair_list *list, size_t count)
 {
     if (count <= list->room)
         return;
     const size_t room = count + count / 4 + 16, kept = list->count;
     free(list->pairs);
     free(list->memories);
-    *list = (mote_pair_list){.pairs = mote_allocate(room, sizeof *list->pairs),
-                             .memories = mote_allocate(room, sizeof *list->memories),
-                             .count = kept,
-                             .room = room};
+    *list = (mote_engine_pair_list){.pairs = mote_allocate(room, sizeof *list->pairs),
+                                    .memories = mote_allocate(room, sizeof *list->memories),
+                                    .count = kept,
+                                    .room = room};
 }
 
 static void drop_state(const mote_engine *e, mote_pair_memory *memory)
@@ -63,12 +63,12 @@ static void drop_state(const mote_engine *e, mote_pair_memory *memory)
     memory->state = NULL;
 }
 
-void mote_engine_take_over(mote_engine *e, mote_pairs_wanted wanted)
+void mote_engine_carry_over(mote_engine *e, mote_pairs_wanted wanted)
 {
-    const mote_pair_list *old = &e->now;
-    mote_pair_list *list = &e->before;
+    const mote_engine_pair_list *old = &e->now;
+    mote_engine_pair_list *list = &e->before;
     size_t at = 0;
-    mote_pair_list_make_room(list, wanted.count);
+    mote_engine_pair_list_make_room(list, wanted.count);
     list->count = wanted.count;
     for (size_t k = 0; k < wanted.count; ++k) {
         const uint32_t *pair = wanted.pairs[k];
@@ -83,7 +83,7 @@ void mote_engine_take_over(mote_engine *e, mote_pairs_wanted wanted)
     }
     for (; at < old->count; ++at)
         drop_state(e, &old->memories[at]);
-    const mote_pair_list swapped = e->now;
+    const mote_engine_pair_list swapped = e->now;
     e->now = e->before;
     e->before = swapped;
     e->before.count = 0;

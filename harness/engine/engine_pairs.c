@@ -98,7 +98,7 @@ static mote_status pairs_ask(mote_engine *e, mote_engine_cost *cost)
         status = mote_engine_find_near(e, cost, &wanted);
     if (status != MOTE_OK)
         return status;
-    mote_engine_take_over(e, wanted);
+    mote_engine_carry_over(e, wanted);
     status = add_states(e);
     memset(e->failures, 0, e->threads * sizeof *e->failures);
     if (status == MOTE_OK)

@@ -100,7 +100,7 @@ static mote_status trees_ask(mote_engine *e, mote_engine_cost *cost)
         status = mote_engine_find_near(e, cost, &wanted);
     if (status != MOTE_OK)
         return status;
-    mote_engine_take_over(e, wanted);
+    mote_engine_carry_over(e, wanted);
     status = refit_near(e, cost);
     for (size_t k = 0; k < e->now.count && status == MOTE_OK; ++k) {
         mote_near_pair *pair = &e->now.pairs[k];

@@ -34,7 +34,7 @@ static mote_status two_create(mote_engine *e)
             MOTE_EINVAL,
             "refit, threads and ahead are keys for more than two bodies; leave them out");
     e->now.count = 1;
-    mote_pair_list_make_room(&e->now, 1);
+    mote_engine_pair_list_make_room(&e->now, 1);
     e->now.pairs[0] = (mote_near_pair){.body = {0, 1}};
     return e->traits.given_vertices ? make_vertices(e) : MOTE_OK;
 }

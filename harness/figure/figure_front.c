@@ -47,7 +47,7 @@ static bool is_named(const char *family, const char *engine)
     return strcmp(engine, family) == 0;
 }
 
-static mote_place place_of(const canvas *c, const mote_summary_row *row)
+static mote_rectangle place_of(const canvas *c, const mote_summary_row *row)
 {
     const double error = row->error.p99 > FLOOR ? row->error.p99 : FLOOR;
     return mote_room_point((log10(row->total.median) - c->low_x) * c->per_x,
@@ -87,7 +87,7 @@ static void open_canvas(const mote_summary *summary, const char *scenario, canva
    interval, the place of n. */
 static void add_point(canvas *c, const mote_summary_row *row, bool named, mote_text *text)
 {
-    mote_place at = place_of(c, row);
+    mote_rectangle at = place_of(c, row);
     if (named && row->n == row->n && mote_room_find(&c->room, at, row->n, &at))
         mote_text_add(text, "%.0f ", row->n);
     else

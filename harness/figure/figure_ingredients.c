@@ -168,10 +168,10 @@ typedef struct front {
     const mote_summary_row *row[SERIES][LONGEST];
     double low_x, per_x, per_y;
     mote_room room;
-    mote_place taken[2 * SERIES * LONGEST];
+    mote_rectangle taken[2 * SERIES * LONGEST];
 } front;
 
-static mote_place place_of(const front *f, const mote_summary_row *row)
+static mote_rectangle place_of(const front *f, const mote_summary_row *row)
 {
     const double wrong = fmax(percent_wrong(row), LEAST_PERCENT);
     return mote_room_point((log10(row->total.median) - f->low_x) * f->per_x,
@@ -226,7 +226,7 @@ static void add_series(front *f, int s, mote_text *data)
         if (!row)
             continue;
         const double value = value_of(row, series[s][0]);
-        mote_place at = place_of(f, row);
+        mote_rectangle at = place_of(f, row);
         const bool whole = strcmp(series[s][k + 1], WHOLE) == 0;
         if ((!whole || s == 0) && mote_room_find(&f->room, at, value, &at))
             mote_text_add(data, "%.0f ", value);

@@ -79,8 +79,8 @@ static mote_rig_track add_rotations(clip_reader *r, const struct aiNodeAnim *fro
     return track;
 }
 
-static void split_rest(const mote_affine *rest, struct aiVector3D *position,
-                       struct aiQuaternion *rotation, struct aiVector3D *scale)
+static void decompose_rest(const mote_affine *rest, struct aiVector3D *position,
+                           struct aiQuaternion *rotation, struct aiVector3D *scale)
 {
     struct aiMatrix4x4 m;
     aiIdentityMatrix4(&m);
@@ -100,7 +100,7 @@ static void add_channel(clip_reader *r, const struct aiNodeAnim *from)
         return;
     struct aiVector3D position, scale;
     struct aiQuaternion rotation;
-    split_rest(&r->rig->nodes[node].rest, &position, &rotation, &scale);
+    decompose_rest(&r->rig->nodes[node].rest, &position, &rotation, &scale);
     const mote_rig_channel made = {
         node, add_vectors(r, from->mPositionKeys, from->mNumPositionKeys, position),
         add_rotations(r, from, rotation),

@@ -209,8 +209,8 @@ static mote_status add_field(library *from, const json_t *row)
     return mote_field_maker_add(&s->field);
 }
 
-/* Takes over the offer's text. */
-static mote_status take_offer(library *l, const char *text, size_t size)
+/* Adds the methods and fields of a library's offer. */
+static mote_status add_offer(library *l, const char *text, size_t size)
 {
     const json_t *row;
     size_t i;
@@ -261,7 +261,7 @@ mote_status mote_plugin_open(const char *path)
     status = mote_child_run("asking it what it offers", mote_plugin_offer, real, limits, &offer,
                             &size);
     if (status == MOTE_OK)
-        status = take_offer(l, offer, size);
+        status = add_offer(l, offer, size);
     free(offer);
     /* The user named the library, so a crash while loading it is bad input, too. */
     return status == MOTE_OK ? MOTE_OK : blame(path, MOTE_EINVAL);

@@ -149,7 +149,7 @@ static void pose_steps(const mote_pose *pose, double length, int32_t steps[12])
 }
 
 /* The weights of a frame in rest axes. */
-static void rest_weights(const mote_body_state *state, size_t count, double *weights)
+static void weights_in_rest_axes(const mote_body_state *state, size_t count, double *weights)
 {
     for (size_t j = 0; j < count; ++j) {
         const mote_vec3 w = mote_rotate_back(
@@ -203,7 +203,7 @@ static mote_status add_motion(mote_text *text, const mote_replay_scene *scene, i
         if (keys->field)
             mote_replay_keys_weights(keys, number, weights + width * k);
         else
-            rest_weights(&frame->body[i], width / 3, weights + width * k);
+            weights_in_rest_axes(&frame->body[i], width / 3, weights + width * k);
     }
     mote_text_add(text, "\"poseStep\": %.17g, ", POSE_STEP);
     add_smooth(text, "poses", poses, 12 * frames, 12);

@@ -23,7 +23,7 @@
 
 /* --- runs --- */
 
-static mote_status check_rows(const mote_site_run *run)
+static mote_status check_rows(const mote_results_site_run *run)
 {
     const json_t *schema = json_object_get(run->summary.document, "schema");
     if (!json_is_integer(schema) || json_integer_value(schema) != 1)
@@ -42,7 +42,7 @@ static mote_status check_rows(const mote_site_run *run)
     return MOTE_OK;
 }
 
-static void free_run(mote_site_run *run)
+static void free_run(mote_results_site_run *run)
 {
     mote_summary_free(&run->summary);
     json_decref(run->manifest);
@@ -51,7 +51,7 @@ static void free_run(mote_site_run *run)
     free(run->name);
 }
 
-static mote_status read_run(mote_site_run *run)
+static mote_status read_run(mote_results_site_run *run)
 {
     char *text = NULL;
     size_t size = 0;
@@ -84,9 +84,9 @@ static mote_status read_run(mote_site_run *run)
     return status;
 }
 
-mote_status mote_site_add(mote_site *site, const char *directory)
+mote_status mote_results_site_add(mote_results_site *site, const char *directory)
 {
-    mote_site_run run = {.directory = mote_duplicate(directory)};
+    mote_results_site_run run = {.directory = mote_duplicate(directory)};
     const mote_status status = read_run(&run);
     if (status != MOTE_OK) {
         free_run(&run);
@@ -95,7 +95,7 @@ mote_status mote_site_add(mote_site *site, const char *directory)
     if (!site->left_out)
         site->left_out = json_array();
     for (size_t i = 0; i < site->count; ++i) {
-        const mote_site_run *other = &site->runs[i];
+        const mote_results_site_run *other = &site->runs[i];
         if (strcmp(other->path, run.path) != 0 && other->digest != run.digest)
             continue;
         char *text = mote_format("%s: the same run as %s", directory, other->directory);
@@ -124,7 +124,7 @@ static const char *tail_of(const char *path, size_t parts)
 }
 
 /* Names each run by as few last parts of its path as tell all of them apart. */
-static void name_runs(mote_site *site)
+static void name_runs(mote_results_site *site)
 {
     size_t parts = 1;
     for (bool clash = true; clash && parts < 32; parts += clash ? 1 : 0) {
@@ -180,7 +180,7 @@ static int by_place(const void *a, const void *b)
 }
 
 /* The rows of all runs in the order of scenes. They borrow from the runs' own. */
-static void gather_rows(mote_site *site)
+static void gather_rows(mote_results_site *site)
 {
     size_t count = 0;
     for (size_t r = 0; r < site->count; ++r)
@@ -208,13 +208,13 @@ static void gather_rows(mote_site *site)
 /* --- data --- */
 
 /* When the run began: that of its first session; "" if unknown. */
-static const char *started(const mote_site_run *run)
+static const char *started(const mote_results_site_run *run)
 {
     return mote_text_at(json_array_get(json_object_get(run->manifest, "sessions"), 0),
                         "started");
 }
 
-static json_t *run_data(const mote_site_run *run, const char *home)
+static json_t *run_data(const mote_results_site_run *run, const char *home)
 {
     const mote_report facts = {.directory = run->directory, .manifest = run->manifest};
     char *folder = path_between(home, run->path);
@@ -246,7 +246,7 @@ static void add_question(const mote_summary_row *row, json_t *block)
         json_pack("[i, i]", (int)row->frame_range[0], (int)row->frame_range[1]));
 }
 
-static json_t *site_data(const mote_site *site, const char *home)
+static json_t *site_data(const mote_results_site *site, const char *home)
 {
     size_t i;
     json_t *data = json_object(), *runs = json_array(), *item;
@@ -271,7 +271,8 @@ static json_t *site_data(const mote_site *site, const char *home)
 
 /* --- files --- */
 
-static mote_status write_page(const mote_site *site, const char *directory, const char *home)
+static mote_status write_page(const mote_results_site *site, const char *directory,
+                              const char *home)
 {
     mote_text text = {0};
     mote_status status = mote_page_begin("results", &text);
@@ -295,12 +296,12 @@ static mote_status write_page(const mote_site *site, const char *directory, cons
 }
 
 /* The run of each row, as further columns. */
-static mote_status write_csv(const mote_site *site, const char *directory)
+static mote_status write_csv(const mote_results_site *site, const char *directory)
 {
     const size_t count = site->all.summary.count;
     char **origins = mote_allocate(count, sizeof *origins);
     for (size_t i = 0; i < count; ++i) {
-        const mote_site_run *run = &site->runs[site->run_of[i]];
+        const mote_results_site_run *run = &site->runs[site->run_of[i]];
         mote_text fields = {0};
         mote_escape_csv(&fields, run->name, true);
         mote_text_add(&fields, ",");
@@ -317,7 +318,7 @@ static mote_status write_csv(const mote_site *site, const char *directory)
     return mote_record_text(directory, "results.csv", &text);
 }
 
-mote_status mote_site_write(mote_site *site, const char *directory)
+mote_status mote_results_site_write(mote_results_site *site, const char *directory)
 {
     mote_status status = mote_directory_make(directory);
     if (status != MOTE_OK)
@@ -334,7 +335,7 @@ mote_status mote_site_write(mote_site *site, const char *directory)
     return status;
 }
 
-void mote_site_free(mote_site *site)
+void mote_results_site_free(mote_results_site *site)
 {
     for (size_t i = 0; i < site->count; ++i)
         free_run(&site->runs[i]);

@@ -258,8 +258,8 @@ static mote_status relax_frames(const mote_scenario *scenario, uint32_t n, bool 
 
 /* Adds values for one n, cold or warm. Only cold queries decide: a warm query is almost at rest
    at its start, so almost nothing moves in its steps. */
-static mote_status add_rest(const mote_study *study, const mote_subject *subject, uint32_t n,
-                            bool cold, mote_claim *claim)
+static mote_status add_near_rest(const mote_study *study, const mote_subject *subject,
+                                 uint32_t n, bool cold, mote_claim *claim)
 {
     double moving[MOTE_STUDY_SEEDS], change[MOTE_STUDY_SEEDS], saved[MOTE_STUDY_SEEDS];
     double off[MOTE_STUDY_SEEDS];
@@ -310,7 +310,7 @@ mote_status mote_claim_almost_at_rest(mote_study *study, mote_claim *claim)
     mote_status status = mote_study_scene(study, "ww", &subject);
     for (int cold = 1; cold >= 0; --cold) {
         for (int i = 0; i < 2 && status == MOTE_OK; ++i)
-            status = add_rest(study, subject, numbers[i], cold != 0, claim);
+            status = add_near_rest(study, subject, numbers[i], cold != 0, claim);
     }
     return status;
 }

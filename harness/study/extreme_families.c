@@ -167,7 +167,7 @@ static void use_triangle(mote_extreme_recipe *r, int b)
 
 /* Triangles with integer coordinates: a corner of one lies in the other
    (datasets/defects.md). */
-static void take_touching_triangles(mote_extreme_recipe *r, int which)
+static void use_touching_triangles(mote_extreme_recipe *r, int which)
 {
     static const mote_vec3 corner[2][2][3] = {
         {{{3, 3, 1}, {0, 1, 2}, {3, 2, 0}}, {{1, 2, 3}, {1, 1, 2}, {2, 2, 1}}},
@@ -192,7 +192,7 @@ static mote_status change_touch(const mote_extreme_recipe *plain, int k,
     use_cube(made, 0);
     use_cube(made, 1);
     if (k >= 5)
-        take_touching_triangles(made, k - 5);
+        use_touching_triangles(made, k - 5);
     stand_still(made, places[k]);
     return MOTE_OK;
 }

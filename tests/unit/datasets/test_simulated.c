@@ -26,7 +26,7 @@ static double fall(double *speed, int parts, double kept, bool damps_last)
     return way;
 }
 
-static void check_fall(const mote_simulated *kind, int frames, int parts, bool damps_last)
+static void check_fall(const mote_simulated_body *kind, int frames, int parts, bool damps_last)
 {
     mote_mesh *mesh;
     void *state;
@@ -129,7 +129,7 @@ TEST(jelly_of_any_size_makes_the_same_motion)
 TEST(simulated_bodies_have_the_same_bits_everywhere)
 {
     static const struct {
-        const mote_simulated *kind;
+        const mote_simulated_body *kind;
         uint64_t hash;
     } rows[] = {{&mote_simulated_cloth, 0x19bfbed01935690e},
                 {&mote_simulated_jelly, 0xdd19688adc2b7bf7}};

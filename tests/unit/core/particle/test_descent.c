@@ -40,13 +40,14 @@ static void walk_scene_free(walk_scene *w)
 }
 
 /* Places at random nodes of levels, or vertices. */
-static void random_places(walk_scene *w, const int level[2], mote_place at[2])
+static void random_places(walk_scene *w, const int level[2], mote_walker at[2])
 {
     for (int b = 0; b < 2; ++b) {
         const uint32_t count = level[b] == MOTE_MESH_LEVEL
                                    ? w->s.mesh[b]->vertex_count
                                    : w->levels[b]->level[level[b]].count;
-        at[b] = mote_place_at(&w->ground[b], level[b], (uint32_t)scene_random(&w->s, 0, count));
+        at[b] =
+            mote_walker_at(&w->ground[b], level[b], (uint32_t)scene_random(&w->s, 0, count));
     }
 }
 
@@ -55,7 +56,7 @@ static void assert_same_point(mote_vec3 a, mote_vec3 b)
     assert_true(a.x == b.x && a.y == b.y && a.z == b.z);
 }
 
-static void assert_places(const walk_scene *w, const mote_place at[2], double squared)
+static void assert_places(const walk_scene *w, const mote_walker at[2], double squared)
 {
     for (int b = 0; b < 2; ++b) {
         assert_int_equal(at[b].node, at[b].vertex);
@@ -65,7 +66,7 @@ static void assert_places(const walk_scene *w, const mote_place at[2], double sq
 }
 
 /* No neighbour on the mesh is nearer, up to rounding. */
-static void assert_local_minimum(const walk_scene *w, const mote_place at[2], double squared)
+static void assert_local_minimum(const walk_scene *w, const mote_walker at[2], double squared)
 {
     for (int b = 0; b < 2; ++b) {
         const mote_mesh *mesh = w->s.mesh[b];
@@ -85,7 +86,7 @@ static void check_descents(bool deforming, bool given)
         walk_scene_next(&w, given);
         for (int trial = 0; trial < 20; ++trial) {
             const int level[2] = {trial % 3 - 1, (trial + 1) % 3 - 1};
-            mote_place at[2];
+            mote_walker at[2];
             uint64_t moves = 0;
             random_places(&w, level, at);
             const double before = mote_distance_squared(at[0].world, at[1].world);
@@ -123,7 +124,7 @@ TEST(walk_one_level_stays_on_it)
     for (int frame = 0; frame < 20; ++frame) {
         walk_scene_next(&w, false);
         const int level[2] = {1, 0};
-        mote_place at[2];
+        mote_walker at[2];
         uint64_t moves = 0;
         random_places(&w, level, at);
         mote_walk(w.ground, level, at, &moves);
@@ -146,10 +147,10 @@ TEST(descend_not_worth_it_gives_up)
     for (int frame = 0; frame < 100; ++frame) {
         walk_scene_next(&w, false);
         const int level[2] = {(int)w.levels[0]->depth - 1, (int)w.levels[1]->depth - 1};
-        mote_place start[2];
+        mote_walker start[2];
         random_places(&w, level, start);
         const double worth = scene_random(&w.s, 0, 0.5) * w.s.length;
-        mote_place far[2] = {start[0], start[1]}, all[2] = {start[0], start[1]};
+        mote_walker far[2] = {start[0], start[1]}, all[2] = {start[0], start[1]};
         double least[2];
         uint64_t moves[2] = {0, 0};
         const double squared =
@@ -180,7 +181,7 @@ TEST(descend_evaluates_few_positions)
     for (int frame = 0; frame < 50; ++frame) {
         walk_scene_next(&w, false);
         const int level[2] = {(int)w.levels[0]->depth - 1, (int)w.levels[1]->depth - 1};
-        mote_place at[2];
+        mote_walker at[2];
         double least;
         random_places(&w, level, at);
         const uint64_t before = w.lazy[0].evaluated + w.lazy[1].evaluated;
@@ -201,9 +202,9 @@ TEST(descend_beside_known_ends_there)
     for (int frame = 0; frame < 100; ++frame) {
         walk_scene_next(&w, false);
         const int level[2] = {(int)w.levels[0]->depth - 1, MOTE_MESH_LEVEL};
-        mote_place start[2];
+        mote_walker start[2];
         random_places(&w, level, start);
-        mote_place all[2] = {start[0], start[1]}, beside[2] = {start[0], start[1]};
+        mote_walker all[2] = {start[0], start[1]}, beside[2] = {start[0], start[1]};
         double least;
         uint64_t moves[2] = {0, 0};
         const double ends =

@@ -1,13 +1,13 @@
-#include "baselines/engine.h"
+#include "baselines/physics_engine.h"
 
 #include "baselines/input.h"
 
 #include <math.h>
 #include <string.h>
 
-mote_traits mote_engine_traits(mote_engine_update update, bool given)
+mote_traits mote_physics_traits(mote_physics_update update, bool given)
 {
-    const bool vertices = update != MOTE_ENGINE_NONE;
+    const bool vertices = update != MOTE_PHYSICS_NONE;
     return (mote_traits){.needs_vertices = vertices && !given,
                          .given_vertices = vertices && given};
 }
@@ -17,8 +17,8 @@ static mote_mat3 identity(void)
     return (mote_mat3){.m = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 }
 
-mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
-                              mote_engine_update update, const char *name)
+mote_status mote_physics_begin(mote_physics *engine, const mote_setup *setup,
+                               mote_physics_update update, const char *name)
 {
     if (setup->ask != MOTE_ASK_CONTACT)
         return mote_fail(MOTE_EUNSUPPORTED,
@@ -29,22 +29,22 @@ mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
     if (status != MOTE_OK)
         return status;
     *engine =
-        (mote_engine){.scale = ldexp(1, -(int)fmax(-1000, fmin(1000, ilogb(setup->length))))};
+        (mote_physics){.scale = ldexp(1, -(int)fmax(-1000, fmin(1000, ilogb(setup->length))))};
     for (int b = 0; b < 2; ++b) {
-        mote_engine_body *body = &engine->body[b];
+        mote_physics_body *body = &engine->body[b];
         body->mesh = setup->body[b]->mesh;
         body->centre =
             mote_add(mote_scale(body->mesh->low, 0.5), mote_scale(body->mesh->high, 0.5));
         body->rigid = mote_body_is_rigid(setup->body[b]);
         body->rotation = identity();
-        if (update == MOTE_ENGINE_NONE && !body->rigid)
+        if (update == MOTE_PHYSICS_NONE && !body->rigid)
             return mote_fail(MOTE_EUNSUPPORTED,
                              "update=none needs rigid bodies; body %d deforms", b);
     }
     return MOTE_OK;
 }
 
-static mote_status follow(mote_engine_body *body, const mote_body_state *state, int b)
+static mote_status follow(mote_physics_body *body, const mote_body_state *state, int b)
 {
     mote_status status = mote_input_check_pose(&state->pose, b);
     if (status != MOTE_OK)
@@ -67,7 +67,7 @@ static mote_status follow(mote_engine_body *body, const mote_body_state *state, 
     return status;
 }
 
-mote_status mote_engine_frame(mote_engine *engine, const mote_frame *frame)
+mote_status mote_physics_frame(mote_physics *engine, const mote_frame *frame)
 {
     for (int b = 0; b < 2; ++b) {
         mote_status status = follow(&engine->body[b], &frame->body[b], b);
@@ -83,14 +83,14 @@ mote_status mote_engine_frame(mote_engine *engine, const mote_frame *frame)
     return MOTE_OK;
 }
 
-mote_vec3 mote_engine_rest(const mote_engine *engine, int b, uint32_t i)
+mote_vec3 mote_physics_rest(const mote_physics *engine, int b, uint32_t i)
 {
-    const mote_engine_body *body = &engine->body[b];
+    const mote_physics_body *body = &engine->body[b];
     return mote_scale(mote_sub(body->mesh->positions[i], body->centre), engine->scale);
 }
 
-mote_vec3 mote_engine_vertex(const mote_engine *engine, int b, uint32_t i)
+mote_vec3 mote_physics_vertex(const mote_physics *engine, int b, uint32_t i)
 {
-    const mote_engine_body *body = &engine->body[b];
+    const mote_physics_body *body = &engine->body[b];
     return mote_scale(mote_sub(body->vertices[i], body->moved_centre), engine->scale);
 }

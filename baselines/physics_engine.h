@@ -8,8 +8,8 @@
    into [1, 2). A rigid body is built once and moved by its pose. A body that deforms is
    refitted where its shape or its rotation changed (weights are in world axes); otherwise it is
    moved. */
-#ifndef MOTE_BASELINES_ENGINE_H
-#define MOTE_BASELINES_ENGINE_H
+#ifndef MOTE_BASELINES_PHYSICS_ENGINE_H
+#define MOTE_BASELINES_PHYSICS_ENGINE_H
 
 #include "core/method/method.h"
 
@@ -17,13 +17,13 @@
 extern "C" {
 #endif
 
-typedef enum mote_engine_update {
-    MOTE_ENGINE_REFIT,
-    MOTE_ENGINE_NONE, /* rigid bodies, by their poses alone */
-    MOTE_ENGINE_REBUILD
-} mote_engine_update;
+typedef enum mote_physics_update {
+    MOTE_PHYSICS_REFIT,
+    MOTE_PHYSICS_NONE, /* rigid bodies, by their poses alone */
+    MOTE_PHYSICS_REBUILD
+} mote_physics_update;
 
-typedef struct mote_engine_body {
+typedef struct mote_physics_body {
     const mote_mesh *mesh;
     mote_vec3 centre; /* of the rest box */
     bool rigid;
@@ -34,31 +34,31 @@ typedef struct mote_engine_body {
     const mote_vec3 *vertices; /* of this frame; NULL for a rigid body */
     mote_mat3 rotation;        /* what the engine is to apply in this frame, */
     mote_vec3 translation;     /* in its unit */
-} mote_engine_body;
+} mote_physics_body;
 
-typedef struct mote_engine {
-    mote_engine_body body[2];
+typedef struct mote_physics {
+    mote_physics_body body[2];
     double scale;
-} mote_engine;
+} mote_physics;
 
 /* given: the frame's vertices come free of charge (positions=given). */
-mote_traits mote_engine_traits(mote_engine_update update, bool given);
+mote_traits mote_physics_traits(mote_physics_update update, bool given);
 
 /* Checks the setup and fills the engine. MOTE_EUNSUPPORTED where the question is another one
-   than contact at tolerance 0, or where update is MOTE_ENGINE_NONE and a body deforms;
+   than contact at tolerance 0, or where update is MOTE_PHYSICS_NONE and a body deforms;
    MOTE_EINVAL as mote_input_check. name: of the engine, for messages. The meshes are borrowed.
    Cost O(v + t). */
-mote_status mote_engine_begin(mote_engine *engine, const mote_setup *setup,
-                              mote_engine_update update, const char *name);
+mote_status mote_physics_begin(mote_physics *engine, const mote_setup *setup,
+                               mote_physics_update update, const char *name);
 
 /* Sets what a frame changes: refit, moved_centre, vertices, rotation, translation. MOTE_EINVAL
    where a pose or a vertex is not finite. Cost O(1), O(v) for a body to refit. */
-mote_status mote_engine_frame(mote_engine *engine, const mote_frame *frame);
+mote_status mote_physics_frame(mote_physics *engine, const mote_frame *frame);
 
 /* Vertex i of body b in the engine's unit: at rest, and in the frame of the last
-   mote_engine_frame. */
-mote_vec3 mote_engine_rest(const mote_engine *engine, int b, uint32_t i);
-mote_vec3 mote_engine_vertex(const mote_engine *engine, int b, uint32_t i);
+   mote_physics_frame. */
+mote_vec3 mote_physics_rest(const mote_physics *engine, int b, uint32_t i);
+mote_vec3 mote_physics_vertex(const mote_physics *engine, int b, uint32_t i);
 
 #ifdef __cplusplus
 }
