@@ -1,21 +1,57 @@
-"""What pairs and streams have in common: runs over many frames."""
+"""What pairs and streams have in common: the answer of one frame, and runs over many frames."""
 
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _library as lib
 from ._arrays import address, integer, real
-from ._results import Contacts, Distances
+from ._mesh import Mesh
+from ._results import Contact, Contacts, Distances
 
 THREADS = 256
 FRAMES = 2**62
 
 #: After this many stretches of each thread the interpreter looks whether it was interrupted.
 STRETCHES = 16
+
+
+class TwoBodies(lib.Guarded):
+    """Two bodies, the memory that a frame's answer is written to, and the run that points to it."""
+
+    def __init__(self, memory: lib.Memory, meshes: Sequence[Mesh],
+                 bytes_of: Callable[[int], int]) -> None:
+        super().__init__(memory)
+        self._length = max(mesh.length for mesh in meshes)
+        self._bytes_of = bytes_of
+        self._answer = np.zeros(8)
+        self._witness = self._answer[2:].reshape(2, 3)
+        self._contact = np.zeros(1, np.int8)
+        self._run = lib.Run(
+            1, 0, 1, -1.0, address(self._answer), address(self._answer) + 8,
+            address(self._answer) + 16, address(self._contact),
+        )
+
+    @property
+    def length(self) -> float:
+        """L: the larger of the meshes' lengths."""
+        return self._length
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes that the library holds for queries; meshes and fields are not among them."""
+        address_of = self._enter()
+        try:
+            return int(self._bytes_of(address_of))
+        finally:
+            self._lock.release()
+
+    def _answered_contact(self) -> Contact:
+        distance, lower = self._answer[:2].tolist()
+        return Contact(decided(int(self._contact[0])), distance, lower, self._witness.copy())
 
 
 def options_of(slack: object, budget: Optional[object]) -> lib.BatchOptions:

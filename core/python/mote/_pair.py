@@ -10,8 +10,8 @@ from typing import Any, Callable, Optional, Union
 import numpy as np
 
 from . import _library as lib
-from ._arrays import DOUBLE, address, array_of, fits, wrong_shape
-from ._batch import decided, options_of, run_frames, tolerance_of
+from ._arrays import DOUBLE, array_of, fits, wrong_shape
+from ._batch import TwoBodies, options_of, run_frames, tolerance_of
 from ._input import (
     IDENTITY,
     BodyWeights,
@@ -32,7 +32,7 @@ _batch_query = lib.batch_query
 _make = tuple.__new__
 
 
-class Pair(lib.Guarded):
+class Pair(TwoBodies):
     """The exact distance of two deforming bodies, with a proof of it.
 
     a, b: meshes, which may be the same. field_a, field_b: how they deform; None: not at all.
@@ -44,12 +44,12 @@ class Pair(lib.Guarded):
     queries of skins faster and changes no answer.
 
     Poses of a frame are float64 (2, 3, 4): of each body the rotation beside the translation; or
-    (2, 4, 4), whose last row is 0 0 0 1; or a tuple (pose of a, pose of b), in which None stands for
-    neither turned nor moved. Weights are a tuple (weights of a, weights of b), each of its field's
+    (2, 4, 4), whose last row is 0 0 0 1; or a tuple (pose of a, pose of b), in which None leaves the
+    body where its mesh is. Weights are a tuple (weights of a, weights of b), each of its field's
     weights_shape or None for rest.
 
-    One thread at a time may use a pair: RuntimeError. ValueError where numbers are not finite, a
-    rotation is none, or something is beyond 2^50 L. Cost: about 1 s a million faces to make.
+    One thread at a time may use a pair: RuntimeError. ValueError where a number is not finite, a pose
+    is no rotation, or something is beyond 2^50 L. Cost: about 1 s a million faces to make.
     """
 
     def __init__(self, a: Mesh, b: Mesh, field_a: Optional[Field] = None,
@@ -60,7 +60,7 @@ class Pair(lib.Guarded):
         fields = field_of("field_a", field_a, meshes[0]), field_of("field_b", field_b, meshes[1])
         self._bodies = tuple(BodyWeights(field) for field in fields)
         options = options_of(slack, budget)
-        kept = [self._take_samples(options, k, name, value)
+        kept = [self._set_samples(options, k, name, value)
                 for k, (name, value) in enumerate((("samples_a", samples_a),
                                                    ("samples_b", samples_b)))]
         held = tuple(mesh._need(name) for mesh, name in zip(meshes, "ab"))
@@ -72,11 +72,10 @@ class Pair(lib.Guarded):
             ctypes.byref(options),
         )
         del kept
-        self._length = max(mesh.length for mesh in meshes)
-        super().__init__(memory)
+        super().__init__(memory, meshes, lib.batch_bytes)
         self._prepare(memory)
 
-    def _take_samples(self, options: lib.BatchOptions, k: int, name: str, value: object) -> Any:
+    def _set_samples(self, options: lib.BatchOptions, k: int, name: str, value: object) -> Any:
         weights, amounts = self._bodies[k].framed(name, value)
         if value is not None:
             options.sample_count[k] = count_frames(
@@ -105,32 +104,11 @@ class Pair(lib.Guarded):
         self._views = [p[0] if b.shape else p[1] for b, p in zip(self._bodies, self._parts)]
         self._shape_a, self._shape_b = (body.plain for body in self._bodies)
         self._view_a, self._view_b = self._views
-        self._answer = np.zeros(8)
-        self._witness = self._answer[2:].reshape(2, 3)
-        self._contact = np.zeros(1, np.int8)
-        self._run = lib.Run(
-            1, 0, 1, -1.0, address(self._answer), address(self._answer) + 8,
-            address(self._answer) + 16, address(self._contact),
-        )
         self._handle = c_void_p(memory.address)
         self._controls_at = c_void_p(ctypes.addressof(self._controls))
         self._run_at = c_void_p(ctypes.addressof(self._run))
         self._acquire = self._lock.acquire
         self._release = self._lock.release
-
-    @property
-    def length(self) -> float:
-        """L: the larger of the meshes' lengths."""
-        return self._length
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes that the library holds for queries; meshes and fields are not among them."""
-        address_of = self._enter()
-        try:
-            return int(lib.batch_bytes(address_of))
-        finally:
-            self._lock.release()
 
     def distance(self, poses: object = None, weights: object = None) -> Distance:
         """The distance in one frame. A query starts from the last one's answer, so frames that
@@ -179,8 +157,7 @@ class Pair(lib.Guarded):
                 self._run.tolerance = -1.0
             if status:
                 lib.raise_error(status)
-            distance, lower = _numbers(self._answer)
-            return Contact(decided(int(self._contact[0])), distance, lower, self._witness.copy())
+            return self._answered_contact()
         finally:
             self._lock.release()
 

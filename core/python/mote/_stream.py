@@ -18,7 +18,7 @@ from ._arrays import (
     fits,
     wrong_shape,
 )
-from ._batch import decided, options_of, run_frames, tolerance_of
+from ._batch import TwoBodies, options_of, run_frames, tolerance_of
 from ._input import count_frames
 from ._mesh import Mesh, mesh_of
 from ._results import Contact, Contacts, Distance, Distances
@@ -63,7 +63,7 @@ def _fill(positions: lib.Positions, given: _Given, first: int) -> None:
     positions.frame_step = step
 
 
-class Stream(lib.Guarded):
+class Stream(TwoBodies):
     """The exact distance of two bodies that are known by where their vertices are in each frame:
     cloth, finite elements, captured sequences.
 
@@ -87,33 +87,11 @@ class Stream(lib.Guarded):
             (ctypes.c_void_p * 2)(*(m.address for m in held)), ctypes.byref(options),
         )
         self._vertices = tuple(mesh.vertex_count for mesh in meshes)
-        self._length = max(mesh.length for mesh in meshes)
-        super().__init__(memory)
+        super().__init__(memory, meshes, lib.stream_bytes)
         self._positions = (lib.Positions * 2)()
-        self._answer = np.zeros(8)
-        self._witness = self._answer[2:].reshape(2, 3)
-        self._contact = np.zeros(1, np.int8)
-        self._run = lib.Run(
-            1, 0, 1, -1.0, address(self._answer), address(self._answer) + 8,
-            address(self._answer) + 16, address(self._contact),
-        )
-
-    @property
-    def length(self) -> float:
-        """L: the larger of the meshes' lengths."""
-        return self._length
-
-    @property
-    def nbytes(self) -> int:
-        """Bytes that the library holds; meshes are not among them."""
-        address_of = self._enter()
-        try:
-            return int(lib.stream_bytes(address_of))
-        finally:
-            self._lock.release()
 
     def _ask(self, positions_a: object, positions_b: object, tolerance: float) -> None:
-        """Asks about one frame; the stream is taken."""
+        """Asks about one frame; the stream is in use by this thread."""
         given = self._both(positions_a, positions_b)
         for k, name in enumerate(("positions_a", "positions_b")):
             if given[k].frames is not None:
@@ -148,8 +126,7 @@ class Stream(lib.Guarded):
         self._enter()
         try:
             self._ask(positions_a, positions_b, within)
-            return Contact(decided(int(self._contact[0])), float(self._answer[0]),
-                           float(self._answer[1]), self._witness.copy())
+            return self._answered_contact()
         finally:
             self._lock.release()
 
