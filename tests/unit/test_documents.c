@@ -35,23 +35,12 @@ static const char *const documents[] = {
 
 /* Names of output, of examples, and of users' files. */
 static const char *const not_ours[] = {
-    "results/paper",
-    "results/quick",
-    "results/mine",
-    "results/bending",
-    "results/claims/*",
-    "results/reliability/*",
-    "results/bodies",
-    "results/base",
-    "core/sampled.c",
-    "sampled.c",
-    "bend.c",
-    "compare.py",
-    "x.cpp",
-    "core/bend.c",
-    "total_ns_median",
-    "track.c",
-    "datasets/scenarios/bending.json",
+    "results/paper",   "results/quick",    "results/mine",
+    "results/bending", "results/claims/*", "results/reliability/*",
+    "results/bodies",  "results/base",     "core/sampled.c",
+    "sampled.c",       "bend.c",           "compare.py",
+    "x.cpp",           "core/bend.c",      "total_ns_median",
+    "track.c",         "engine.c",         "datasets/scenarios/bending.json",
 };
 
 static bool is_ours(const char *name)
