@@ -10,7 +10,7 @@
 #   make record [OUT=DIR]                             keep a run's summary in results/records
 #   make engines [OUT=DIR]                           other engines and ours, asked the same
 #   make fcl-flags [FCL_DIR=DIR] [FCL_FLAGS=] [OUT=]  Debian's FCL against one compiled by our flags
-#   make verdicts [PROFILE=quick|full] [OUT=DIR]     contacts missed and invented in every scenario
+#   make verdicts [PROFILE=quick|large|full] [OUT=DIR]  contacts missed and invented in every scenario
 #   make oracle [PROFILE=quick|full] [OUT=DIR]       triangles and frames against exact answers
 #   make oracle METHOD=NAME [PLUGIN=FILE.so]          any method's answers on frames, against exact ones
 #   make tune [PROFILE=quick|full] [OUT=DIR]         every baseline's configurations; the best

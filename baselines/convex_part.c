@@ -1,6 +1,6 @@
 #include "baselines/convex_part.h"
 
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 
 #include <stdlib.h>
 

@@ -23,7 +23,7 @@ typedef struct mote_convex_parts {
     mote_convex_part *part; /* [count] */
 } mote_convex_parts;
 
-/* Splits a mesh into its convex parts (core/body/parts.h). A triangle belongs to the part that
+/* Splits a mesh into its convex parts (core/parts/parts.h). A triangle belongs to the part that
    most of its vertices belong to, on a tie to that of the first; a vertex belongs to the parts
    of all its triangles, so that the hulls of the parts cover the surface. Errors as
    mote_parts_create. The caller destroys *parts. */

@@ -1,9 +1,9 @@
-/* Replaces linear_algebra.c and parts_hacd.cpp where the core is built without other libraries
+/* Replaces linear_algebra.c and core/parts where the core is built without other libraries
    (MOTE_CORE_ONLY): principal axes by our own code, no convex parts. CSRBF weights are not
    fitted there: they come from the caller. */
 #include "core/certificate/certificate_box.h"
 #include "core/base/linear_algebra.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 
 #include <math.h>
 

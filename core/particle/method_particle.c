@@ -1,6 +1,6 @@
 /* Tracked particles behind the contract of methods: core/particle/tracker.h. */
 #include "core/method/method.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "core/particle/tracker.h"
 
 #include <math.h>

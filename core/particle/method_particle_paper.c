@@ -1,7 +1,7 @@
 /* The method particle-paper: the paper's particle system as described (paper 3.3 to 3.5). */
 #include "core/method/method.h"
 #include "core/particle/particles.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "core/particle/refine.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* mote mesh FILE [--json] [--strict]: describes a mesh. */
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "harness/command/character_facts.h"
 #include "harness/command/command.h"
 #include "harness/base/options.h"
@@ -34,7 +34,13 @@ static edge_facts measure_edges(const mote_mesh *mesh)
 /* Prints one line per part: its label and its position. */
 static void print_parts(const mote_mesh *mesh, const mote_parts *parts)
 {
-    (void)printf("convex parts        %" PRIu32 "\n", parts->count);
+    (void)printf("convex parts        %" PRIu32, parts->count);
+    if (parts->without_hacd > 0)
+        (void)printf(
+            " (of %" PRIu32 " component%s by their planes: HACD crashed, or needs more than "
+            "%d s)",
+            parts->without_hacd, parts->without_hacd > 1 ? "s" : "", MOTE_PARTS_SECONDS);
+    (void)printf("\n");
     for (uint32_t label = 0; label < parts->count; ++label) {
         uint32_t count = 0;
         mote_vec3 sum = {0, 0, 0};
@@ -96,17 +102,18 @@ static int print_json(const char *path, const mote_mesh *mesh, const mote_import
 {
     const edge_facts edges = measure_edges(mesh);
     json_t *root = json_pack(
-        "{s:s, s:i, s:i, s:i, s:i, s:I, s:i, s:I, s:f, s:f, s:[f,f,f], s:i, s:s, s:I, s:I, "
+        "{s:s, s:i, s:i, s:i, s:i, s:I, s:i, s:I, s:f, s:f, s:[f,f,f], s:i, s:i, s:s, s:I, "
+        "s:I, "
         "s:I, s:I}",
         "file", path, "vertices", mesh->vertex_count, "triangles", mesh->triangle_count,
         "edges", mesh->edge_count, "open_edges", mesh->open_edge_count, "non_manifold_edges",
         (json_int_t)import->split.edges, "components", mesh->component_count, "euler",
         (json_int_t)mote_mesh_euler(mesh), "smallest_angle", mote_mesh_smallest_angle(mesh),
         "length", mesh->diagonal, "edge_lengths", edges.shortest, edges.mean, edges.longest,
-        "parts", parts->count, "coordinates", import->single_precision ? "float" : "double",
-        "welded", (json_int_t)import->welded, "collapsed", (json_int_t)import->collapsed,
-        "unused", (json_int_t)import->unused, "split_vertices",
-        (json_int_t)import->split.vertices);
+        "parts", parts->count, "parts_without_hacd", parts->without_hacd, "coordinates",
+        import->single_precision ? "float" : "double", "welded", (json_int_t)import->welded,
+        "collapsed", (json_int_t)import->collapsed, "unused", (json_int_t)import->unused,
+        "split_vertices", (json_int_t)import->split.vertices);
     if (!root) {
         (void)mote_fail(MOTE_EINVAL, "%s: not UTF-8, which JSON needs; rename it", path);
         return mote_command_fail();

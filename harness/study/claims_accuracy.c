@@ -2,7 +2,7 @@
 #include "harness/study/claims.h"
 
 #include "harness/base/memory.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 
 #include <math.h>
 #include <stdlib.h>

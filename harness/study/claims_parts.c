@@ -4,7 +4,7 @@
 #include "harness/base/memory.h"
 #include "core/body/csrbf_fit.h"
 #include "core/body/deform.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "core/base/random.h"
 #include "datasets/letter.h"
 #include "harness/scene/spread.h"

@@ -1,7 +1,7 @@
 /* The library when memory or threads run out, or when a library that it uses fails: it must
    return a status with a text, leak nothing (under AddressSanitizer) and leave outputs
    untouched. Where a query needs memory only for speed, it must give the same answer. The
-   linker replaces functions of GSL, HACD and libstdc++ by those below (--wrap). */
+   linker replaces functions of GSL and libstdc++ by those below (--wrap). */
 #include "core/body/csrbf_fit.h"
 #include "core/base/frame_queue.h"
 #include "core/body/lazy.h"
@@ -11,7 +11,7 @@
 #include "core/method/method.h"
 #include "core/certificate/certificate_tree.h"
 #include "core/skin/skin.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "core/base/pool.h"
 #include "core/particle/start.h"
 #include "tests/support/crowd.h"
@@ -80,40 +80,17 @@ int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes,
                                 : __real_pthread_create(thread, attributes, run, argument);
 }
 
-/* The C++ ABI names of operator new, std::bad_alloc, std::length_error and the type info of
-   int, on systems whose size_t is an unsigned long. */
-extern const char _ZTIi[];
+/* The C++ ABI names of operator new and std::bad_alloc, on systems whose size_t is an unsigned
+ * long. */
 _Noreturn void _ZSt17__throw_bad_allocv(void);
-_Noreturn void _ZSt20__throw_length_errorPKc(const char *what);
-void *__cxa_allocate_exception(size_t size);
-_Noreturn void __cxa_throw(void *thrown, const void *type, void (*destroy)(void *));
 void *__real__Znwm(size_t size);
-bool __real__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
 void *__wrap__Znwm(size_t size);
-bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude);
 
 void *__wrap__Znwm(size_t size)
 {
     if (is_due(&allocations_left))
         _ZSt17__throw_bad_allocv();
     return __real__Znwm(size);
-}
-
-static enum { HACD_WORKS, HACD_FAILS, HACD_THROWS, HACD_THROWS_A_NUMBER } hacd_does;
-
-bool __wrap__ZN4HACD4HACD7ComputeEbb(void *hacd, bool full, bool exclude)
-{
-    switch (hacd_does) {
-    case HACD_FAILS:
-        return false;
-    case HACD_THROWS:
-        _ZSt20__throw_length_errorPKc("planted");
-    case HACD_THROWS_A_NUMBER:
-        __cxa_throw(__cxa_allocate_exception(sizeof(int)), _ZTIi, NULL);
-    case HACD_WORKS:
-        break;
-    }
-    return __real__ZN4HACD4HACD7ComputeEbb(hacd, full, exclude);
 }
 
 static mote_status make_fields(void *context)
@@ -417,23 +394,6 @@ TEST(parts_when_an_allocation_fails_say_so)
 {
     mote_mesh *mesh = solid_to_mesh(solid_join(solid_torus(5, 4), solid_tetrahedron(), 5));
     fail_each_allocation(make_parts, mesh, "mote_parts_create");
-    mote_mesh_destroy(mesh);
-}
-
-TEST(parts_when_hacd_fails_say_so)
-{
-    static const char *const texts[] = {
-        [HACD_FAILS] = "HACD could not decompose the mesh into convex parts",
-        [HACD_THROWS] = "convex parts: planted",
-        [HACD_THROWS_A_NUMBER] = "HACD threw an unknown exception"};
-    mote_mesh *mesh = solid_to_mesh(solid_torus(5, 4));
-    for (int does = HACD_FAILS; does <= HACD_THROWS_A_NUMBER; ++does) {
-        hacd_does = does;
-        assert_int_equal(make_parts(mesh), MOTE_ENUMERIC);
-        assert_string_equal(mote_error_text(), texts[does]);
-    }
-    hacd_does = HACD_WORKS;
-    assert_int_equal(make_parts(mesh), MOTE_OK);
     mote_mesh_destroy(mesh);
 }
 

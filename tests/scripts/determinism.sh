@@ -32,7 +32,9 @@ make_program() { # NAME COMPILER FLAGS
     # shellcheck disable=SC2086 # lists of words
     printf '%s\n' $sources | xargs -P "$jobs" -I {} sh -c \
         "$cache $2 $(echo $flags) $3 -c {} -o $work/$1/\$(echo {} | tr / _).o" &&
-        $cache $cxx -std=c++17 -I. $3 -c core/body/parts_hacd.cpp -o "$work/$1/parts.o" &&
+        for part in core/parts/*.cpp; do
+            $cache $cxx -std=c++17 -I. $3 -c "$part" -o "$work/$1/$(basename "$part").o" || return
+        done &&
         $cxx $3 "$work/$1"/*.o -o "$work/$1/answers" $libraries
 }
 

@@ -8,7 +8,7 @@
 #include "harness/summary/summary.h"
 
 #include "core/body/csrbf_fit.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "datasets/letter.h"
 #include "harness/scene/spread.h"
 

@@ -31,8 +31,8 @@ typedef struct house {
 
 static const house houses[] = {
     {"core",
-     {"base", "body", "method", "particle", "certificate", "skin", "stream", "impact", "batch",
-      "motion"}},
+     {"base", "body", "parts", "method", "particle", "certificate", "skin", "stream", "impact",
+      "batch", "motion"}},
     {"harness",
      {"base", "process", "engine", "mesh", "sequence", "scene", "run", "loop", "summary",
       "race", "figure", "study", "report", "command"}},
@@ -54,8 +54,8 @@ static const library libraries[] = {
     {"gsl/gsl_statistics", {"harness/base/statistics.c"}},
     {"gsl/gsl_sort", {"harness/base/statistics.c"}},
     {"gsl/gsl_cdf", {"harness/base/statistics.c"}},
-    {"meshoptimizer", {"core/body/parts"}},
-    {"bullet/", {"core/body/parts"}},
+    {"meshoptimizer", {"core/parts/parts"}},
+    {"bullet/", {"core/parts/parts"}},
     {"fcl/", {"baselines/fcl_"}},
     {"embree", {"baselines/embree_"}},
     {"ode/", {"baselines/ode.c"}},

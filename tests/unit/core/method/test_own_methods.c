@@ -1,7 +1,7 @@
 /* Our methods through the interface: what "auto" stands for, and the answers to contact
    questions. */
 #include "core/method/method.h"
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "datasets/letter.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"

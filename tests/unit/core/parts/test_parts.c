@@ -1,5 +1,5 @@
 /* Convex parts of letters, combs and awkward meshes. */
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
 #include "datasets/letter.h"
 #include "tests/support/solids.h"
 #include "tests/support/test.h"
@@ -240,6 +240,24 @@ TEST(parts_create_of_a_convex_solid_is_one_part_at_once)
     mote_mesh *mesh = solid_to_mesh(solid_torus(12, 12));
     mote_parts *parts = checked_parts(mesh, NULL);
     assert_in_range(parts->count, 2, 12);
+    mote_parts_destroy(parts);
+    mote_mesh_destroy(mesh);
+}
+
+/* HACD took 100 s for a grid of 28,000 triangles, simplified to 800. */
+TEST(parts_create_of_a_flat_sheet_is_one_part_at_once)
+{
+    cells sheet = {.width = 60, .height = 60};
+    for (int i = 0; i < sheet.width; ++i) {
+        for (int j = 0; j < sheet.height; ++j)
+            sheet.filled[i][j] = true;
+    }
+    mote_mesh *mesh = make_cells(&sheet, false);
+    const clock_t start = clock();
+    mote_parts *parts = checked_parts(mesh, NULL);
+    assert_true(clock() - start < 5 * CLOCKS_PER_SEC);
+    assert_int_equal(parts->count, 1);
+    assert_int_equal(parts->without_hacd, 0);
     mote_parts_destroy(parts);
     mote_mesh_destroy(mesh);
 }

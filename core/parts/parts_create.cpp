@@ -1,4 +1,6 @@
-#include "core/body/parts.h"
+#include "core/parts/parts.h"
+#include "core/parts/parts_clusters.hpp"
+#include "core/parts/parts_hacd.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include <bullet/HACD/hacdHACD.h>
 #include <meshoptimizer.h>
 
 namespace
 {
 
-using Point = HACD::Vec3<HACD::Real>;
-using Face = HACD::Vec3<long>;
+using mote_parts_detail::Component;
 using Corners = std::vector<unsigned>; /* vertices of the mesh, three a face */
 
 constexpr uint32_t NO_LABEL = UINT32_MAX;
@@ -25,106 +25,50 @@ constexpr uint32_t NO_LABEL = UINT32_MAX;
 /* A component is not simplified to fewer triangles than this. */
 constexpr size_t COMPONENT_TRIANGLES = 100;
 
-/* Points that are no farther outside of a face's plane than this part of the size leave a
-   component convex: the simplification of a sphere to 800 triangles leaves dents of 2 %, and
-   what HACD calls concave is 10 %. */
-constexpr double CONVEX_TOLERANCE = 0.03;
-
-/* Whether every edge has two faces that go along it in opposite ways. */
-bool is_closed(const std::vector<Face> &faces)
-{
-    std::vector<std::pair<long, long>> edges;
-    for (const Face &face : faces) {
-        const long v[3] = {face.X(), face.Y(), face.Z()};
-        for (int k = 0; k < 3; ++k)
-            edges.emplace_back(v[k], v[(k + 1) % 3]);
-    }
-    std::sort(edges.begin(), edges.end());
-    if (std::adjacent_find(edges.begin(), edges.end()) != edges.end())
-        return false;
-    return std::all_of(edges.begin(), edges.end(), [&edges](const std::pair<long, long> &e) {
-        return std::binary_search(edges.begin(), edges.end(),
-                                  std::make_pair(e.second, e.first));
-    });
-}
-
-/* How far points lie on each side of a face's plane, {behind, in front}, both >= 0. */
-std::pair<double, double> sides_of(const std::vector<Point> &points, const Face &face)
-{
-    const Point &corner = points[static_cast<size_t>(face.X())];
-    Point normal = (points[static_cast<size_t>(face.Y())] - corner) ^
-                   (points[static_cast<size_t>(face.Z())] - corner);
-    std::pair<double, double> sides(0, 0);
-    if (!(normal.GetNorm() > 0))
-        return sides;
-    normal.Normalize();
-    for (const Point &point : points) {
-        const double height = normal * (point - corner);
-        sides.first = std::max(sides.first, -height);
-        sides.second = std::max(sides.second, height);
-    }
-    return sides;
-}
-
-/* Whether a component is the whole surface of a convex solid that is not flat: of spheres and
-   the like HACD makes three parts, and takes seconds. False says nothing. */
-bool is_convex_solid(const std::vector<Point> &points, const std::vector<Face> &faces)
-{
-    double size = 0;
-    for (const Point &point : points)
-        size = std::max(size, (point - points[0]).GetNorm());
-    const double near = CONVEX_TOLERANCE * size;
-    double outside[2] = {0, 0};
-    for (const Face &face : faces) {
-        const std::pair<double, double> sides = sides_of(points, face);
-        outside[0] = std::max(outside[0], sides.first);
-        outside[1] = std::max(outside[1], sides.second);
-        if (std::min(outside[0], outside[1]) > near || sides.first + sides.second < 2 * near)
-            return false;
-    }
-    return is_closed(faces);
-}
-
 /* The decomposition of a mesh, one connected component after another. */
 class Decomposition
 {
   public:
     Decomposition(const mote_mesh *mesh_, const mote_vec3 *positions_)
-        : mesh(mesh_), positions(positions_), number(mesh_->vertex_count, -1),
-          label(mesh_->vertex_count, NO_LABEL)
+        : label(mesh_->vertex_count, NO_LABEL), mesh(mesh_), positions(positions_),
+          number(mesh_->vertex_count, NO_LABEL)
     {
     }
 
-    bool run();
+    void run();
 
     uint32_t count = 0;
-    const mote_mesh *mesh;
-    const mote_vec3 *positions;
+    uint32_t without_hacd = 0;   /* components that it did not split and should have */
+    std::vector<uint32_t> label; /* of the vertices */
 
   private:
     std::vector<Corners> components() const;
     Corners simplify(const Corners &corners);
-    bool decompose(const Corners &corners);
-    bool cluster(std::vector<Point> &points, std::vector<Face> &faces, const Corners &corners);
+    Component component_of(const Corners &corners);
+    void split(std::vector<Component> &components);
+    void name(const Component &component, const Corners &corners);
     void spread();
     void renumber();
 
-    std::vector<long> number; /* of a vertex among a component's points; -1 between calls */
-    std::vector<float> xyz;   /* the positions for meshoptimizer, once needed */
-
-  public:
-    std::vector<uint32_t> label; /* of the vertices */
+    const mote_mesh *mesh;
+    const mote_vec3 *positions;
+    std::vector<uint32_t> number; /* of a vertex among a component's points; else NO_LABEL */
+    std::vector<float> xyz;       /* the positions for meshoptimizer, once needed */
 };
 
-bool Decomposition::run()
+void Decomposition::run()
 {
+    std::vector<Corners> simplified;
+    std::vector<Component> split_ones;
     for (const Corners &corners : components()) {
-        if (!decompose(simplify(corners)))
-            return false;
+        simplified.push_back(simplify(corners));
+        split_ones.push_back(component_of(simplified.back()));
     }
+    split(split_ones);
+    for (size_t i = 0; i < split_ones.size(); ++i)
+        name(split_ones[i], simplified[i]);
     spread();
     renumber();
-    return true;
 }
 
 std::vector<Corners> Decomposition::components() const
@@ -167,61 +111,54 @@ Corners Decomposition::simplify(const Corners &corners)
     return kept;
 }
 
-/* Labels the vertices that the simplification of one component kept. */
-bool Decomposition::decompose(const Corners &corners)
+Component Decomposition::component_of(const Corners &corners)
 {
-    std::vector<Point> points;
-    std::vector<Face> faces;
-    for (uint32_t v : corners) {
-        if (number[v] >= 0)
+    Component component;
+    for (unsigned v : corners) {
+        if (number[v] != NO_LABEL)
             continue;
-        number[v] = static_cast<long>(points.size());
-        points.emplace_back(positions[v].x, positions[v].y, positions[v].z);
+        number[v] = static_cast<uint32_t>(component.points.size());
+        component.points.push_back(positions[v]);
     }
     for (size_t i = 0; i + 2 < corners.size(); i += 3)
-        faces.emplace_back(number[corners[i]], number[corners[i + 1]], number[corners[i + 2]]);
-    for (uint32_t v : corners)
-        number[v] = -1;
-    if (faces.empty())
-        return true;
-    if (!is_convex_solid(points, faces))
-        return cluster(points, faces, corners);
-    for (uint32_t v : corners)
-        label[v] = count;
-    ++count;
-    return true;
+        component.faces.push_back(
+            {number[corners[i]], number[corners[i + 1]], number[corners[i + 2]]});
+    for (unsigned v : corners)
+        number[v] = NO_LABEL;
+    return component;
 }
 
-bool Decomposition::cluster(std::vector<Point> &points, std::vector<Face> &faces,
-                            const Corners &corners)
+/* One that is convex is one part: of spheres HACD makes three, and takes seconds. */
+void Decomposition::split(std::vector<Component> &components)
 {
-    HACD::HACD hacd;
-    hacd.SetPoints(points.data());
-    hacd.SetNPoints(points.size());
-    hacd.SetTriangles(faces.data());
-    hacd.SetNTriangles(faces.size());
-    hacd.SetNClusters(1);
-    hacd.SetConcavity(100);
-    hacd.SetCompacityWeight(0.1);
-    hacd.SetVolumeWeight(0);
-    hacd.SetAddExtraDistPoints(true);
-    hacd.SetAddFacesPoints(true);
-    hacd.SetNVerticesPerCH(100);
-    if (!hacd.Compute())
-        return false;
-    const long *partition = hacd.GetPartition();
-    uint32_t clusters = static_cast<uint32_t>(hacd.GetNClusters());
-    for (size_t i = 0; i < corners.size(); ++i) {
-        long part = partition[i / 3];
-        /* HACD has never numbered its clusters otherwise; if it did, nothing must be written
-           outside the arrays. */
-        if (part < 0 || part >= static_cast<long>(clusters)) /* GCOVR_EXCL_BR_LINE: see above */
-            return false;
-        if (label[corners[i]] == NO_LABEL)
-            label[corners[i]] = count + static_cast<uint32_t>(part);
+    std::vector<Component *> rest;
+    for (Component &component : components) {
+        if (component.faces.empty())
+            continue;
+        if (mote_parts_detail::is_convex(component)) {
+            component.count = 1;
+            component.part.assign(component.faces.size(), 0);
+        } else {
+            rest.push_back(&component);
+        }
     }
-    count += clusters;
-    return true;
+    mote_parts_detail::split_by_hacd(rest, MOTE_PARTS_SECONDS);
+    for (Component *component : rest) {
+        if (component->count > 0)
+            continue;
+        mote_parts_detail::split_by_planes(*component);
+        ++without_hacd;
+    }
+}
+
+/* Labels the vertices that the simplification of a component kept. */
+void Decomposition::name(const Component &component, const Corners &corners)
+{
+    for (size_t i = 0; i < corners.size(); ++i) {
+        if (label[corners[i]] == NO_LABEL)
+            label[corners[i]] = count + component.part[i / 3];
+    }
+    count += component.count;
 }
 
 /* Labels spread along the edges, each vertex taking that of the nearest labelled one (Dijkstra;
@@ -272,8 +209,7 @@ void Decomposition::renumber()
 mote_status make_parts(const mote_mesh *mesh, const mote_vec3 *positions, mote_parts **parts)
 {
     Decomposition decomposition(mesh, positions);
-    if (!decomposition.run())
-        return mote_fail(MOTE_ENUMERIC, "HACD could not decompose the mesh into convex parts");
+    decomposition.run();
     const std::vector<uint32_t> &label = decomposition.label;
     auto *result = static_cast<mote_parts *>(malloc(sizeof(mote_parts)));
     auto *copy = static_cast<uint32_t *>(malloc(label.size() * sizeof(uint32_t)));
@@ -283,7 +219,8 @@ mote_status make_parts(const mote_mesh *mesh, const mote_vec3 *positions, mote_p
         return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
     }
     std::copy(label.begin(), label.end(), copy);
-    *result = mote_parts{decomposition.count, mesh->vertex_count, copy};
+    *result =
+        mote_parts{decomposition.count, mesh->vertex_count, copy, decomposition.without_hacd};
     *parts = result;
     return MOTE_OK;
 }
@@ -306,9 +243,7 @@ extern "C" mote_status mote_parts_create(const mote_mesh *mesh, const mote_vec3 
     } catch (const std::bad_alloc &) {
         return mote_fail(MOTE_ENOMEM, "no memory for the convex parts");
     } catch (const std::exception &error) {
-        return mote_fail(MOTE_ENUMERIC, "convex parts: %s", error.what());
-    } catch (...) {
-        return mote_fail(MOTE_ENUMERIC, "HACD threw an unknown exception");
+        return mote_fail(MOTE_ENOMEM, "convex parts: %s", error.what());
     }
 }
 
