@@ -110,11 +110,13 @@ table() {
     echo "| check | tried | failed | date, commit |"
     echo "| --- | ---: | ---: | --- |"
     sed 1d $csv | sed -E 's/^"([^"]*)",([0-9]*),([0-9]*),([^,]*),(.*)$/| \1 | \2 | \3 | \4, \5 |/'
-    # Fixed findings are kept in the corpus as found-*: the other ones are open.
-    sed 1d $log | awk -F, -v corpus="$(printf '%s ' tests/corpus/fuzz_*/found-*)" '
+    # Fixed findings are kept in the corpus as found-*: the other ones are open. Every target has a
+    # corpus, so that none is left out.
+    sed 1d $log | awk -F, -v corpus="$(printf '%s ' tests/corpus/fuzz_*/found-*)" \
+        -v targets="$(cd tests/corpus && printf '%s ' fuzz_*/ | sed 's|fuzz_||g; s|/||g')" '
         { s[$3] += $4; e[$3] += $5; f[$3] += $6; last[$3] = $1 ", " $2 }
         END {
-            count = split("scenario mesh options cell summary", t, " ")
+            count = split(targets, t, " ")
             for (i = 1; i <= count; ++i) {
                 if (!e[t[i]])
                     continue
