@@ -263,9 +263,9 @@ static int read_arguments(int argc, char **argv, request *q)
    more than two bodies every method in each of its forms. */
 static mote_status expand_methods(request *q)
 {
-    static const char *const scene_ways[] = {"certified",    "fcl-aabb:refit=every",
-                                             "fcl-aabb",     "aabb-tree",
-                                             "particle:n=8", "particle-paper:n=5"};
+    static const char *const scene_ways[] = {
+        "certified", "fcl-aabb:refit=every", "fcl-aabb",          "aabb-tree",
+        "stream",    "particle:n=8",         "particle-paper:n=5"};
     const size_t ways = sizeof scene_ways / sizeof scene_ways[0];
     mote_status status = MOTE_OK;
     for (size_t i = 0; status == MOTE_OK && i < q->method_count; ++i)

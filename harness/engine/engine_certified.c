@@ -23,6 +23,19 @@ void mote_engine_copy_answers(mote_engine *e, const mote_scene_pair *from, size_
     }
 }
 
+/* The scene answers for pairs as well, so every body has to be in it. */
+static mote_status certified_create(mote_engine *e)
+{
+    for (uint32_t k = 0; k < e->setup.shape_count; ++k) {
+        if (mote_body_is_given(e->setup.shapes[k]))
+            return mote_fail(MOTE_EUNSUPPORTED,
+                             "certified needs a field, and of shape %u only positions are "
+                             "given; take a method on positions, as stream or aabb-tree",
+                             k + 1);
+    }
+    return MOTE_OK;
+}
+
 static mote_status certified_ask(mote_engine *e, mote_engine_cost *cost)
 {
     mote_pairs_wanted wanted = {0};
@@ -40,4 +53,4 @@ static mote_status certified_ask(mote_engine *e, mote_engine_cost *cost)
 }
 
 const mote_engine_kind mote_engine_of_certified = {
-    NULL, mote_engine_build_near, mote_engine_destroy_near, NULL, certified_ask};
+    certified_create, mote_engine_build_near, mote_engine_destroy_near, NULL, certified_ask};

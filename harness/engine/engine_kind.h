@@ -74,7 +74,10 @@ struct mote_engine {
     /* More than two bodies: */
     uint32_t threads;
     bool refits_every;     /* every body in every frame */
-    mote_scene *scene;     /* bounds from roots; NULL if every body is refitted */
+    mote_scene *scene;     /* bounds from roots; NULL if every body is refitted, or none has a
+                              field */
+    uint32_t *scene_body;  /* [count]: number in the scene, UINT32_MAX of a body whose positions
+                              are given; NULL: all are in it */
     mote_scene_box *boxes; /* [count] */
     mote_broad_phase *broad;
     const mote_body_trees_kind *trees_kind;
@@ -95,7 +98,7 @@ void mote_engine_destroy_near(mote_engine *e);
 /* Finds near pairs by e->boxes, timed. */
 mote_status mote_engine_find_near(mote_engine *e, mote_engine_cost *cost,
                                   mote_pairs_wanted *wanted);
-/* Sets the boxes of all bodies from deformed roots, timed. */
+/* Sets the boxes of all bodies from deformed roots, or from given positions, timed. */
 mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost);
 
 /* Copies the answers of a scene to e->now. */

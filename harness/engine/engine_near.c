@@ -4,7 +4,37 @@
 #include "harness/base/clock.h"
 #include "harness/base/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+/* A scene of the bodies that have fields. */
+static mote_status build_scene(mote_engine *e, const mote_scene_options *options)
+{
+    const mote_engine_setup *s = &e->setup;
+    const mote_body *shapes[MOTE_ENGINE_SHAPES_MAX];
+    uint32_t number[MOTE_ENGINE_SHAPES_MAX], shape_count = 0, count = 0;
+    for (uint32_t k = 0; k < s->shape_count; ++k) {
+        number[k] = shape_count;
+        if (!mote_body_is_given(s->shapes[k]))
+            shapes[shape_count++] = s->shapes[k];
+    }
+    if (shape_count == s->shape_count)
+        return mote_scene_create(shapes, shape_count, s->shape_of, s->count, options,
+                                 &e->scene);
+    uint32_t *shape_of = mote_allocate(s->count, sizeof *shape_of);
+    e->scene_body = mote_allocate(s->count, sizeof *e->scene_body);
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const bool given = mote_body_is_given(s->shapes[s->shape_of[i]]);
+        e->scene_body[i] = given ? UINT32_MAX : count;
+        if (!given)
+            shape_of[count++] = number[s->shape_of[i]];
+    }
+    const mote_status status =
+        count > 0 ? mote_scene_create(shapes, shape_count, shape_of, count, options, &e->scene)
+                  : MOTE_OK;
+    free(shape_of);
+    return status;
+}
 
 mote_status mote_engine_build_near(mote_engine *e)
 {
@@ -14,8 +44,7 @@ mote_status mote_engine_build_near(mote_engine *e)
     const mote_scene_options options = {
         .ask = s->ask, .tolerance = s->tolerance, .threads = e->threads};
     if (status == MOTE_OK && !e->refits_every)
-        status = mote_scene_create(s->shapes, s->shape_count, s->shape_of, s->count, &options,
-                                   &e->scene);
+        status = build_scene(e, &options);
     return status;
 }
 
@@ -24,12 +53,45 @@ void mote_engine_destroy_near(mote_engine *e)
     mote_scene_destroy(e->scene);
     mote_broad_phase_destroy(e->broad);
     free(e->boxes);
+    free(e->scene_body);
+}
+
+/* The box of given positions. */
+static mote_status box_positions(const mote_vec3 *at, uint32_t count, uint32_t body,
+                                 mote_scene_box *box)
+{
+    mote_vec3 low = at[0], high = at[0];
+    double zero = 0; /* NaN where a number is not finite */
+    for (uint32_t v = 0; v < count; ++v) {
+        low = mote_vec3_make(fmin(low.x, at[v].x), fmin(low.y, at[v].y), fmin(low.z, at[v].z));
+        high =
+            mote_vec3_make(fmax(high.x, at[v].x), fmax(high.y, at[v].y), fmax(high.z, at[v].z));
+        zero += 0 * (at[v].x + at[v].y + at[v].z);
+    }
+    *box = (mote_scene_box){low, high};
+    return isnan(zero) ? mote_fail(MOTE_EINVAL, "body %u: a position is not finite", body)
+                       : MOTE_OK;
+}
+
+/* Bodies with fields and bodies of given positions. */
+static mote_status bound_each(mote_engine *e)
+{
+    mote_status status = MOTE_OK;
+    for (uint32_t i = 0; i < e->setup.count && status == MOTE_OK; ++i) {
+        const uint32_t number = e->scene_body[i];
+        const mote_mesh *mesh = e->setup.shapes[e->setup.shape_of[i]]->mesh;
+        status = number == UINT32_MAX
+                     ? box_positions(e->states[i].vertices, mesh->vertex_count, i, &e->boxes[i])
+                     : mote_scene_bounds_of(e->scene, number, &e->states[i], &e->boxes[i]);
+    }
+    return status;
 }
 
 mote_status mote_engine_bound(mote_engine *e, mote_engine_cost *cost)
 {
     const uint64_t from = mote_clock_ns();
-    const mote_status status = mote_scene_bounds(e->scene, e->states, e->boxes);
+    const mote_status status =
+        e->scene_body ? bound_each(e) : mote_scene_bounds(e->scene, e->states, e->boxes);
     cost->bounds_ns = mote_clock_ns() - from;
     return status;
 }

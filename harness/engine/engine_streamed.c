@@ -23,8 +23,10 @@ static mote_status streamed_build(mote_engine *e)
     for (uint32_t k = 0; k < s->shape_count && status == MOTE_OK; ++k)
         status = mote_deform_create(s->shapes[k], &e->deform[k]);
     for (uint32_t i = 0; i < s->count && status == MOTE_OK; ++i) {
-        const mote_mesh *mesh = s->shapes[s->shape_of[i]]->mesh;
-        e->worlds[i] = mote_allocate(mesh->vertex_count, sizeof **e->worlds);
+        const mote_body *body = s->shapes[s->shape_of[i]];
+        if (mote_body_is_given(body))
+            continue;
+        e->worlds[i] = mote_allocate(body->mesh->vertex_count, sizeof **e->worlds);
         e->positions[i] = mote_positions_of(e->worlds[i]);
     }
     return status;
@@ -45,7 +47,9 @@ static void deform_all(mote_engine *e)
 {
     for (uint32_t i = 0; i < e->setup.count; ++i) {
         e->looked_at[i] = e->states[i].shape_changed || e->states[i].pose_changed;
-        if (e->looked_at[i])
+        if (!e->worlds[i])
+            e->positions[i] = mote_positions_of(e->states[i].vertices);
+        else if (e->looked_at[i])
             mote_deform_all(e->deform[e->setup.shape_of[i]], &e->states[i], e->worlds[i]);
     }
 }

@@ -162,12 +162,12 @@ static void mark_contacts(film *f, uint32_t frame)
     }
 }
 
-/* Blocks: the box, bodies of each of four shapes, bodies in contact, a line of numbers. */
+/* The bodies of f->frame in blocks: the box, bodies of each of four shapes, bodies in contact,
+   a line of numbers. */
 static void add_picture(film *f, size_t row, mote_text *text)
 {
     const mote_bodies *b = f->bodies;
     const mote_stored_cell *cell = f->cell;
-    mote_bodies_frame_set(b, cell->frame[row], &f->frame);
     mark_contacts(f, cell->frame[row]);
     add_box(f, text);
     for (uint32_t block = 0; block <= b->shape_count; ++block) {
@@ -191,6 +191,9 @@ static mote_status draw_film(const mote_figure_run *run, film *f, mote_figure *f
     for (size_t k = 0; k < f->cell->frames && status == MOTE_OK; k += PICTURE_STEP) {
         mote_text text = {0};
         uint64_t hash;
+        status = mote_bodies_frame_set(f->bodies, f->cell->frame[k], &f->frame);
+        if (status != MOTE_OK)
+            break;
         add_picture(f, k, &text);
         status = mote_figure_frame_write(run, picture, &text, &hash);
         mote_text_add(&figure->data, "%u %016" PRIx64 "\n", picture++, hash);

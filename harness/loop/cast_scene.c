@@ -2,6 +2,7 @@
 
 #include "harness/base/memory.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 typedef struct scene_cast {
@@ -40,7 +41,10 @@ static const mote_body_state *scene_show(void *cast, uint32_t k, const mote_rigi
     scene_cast *s = cast;
     for (uint32_t i = 0; i < s->bodies->count; ++i) {
         const mote_pose pose = mote_rigid_pose(&s->masses[s->bodies->shape_of[i]], &states[i]);
-        mote_bodies_deform(s->bodies, i, 1 + k * s->options->time_step, &pose, &s->frame);
+        const mote_status status =
+            mote_bodies_deform(s->bodies, i, 1 + k * s->options->time_step, &pose, &s->frame);
+        assert(status == MOTE_OK); /* bodies without fields were refused */
+        (void)status;
     }
     return s->frame.states;
 }

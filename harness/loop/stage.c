@@ -35,9 +35,9 @@ mote_status mote_stage_create(const mote_subject *subject, const mote_method_cho
         if (mote_body_is_given(setup.shapes[k]))
             return mote_fail(
                 MOTE_EUNSUPPORTED,
-                "a closed loop needs fields, and of body %u only positions are given; "
+                "a closed loop needs fields, and of %s %u only positions are given; "
                 "measure it with `mote run`",
-                k);
+                subject->bodies ? "shape" : "body", subject->bodies ? k + 1 : k);
     }
     setup.ask = MOTE_ASK_DISTANCE;
     setup.tolerance = options->tolerance * setup.length;

@@ -36,7 +36,8 @@ mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *fact
     mote_engine *engine = NULL;
     mote_subject_frame frame = mote_subject_frame_create(subject);
     const mote_engine_setup setup = mote_subject_engine(subject);
-    mote_status status = mote_scene_choice_read("certified", &exact);
+    const char *name = mote_bodies_any_given(subject->bodies) ? "stream" : "certified";
+    mote_status status = mote_scene_choice_read(name, &exact);
     if (status == MOTE_OK)
         status = mote_engine_create(&setup, &exact, &engine);
     if (status == MOTE_OK)

@@ -11,8 +11,8 @@ typedef struct mote_scene_facts {
     uint32_t checked;       /* pairs that brute force confirmed */
 } mote_scene_facts;
 
-/* Asks certified about all near pairs of every frame; brute force judges some of them
-   (scene_referee.h). */
+/* Asks certified (stream, where a shape has no field) about all near pairs of every frame;
+   brute force judges some of them (scene_referee.h). */
 mote_status mote_scene_check(const mote_subject *subject, mote_scene_facts *facts);
 
 #endif

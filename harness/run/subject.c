@@ -118,8 +118,8 @@ mote_status mote_subject_frame_set(const mote_subject *subject, uint32_t number,
                                    uint32_t previous, mote_subject_frame *frame)
 {
     if (subject->bodies) {
-        mote_bodies_frame_set(subject->bodies, number, &frame->scene);
         frame->states = frame->scene.states;
+        return mote_bodies_frame_set(subject->bodies, number, &frame->scene);
     } else {
         const mote_frame *shown =
             mote_scenario_frame(subject->scenario, frame->pair, number, previous);

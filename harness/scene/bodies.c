@@ -31,6 +31,39 @@ static const mote_bodies_shape *shape_of(const mote_bodies *bodies, uint32_t i)
     return &bodies->shapes[bodies->shape_of[i]];
 }
 
+bool mote_bodies_any_given(const mote_bodies *bodies)
+{
+    for (uint32_t s = 0; s < bodies->shape_count; ++s) {
+        if (mote_body_is_given(&bodies->shapes[s].body))
+            return true;
+    }
+    return false;
+}
+
+/* Makes the playbacks of shapes with positions, and room for what their bodies show. */
+static void make_vertices(const mote_bodies *bodies, mote_bodies_frame *frame)
+{
+    size_t vertices = 0;
+    frame->shape_count = bodies->shape_count;
+    frame->playbacks = mote_allocate(bodies->shape_count, sizeof(mote_playback *));
+    for (uint32_t s = 0; s < bodies->shape_count; ++s) {
+        if (bodies->shapes[s].motion.sequence)
+            frame->playbacks[s] = mote_playback_create(bodies->shapes[s].motion.sequence);
+    }
+    for (uint32_t i = 0; i < bodies->count; ++i) {
+        if (frame->playbacks[bodies->shape_of[i]])
+            vertices += shape_of(bodies, i)->body.mesh->vertex_count;
+    }
+    frame->vertices = mote_allocate(vertices + 1, sizeof *frame->vertices);
+    mote_vec3 *next = frame->vertices;
+    for (uint32_t i = 0; i < bodies->count; ++i) {
+        if (!frame->playbacks[bodies->shape_of[i]])
+            continue;
+        frame->states[i].vertices = next;
+        next += shape_of(bodies, i)->body.mesh->vertex_count;
+    }
+}
+
 mote_bodies_frame mote_bodies_frame_create(const mote_bodies *bodies)
 {
     size_t numbers = 1, most = 1;
@@ -55,6 +88,7 @@ mote_bodies_frame mote_bodies_frame_create(const mote_bodies *bodies)
                                                     field->count, field->padded};
         next += 3 * padded;
     }
+    make_vertices(bodies, &made);
     return made;
 }
 
@@ -63,6 +97,10 @@ void mote_bodies_frame_free(mote_bodies_frame *frame)
     free(frame->states);
     free(frame->weights);
     free(frame->scratch);
+    for (uint32_t s = 0; s < frame->shape_count; ++s)
+        mote_playback_destroy(frame->playbacks[s]);
+    free(frame->playbacks);
+    free(frame->vertices);
     *frame = (mote_bodies_frame){0};
 }
 
@@ -130,18 +168,12 @@ mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number)
     return pose;
 }
 
-void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
-                        const mote_pose *pose, mote_bodies_frame *frame)
+static void set_weights(const mote_bodies_shape *shape, double shown, const mote_pose *pose,
+                        const mote_body_state *state, mote_bodies_frame *frame)
 {
-    const mote_bodies_shape *shape = shape_of(bodies, i);
     const uint32_t count = shape->body.field->count;
-    mote_body_state *state = &frame->states[i];
-    state->pose = *pose;
-    if (count == 0)
-        return;
     double *x = frame->weights + (state->weights.x - frame->weights);
     const size_t padded = state->weights.padded;
-    const double shown = mote_bodies_deformation(bodies, i, number);
     if (shape->motion.player) {
         mote_player_weights(shape->motion.player, shown, &pose->rotation, x, x + padded,
                             x + 2 * padded);
@@ -162,10 +194,29 @@ void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
     }
 }
 
-void mote_bodies_frame_set(const mote_bodies *bodies, double number, mote_bodies_frame *frame)
+mote_status mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
+                               const mote_pose *pose, mote_bodies_frame *frame)
 {
-    for (uint32_t i = 0; i < bodies->count; ++i) {
+    const mote_bodies_shape *shape = shape_of(bodies, i);
+    mote_playback *playback = frame->playbacks[bodies->shape_of[i]];
+    mote_body_state *state = &frame->states[i];
+    const double shown = mote_bodies_deformation(bodies, i, number);
+    state->pose = *pose;
+    if (playback)
+        return mote_playback_at(playback, shown, pose,
+                                frame->vertices + (state->vertices - frame->vertices));
+    if (shape->body.field->count > 0)
+        set_weights(shape, shown, pose, state, frame);
+    return MOTE_OK;
+}
+
+mote_status mote_bodies_frame_set(const mote_bodies *bodies, double number,
+                                  mote_bodies_frame *frame)
+{
+    mote_status status = MOTE_OK;
+    for (uint32_t i = 0; i < bodies->count && status == MOTE_OK; ++i) {
         const mote_pose pose = mote_bodies_pose(bodies, i, number);
-        mote_bodies_deform(bodies, i, number, &pose, frame);
+        status = mote_bodies_deform(bodies, i, number, &pose, frame);
     }
+    return status;
 }

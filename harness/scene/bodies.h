@@ -10,6 +10,7 @@
 #include "harness/engine/engine.h"
 #include "harness/scene/motion.h"
 #include "harness/scene/scenario.h"
+#include "harness/sequence/playback.h"
 
 /* The largest numbers of bodies and shapes. */
 #define MOTE_BODIES_MAX 1000000
@@ -71,27 +72,37 @@ void mote_bodies_destroy(mote_bodies *bodies); /* NULL is allowed */
 
 /* A 64-bit FNV-1a hash that identifies a scene: of every body's path, and at the first, middle
    and last frame of every body's weights and the deformed vertices of the first body of each
-   shape. */
+   shape; of positions, every frame. Errors of mote_bodies_frame_set: success means that all
+   positions the scenario names were read and valid. */
 mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerprint);
 
-/* The bodies of one frame, with memory for their weights. */
+/* Whether a shape has positions instead of a field. */
+bool mote_bodies_any_given(const mote_bodies *bodies);
+
+/* The bodies of one frame, with memory for their weights, and for the vertices of those that
+   have positions instead of a field. */
 typedef struct mote_bodies_frame {
-    mote_body_state *states; /* [count]; vertices are NULL */
+    mote_body_state *states; /* [count]; vertices are NULL of a body with a field */
     double *weights;
     mote_vec3 *scratch;
+    mote_vec3 *vertices;
+    mote_playback **playbacks; /* [shape_count], NULL where a shape has a field */
+    uint32_t shape_count;
 } mote_bodies_frame;
 
 mote_bodies_frame mote_bodies_frame_create(const mote_bodies *bodies);
 void mote_bodies_frame_free(mote_bodies_frame *frame);
 
-/* Sets the poses and weights of all bodies at a frame (1 .. frames). One thread at a time,
-   whatever the frame. */
-void mote_bodies_frame_set(const mote_bodies *bodies, double number, mote_bodies_frame *frame);
+/* Sets the poses, and weights or vertices, of all bodies at a frame (1 .. frames). One thread
+   at a time, whatever the frame. Errors of mote_sequence_read; none where all shapes have
+   fields. A shape's positions are read once for all bodies that show the same of its frames. */
+mote_status mote_bodies_frame_set(const mote_bodies *bodies, double number,
+                                  mote_bodies_frame *frame);
 
-/* Sets the weights of one body at a frame, but for another pose: for bodies that move
-   freely. */
-void mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
-                        const mote_pose *pose, mote_bodies_frame *frame);
+/* Sets the weights or vertices of one body at a frame, but for another pose: for bodies that
+   move freely. Errors as above. */
+mote_status mote_bodies_deform(const mote_bodies *bodies, uint32_t i, double number,
+                               const mote_pose *pose, mote_bodies_frame *frame);
 
 /* The pose of a body on its path, or the recorded one of the nearest frame. */
 mote_pose mote_bodies_pose(const mote_bodies *bodies, uint32_t i, double number);

@@ -61,6 +61,28 @@ static mote_status hash_frame(const mote_bodies *bodies, const mote_bodies_frame
     return status;
 }
 
+/* The vertices of shapes with positions, in their own axes, in every frame that they show. */
+static mote_status hash_sequences(const mote_bodies *bodies, const mote_bodies_frame *frame,
+                                  uint64_t *hash)
+{
+    const mote_pose rest = {.rotation = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+    mote_status status = MOTE_OK;
+    for (uint32_t s = 0; s < bodies->shape_count; ++s) {
+        const mote_body *body = &bodies->shapes[s].body;
+        if (!mote_body_is_given(body))
+            continue;
+        const uint32_t count = body->mesh->vertex_count;
+        mote_vec3 *world = mote_allocate(count, sizeof *world);
+        for (uint32_t k = 1; k <= bodies->frames && status == MOTE_OK; ++k) {
+            status = mote_playback_at(frame->playbacks[s], k, &rest, world);
+            for (uint32_t v = 0; v < count && status == MOTE_OK; ++v)
+                *hash = hash_vec3(*hash, world[v]);
+        }
+        free(world);
+    }
+    return status;
+}
+
 mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerprint)
 {
     const uint32_t numbers[] = {1, (bodies->frames + 1) / 2, bodies->frames};
@@ -68,9 +90,12 @@ mote_status mote_bodies_fingerprint(const mote_bodies *bodies, uint64_t *fingerp
     mote_bodies_frame frame = mote_bodies_frame_create(bodies);
     mote_status status = MOTE_OK;
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0] && status == MOTE_OK; ++k) {
-        mote_bodies_frame_set(bodies, numbers[k], &frame);
-        status = hash_frame(bodies, &frame, &hash);
+        status = mote_bodies_frame_set(bodies, numbers[k], &frame);
+        if (status == MOTE_OK)
+            status = hash_frame(bodies, &frame, &hash);
     }
+    if (status == MOTE_OK)
+        status = hash_sequences(bodies, &frame, &hash);
     mote_bodies_frame_free(&frame);
     if (status == MOTE_OK)
         *fingerprint = hash;

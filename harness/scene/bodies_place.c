@@ -4,6 +4,7 @@
 
 #include "baselines/broad_phase.h"
 #include "core/base/random.h"
+#include "harness/engine/probe.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +25,7 @@ typedef struct placing {
     const mote_bodies_wish *wish;
     mote_random random;
     mote_vec3 *fractions; /* [count], of room, -1 .. 1 */
-    mote_scene *scene;
+    mote_probe *probe;
     mote_broad_phase *broad;
     mote_bodies_frame frame;
     mote_scene_box *boxes; /* [count] */
@@ -42,11 +43,12 @@ static void draw_path(placing *p, uint32_t i)
     path->axis = mote_random_direction(&p->random);
     path->degrees = 360 * mote_random_unit(&p->random);
     path->spin = p->wish->spin;
-    /* Keyed deformations end with the last key, and clips that do not loop end with the clip,
-       so their bodies have no time offset. */
+    /* Keyed deformations end with the last key, positions with the last frame, and clips that
+       do not loop with the clip, so their bodies have no time offset. */
     const double time = floor(1e6 * mote_random_unit(&p->random));
     const mote_body_motion *motion = &p->bodies->shapes[p->bodies->shape_of[i]].motion;
-    const bool ends = motion->keyed || (motion->player && !motion->player->loop);
+    const bool ends =
+        motion->keyed || motion->sequence || (motion->player && !motion->player->loop);
     path->time = ends ? 0 : time;
 }
 
@@ -82,8 +84,9 @@ static void set_box(placing *p, mote_vec3 half)
 static mote_status count_near(placing *p, double number, size_t *count)
 {
     const uint32_t(*pairs)[2];
-    mote_bodies_frame_set(p->bodies, number, &p->frame);
-    mote_status status = mote_scene_bounds(p->scene, p->frame.states, p->boxes);
+    mote_status status = mote_bodies_frame_set(p->bodies, number, &p->frame);
+    if (status == MOTE_OK)
+        status = mote_probe_all(p->probe, p->frame.states, p->boxes);
     if (status == MOTE_OK)
         status = mote_broad_phase_pairs(p->broad, p->boxes, p->bodies->near, &pairs, count);
     return status;
@@ -160,15 +163,13 @@ static mote_status find_overlap(placing *p, uint32_t i, uint32_t *other, double 
     for (uint32_t j = 0; j < i; ++j) {
         if (!boxes_near(&p->boxes[i], &p->boxes[j], clearance))
             continue;
-        const uint32_t pair[1][2] = {{j, i}};
-        size_t count;
-        mote_status status = mote_scene_query(p->scene, p->frame.states, pair, 1);
+        bool too_near;
+        mote_status status =
+            mote_probe_pair(p->probe, p->frame.states, j, i, &too_near, distance);
         if (status != MOTE_OK)
             return status;
-        const mote_scene_pair *answer = mote_scene_pairs(p->scene, &count);
-        if (answer->contact) {
+        if (too_near) {
             *other = j;
-            *distance = answer->distance;
             return MOTE_OK;
         }
     }
@@ -179,8 +180,8 @@ static mote_status find_overlap(placing *p, uint32_t i, uint32_t *other, double 
 static mote_status set_body(placing *p, uint32_t i)
 {
     const mote_pose pose = mote_bodies_pose(p->bodies, i, 1);
-    mote_bodies_deform(p->bodies, i, 1, &pose, &p->frame);
-    return mote_scene_bounds_of(p->scene, i, &p->frame.states[i], &p->boxes[i]);
+    const mote_status status = mote_bodies_deform(p->bodies, i, 1, &pose, &p->frame);
+    return status == MOTE_OK ? mote_probe_one(p->probe, p->frame.states, i, p->boxes) : status;
 }
 
 /* Draws new positions for bodies that overlap those before them. */
@@ -189,9 +190,11 @@ static mote_status separate(placing *p)
     const mote_bodies *b = p->bodies;
     uint32_t other = 0;
     double distance = 0;
-    mote_bodies_frame_set(b, 1, &p->frame);
-    for (uint32_t i = 0; i < b->count; ++i) {
-        mote_status status = set_body(p, i);
+    mote_status status = mote_bodies_frame_set(b, 1, &p->frame);
+    if (status == MOTE_OK)
+        status = mote_probe_all(p->probe, p->frame.states, p->boxes);
+    for (uint32_t i = 0; i < b->count && status == MOTE_OK; ++i) {
+        status = set_body(p, i);
         for (uint32_t tries = 0; status == MOTE_OK; ++tries) {
             status = find_overlap(p, i, &other, &distance);
             if (status != MOTE_OK || other == i)
@@ -211,10 +214,8 @@ static mote_status separate(placing *p)
             place_body(p, i);
             status = set_body(p, i);
         }
-        if (status != MOTE_OK)
-            return status;
     }
-    return MOTE_OK;
+    return status;
 }
 
 static mote_status check_box(const placing *p)
@@ -242,16 +243,14 @@ static mote_status check_box(const placing *p)
 static mote_status prepare(placing *p)
 {
     mote_bodies *b = p->bodies;
-    const mote_body *shapes[MOTE_BODIES_SHAPES_MAX];
+    mote_engine_setup setup = {
+        .shape_count = b->shape_count, .shape_of = b->shape_of, .count = b->count};
     for (uint32_t s = 0; s < b->shape_count; ++s)
-        shapes[s] = &b->shapes[s].body;
-    const mote_scene_options options = {
-        .ask = MOTE_ASK_CONTACT, .tolerance = CLEARANCE * b->length, .threads = 1};
+        setup.shapes[s] = &b->shapes[s].body;
     p->fractions = mote_allocate(b->count, sizeof *p->fractions);
     p->boxes = mote_allocate(b->count, sizeof *p->boxes);
     p->frame = mote_bodies_frame_create(b);
-    mote_status status =
-        mote_scene_create(shapes, b->shape_count, b->shape_of, b->count, &options, &p->scene);
+    mote_status status = mote_probe_create(&setup, CLEARANCE * b->length, &p->probe);
     if (status == MOTE_OK)
         status = mote_broad_phase_create(b->count, &p->broad);
     for (uint32_t i = 0; i < b->count && status == MOTE_OK; ++i)
@@ -277,7 +276,7 @@ mote_status mote_bodies_place(mote_bodies *bodies, const mote_bodies_wish *wish)
         status = separate(&p);
     mote_bodies_frame_free(&p.frame);
     mote_broad_phase_destroy(p.broad);
-    mote_scene_destroy(p.scene);
+    mote_probe_destroy(p.probe);
     free(p.fractions);
     free(p.boxes);
     return status;

@@ -13,19 +13,32 @@
 /* The largest position or speed that a file may give, in L. */
 #define FAR 1e6
 
-static mote_status read_shape(const mote_json *node, mote_bodies_shape *shape)
+/* Reads mesh and field, or mesh and positions of at least so many frames. */
+static mote_status read_body(const mote_json *node, uint32_t frames, mote_bodies_shape *shape)
 {
+    const bool given = mote_json_member(node, "positions").value;
     mote_mesh *mesh = NULL;
     mote_field *field = NULL;
     mote_character *character = NULL;
     mote_status status =
-        mote_json_object(node, "letter|triangles|file|scale|field|" MOTE_CHARACTER_KEYS);
-    if (status == MOTE_OK)
-        status = mote_scenario_read_mesh(node, &mesh, &character);
+        given ? mote_scenario_read_positions(node, frames, &mesh, &shape->motion.sequence)
+              : mote_scenario_read_mesh(node, &mesh, &character);
     shape->body.mesh = mesh;
     if (status == MOTE_OK)
-        status = mote_scenario_read_field(node, mesh, character, &field, &shape->motion);
+        status = given
+                     ? mote_field_create_given(&field)
+                     : mote_scenario_read_field(node, mesh, character, &field, &shape->motion);
     shape->body.field = field;
+    return status;
+}
+
+static mote_status read_shape(const mote_json *node, uint32_t frames, mote_bodies_shape *shape)
+{
+    mote_status status = mote_json_object(
+        node, "letter|triangles|file|positions|scale|field|" MOTE_CHARACTER_KEYS);
+    if (status == MOTE_OK)
+        status = read_body(node, frames, shape);
+    const mote_mesh *mesh = shape->body.mesh;
     mote_player *player = shape->motion.player;
     if (status == MOTE_OK && player)
         mote_scenario_set_samples(player, 1, 1 + mote_player_frames(player), &shape->body);
@@ -50,7 +63,7 @@ static mote_status read_shapes(const mote_json *node, mote_bodies *bodies)
     bodies->shape_count = (uint32_t)count;
     for (uint32_t s = 0; s < count && status == MOTE_OK; ++s) {
         mote_json element = mote_json_element(&key, s);
-        status = read_shape(&element, &bodies->shapes[s]);
+        status = read_shape(&element, bodies->frames, &bodies->shapes[s]);
         if (status == MOTE_OK)
             bodies->length = fmax(bodies->length, bodies->shapes[s].body.mesh->diagonal);
     }
@@ -116,6 +129,22 @@ static mote_status read_optional(const mote_json *node, const char *name, double
     return key.value ? mote_json_real(&key, 0, maximum, value) : MOTE_OK;
 }
 
+/* A recorded motion shows only frames that its shapes' positions have. */
+static mote_status check_recorded(const char *path, const mote_bodies *bodies)
+{
+    const size_t rows = (size_t)bodies->frames * bodies->count;
+    for (size_t r = 0; r < rows; ++r) {
+        const mote_bodies_shape *shape = &bodies->shapes[bodies->shape_of[r % bodies->count]];
+        const mote_sequence *sequence = shape->motion.sequence;
+        const double shown = bodies->recorded[r].deformation;
+        if (sequence && !(shown >= 1 && shown <= sequence->frames))
+            return mote_fail(MOTE_EINVAL,
+                             "%s:%zu: shows frame %g of positions that have the frames 1 to %u",
+                             path, r + 2, shown, sequence->frames);
+    }
+    return MOTE_OK;
+}
+
 /* "poses": the file of a recorded motion. */
 static mote_status read_poses(const mote_json_file *file, const mote_json *node,
                               mote_bodies *bodies)
@@ -133,6 +162,8 @@ static mote_status read_poses(const mote_json_file *file, const mote_json *node,
     status = mote_fence_check(file->path, path);
     if (status == MOTE_OK)
         status = mote_bodies_poses_read(path, bodies);
+    if (status == MOTE_OK)
+        status = check_recorded(path, bodies);
     free(path);
     return mote_json_blame(&key, status);
 }

@@ -18,6 +18,7 @@ struct mote_frame_buffer {
     mote_vec3 *before[2];       /* of the frame set before */
     mote_vec3 *solution[2];     /* [J], weights in rest axes */
     mote_playback *playback[2]; /* of a body without a field, otherwise NULL */
+    mote_vec3 *world[2];        /* what it shows */
 };
 
 void mote_scenario_destroy(mote_scenario *scenario)
@@ -43,8 +44,11 @@ mote_frame_buffer *mote_frame_buffer_create(const mote_scenario *scenario)
     mote_frame_buffer *made = mote_allocate(1, sizeof *made);
     for (int i = 0; i < 2; ++i) {
         const mote_field *field = scenario->body[i].field;
-        if (scenario->motion->body[i].sequence)
+        if (scenario->motion->body[i].sequence) {
             made->playback[i] = mote_playback_create(scenario->motion->body[i].sequence);
+            made->world[i] =
+                mote_allocate(scenario->body[i].mesh->vertex_count, sizeof(mote_vec3));
+        }
         if (field->count == 0)
             continue;
         made->weights[i] = mote_allocate((size_t)3 * field->padded, sizeof(double));
@@ -65,6 +69,7 @@ void mote_frame_buffer_destroy(mote_frame_buffer *buffer)
         free(buffer->before[i]);
         free(buffer->solution[i]);
         mote_playback_destroy(buffer->playback[i]);
+        free(buffer->world[i]);
     }
     free(buffer);
 }
@@ -141,11 +146,11 @@ static const mote_frame *set_frame(const mote_scenario *scenario, mote_frame_buf
     for (int i = 0; i < 2; ++i) {
         mote_body_state *state = &buffer->frame.body[i];
         state->pose = mote_motion_pose(&scenario->motion->body[i], place);
-        state->vertices = NULL;
+        state->vertices = buffer->world[i];
         set_weights(scenario, buffer, i, place);
         set_changes(scenario, buffer, i, place, previous);
         if (buffer->playback[i] && mote_playback_at(buffer->playback[i], place, &state->pose,
-                                                    &state->vertices) != MOTE_OK)
+                                                    buffer->world[i]) != MOTE_OK)
             return NULL;
     }
     return &buffer->frame;

@@ -11,7 +11,6 @@ struct mote_playback {
     mote_sequence_reader *reader;
     mote_vec3 *frame[2]; /* as they are in the sequence */
     uint32_t number[2];  /* 0: none yet */
-    mote_vec3 *world;
 };
 
 mote_playback *mote_playback_create(const mote_sequence *sequence)
@@ -21,7 +20,6 @@ mote_playback *mote_playback_create(const mote_sequence *sequence)
     made->reader = mote_sequence_reader_create(sequence);
     for (int k = 0; k < 2; ++k)
         made->frame[k] = mote_allocate(sequence->vertex_count, sizeof *made->frame[k]);
-    made->world = mote_allocate(sequence->vertex_count, sizeof *made->world);
     return made;
 }
 
@@ -32,7 +30,6 @@ void mote_playback_destroy(mote_playback *playback)
     mote_sequence_reader_destroy(playback->reader);
     free(playback->frame[0]);
     free(playback->frame[1]);
-    free(playback->world);
     free(playback);
 }
 
@@ -57,7 +54,7 @@ static mote_status fetch(mote_playback *p, int slot, uint32_t number)
 }
 
 mote_status mote_playback_at(mote_playback *playback, double place, const mote_pose *pose,
-                             const mote_vec3 **world)
+                             mote_vec3 *world)
 {
     mote_playback *p = playback;
     const double inside = fmin(fmax(place, 1), p->sequence->frames);
@@ -72,8 +69,7 @@ mote_status mote_playback_at(mote_playback *playback, double place, const mote_p
     for (uint32_t v = 0; v < p->sequence->vertex_count; ++v) {
         const mote_vec3 at =
             part > 0 ? mote_add_scaled(from[v], part, mote_sub(to[v], from[v])) : from[v];
-        p->world[v] = mote_pose_apply(pose, at);
+        world[v] = mote_pose_apply(pose, at);
     }
-    *world = p->world;
     return MOTE_OK;
 }
