@@ -136,10 +136,22 @@ int mote_option_next(mote_option_reader *reader, const char **value)
     return index;
 }
 
+int mote_option_next_named(mote_option_reader *reader, const char **value)
+{
+    const int option = mote_option_next(reader, value);
+    if (option != MOTE_OPTION_PLAIN)
+        return option;
+    const char *command = reader->argv[0];
+    (void)mote_command_usage(command,
+                             "%s: mote %s takes no argument; write `mote %s --out DIR`", *value,
+                             command, command);
+    return MOTE_OPTION_ERROR;
+}
+
 const mote_option mote_options_none[] = {{NULL, NULL, NULL}};
 
 const mote_option mote_options_study[] = {
-    {"out", "DIR", "where the results go (default: results/ and the command's name)"},
+    {"out", "DIR", "where the results go (default: results/ followed by the command's name)"},
     {"quick", NULL, "a smaller study (default: the whole one)"},
     {NULL, NULL, NULL}};
 
@@ -147,12 +159,9 @@ int mote_study_read(int argc, char **argv, const char **directory, bool *quick)
 {
     mote_option_reader reader = mote_option_begin(mote_options_study, argc, argv);
     const char *value;
-    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+    for (int option; (option = mote_option_next_named(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN)
-            return mote_command_usage(
-                argv[0], "%s: takes no argument; write `mote %s --out DIR`", value, argv[0]);
         if (option == 0)
             *directory = value;
         *quick = *quick || option == 1;

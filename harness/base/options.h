@@ -63,6 +63,9 @@ mote_option_reader mote_option_begin(const mote_option *options, int argc, char 
    which every command accepts, is skipped: its library was loaded before the command began. */
 int mote_option_next(mote_option_reader *reader, const char **value);
 
+/* The same for a command without arguments: one that is no option is an error. */
+int mote_option_next_named(mote_option_reader *reader, const char **value);
+
 /* Reads a whole decimal number in [minimum, maximum]. False for anything else. */
 bool mote_read_unsigned(const char *text, uint64_t minimum, uint64_t maximum, uint64_t *value);
 

@@ -10,8 +10,7 @@
    command's name; the result is a mote_exit. arguments: the required arguments. */
 #define MOTE_COMMANDS(X)                                                                       \
     X(list, "methods|scenarios|fields",                                                        \
-      "lists the methods, the scenarios or the kinds of fields that there are",                \
-      mote_options_list)                                                                       \
+      "lists the methods, the scenarios or the kinds of fields", mote_options_list)            \
     X(letter, "LETTER --triangles COUNT -o FILE", "makes the mesh of a capital letter",        \
       mote_options_letter)                                                                     \
     X(sequence, "cloth|jelly --triangles COUNT --out DIR",                                     \
@@ -21,20 +20,21 @@
       "prints a scenario's fingerprint and distances, and checks its active interval",         \
       mote_options_check)                                                                      \
     X(export, "SCENARIO --frame K --out DIR",                                                  \
-      "writes the deformed meshes of a frame, and what methods say of them",                   \
+      "writes the deformed meshes of a frame, and methods' answers for it",                    \
       mote_options_export)                                                                     \
-    X(mesh, "FILE", "tells what a mesh is: counts, edges, components, parts, quality, L",      \
+    X(mesh, "FILE", "describes a mesh: counts, edges, components, convex parts, quality, L",   \
       mote_options_mesh)                                                                       \
-    X(distance, "A.obj B.obj", "asks the distance of two meshes as their files place them",    \
+    X(distance, "A.obj B.obj",                                                                 \
+      "computes the distance of two meshes where their files place them",                      \
       mote_options_distance)                                                                   \
     X(approach, "SCENARIO --gaps FRAME:GAP,... -o FILE",                                       \
-      "writes the scenario with body 1 moved so that the gaps are as asked",                   \
+      "writes a scenario with body 1 moved so that the gaps are those given",                  \
       mote_options_approach)                                                                   \
     X(run, "SCENARIO...|--pair A.obj B.obj",                                                   \
-      "measures methods on scenarios, goes on where it stopped, writes DIR/summary.json",      \
+      "measures methods on scenarios, resumes what was stopped, writes DIR/summary.json",      \
       mote_options_run)                                                                        \
     X(simulate, "SCENARIO... --method NAME[:key=value,...]",                                   \
-      "closed loop: bodies move freely and collide where the method says so",                  \
+      "simulates the closed loop: bodies move freely and collide where the method says so",    \
       mote_options_simulate)                                                                   \
     X(extremes, "", "tries every method where numbers are tiny, huge, equal or degenerate",    \
       mote_options_extremes)                                                                   \
@@ -47,13 +47,14 @@
     X(summarize, "DIR", "prints the rows of a run, computed from its cells",                   \
       mote_options_summarize)                                                                  \
     X(compare, "BASE NEW",                                                                     \
-      "tells whether a run is worse than another: exit 0 no, 1 yes, 3 undecided",              \
+      "says whether NEW is worse than BASE: exit status 0 no, 1 yes, 3 undecided",             \
       mote_options_compare)                                                                    \
     X(race, "A B SCENARIO... --method NAME[:key=value,...]",                                   \
-      "has two builds of mote measure in turn: is B slower? exit 0 no, 1 yes, 3 undecided",    \
+      "two builds of mote measure in turn: is B slower? exit status 0 no, 1 yes, 3 undecided", \
       mote_options_race)                                                                       \
     X(instructions, "SCENARIO --frames A-B --out DIR",                                         \
-      "counts what each method's frames execute, by callgrind; writes DIR/instructions.json",  \
+      "counts the instructions of each method's frames, by callgrind; writes "                 \
+      "DIR/instructions.json",                                                                 \
       mote_options_instructions)                                                               \
     X(tune, "DIR", "prints the best configuration of each method on each scenario of a run",   \
       mote_options_tune)                                                                       \
@@ -65,10 +66,10 @@
       mote_options_history)                                                                    \
     X(figures, "DIR", "draws the figures of a run again, measuring nothing",                   \
       mote_options_none)                                                                       \
-    X(report, "DIR", "makes a page and a plain text of a run, from what is stored",            \
+    X(report, "DIR", "makes a page and a Markdown text of a run, from what is stored",         \
       mote_options_none)                                                                       \
     X(site, "DIR... -o DIR",                                                                   \
-      "makes a page and a CSV file of several runs, by their summaries", mote_options_site)    \
+      "makes a page and a CSV file of several runs, from their summaries", mote_options_site)  \
     X(claims, "", "measures every claim of the paper, writes DIR/claims.json",                 \
       mote_options_study)
 

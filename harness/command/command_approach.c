@@ -156,7 +156,7 @@ const mote_option mote_options_approach[] = {
      "the distance at each frame, in L; below 0: how far body 1 is pushed on from "
      "contact; no default"},
     {"every", "FRAMES",
-     "a key pose every so many frames between those of --gaps (default: 16)"},
+     "the number of frames between two key poses, besides those of --gaps (default: 16)"},
     {"direction", "X,Y,Z", "where body 1 lies as seen from body 0 (default: 1,0,0)"},
     {"-o", "FILE",
      "the scenario file to write; meshes outside of its folder are copied beside it; no "

@@ -174,7 +174,7 @@ static int check_scene(const char *name, bool json)
 const mote_option mote_options_check[] = {
     {"json", NULL, "as JSON (default: as text)"},
     {"out", "DIR",
-     "keep the exact distances of two bodies in DIR/truth, or take them from there (default: "
+     "keep the exact distances of two bodies in DIR/truth, or read them there (default: "
      "neither)"},
     {NULL, NULL, NULL}};
 

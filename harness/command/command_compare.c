@@ -80,7 +80,7 @@ static int print_json(const mote_comparison *c)
 }
 
 const mote_option mote_options_compare[] = {
-    {"format", "table|json", "how (default: table)"},
+    {"format", "table|json", "how to print it (default: table)"},
     {"floor", "SHARE",
      "smaller differences of time do not count (default: 0.02, or the runs' own noise where "
      "that is larger)"},

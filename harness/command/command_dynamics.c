@@ -76,12 +76,9 @@ int mote_command_dynamics(int argc, char **argv)
     mote_option_reader reader = mote_option_begin(mote_options_dynamics, argc, argv);
     request wish = {.directory = "results/dynamics", .jobs = 1};
     const char *value;
-    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+    for (int option; (option = mote_option_next_named(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN)
-            return mote_command_usage(
-                argv[0], "%s: takes no argument; write `mote dynamics --out DIR`", value);
         if (!read_option(&wish, option, value))
             return MOTE_EXIT_USAGE;
     }

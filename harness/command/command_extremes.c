@@ -13,8 +13,10 @@ enum { OPTION_OUT, OPTION_QUICK, OPTION_METHOD, OPTION_FAMILY };
 const mote_option mote_options_extremes[] = {
     {"out", "DIR", "where the results go (default: results/extremes)"},
     {"quick", NULL, "a smaller study (default: the whole one)"},
-    {"method", "NAME", "the only method to try, without parameters (default: every method)"},
-    {"family", "NAME", "the only kind of extreme, such as \"touch\" (default: every kind)"},
+    {"method", "NAME",
+     "try this method only; its name without parameters (default: every method)"},
+    {"family", "NAME",
+     "try this kind of extreme only, such as \"touch\" (default: every kind)"},
     {NULL, NULL, NULL}};
 
 typedef struct request {
@@ -27,12 +29,9 @@ static int read_arguments(int argc, char **argv, request *q)
 {
     mote_option_reader reader = mote_option_begin(mote_options_extremes, argc, argv);
     const char *value;
-    for (int option; (option = mote_option_next(&reader, &value)) != MOTE_OPTION_END;) {
+    for (int option; (option = mote_option_next_named(&reader, &value)) != MOTE_OPTION_END;) {
         if (option == MOTE_OPTION_ERROR)
             return MOTE_EXIT_USAGE;
-        if (option == MOTE_OPTION_PLAIN)
-            return mote_command_usage(
-                argv[0], "%s: takes no argument; write `mote extremes --out DIR`", value);
         if (option == OPTION_OUT)
             q->directory = value;
         else if (option == OPTION_METHOD)

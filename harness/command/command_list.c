@@ -120,7 +120,7 @@ int mote_command_list(int argc, char **argv)
             what = value;
         else
             return mote_command_usage(
-                "list", "%s: one thing at a time; methods, scenarios or fields", value);
+                "list", "%s: one list at a time; methods, scenarios or fields", value);
     }
     if (what && strcmp(what, "methods") == 0)
         return list_methods(json);
@@ -128,6 +128,6 @@ int mote_command_list(int argc, char **argv)
         return list_scenarios(json);
     if (what && strcmp(what, "fields") == 0)
         return list_fields(json);
-    return mote_command_usage("list", "%s: list fields, methods or scenarios",
-                              what ? what : "nothing");
+    return mote_command_usage("list", "%s; choose fields, methods or scenarios",
+                              what ? what : "nothing to list");
 }

@@ -207,21 +207,22 @@ const mote_option mote_options_simulate[] = {
     {"method", "NAME[:key=a|b,...]",
      "the method that says where bodies touch; with --out it may be repeated; no default"},
     {"json", NULL, "as JSON (default: as text)"},
-    {"steps", "K", "1 to 1000000 (default: all frames of the scenario)"},
-    {"seed", "S", "of the method; each further replicate adds 1 (default: 1)"},
-    {"density", "D", "of all bodies (default: 1)"},
+    {"steps", "K", "how many steps, 1 to 1000000 (default: all frames of the scenario)"},
+    {"seed", "S",
+     "the seed of the method's random numbers; each further replicate adds 1 (default: 1)"},
+    {"density", "D", "the density of all bodies (default: 1)"},
     {"restitution", "E", "0: no rebound, 1: no energy is lost (default: 1)"},
     {"tolerance", "T",
      "distance of a contact, in L (default: the scenario's, or 0.005 where that is 0)"},
-    {"gravity", "X,Y,Z", "in L a frame squared (default: 0,0,0)"},
-    {"time-step", "H", "frames a step (default: 1)"},
+    {"gravity", "X,Y,Z", "the acceleration, in L per frame squared (default: 0,0,0)"},
+    {"time-step", "H", "the length of a step, in frames (default: 1)"},
     {"trace", "FILE.json", "write the motion as a scenario (default: not written)"},
     {"film", "FILE.gif", "draw the motion (default: not drawn)"},
     {"replicates", "R",
      "1 to 1000 simulations of each method; above 1 with --out (default: 1)"},
     {"out", "DIR",
-     "keep each simulation in DIR/simulations, where a run that was stopped goes on (default: "
-     "not kept)"},
+     "keep each simulation in DIR/simulations; the same command resumes what was stopped "
+     "(default: not kept)"},
     {"jobs", "J", "1 to 256 simulations at a time (default: 1)"},
     {"shard", "I/N",
      "with --out: every N-th scenario, from the I-th on (default: 1/1, or the task of a Slurm "
@@ -280,7 +281,7 @@ static const char *read_value(request *wish, int option, const char *value)
     case OPTION_TOLERANCE:
         return read_number(value, &wish->tolerance) ? NULL : "give a number, of L";
     case OPTION_GRAVITY:
-        return read_vector(value, &wish->gravity) ? NULL : "give x,y,z, in L a frame squared";
+        return read_vector(value, &wish->gravity) ? NULL : "give x,y,z, in L per frame squared";
     case OPTION_TIME_STEP:
         return read_number(value, &wish->time_step) ? NULL : "give a number, of frames";
     case OPTION_TRACE:

@@ -95,13 +95,13 @@ static size_t find_format(const char *name)
 }
 
 const mote_option mote_options_summarize[] = {
-    {"format", "table|json|csv|gbench|gha|bencher", "how (default: table)"},
+    {"format", "table|json|csv|gbench|gha|bencher", "how to print the rows (default: table)"},
     {"best", NULL,
      "only the best rows, sorted by time, in at most 100 columns (default: all, in a wide "
      "table)"},
     {"engines", NULL,
-     "every row with its mean, 95th percentile and worst frame, and which engine of others is "
-     "best by each (default: all, in a wide table)"},
+     "every row with its mean, 95th percentile and worst frame, and which engine of other "
+     "projects is best by each (default: all columns, in a wide table)"},
     {NULL, NULL, NULL}};
 enum { OPTION_FORMAT, OPTION_BEST, OPTION_ENGINES };
 

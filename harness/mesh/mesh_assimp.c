@@ -159,10 +159,11 @@ static mote_status fail_as_assimp_says(const char *path)
         return MOTE_EINVAL;
     (void)mote_assimp_line(aiGetErrorString(), said);
     if (strncmp(said, "No suitable reader", strlen("No suitable reader")) == 0)
-        return mote_fail(MOTE_EINVAL,
-                         "%s: no mesh format that is known by this name or content; give a "
-                         "mesh in OBJ, PLY, STL, OFF or glTF",
-                         path);
+        return mote_fail(
+            MOTE_EINVAL,
+            "%s: neither its name nor its content is that of a known mesh format; give a "
+            "mesh in OBJ, PLY, STL, OFF or glTF",
+            path);
     return mote_fail(
         MOTE_EINVAL,
         "%s: assimp cannot read it (%s); give a mesh in OBJ, PLY, STL, OFF or glTF", path,

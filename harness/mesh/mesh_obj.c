@@ -12,7 +12,7 @@ static mote_status read_corner(mote_mesh_reader *reader, const char **at, uint32
     const long long number = strtoll(*at, &end, 10);
     if (end == *at || (!mote_mesh_word_ends(reader, end) && *end != '/'))
         return mote_fail(MOTE_EINVAL,
-                         "%s:%zu: a face of something else than vertex numbers; "
+                         "%s:%zu: a face corner that is not a vertex number; "
                          "write f 1 2 3",
                          reader->path, reader->line);
     const long long index = number < 0 ? (long long)count + number : number - 1;

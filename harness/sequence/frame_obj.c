@@ -109,7 +109,7 @@ static mote_status read_face(mote_mesh_reader *reader, const char *at, mote_fram
         at = read_corner(reader, at, file->count, &index);
         if (index == UINT64_MAX)
             return mote_fail(MOTE_EINVAL,
-                             "%s:%zu: a face of something else than vertices that came before; "
+                             "%s:%zu: a face corner that is none of the vertices before it; "
                              "write f 1 2 3, with numbers from 1 to %zu",
                              reader->path, reader->line, file->count);
         hash = mote_frame_file_hash(hash, index);

@@ -93,7 +93,7 @@ static mote_status add_element(ply *p, const char *name, const char *count)
     if (p->elements == ELEMENTS_MAX)
         return fail(p, "more than %d elements; leave some out", ELEMENTS_MAX);
     if (count[0] < '0' || count[0] > '9' || *end)
-        return fail(p, "an element without its number; write element vertex 8");
+        return fail(p, "an element without its count; write element vertex 8, for example");
     /* An element takes at least one byte. */
     if (number > (uint64_t)(p->end - p->at))
         return fail(p, "declares %llu elements, which the %zu bytes left cannot hold", number,
@@ -121,7 +121,7 @@ static mote_status add_property(ply *p, char *const words[], int count)
     if (e->properties == PROPERTIES_MAX)
         return fail(p, "more than %d properties; leave some out", PROPERTIES_MAX);
     if (!list && count != 3)
-        return fail(p, "a property of something else than a type and a name");
+        return fail(p, "a property that is not a type and a name");
     property *made = &e->property[e->properties++];
     made->length = list ? type_named(words[2]) : NONE;
     made->type = type_named(words[list ? 3 : 1]);
@@ -170,7 +170,7 @@ static mote_status read_header(ply *p)
     bool has_format = false;
     mote_status status = MOTE_OK;
     if (header_words(p, line, words) != 1 || strcmp(words[0], "ply") != 0)
-        return fail(p, "no word ply to begin with");
+        return fail(p, "does not begin with the word ply");
     while (status == MOTE_OK && p->at < p->end) {
         const int count = header_words(p, line, words);
         const char *word = count > 0 ? words[0] : "";
@@ -179,7 +179,7 @@ static mote_status read_header(ply *p)
             has_format = true;
         } else if (strcmp(word, "element") == 0) {
             status = count == 3 ? add_element(p, words[1], words[2])
-                                : fail(p, "an element without a name and its number");
+                                : fail(p, "an element without a name and a count");
         } else if (strcmp(word, "property") == 0) {
             status = add_property(p, words, count);
         } else if (strcmp(word, "end_header") == 0) {
@@ -248,7 +248,7 @@ static mote_status ends_early(const ply *p, const element *e, uint64_t number)
 {
     const char *name = e->is_vertex ? "vertex" : e->is_face ? "face" : "entry";
     return fail(p, "%s after %s %" PRIu64 " of %" PRIu64 "; give all, or declare fewer",
-                p->at >= p->end ? "ends" : "something else than a number", name, number,
+                p->at >= p->end ? "ends" : "has something that is not a number", name, number,
                 e->count);
 }
 

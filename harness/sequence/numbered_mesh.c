@@ -150,8 +150,8 @@ mote_status mote_numbered_mesh_read(const char *path, mote_numbered_mesh *made)
     struct stat info;
     if (!is_ply(path) && !mote_name_ends(path, ".obj") && !mote_name_ends(path, ".OBJ"))
         return mote_fail(MOTE_EINVAL,
-                         "%s: neither OBJ nor PLY; a mesh with positions frame by "
-                         "frame is one of these",
+                         "%s: neither OBJ nor PLY; give a mesh with positions frame by "
+                         "frame in one of these",
                          path);
     if (stat(path, &info) != 0)
         return mote_fail(MOTE_EIO, "%s: %s; name a mesh file", path, strerror(errno));

@@ -109,10 +109,10 @@ static mote_status read_header(const char *path, int file, mote_point_cache *cac
     if (!S_ISREG(info.st_mode))
         return mote_fail(MOTE_EINVAL, "%s: not a regular file; name a point cache", path);
     if ((uint64_t)info.st_size < header_size || !read_at(file, header, header_size, 0))
-        return mote_fail(MOTE_EINVAL, "%s: %lld bytes, not even a header of %zu", path,
+        return mote_fail(MOTE_EINVAL, "%s: %lld bytes are too few for the header of %zu", path,
                          (long long)info.st_size, header_size);
     if (!is_mdd && memcmp(header, MAGIC, sizeof MAGIC) != 0)
-        return mote_fail(MOTE_EINVAL, "%s: no word " MAGIC " to begin with; give a PC2 file",
+        return mote_fail(MOTE_EINVAL, "%s: does not begin with " MAGIC "; give a PC2 file",
                          path);
     if (!is_mdd && word(header + 12, false) != 1 && word(header + 12, true) != 1)
         return mote_fail(MOTE_EINVAL, "%s: version %u of PC2; give version 1", path,

@@ -41,7 +41,7 @@ static mote_status find_number(mote_sequence *s)
     if (begin == end || end - begin > DIGITS_MAX)
         return mote_fail(MOTE_EINVAL,
                          "%s: no number of at most %d digits in the name; name the first of "
-                         "numbered files, as frames/0001.obj, or a .pc2 or .mdd file",
+                         "numbered files, such as frames/0001.obj, or a .pc2 or .mdd file",
                          s->path, DIGITS_MAX);
     s->digits_at = (size_t)(begin - s->path);
     s->digits = (int)(end - begin);

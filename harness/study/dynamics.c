@@ -83,9 +83,10 @@ mote_status mote_dynamics_plan(const mote_dynamics_size *size, mote_dynamics_row
         add_scene(&p, other_scenes[i], false);
     if (p.count == 0) {
         free(p.rows);
-        return mote_fail(MOTE_EINVAL, "scene '%s' is not in the study; choose tt, mv or ww%s",
-                         size->scene,
-                         size->quick ? "" : ", vv, tw, comb, bunny, twist, ww-1k or ww-100k");
+        return mote_fail(MOTE_EINVAL, "scene '%s' is not in the study; choose %s", size->scene,
+                         size->quick
+                             ? "tt, mv or ww"
+                             : "tt, mv, ww, vv, tw, comb, bunny, twist, ww-1k or ww-100k");
     }
     *rows = p.rows;
     *count = p.count;

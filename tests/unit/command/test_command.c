@@ -151,7 +151,7 @@ static const command_line bad_lines[] = {
     {"report --fast", 2, "known are: none"},
     {"report x y", 2, "y: one directory at a time"},
     {"report", 2, "no directory"},
-    {"claims --quick x", 2, "x: takes no argument"},
+    {"claims --quick x", 2, "x: mote claims takes no argument"},
     {"claims --out", 2, "--out needs a value"},
     {"mesh -- -x.obj", 4, "mote: -x.obj: No such file"},
     {"mesh -- -x.obj --", 2, "--: one file at a time"},

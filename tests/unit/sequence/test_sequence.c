@@ -82,10 +82,10 @@ TEST(sequence_names_the_frame_and_what_is_wrong_with_it)
         {"obj", "f 1 2 6\n", "f 2 1 6\n", "frame 3: f3.obj: other faces than f1.obj has"},
         {"obj", "f 1 2 6\n", "", "frame 3: f3.obj: other faces"},
         {"obj", "f 1 2 6\n", "f 1 2 6 7\n", "frame 3: f3.obj: other faces"},
-        {"obj", "f 1 2 6\n", "f 1 2 99\n", "frame 3: f3.obj:26: a face of something else"},
-        {"obj", "f 1 2 6\n", "f 1 2 x\n", "frame 3: f3.obj:26: a face of something else"},
+        {"obj", "f 1 2 6\n", "f 1 2 99\n", "frame 3: f3.obj:26: a face corner that is none"},
+        {"obj", "f 1 2 6\n", "f 1 2 x\n", "frame 3: f3.obj:26: a face corner that is none"},
         {"ply", "7 1.96875 0.5 0.5\n", "7 1.96875 0.5 x\n",
-         "frame 3: f3.ply:39: something else than a number after vertex 24 of 25"},
+         "frame 3: f3.ply:39: has something that is not a number after vertex 24 of 25"},
         {"ply", "7 1.96875 0.5 0.5\n", "7 inf 0.5 0.5\n",
          "frame 3: f3.ply:39: vertex 25 has a coordinate"},
         {"ply", "3 0 1 5\n", "3 0 1 25\n", "face 1 has vertex 25 of 25"},
@@ -208,7 +208,7 @@ TEST(point_cache_with_a_header_of_a_stranger_is_refused)
         uint32_t value;
         const char *says;
     } rows[] = {
-        {"c.pc2", 0, 0x454e4f4e, "no word POINTCACHE2"},
+        {"c.pc2", 0, 0x454e4f4e, "does not begin with POINTCACHE2"},
         {"c.pc2", 12, 2, "version 2 of PC2"},
         {"c.pc2", 16, 0, "0 vertices in 5 frames"},
         {"c.pc2", 16, 2, "2 vertices in 5 frames"},
@@ -234,9 +234,9 @@ TEST(point_cache_with_a_header_of_a_stranger_is_refused)
         expect(MOTE_EINVAL, rows[i].says, rows[i].path, "m.obj", 4);
     }
     file_put("e.pc2", "");
-    expect(MOTE_EINVAL, "0 bytes, not even a header", "e.pc2", "m.obj", 1);
+    expect(MOTE_EINVAL, "0 bytes are too few for the header", "e.pc2", "m.obj", 1);
     file_put("e.mdd", "MDD");
-    expect(MOTE_EINVAL, "3 bytes, not even a header", "e.mdd", "m.obj", 1);
+    expect(MOTE_EINVAL, "3 bytes are too few for the header", "e.mdd", "m.obj", 1);
     assert_int_equal(mkfifo("fifo.pc2", 0600), 0);
     expect(MOTE_EINVAL, "not a regular file", "fifo.pc2", "m.obj", 1);
     expect(MOTE_EIO, "No such file", "none.pc2", "m.obj", 1);
