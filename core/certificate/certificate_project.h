@@ -13,6 +13,9 @@
    most of what is inside crosses the plane too. Leaves are cheaper to open. */
 #define MOTE_CERT_CROSSING 0.4F
 #define MOTE_CERT_CROSSING_LEAF 0.5F
+/* Looseness that is more than this part of a box's extent does not count as crossing. Measured
+   on twist (14 % fewer instructions) against ww and mv (0.1 % more); docs/certified.md. */
+#define MOTE_CERT_LOOSE 0.5F
 
 MOTE_INLINE uint32_t mote_cert_bits_at_most(const float x[MOTE_CERT_WIDTH], float limit)
 {
@@ -50,9 +53,10 @@ MOTE_INLINE void mote_cert_project_lane(const mote_cert_block *MOTE_RESTRICT blo
     node->extent[l] = 2 * half;
 }
 
-/* From reach, extent and loose of a node: clear and crossing. tight: what is loose is small,
-   and counts as crossing the plane like the rest of the box. Else it does not: a box that is
-   much larger than what it holds often crosses a plane that nothing inside it reaches. */
+/* From reach, extent and loose of a node: clear and crossing. A box that is much larger than
+   what it holds often crosses a plane that nothing inside it reaches: there, what is loose does
+   not count as crossing. tight: boxes mostly fit, and what is loose counts unless it is most of
+   the box. */
 MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *MOTE_RESTRICT side,
                                              const mote_cert_block *MOTE_RESTRICT block,
                                              mote_cert_node *MOTE_RESTRICT node, bool tight)
@@ -61,11 +65,11 @@ MOTE_INLINE void mote_cert_finish_projection(const mote_cert_side *MOTE_RESTRICT
     float excess[MOTE_CERT_WIDTH];
     MOTE_LANE_LOOP
     for (size_t l = 0; l < MOTE_CERT_WIDTH; ++l) {
-        const float loose = tight ? 0 : 2 * node->loose[l];
+        const float twice = 2 * node->loose[l];
+        const float loose = tight && twice <= MOTE_CERT_LOOSE * node->extent[l] ? 0 : twice;
         const float part =
             block->child[l] >= 0 && tight ? MOTE_CERT_CROSSING : MOTE_CERT_CROSSING_LEAF;
-        excess[l] = tight ? node->reach[l] - part * node->extent[l]
-                          : (node->reach[l] - loose) - part * (node->extent[l] - loose);
+        excess[l] = (node->reach[l] - loose) - part * (node->extent[l] - loose);
     }
     node->clear = mote_cert_bits_at_most(node->reach, threshold) & block->mask;
     node->crossing = mote_cert_bits_at_most(excess, threshold) & block->mask & ~node->clear;
